@@ -1,0 +1,201 @@
+# culm_add_package(NAME
+#   DEPENDS     packages whose headers ours include
+#   EXTERNAL    culm_external:: targets that our public headers include
+#   PRIVATE     culm_external:: targets used in src/ and test/ only
+#   PRECOMPILE  headers to precompile for src/ and test/
+#   RANKS       process counts on which the tests run as well, under mpiexec)
+#
+# The folder is its own file list: include/culm/NAME/*.hpp, src/*.cpp, test/*_test.cpp. Makes
+#   culm::NAME         the library (interface only while src/ is empty)
+#   culm_NAME_test     all unit tests
+#   culm_NAME_headers  every public header compiled alone, with CULM_HEADER_CHECK
+# Sources named *_cxx17.cpp are compiled as C++17, for the few Trilinos headers that need it.
+
+include(CMakePackageConfigHelpers)
+include(GoogleTest)
+
+find_program(CULM_CCACHE ccache)
+if(CULM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # Without this sloppiness ccache does not cache anything that uses a precompiled header.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CULM_CCACHE}
+  )
+endif()
+
+# Open MPI: start as root (containers), allow more ranks than cores, and do not pin ranks, because
+# tests that run side by side would all be pinned to the same cores.
+set(CULM_TEST_ENVIRONMENT
+    OMPI_ALLOW_RUN_AS_ROOT=1
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    OMPI_MCA_rmaps_base_oversubscribe=1
+    OMPI_MCA_hwloc_base_binding_policy=none
+    OMPI_MCA_btl_vader_single_copy_mechanism=none
+    OPENBLAS_NUM_THREADS=1
+)
+
+function(culm_add_package name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "DEPENDS;EXTERNAL;PRIVATE;PRECOMPILE;RANKS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "culm_add_package(${name}): unknown '${arg_UNPARSED_ARGUMENTS}'")
+  endif()
+  set(folder ${CMAKE_CURRENT_SOURCE_DIR})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${folder}/include/culm/${name}/*.hpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/src/*.cpp)
+  file(GLOB tests CONFIGURE_DEPENDS ${folder}/test/*_test.cpp)
+  if(NOT headers AND NOT sources)
+    message(STATUS "culm: package ${name} is empty so far")
+    return()
+  endif()
+
+  set(target culm_${name})
+  list(TRANSFORM arg_EXTERNAL PREPEND culm_external::)
+  list(TRANSFORM arg_PRIVATE PREPEND culm_external::)
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(public PUBLIC)
+    target_link_libraries(${target} PRIVATE ${arg_PRIVATE})
+    culm_finish_target(${target} SOURCES ${sources} PRECOMPILE ${arg_PRECOMPILE})
+  else()
+    add_library(${target} INTERFACE)
+    set(public INTERFACE)
+  endif()
+  add_library(culm::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(${target} ${public} cxx_std_20)
+  target_include_directories(
+    ${target} ${public} $<BUILD_INTERFACE:${folder}/include>
+                        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+  )
+  target_link_libraries(${target} ${public} ${arg_EXTERNAL})
+
+  if("culm_external::MPI" IN_LIST arg_EXTERNAL)
+    set(uses_mpi ON)
+  endif()
+  foreach(dependency IN LISTS arg_DEPENDS)
+    if(TARGET culm_${dependency})
+      target_link_libraries(${target} ${public} culm::${dependency})
+      get_property(its_mpi GLOBAL PROPERTY CULM_${dependency}_USES_MPI)
+      if(its_mpi)
+        set(uses_mpi ON)
+      endif()
+    elseif(NOT EXISTS ${PROJECT_SOURCE_DIR}/packages/${dependency}/CMakeLists.txt)
+      message(FATAL_ERROR "culm_add_package(${name}): no package '${dependency}'")
+    endif()
+  endforeach()
+  set_property(GLOBAL PROPERTY CULM_${name}_USES_MPI ${uses_mpi})
+
+  if(CULM_TESTS AND tests)
+    culm_add_package_tests(${name})
+  endif()
+  if(CULM_HEADER_CHECK AND headers)
+    culm_add_header_check(${name})
+  endif()
+
+  install(TARGETS ${target} EXPORT culmTargets)
+  if(headers)
+    install(DIRECTORY ${folder}/include/culm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
+  set_property(GLOBAL APPEND PROPERTY CULM_PACKAGES ${name})
+endfunction()
+
+# Warnings, instrumentation, the C++17 rule and precompiled headers: for everything we compile.
+function(culm_finish_target target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRECOMPILE")
+  culm_set_warnings(${target})
+  culm_set_instrumentation(${target})
+  set(cxx17 ${arg_SOURCES})
+  list(FILTER cxx17 INCLUDE REGEX "_cxx17\\.cpp$")
+  if(cxx17)
+    set_source_files_properties(
+      ${cxx17} PROPERTIES COMPILE_OPTIONS -std=c++17 SKIP_PRECOMPILE_HEADERS ON
+    )
+  endif()
+  if(arg_PRECOMPILE)
+    list(TRANSFORM arg_PRECOMPILE REPLACE "^([^<\"].*)$" "<\\1>")
+    target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
+endfunction()
+
+# A package without MPI shows each of its cases in ctest. With MPI each start costs a third of a
+# second, so there one ctest test runs the whole program.
+macro(culm_add_package_tests name)
+  set(program culm_${name}_test)
+  add_executable(${program} ${tests})
+  target_link_libraries(${program} PRIVATE ${target} ${arg_PRIVATE} GTest::gmock GTest::gtest)
+  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit)
+  culm_finish_target(${program} SOURCES ${tests} PRECOMPILE ${arg_PRECOMPILE})
+  if(EXISTS ${folder}/test/main.cpp)
+    target_sources(${program} PRIVATE ${folder}/test/main.cpp)
+  elseif(uses_mpi)
+    target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit/mpi_main.cpp)
+  else()
+    target_link_libraries(${program} PRIVATE GTest::gtest_main)
+  endif()
+  if(uses_mpi)
+    add_test(NAME unit.${name} COMMAND ${program})
+    set_tests_properties(
+      unit.${name} PROPERTIES LABELS unit ENVIRONMENT "${CULM_TEST_ENVIRONMENT}"
+                              WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+    )
+  else()
+    gtest_discover_tests(
+      ${program}
+      DISCOVERY_MODE PRE_TEST
+      TEST_PREFIX ${name}.
+      WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+      PROPERTIES LABELS unit
+    )
+  endif()
+  foreach(ranks IN LISTS arg_RANKS)
+    culm_add_parallel_test(unit.${name}.ranks${ranks} ${ranks} ${program})
+    set_tests_properties(unit.${name}.ranks${ranks} PROPERTIES LABELS "unit;parallel")
+  endforeach()
+endmacro()
+
+# Runs a program on a number of processes: culm_add_parallel_test(name ranks program [arguments...])
+function(culm_add_parallel_test test ranks program)
+  add_test(
+    NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+                         $<TARGET_FILE:${program}> ${ARGN}
+  )
+  set_tests_properties(
+    ${test} PROPERTIES LABELS parallel PROCESSORS ${ranks} ENVIRONMENT "${CULM_TEST_ENVIRONMENT}"
+                       WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+  )
+endfunction()
+
+# A header that compiles alone includes all it needs.
+macro(culm_add_header_check name)
+  set(units)
+  foreach(header IN LISTS headers)
+    file(RELATIVE_PATH path ${folder}/include ${header})
+    string(REPLACE "/" "_" unit ${path})
+    set(unit ${CMAKE_CURRENT_BINARY_DIR}/headers/${unit}.cpp)
+    file(CONFIGURE OUTPUT ${unit} CONTENT "#include <${path}>\n")
+    list(APPEND units ${unit})
+  endforeach()
+  add_library(culm_${name}_headers OBJECT ${units})
+  target_link_libraries(culm_${name}_headers PRIVATE ${target})
+  culm_finish_target(culm_${name}_headers)
+endmacro()
+
+# Makes `find_package(culm)` work after `cmake --install`.
+function(culm_install_config)
+  get_property(CULM_PACKAGES GLOBAL PROPERTY CULM_PACKAGES)
+  if(NOT CULM_PACKAGES)
+    return()
+  endif()
+  set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/culm)
+  install(EXPORT culmTargets NAMESPACE culm:: DESTINATION ${destination})
+  configure_package_config_file(
+    ${PROJECT_SOURCE_DIR}/cmake/culmConfig.cmake.in ${PROJECT_BINARY_DIR}/culmConfig.cmake
+    INSTALL_DESTINATION ${destination}
+  )
+  write_basic_package_version_file(
+    ${PROJECT_BINARY_DIR}/culmConfigVersion.cmake COMPATIBILITY SameMinorVersion
+  )
+  install(FILES ${PROJECT_BINARY_DIR}/culmConfig.cmake ${PROJECT_BINARY_DIR}/culmConfigVersion.cmake
+                ${PROJECT_SOURCE_DIR}/cmake/CulmDependencies.cmake DESTINATION ${destination}
+  )
+endfunction()
