@@ -48,7 +48,7 @@ list(REMOVE_ITEM culm_trilinos_include /usr/include)
 culm_external(
   Teuchos
   INCLUDE ${culm_trilinos_include}
-  LINK LINKER:--as-needed trilinos_teuchosparameterlist trilinos_teuchosparser trilinos_teuchoscore
+  LINK -Wl,--as-needed trilinos_teuchosparameterlist trilinos_teuchosparser trilinos_teuchoscore
 )
 culm_external(Tpetra LINK culm_external::Teuchos trilinos_tpetra MPI::MPI_CXX)
 culm_external(Amesos2 LINK culm_external::Tpetra trilinos_amesos2)
