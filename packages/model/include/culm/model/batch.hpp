@@ -1,0 +1,66 @@
+/// All items of one kind behind one virtual interface: one call per batch and iteration.
+#pragma once
+
+#include <culm/mechanics/stencil.hpp>
+#include <culm/model/scatter.hpp>
+#include <culm/model/state.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace culm::model {
+
+/// The items a rank evaluates and where their numbers go. Made by assembly.
+struct Placement {
+  std::vector<int> items;   ///< items that touch an owned row
+  std::vector<bool> owned;  ///< whether this rank counts the item in sums such as energy
+  Scatter scatter;          ///< one entry per item above, same order
+};
+
+/// Items of one kind: elements of one type, one load, the constraints.
+class Batch {
+ public:
+  virtual ~Batch() = default;
+
+  /// Name in the ledger of effects.
+  virtual const std::string& effect() const = 0;
+  virtual int size() const = 0;
+  /// Blocks of unknowns that an item couples, in the order its kernel writes them.
+  virtual std::vector<int> blocks(int item, const UnknownTable& unknowns) const = 0;
+  /// Whether items add to the tangent between their blocks. Dead loads do not.
+  virtual bool has_tangent() const = 0;
+
+  /// Once before the first step.
+  virtual void place(Placement placement, Form form) = 0;
+  /// Once per step, when state.prev is accepted and state.time is the new end of the step.
+  virtual void begin_step(const State& state, const Stencil& stencil) = 0;
+  /// Adds residual and, when wanted, tangent of all local items. Allocates nothing.
+  virtual Verdict assemble(const State& state, const Stencil& stencil, Want want,
+                           Target& target) = 0;
+  /// Predicts the stresses for the geometric part of the next tangent from the linear increment
+  /// `increment` of the coordinates of state.next. @source formulation 5.2
+  virtual void extrapolate(const State& state, const Stencil& stencil,
+                           const Coordinates& increment) = 0;
+
+  /// Energy stored in the owned items at a configuration [J].
+  virtual double stored_energy(const Coordinates& q) const = 0;
+};
+
+/// Has inertia.
+class MassSource {
+ public:
+  virtual ~MassSource() = default;
+  /// force += M acceleration over all items, both in director coordinates.
+  virtual void add_mass_times(const Coordinates& acceleration, Coordinates& force) const = 0;
+};
+
+/// Shows stress resultants of its items.
+class ResultantSource {
+ public:
+  virtual ~ResultantSource() = default;
+  virtual std::vector<std::string> resultant_names() const = 0;
+  /// Mean over the points of an item, appended to `out`.
+  virtual void resultants(int item, const Coordinates& q, std::vector<double>& out) const = 0;
+};
+
+}  // namespace culm::model

@@ -1,0 +1,67 @@
+/// Kinematic constraints as rows of quadratic forms.
+#pragma once
+
+#include <bitset>
+#include <culm/math/types.hpp>
+#include <culm/model/node_table.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace culm::model {
+
+/// A combination of slots of the nodes of a constraint, sum_s factor_s q_s; four factors per node.
+using SlotSum = std::vector<double>;
+
+/// One equation h(q) = 0.
+///   linear   h = w . P - c      P = sum_s alpha_s q_s
+///   product  h = P . Q - c      Q = sum_s beta_s q_s
+/// @source formulation 2.1
+struct ConstraintRow {
+  enum class Kind { linear, product };
+  Kind kind = Kind::linear;
+  Vec3 direction = Vec3::Zero();  ///< w; linear rows only
+  SlotSum alpha;
+  SlotSum beta;  ///< product rows only
+  double constant = 0.0;
+};
+
+/// w . P - c, with c such that h = 0 at `q`, the slots of the nodes side by side, shape (3, 4 n).
+ConstraintRow linear_row(const Vec3& direction, SlotSum alpha, const Eigen::Matrix3Xd& q);
+/// P . Q - c, with c such that h = 0 at `q`.
+ConstraintRow product_row(SlotSum alpha, SlotSum beta, const Eigen::Matrix3Xd& q);
+
+/// Position of a point fixed to node `a` of `n` nodes at `offset` in its directors.
+SlotSum attached_point(int a, int n, const Vec3& offset);
+/// Vector fixed to node `a` of `n` nodes with components `nu` in its directors.
+SlotSum attached_vector(int a, int n, const Vec3& nu);
+
+/// A support, link or joint. The rows are always there; where the null-space form can remove
+/// unknowns instead, `fix` or `link` says how and the rows are not assembled.
+struct Constraint {
+  std::string name;
+  std::string type;
+  std::vector<int> nodes;
+  std::vector<ConstraintRow> rows;
+
+  struct Fix {
+    int node = -1;
+    std::bitset<6> unknowns;  ///< translations 0-2, rotations 3-5
+  };
+  struct Link {
+    int slave = -1;
+    int master = -1;
+  };
+  std::optional<Fix> fix;
+  std::optional<Link> link;
+  /// Node whose internal constraints the rows imply, -1 if none (formulation 2.8).
+  int replaces_internal = -1;
+  /// Moves the rows in time (inhomogeneous constraints); empty for fixed ones.
+  std::function<void(double time, std::vector<ConstraintRow>& rows)> drive;
+};
+
+/// d_i . d_j = delta_ij of one node: six product rows. @source formulation 2.2 "internal"
+Constraint internal_constraint(const NodeTable& nodes, int node);
+
+}  // namespace culm::model

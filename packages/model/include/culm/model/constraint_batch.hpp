@@ -1,0 +1,60 @@
+/// Constraints that stay equations: multipliers and rows in the matrix.
+#pragma once
+
+#include <culm/model/batch.hpp>
+#include <culm/model/constraint.hpp>
+#include <culm/model/projection.hpp>
+
+namespace culm::model {
+
+/// Enforces h(q_next) = 0 with the forces H(q_theta)^T lambda, which do no work because h is
+/// quadratic. @source formulation 4.1, 4.2
+class ConstraintBatch final : public Batch {
+ public:
+  /// Largest constraint: nodes and rows.
+  static constexpr int max_nodes = 8;
+  static constexpr int max_rows = 12;
+
+  /// @param length length of the model [m], the measure for rows that hold positions
+  ConstraintBatch(std::string effect, const NodeTable& nodes, double length)
+      : effect_(std::move(effect)), nodes_(nodes), length_(length) {}
+
+  /// @param number the constraint's number in the UnknownTable
+  void add(Constraint constraint, int number);
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(items_.size()); }
+  bool has_tangent() const override { return true; }
+  std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
+  void place(Placement placement, Form form) override;
+  void begin_step(const State& state, const Stencil& stencil) override;
+  Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override;
+  void extrapolate(const State&, const Stencil&, const Coordinates&) override {}  // no stress
+  double stored_energy(const Coordinates&) const override { return 0.0; }
+
+  /// Where the multipliers of each item start in State::multipliers. Set with the numbering.
+  void number(const UnknownTable& unknowns);
+
+ private:
+  struct Item {
+    Constraint constraint;
+    int number = 0;
+    int first_multiplier = 0;
+    std::vector<ConstraintRow> rows_mid;   ///< as they act on forces
+    std::vector<ConstraintRow> rows_next;  ///< as they must hold at the end of the step
+    std::vector<double> measure;           ///< what |h| is judged against, per row
+  };
+
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
+                        Target& target) const;
+
+  std::string effect_;
+  const NodeTable& nodes_;
+  double length_;
+  std::vector<Item> items_;
+  Placement placement_;
+  Form form_ = Form::null_space;
+};
+
+}  // namespace culm::model

@@ -1,0 +1,269 @@
+/// All elements of one type: the mechanics every element shares, written once.
+#pragma once
+
+#include <cmath>
+#include <culm/mechanics/element.hpp>
+#include <culm/model/batch.hpp>
+#include <culm/model/projection.hpp>
+#include <memory>
+#include <utility>
+
+namespace culm::model {
+
+/// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
+/// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
+template <Element E>
+class ElementBatch final : public Batch, public MassSource, public ResultantSource {
+ public:
+  static constexpr int N = E::num_nodes;
+  static constexpr int S = E::num_slots;
+  static constexpr int M = E::num_strains;
+  static_assert(E::node_kind == NodeKind::node12, "projection is written for triad nodes");
+  using ItemSlots = Slots<S>;
+  using Strain = Vec<M>;
+
+  ElementBatch(std::string effect, const NodeTable& nodes)
+      : effect_(std::move(effect)), nodes_(nodes) {}
+
+  /// Adds an element. @return item number
+  int add(E element, const std::array<int, N>& nodes) {
+    elements_.push_back(std::move(element));
+    connectivity_.push_back(nodes);
+    return size() - 1;
+  }
+
+  const E& element(int item) const { return elements_[static_cast<std::size_t>(item)]; }
+  const std::array<int, N>& nodes(int item) const {
+    return connectivity_[static_cast<std::size_t>(item)];
+  }
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(elements_.size()); }
+  bool has_tangent() const override { return true; }
+  std::vector<int> blocks(int item, const UnknownTable& unknowns) const override {
+    std::vector<int> result;
+    for (int node : nodes(item)) result.push_back(unknowns.node_block(node));
+    return result;
+  }
+
+  void place(Placement placement, Form form) override {
+    placement_ = std::move(placement);
+    form_ = form;
+    strain_prev_.assign(placement_.items.size() * E::num_points, Strain::Zero());
+    predicted_stress_.resize(strain_prev_.size());
+    use_predicted_ = false;
+  }
+
+  void begin_step(const State& state, const Stencil& stencil) override {
+    use_predicted_ = false;
+    if (stencil.theta_strain == 1.0) return;  // the old strain has no weight
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      const ItemSlots q = gather(placement_.items[i], state.prev);
+      const E& element = this->element(placement_.items[i]);
+      for (int p = 0; p < E::num_points; ++p) element.strain(p, q, strain_prev_[at(i, p)]);
+    }
+  }
+
+  Verdict assemble(const State& state, const Stencil& stencil, Want want,
+                   Target& target) override {
+    if (form_ == Form::null_space) return assemble_as<NullSpace>(state, stencil, want, target);
+    return assemble_as<FullSpace>(state, stencil, want, target);
+  }
+
+  void extrapolate(const State& state, const Stencil& stencil,
+                   const Coordinates& increment) override {
+    Response<M> response;
+    Gradient<S, M> B;
+    Strain y;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      const ItemSlots q = gather(placement_.items[i], state.next);
+      const ItemSlots du = gather(placement_.items[i], increment);
+      const E& element = this->element(placement_.items[i]);
+      for (int p = 0; p < E::num_points; ++p) {
+        element.strain(p, q, y);
+        element.gradient(p, q, B);
+        element.respond(p, strain_prev_[at(i, p)], y, stencil, response);
+        const Strain dy = B.transpose() * du.template reshaped<Eigen::AutoOrder>();
+        predicted_stress_[at(i, p)] = response.stress + response.tangent * dy;
+      }
+    }
+    use_predicted_ = true;
+  }
+
+  double stored_energy(const Coordinates& q) const override {
+    double energy = 0.0;
+    Strain y;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (!placement_.owned[i]) continue;
+      const ItemSlots slots = gather(placement_.items[i], q);
+      const E& element = this->element(placement_.items[i]);
+      for (int p = 0; p < E::num_points; ++p) {
+        element.strain(p, slots, y);
+        energy += element.energy(p, y);
+      }
+    }
+    return energy;
+  }
+
+  void add_mass_times(const Coordinates& acceleration, Coordinates& force) const override {
+    for (int item = 0; item < size(); ++item) {
+      const ItemSlots f = gather(item, acceleration) * element(item).mass();  // mass is symmetric
+      for (int a = 0; a < N; ++a) {
+        NodeTable::slots(force, nodes(item)[static_cast<std::size_t>(a)]) +=
+            f.template middleCols<4>(4 * a);
+      }
+    }
+  }
+
+  std::vector<std::string> resultant_names() const override {
+    const auto names = E::resultant_names();
+    return {names.begin(), names.end()};
+  }
+
+  void resultants(int item, const Coordinates& q, std::vector<double>& out) const override {
+    const ItemSlots slots = gather(item, q);
+    Vec<E::num_resultants> mean = Vec<E::num_resultants>::Zero();
+    Strain y;
+    for (int p = 0; p < E::num_points; ++p) {
+      element(item).strain(p, slots, y);
+      mean += element(item).resultants(p, y) / E::num_points;
+    }
+    out.insert(out.end(), mean.data(), mean.data() + mean.size());
+  }
+
+ private:
+  static std::size_t at(std::size_t item, int point) {
+    return item * E::num_points + static_cast<std::size_t>(point);
+  }
+
+  ItemSlots gather(int item, const Coordinates& q) const {
+    ItemSlots slots;
+    for (int a = 0; a < N; ++a) {
+      slots.template middleCols<4>(4 * a) =
+          NodeTable::slots(q, nodes(item)[static_cast<std::size_t>(a)]);
+    }
+    return slots;
+  }
+
+  ItemSlots gather_arms(int item, const ItemSlots& slots, const Coordinates& q) const {
+    ItemSlots arms = slots;
+    for (int a = 0; a < N; ++a) {
+      const int node = nodes(item)[static_cast<std::size_t>(a)];
+      arms.col(4 * a).setZero();
+      if (nodes_.is_slave(node)) {
+        arms.col(4 * a) = slots.col(4 * a) - NodeTable::slots(q, nodes_.master(node)).col(0);
+      }
+    }
+    return arms;
+  }
+
+  template <class Space>
+  Verdict assemble_as(const State& state, const Stencil& stencil, Want want, Target& target) {
+    Verdict verdict = Verdict::ok;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      verdict = worse(verdict, assemble_item<Space>(i, state, stencil, want, target));
+    }
+    return verdict;
+  }
+
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
+                        Target& target) {
+    constexpr int W = Space::width;
+    const int item = placement_.items[i];
+    const E& element = this->element(item);
+    const double theta = stencil.theta;
+    const ItemSlots next = gather(item, state.next);
+    const ItemSlots arms_next = gather_arms(item, next, state.next);
+    ItemSlots mid = next;
+    ItemSlots arms_mid = arms_next;
+    if (theta != 1.0) {
+      const ItemSlots prev = gather(item, state.prev);
+      mid = (1.0 - theta) * prev + theta * next;
+      arms_mid = (1.0 - theta) * gather_arms(item, prev, state.prev) + theta * arms_next;
+    }
+
+    Verdict verdict = Verdict::ok;
+    Strain y;
+    Response<M> response;
+    Gradient<S, M> B_mid;
+    RowMat<W * N, M> R_mid;
+    Vec<W * N> residual = Vec<W * N>::Zero();
+    RowMat<W * N, W * N> tangent;
+    SlotMatrix<S> scalars;                       // sum_I S_I A_I of the geometric part
+    Vec<3 * S> slot_force = Vec<3 * S>::Zero();  // with the stress of the geometric part
+    if (want == Want::residual_and_tangent) {
+      tangent.setZero();
+      scalars.setZero();
+    }
+
+    for (int p = 0; p < E::num_points; ++p) {
+      element.strain(p, next, y);
+      element.gradient(p, mid, B_mid);
+      verdict = worse(verdict,
+                      element.respond(p, strain_prev_[at(i, p)], y, stencil, response));
+      reduce<Space>(B_mid, arms_mid, R_mid);
+      residual.noalias() += R_mid * response.stress;
+      if (want == Want::residual) continue;
+
+      const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
+      slot_force.noalias() += B_mid * stress;
+      element.add_curvature(p, stress, scalars);
+      const RowMat<W * N, M> RD = R_mid * response.tangent;
+      if (theta == 1.0) {
+        tangent.noalias() += RD * R_mid.transpose();
+      } else {
+        Gradient<S, M> B_next;
+        RowMat<W * N, M> R_next;
+        element.gradient(p, next, B_next);
+        reduce<Space>(B_next, arms_next, R_next);
+        tangent.noalias() += RD * R_next.transpose();
+      }
+    }
+
+    if (!std::isfinite(residual.sum())) return Verdict::not_finite;
+    target.force_scale =
+        std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    for (int a = 0; a < N; ++a) {
+      placement_.scatter.add_residual(i, a, residual.data() + W * a, target);
+    }
+    if (want == Want::residual) return verdict;
+
+    const Eigen::Map<const ItemSlots> slot_forces(slot_force.data());
+    for (int a = 0; a < N; ++a) {
+      for (int b = 0; b < N; ++b) {
+        auto block = tangent.template block<W, W>(W * a, W * b);
+        const SlotMatrix<4> pairs = theta * scalars.template block<4, 4>(4 * a, 4 * b);
+        Space::add_pairs(pairs, arms_mid.template middleCols<4>(4 * a),
+                         arms_next.template middleCols<4>(4 * b), block);
+        if (a == b) {
+          Space::add_turning(slot_forces.template middleCols<4>(4 * a),
+                             arms_next.template middleCols<4>(4 * a), theta, block);
+        }
+        placement_.scatter.add_tangent(i, a, b, block, target);
+      }
+    }
+    return verdict;
+  }
+
+  template <class Space>
+  static void reduce(const Gradient<S, M>& B, const ItemSlots& arms,
+                     RowMat<Space::width * N, M>& R) {
+    for (int a = 0; a < N; ++a) {
+      Space::reduce_rows(B.template middleRows<12>(12 * a), arms.template middleCols<4>(4 * a),
+                         R.template middleRows<Space::width>(Space::width * a));
+    }
+  }
+
+  std::string effect_;
+  const NodeTable& nodes_;
+  std::vector<E> elements_;
+  std::vector<std::array<int, N>> connectivity_;
+  Placement placement_;
+  Form form_ = Form::null_space;
+  std::vector<Strain> strain_prev_;
+  std::vector<Strain> predicted_stress_;
+  bool use_predicted_ = false;
+};
+
+}  // namespace culm::model

@@ -1,0 +1,92 @@
+/// The whole mechanical system: nodes, structures, elements, constraints, loads.
+#pragma once
+
+#include <culm/model/batch.hpp>
+#include <culm/model/constraint.hpp>
+#include <culm/model/constraint_batch.hpp>
+#include <culm/model/element_batch.hpp>
+#include <culm/model/structure.hpp>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace culm::model {
+
+/// Filled by the builders of structures, constraints and loads, then frozen: numbering and batches
+/// are fixed from there on.
+class Model {
+ public:
+  Model() = default;
+  Model(const Model&) = delete;  // batches refer to the node table
+  Model& operator=(const Model&) = delete;
+
+  // --- building ---------------------------------------------------------------------------------
+  NodeTable& nodes() { return nodes_; }
+  const NodeTable& nodes() const { return nodes_; }
+
+  /// @return a structure that stays in place while others are added
+  Structure& add_structure(std::string name);
+  /// The batch of elements E with this ledger name, made when it is first asked for.
+  template <Element E>
+  ElementBatch<E>& elements(const std::string& effect) {
+    for (const auto& batch : element_batches_) {
+      auto* same = dynamic_cast<ElementBatch<E>*>(batch.get());
+      if (same != nullptr && same->effect() == effect) return *same;
+    }
+    auto batch = std::make_unique<ElementBatch<E>>(effect, nodes_);
+    ElementBatch<E>& result = *batch;
+    element_batches_.push_back(std::move(batch));
+    return result;
+  }
+  void add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
+  /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
+  void add_rigid_link(std::string name, int slave, int master);
+  void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
+
+  /// Chooses the form, eliminates what can be eliminated and numbers the unknowns.
+  void freeze(Form form);
+
+  // --- reading ----------------------------------------------------------------------------------
+  const std::deque<Structure>& structures() const { return structures_; }
+  const Structure* find_structure(std::string_view name) const;
+  /// Nodes named by "structure/number", "structure/set" or "structure"; empty when there are none.
+  std::vector<int> select_nodes(std::string_view name) const;
+  /// All names select_nodes understands except numbers, for messages.
+  std::vector<std::string> selectable_names() const;
+  /// "structure/number" of a node.
+  std::string node_name(int node) const;
+
+  const std::vector<Constraint>& constraints() const { return constraints_; }
+  /// Constraint numbers that are equations, by their number in the UnknownTable.
+  const std::vector<Constraint>& equations() const { return equations_; }
+  const UnknownTable& unknowns() const { return unknowns_; }
+  /// All batches: elements, constraints, loads.
+  std::vector<Batch*> batches() const;
+  const std::vector<std::unique_ptr<Batch>>& element_batches() const { return element_batches_; }
+
+  /// Mass times acceleration over all structures, in director coordinates.
+  Coordinates mass_times(const Coordinates& acceleration) const;
+  /// Total mass [kg].
+  double mass() const;
+  /// Diagonal of the box around all nodes [m]; 1 for a single point.
+  double length() const;
+  /// The reference configuration with zero multipliers.
+  State initial_state() const;
+
+ private:
+  bool eliminate(const Constraint& constraint);
+  void add_equation(const Constraint& constraint, double length);
+
+  NodeTable nodes_;
+  std::deque<Structure> structures_;
+  std::vector<std::unique_ptr<Batch>> element_batches_;
+  std::vector<Constraint> constraints_;
+  std::vector<Constraint> equations_;
+  std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
+  std::vector<std::unique_ptr<Batch>> loads_;
+  UnknownTable unknowns_;
+};
+
+}  // namespace culm::model

@@ -1,0 +1,72 @@
+/// The nodes of a model and how their unknowns are reduced.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <culm/math/types.hpp>
+#include <culm/mechanics/node.hpp>
+#include <culm/model/state.hpp>
+#include <vector>
+
+namespace culm::model {
+
+using NodeSlots = Slots<4>;
+
+/// How the coordinates of an eliminated node follow from its master:
+/// x = x_m + sum_k lever_k d_k,m and d_i = sum_k turn_ik d_k,m. @source formulation 6.4
+struct RigidLink {
+  int master = -1;
+  Vec3 lever = Vec3::Zero();     ///< components in the master's triad [m]
+  Mat3 turn = Mat3::Identity();  ///< turn(i, k) = d_i . d_k,m in the reference
+};
+
+/// Nodes in the order they were added.
+class NodeTable {
+ public:
+  /// Adds a node. @param slots reference slots, shape (3, 4): x, d1, d2, d3
+  /// @return node number
+  int add(const NodeSlots& slots);
+
+  int size() const { return static_cast<int>(fixed_.size()); }
+  /// First coordinate of a node in Coordinates.
+  static int offset(int node) { return 12 * node; }
+  const Coordinates& reference() const { return reference_; }
+
+  /// Slots of a node in a configuration, shape (3, 4).
+  static Eigen::Map<const NodeSlots> slots(const Coordinates& q, int node) {
+    return Eigen::Map<const NodeSlots>(q.data() + offset(node));
+  }
+  static Eigen::Map<NodeSlots> slots(Coordinates& q, int node) {
+    return Eigen::Map<NodeSlots>(q.data() + offset(node));
+  }
+
+  /// Takes away some of the six unknowns (translations 0-2, rotations 3-5) of a node.
+  void fix(int node, std::bitset<6> unknowns) { fixed_[index(node)] |= unknowns; }
+  std::bitset<6> fixed(int node) const { return fixed_[index(node)]; }
+
+  /// Makes `slave` follow `master` rigidly. Chains are collapsed to one master.
+  /// @return false when that would close a loop of links or give a node a second master
+  bool link(int slave, int master);
+  /// Whether a node has no unknowns of its own.
+  bool is_slave(int node) const { return links_[index(node)].master >= 0; }
+  /// The node whose unknowns move this one: its master, or itself.
+  int master(int node) const { return is_slave(node) ? links_[index(node)].master : node; }
+  const RigidLink& rigid_link(int node) const { return links_[index(node)]; }
+
+  /// Recomputes an eliminated node from its master.
+  void follow_master(int slave, Coordinates& q) const;
+
+ private:
+  static std::size_t index(int node) { return static_cast<std::size_t>(node); }
+  RigidLink make_link(int slave, int master) const;
+
+  Coordinates reference_;
+  std::vector<std::bitset<6>> fixed_;
+  std::vector<RigidLink> links_;
+};
+
+/// Applies the increments (dx, dtheta) of a Newton step to a node: x += dx, d_i <- Exp(dtheta) d_i,
+/// then one polar correction, so no rotation parameter is ever stored. @source formulation 6.3
+void move_node(const Vec6& increment, Eigen::Map<NodeSlots> slots);
+
+}  // namespace culm::model

@@ -1,0 +1,86 @@
+/// Where the numbers of an item go: precomputed places in the owned rows of a CSR matrix.
+#pragma once
+
+#include <culm/math/types.hpp>
+#include <culm/model/unknowns.hpp>
+#include <span>
+#include <vector>
+
+namespace culm::model {
+
+/// The owned part of a linear system that batches add to. CSR, one row per owned unknown.
+struct Target {
+  std::span<double> residual;
+  std::span<double> values;                  ///< CSR values; empty when no tangent is wanted
+  std::span<const std::size_t> row_begin;    ///< CSR row pointers
+  double force_scale = 0.0;                  ///< largest force any item added
+  double constraint_violation = 0.0;         ///< largest |h|, lengths over the model's length
+  double multiplier_scale = 1.0;             ///< unknowns are multipliers / scale, rows times scale
+};
+
+/// Places of the items of one batch. A block of unknowns is one contiguous run in every row of any
+/// other block, so one offset per pair of blocks is enough; rows of other ranks have row -1.
+class Scatter {
+ public:
+  /// Rows of one block of an item.
+  struct Rows {
+    int first = -1;  ///< local row of its first active unknown; -1 when not owned
+    const BlockShape* shape = nullptr;
+  };
+
+  /// Appends an item. @param offsets run offsets within a row, one per pair (a, b), row by row
+  void add_item(std::span<const Rows> rows, std::span<const int> offsets) {
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    offsets_.insert(offsets_.end(), offsets.begin(), offsets.end());
+    first_block_.push_back(rows_.size());
+    first_pair_.push_back(offsets_.size());
+  }
+
+  /// Adds the residual of block a of an item; `values` has the width of the block.
+  void add_residual(std::size_t item, int a, const double* values, Target& target) const {
+    const Rows& rows = rows_[first_block_[item] + static_cast<std::size_t>(a)];
+    if (rows.first < 0) return;
+    double* out = target.residual.data() + rows.first;
+    for (int i = 0; i < rows.shape->width; ++i) {
+      const int at = rows.shape->position[static_cast<std::size_t>(i)];
+      if (at >= 0) out[at] += values[i];
+    }
+  }
+
+  /// Adds the tangent of blocks (a, b) of an item; shape (width of a, width of b).
+  template <class Derived>
+  void add_tangent(std::size_t item, int a, int b, const Eigen::MatrixBase<Derived>& K,
+                   Target& target) const {
+    const std::size_t first = first_block_[item];
+    const Rows& rows = rows_[first + static_cast<std::size_t>(a)];
+    if (rows.first < 0) return;
+    const BlockShape& row_shape = *rows.shape;
+    const BlockShape& column_shape = *rows_[first + static_cast<std::size_t>(b)].shape;
+    const auto blocks = static_cast<int>(first_block_[item + 1] - first);
+    const int offset = offsets_[first_pair_[item] + static_cast<std::size_t>(a * blocks + b)];
+    for (int i = 0; i < row_shape.width; ++i) {
+      const int row = row_shape.position[static_cast<std::size_t>(i)];
+      if (row < 0) continue;
+      double* out = target.values.data() +
+                    target.row_begin[static_cast<std::size_t>(rows.first + row)] + offset;
+      if (column_shape.full()) {
+        for (int j = 0; j < K.cols(); ++j) out[j] += K(i, j);
+      } else {
+        for (int j = 0; j < K.cols(); ++j) {
+          const int column = column_shape.position[static_cast<std::size_t>(j)];
+          if (column >= 0) out[column] += K(i, j);
+        }
+      }
+    }
+  }
+
+  std::size_t size() const { return first_block_.size() - 1; }
+
+ private:
+  std::vector<Rows> rows_;
+  std::vector<int> offsets_;
+  std::vector<std::size_t> first_block_{0};
+  std::vector<std::size_t> first_pair_{0};
+};
+
+}  // namespace culm::model

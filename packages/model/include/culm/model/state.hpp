@@ -1,0 +1,23 @@
+/// The state of a model at both ends of a step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace culm::model {
+
+/// Director coordinates of all nodes, node after node as the NodeTable lays them out.
+using Coordinates = std::vector<double>;
+
+/// Everything that changes while a model is solved. Every rank holds arrays for all nodes but keeps
+/// only the nodes that its rows need up to date.
+struct State {
+  double time_prev = 0.0;  ///< start of the step: time [s], or the load parameter in statics [-]
+  double time = 0.0;       ///< end of the step
+  Coordinates prev;   ///< accepted configuration at the start of the step
+  Coordinates next;   ///< trial configuration at the end of the step
+  std::vector<double> multipliers_prev;  ///< Lagrange multipliers of the last accepted step
+  std::vector<double> multipliers;       ///< trial multipliers, by multiplier index
+};
+
+}  // namespace culm::model

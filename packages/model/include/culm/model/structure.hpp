@@ -1,0 +1,48 @@
+/// Named groups of nodes and elements, and the material points they give out.
+#pragma once
+
+#include <culm/math/types.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace culm::model {
+
+class ResultantSource;
+
+/// A material point: a constant linear map from node coordinates to its position and directors,
+///   x = sum_a N_a (x_a + sum_k offset_k d_k,a),   d_k = sum_a N_a d_k,a.   @source formulation 3.7
+struct Marker {
+  std::vector<int> nodes;
+  std::vector<double> weights;    ///< N_a, same length as nodes, sum 1
+  Vec3 offset = Vec3::Zero();     ///< in the directors of the nodes [m]
+};
+
+/// A marker at a node.
+inline Marker marker_at(int node) { return {{node}, {1.0}, Vec3::Zero()}; }
+
+/// A marker with its share of the length of a line.
+struct LinePoint {
+  Marker marker;
+  double length = 0.0;  ///< quadrature weight [m]
+};
+
+/// What an element looks like in pictures: its nodes in order along the line.
+struct Cell {
+  std::vector<int> nodes;
+  const ResultantSource* source = nullptr;  ///< where its stress resultants come from
+  int item = 0;                             ///< its number there
+};
+
+/// A named part of the model.
+struct Structure {
+  std::string name;
+  std::vector<int> nodes;                        ///< node numbers in the model, in order
+  std::map<std::string, std::vector<int>> sets;  ///< named node sets: first, last, all, …
+  std::vector<Cell> cells;
+  std::vector<LinePoint> line_points;  ///< quadrature points for loads per length
+  /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none.
+  std::vector<std::vector<Eigen::Vector2d>> outlines;
+};
+
+}  // namespace culm::model

@@ -1,0 +1,64 @@
+/// Blocks of unknowns and their global numbers, independent of the number of ranks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <culm/model/node_table.hpp>
+#include <string>
+#include <vector>
+
+namespace culm::model {
+
+/// Which equations a model is solved with.
+enum class Form {
+  null_space,   ///< six unknowns per node, internal constraints fulfilled by construction
+  multipliers,  ///< director coordinates and all constraints as equations: the reference
+};
+
+/// The unknowns of one block that are really solved for.
+struct BlockShape {
+  int width = 0;   ///< unknowns a kernel writes
+  int active = 0;  ///< unknowns that are solved for
+  std::array<std::int8_t, 12> position{};  ///< place among the active ones, or -1
+  bool full() const { return width == active; }
+};
+
+/// Owner of a block.
+enum class BlockKind { node, multipliers };
+
+/// One run of unknowns that always occur together: those of a node, or the multipliers of a
+/// constraint.
+struct Block {
+  BlockKind kind = BlockKind::node;
+  int owner = 0;             ///< node number, or constraint number
+  BlockShape shape;
+  int first = 0;             ///< global index of the first active unknown
+  int first_multiplier = 0;  ///< index into State::multipliers; multiplier blocks only
+};
+
+/// All blocks: nodes first, in node order, then the multipliers of the constraints.
+class UnknownTable {
+ public:
+  UnknownTable() = default;
+  /// @param multipliers number of equations of each constraint kept as equations
+  UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers, Form form);
+
+  const std::vector<Block>& blocks() const { return blocks_; }
+  const Block& block(int b) const { return blocks_[static_cast<std::size_t>(b)]; }
+  /// Block that carries the unknowns of a node (that of its master in the null-space form).
+  int node_block(int node) const { return node_block_[static_cast<std::size_t>(node)]; }
+  int constraint_block(int constraint) const { return first_constraint_ + constraint; }
+  int num_unknowns() const { return num_unknowns_; }
+  int num_multipliers() const { return num_multipliers_; }
+  Form form() const { return form_; }
+
+ private:
+  std::vector<Block> blocks_;
+  std::vector<int> node_block_;
+  int first_constraint_ = 0;
+  int num_unknowns_ = 0;
+  int num_multipliers_ = 0;
+  Form form_ = Form::null_space;
+};
+
+}  // namespace culm::model

@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <cmath>
+#include <culm/base/error.hpp>
+#include <culm/model/constraint_batch.hpp>
+
+namespace culm::model {
+namespace {
+
+constexpr int max_slots = 4 * ConstraintBatch::max_nodes;
+constexpr int max_width = 12 * ConstraintBatch::max_nodes;
+constexpr int max_rows = ConstraintBatch::max_rows;
+
+// Sizes vary with the constraint but are bounded, so nothing is on the heap.
+using ItemSlots = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, max_slots>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_width,
+                           max_rows>;
+using Scalars =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_slots, max_slots>;
+
+ItemSlots gather(const std::vector<int>& nodes, const Coordinates& q) {
+  ItemSlots slots(3, 4 * static_cast<int>(nodes.size()));
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    slots.middleCols<4>(4 * static_cast<int>(a)) = NodeTable::slots(q, nodes[a]);
+  }
+  return slots;
+}
+
+ItemSlots gather_arms(const NodeTable& table, const std::vector<int>& nodes,
+                      const Coordinates& q) {
+  ItemSlots arms(3, 4 * static_cast<int>(nodes.size()));
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    arms.middleCols<4>(4 * static_cast<int>(a)) = arms_of(table, nodes[a], q);
+  }
+  return arms;
+}
+
+Vec3 sum(const SlotSum& factors, const ItemSlots& q) {
+  Vec3 result = Vec3::Zero();
+  for (int s = 0; s < q.cols(); ++s) result += factors[static_cast<std::size_t>(s)] * q.col(s);
+  return result;
+}
+
+double value(const ConstraintRow& row, const ItemSlots& q) {
+  const Vec3 P = sum(row.alpha, q);
+  const Vec3& other =
+      row.kind == ConstraintRow::Kind::linear ? row.direction : Vec3(sum(row.beta, q));
+  return P.dot(other) - row.constant;
+}
+
+// H^T, one column per row of the constraint: alpha_s w, or alpha_s Q + beta_s P
+Rows gradient(const std::vector<ConstraintRow>& rows, const ItemSlots& q) {
+  Rows H(3 * q.cols(), static_cast<int>(rows.size()));
+  for (int k = 0; k < H.cols(); ++k) {
+    const ConstraintRow& row = rows[static_cast<std::size_t>(k)];
+    const bool product = row.kind == ConstraintRow::Kind::product;
+    const Vec3 P = product ? sum(row.alpha, q) : Vec3::Zero();
+    const Vec3 Q = product ? sum(row.beta, q) : row.direction;
+    for (int s = 0; s < q.cols(); ++s) {
+      const auto at = static_cast<std::size_t>(s);
+      Vec3 column = row.alpha[at] * Q;
+      if (product) column += row.beta[at] * P;
+      H.block<3, 1>(3 * s, k) = column;
+    }
+  }
+  return H;
+}
+
+// sum_k lambda_k A_k, A_k(i, j) = alpha_i beta_j + beta_i alpha_j for product rows
+Scalars curvature(const std::vector<ConstraintRow>& rows, const double* lambda, int slots) {
+  Scalars A = Scalars::Zero(slots, slots);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].kind != ConstraintRow::Kind::product) continue;
+    const Eigen::Map<const Eigen::VectorXd> alpha(rows[k].alpha.data(), slots);
+    const Eigen::Map<const Eigen::VectorXd> beta(rows[k].beta.data(), slots);
+    for (int i = 0; i < slots; ++i) {
+      for (int j = 0; j < slots; ++j) {
+        A(i, j) += lambda[k] * (alpha[i] * beta[j] + beta[i] * alpha[j]);
+      }
+    }
+  }
+  return A;
+}
+
+template <class Space>
+Rows reduce(const Rows& H, const ItemSlots& arms) {
+  const int nodes = static_cast<int>(arms.cols()) / 4;
+  Rows R(Space::width * nodes, H.cols());
+  for (int a = 0; a < nodes; ++a) {
+    Space::reduce_rows(H.middleRows<12>(12 * a), arms.middleCols<4>(4 * a),
+                       R.middleRows<Space::width>(Space::width * a));
+  }
+  return R;
+}
+
+bool holds_positions(const ConstraintRow& row) {
+  for (std::size_t s = 0; s < row.alpha.size(); s += 4) {
+    if (row.alpha[s] != 0.0 || (!row.beta.empty() && row.beta[s] != 0.0)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void ConstraintBatch::add(Constraint constraint, int number) {
+  internal_check(constraint.nodes.size() <= max_nodes && constraint.rows.size() <= max_rows,
+                 "a constraint is larger than ConstraintBatch provides for");
+  Item item;
+  item.number = number;
+  item.rows_mid = item.rows_next = constraint.rows;
+  for (const ConstraintRow& row : constraint.rows) {
+    item.measure.push_back(holds_positions(row) ? length_ : 1.0);
+  }
+  item.constraint = std::move(constraint);
+  items_.push_back(std::move(item));
+}
+
+std::vector<int> ConstraintBatch::blocks(int item, const UnknownTable& unknowns) const {
+  const Item& it = items_[static_cast<std::size_t>(item)];
+  std::vector<int> result;
+  for (int node : it.constraint.nodes) result.push_back(unknowns.node_block(node));
+  result.push_back(unknowns.constraint_block(it.number));
+  return result;
+}
+
+void ConstraintBatch::number(const UnknownTable& unknowns) {
+  for (Item& item : items_) {
+    item.first_multiplier =
+        unknowns.block(unknowns.constraint_block(item.number)).first_multiplier;
+  }
+}
+
+void ConstraintBatch::place(Placement placement, Form form) {
+  placement_ = std::move(placement);
+  form_ = form;
+}
+
+void ConstraintBatch::begin_step(const State& state, const Stencil& stencil) {
+  const double time_mid =
+      (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
+  for (Item& item : items_) {
+    if (!item.constraint.drive) continue;
+    item.constraint.drive(time_mid, item.rows_mid);
+    item.constraint.drive(state.time, item.rows_next);
+  }
+}
+
+Verdict ConstraintBatch::assemble(const State& state, const Stencil& stencil, Want want,
+                                  Target& target) {
+  Verdict verdict = Verdict::ok;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const Verdict one = form_ == Form::null_space
+                            ? assemble_item<NullSpace>(i, state, stencil, want, target)
+                            : assemble_item<FullSpace>(i, state, stencil, want, target);
+    verdict = worse(verdict, one);
+  }
+  return verdict;
+}
+
+template <class Space>
+Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const Stencil& stencil,
+                                       Want want, Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const std::vector<int>& nodes = item.constraint.nodes;
+  const int n = static_cast<int>(nodes.size());
+  const int m = static_cast<int>(item.rows_next.size());
+  const double theta = stencil.theta;
+  const double scale = target.multiplier_scale;
+
+  const ItemSlots next = gather(nodes, state.next);
+  const ItemSlots arms_next = gather_arms(nodes_, nodes, state.next);
+  const ItemSlots mid = (1.0 - theta) * gather(nodes, state.prev) + theta * next;
+  const ItemSlots arms_mid =
+      (1.0 - theta) * gather_arms(nodes_, nodes, state.prev) + theta * arms_next;
+  const double* lambda = state.multipliers.data() + item.first_multiplier;
+  const Eigen::Map<const Eigen::VectorXd> multipliers(lambda, m);
+
+  const Rows H_mid = gradient(item.rows_mid, mid);
+  const Rows R_mid = reduce<Space>(H_mid, arms_mid);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_width, 1> force(W * n);
+  force.noalias() = R_mid.lazyProduct(multipliers);
+  if (!std::isfinite(force.sum())) return Verdict::not_finite;
+  target.force_scale = std::max(target.force_scale, force.lpNorm<Eigen::Infinity>());
+  for (int a = 0; a < n; ++a) {
+    placement_.scatter.add_residual(i, a, force.data() + W * a, target);
+  }
+  std::array<double, max_rows> h{};
+  for (int k = 0; k < m; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    h[at] = value(item.rows_next[at], next);
+    if (!std::isfinite(h[at])) return Verdict::not_finite;
+    target.constraint_violation =
+        std::max(target.constraint_violation, std::abs(h[at]) / item.measure[at]);
+    h[at] *= scale;
+  }
+  placement_.scatter.add_residual(i, n, h.data(), target);
+  if (want == Want::residual) return Verdict::ok;
+
+  const Rows R_next = reduce<Space>(gradient(item.rows_next, next), arms_next);
+  const Scalars A = theta * curvature(item.rows_mid, lambda, 4 * n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_width, 1> slot_force(12 * n);
+  slot_force.noalias() = H_mid.lazyProduct(multipliers);
+  const Eigen::Map<const ItemSlots> slot_forces(slot_force.data(), 3, 4 * n);
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
+                       arms_mid.template middleCols<4>(4 * a),
+                       arms_next.template middleCols<4>(4 * b), block);
+      if (a == b) {
+        Space::add_turning(slot_forces.template middleCols<4>(4 * a),
+                           arms_next.template middleCols<4>(4 * a), theta, block);
+      }
+      placement_.scatter.add_tangent(i, a, b, block, target);
+    }
+    const Rows column = scale * R_mid.template middleRows<W>(W * a);
+    const Rows row = scale * R_next.template middleRows<W>(W * a).transpose();
+    placement_.scatter.add_tangent(i, a, n, column, target);
+    placement_.scatter.add_tangent(i, n, a, row, target);
+  }
+  return Verdict::ok;
+}
+
+}  // namespace culm::model

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <charconv>
+#include <culm/model/model.hpp>
+
+namespace culm::model {
+
+Structure& Model::add_structure(std::string name) {
+  structures_.emplace_back();
+  structures_.back().name = std::move(name);
+  return structures_.back();
+}
+
+void Model::add_rigid_link(std::string name, int slave, int master) {
+  Constraint c;
+  c.name = std::move(name);
+  c.type = "Rigid Connection";
+  c.nodes = {master, slave};
+  c.link = Constraint::Link{slave, master};
+  c.replaces_internal = slave;
+  Eigen::Matrix3Xd q(3, 8);
+  q << NodeTable::slots(nodes_.reference(), master), NodeTable::slots(nodes_.reference(), slave);
+  const Mat3 triad = q.block<3, 3>(0, 1);
+  // x_2 - p_1(phi) and d_i,2 - u_1(R_i): twelve linear rows
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 components = triad.transpose() * (i == 0 ? Vec3(q.col(4) - q.col(0)) : q.col(4 + i));
+    SlotSum on_master =
+        i == 0 ? attached_point(0, 2, components) : attached_vector(0, 2, components);
+    for (double& factor : on_master) factor = -factor;
+    on_master[static_cast<std::size_t>(4 + i)] = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      c.rows.push_back(linear_row(Vec3::Unit(axis), on_master, q));
+    }
+  }
+  add_constraint(std::move(c));
+}
+
+bool Model::eliminate(const Constraint& constraint) {
+  if (constraint.link) return nodes_.link(constraint.link->slave, constraint.link->master);
+  if (!constraint.fix) return false;
+  const int node = constraint.fix->node;
+  // partly held eliminated nodes have a lever, so their rows stay equations
+  if (nodes_.is_slave(node) && !constraint.fix->unknowns.all()) return false;
+  nodes_.fix(nodes_.master(node), constraint.fix->unknowns);
+  return true;
+}
+
+void Model::add_equation(const Constraint& constraint, double length) {
+  const auto same = [&](const auto& batch) { return batch->effect() == constraint.type; };
+  auto at = std::find_if(constraint_batches_.begin(), constraint_batches_.end(), same);
+  if (at == constraint_batches_.end()) {
+    constraint_batches_.push_back(
+        std::make_unique<ConstraintBatch>(constraint.type, nodes_, length));
+    at = constraint_batches_.end() - 1;
+  }
+  (*at)->add(constraint, static_cast<int>(equations_.size()));
+  equations_.push_back(constraint);
+}
+
+void Model::freeze(Form form) {
+  const double length = this->length();
+  // links first: whether a support can be eliminated depends on them
+  const auto is_link = [](const Constraint& c) { return c.link.has_value(); };
+  std::vector<const Constraint*> ordered;
+  for (const Constraint& c : constraints_) {
+    if (is_link(c)) ordered.push_back(&c);
+  }
+  for (const Constraint& c : constraints_) {
+    if (!is_link(c)) ordered.push_back(&c);
+  }
+  std::vector<bool> has_internal(static_cast<std::size_t>(nodes_.size()), true);
+  for (const Constraint* c : ordered) {
+    if (c->replaces_internal >= 0) {
+      has_internal[static_cast<std::size_t>(c->replaces_internal)] = false;
+    }
+    if (form == Form::null_space && eliminate(*c)) continue;
+    add_equation(*c, length);
+  }
+  if (form == Form::multipliers) {
+    for (int node = 0; node < nodes_.size(); ++node) {
+      if (has_internal[static_cast<std::size_t>(node)]) {
+        add_equation(internal_constraint(nodes_, node), length);
+      }
+    }
+  }
+  std::vector<int> multipliers;
+  for (const Constraint& c : equations_) multipliers.push_back(static_cast<int>(c.rows.size()));
+  unknowns_ = UnknownTable(nodes_, multipliers, form);
+  for (const auto& batch : constraint_batches_) batch->number(unknowns_);
+}
+
+const Structure* Model::find_structure(std::string_view name) const {
+  for (const Structure& structure : structures_) {
+    if (structure.name == name) return &structure;
+  }
+  return nullptr;
+}
+
+std::vector<int> Model::select_nodes(std::string_view name) const {
+  const auto slash = name.find('/');
+  const Structure* structure = find_structure(name.substr(0, slash));
+  if (structure == nullptr) return {};
+  if (slash == std::string_view::npos) return structure->nodes;
+  const std::string_view rest = name.substr(slash + 1);
+  if (const auto set = structure->sets.find(std::string(rest)); set != structure->sets.end()) {
+    return set->second;
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  if (error != std::errc() || end != rest.data() + rest.size()) return {};
+  if (number >= structure->nodes.size()) return {};
+  return {structure->nodes[number]};
+}
+
+std::vector<std::string> Model::selectable_names() const {
+  std::vector<std::string> names;
+  for (const Structure& structure : structures_) {
+    names.push_back(structure.name);
+    for (const auto& [set, nodes] : structure.sets) names.push_back(structure.name + "/" + set);
+  }
+  return names;
+}
+
+std::string Model::node_name(int node) const {
+  for (const Structure& structure : structures_) {
+    const auto at = std::find(structure.nodes.begin(), structure.nodes.end(), node);
+    if (at != structure.nodes.end()) {
+      return structure.name + "/" + std::to_string(at - structure.nodes.begin());
+    }
+  }
+  return "node " + std::to_string(node);
+}
+
+std::vector<Batch*> Model::batches() const {
+  std::vector<Batch*> result;
+  for (const auto& batch : element_batches_) result.push_back(batch.get());
+  for (const auto& batch : constraint_batches_) result.push_back(batch.get());
+  for (const auto& batch : loads_) result.push_back(batch.get());
+  return result;
+}
+
+Coordinates Model::mass_times(const Coordinates& acceleration) const {
+  Coordinates force(acceleration.size(), 0.0);
+  for (const auto& batch : element_batches_) {
+    if (const auto* source = dynamic_cast<const MassSource*>(batch.get())) {
+      source->add_mass_times(acceleration, force);
+    }
+  }
+  return force;
+}
+
+double Model::mass() const {
+  Coordinates unit(nodes_.reference().size(), 0.0);
+  for (int node = 0; node < nodes_.size(); ++node) NodeTable::slots(unit, node)(0, 0) = 1.0;
+  const Coordinates force = mass_times(unit);
+  double total = 0.0;
+  for (int node = 0; node < nodes_.size(); ++node) total += NodeTable::slots(force, node)(0, 0);
+  return total;
+}
+
+double Model::length() const {
+  Eigen::Array3d low = Eigen::Array3d::Constant(1e300);
+  Eigen::Array3d high = -low;
+  for (int node = 0; node < nodes_.size(); ++node) {
+    const Eigen::Array3d x = NodeTable::slots(nodes_.reference(), node).col(0).array();
+    low = low.min(x);
+    high = high.max(x);
+  }
+  const double diagonal = nodes_.size() == 0 ? 0.0 : (high - low).matrix().norm();
+  return diagonal > 0.0 ? diagonal : 1.0;
+}
+
+State Model::initial_state() const {
+  State state;
+  state.prev = state.next = nodes_.reference();
+  state.multipliers.assign(static_cast<std::size_t>(unknowns_.num_multipliers()), 0.0);
+  state.multipliers_prev = state.multipliers;
+  return state;
+}
+
+}  // namespace culm::model

@@ -1,0 +1,48 @@
+#include <culm/model/unknowns.hpp>
+
+namespace culm::model {
+namespace {
+
+BlockShape shape_without(int width, std::bitset<6> fixed) {
+  BlockShape shape;
+  shape.width = width;
+  for (int i = 0; i < width; ++i) {
+    const bool gone = i < 6 && fixed[static_cast<std::size_t>(i)];
+    shape.position[static_cast<std::size_t>(i)] =
+        gone ? std::int8_t{-1} : static_cast<std::int8_t>(shape.active++);
+  }
+  return shape;
+}
+
+}  // namespace
+
+UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers, Form form)
+    : first_constraint_(nodes.size()), form_(form) {
+  for (int node = 0; node < nodes.size(); ++node) {
+    Block block;
+    block.owner = node;
+    if (form == Form::multipliers) {
+      block.shape = shape_without(12, {});
+    } else {
+      const auto fixed = nodes.is_slave(node) ? std::bitset<6>("111111") : nodes.fixed(node);
+      block.shape = shape_without(6, fixed);
+    }
+    node_block_.push_back(form == Form::multipliers ? node : nodes.master(node));
+    blocks_.push_back(block);
+  }
+  for (int c = 0; c < static_cast<int>(multipliers.size()); ++c) {
+    Block block;
+    block.kind = BlockKind::multipliers;
+    block.owner = c;
+    block.shape = shape_without(multipliers[static_cast<std::size_t>(c)], {});
+    block.first_multiplier = num_multipliers_;
+    num_multipliers_ += block.shape.width;
+    blocks_.push_back(block);
+  }
+  for (Block& block : blocks_) {
+    block.first = num_unknowns_;
+    num_unknowns_ += block.shape.active;
+  }
+}
+
+}  // namespace culm::model
