@@ -2,6 +2,7 @@
 
 #include <culm/base/issue.hpp>
 #include <culm/base/nearest.hpp>
+
 #include <source_location>
 #include <stdexcept>
 #include <string>

@@ -3,6 +3,8 @@
 // This header stays C++17: the sources that need Teuchos validators read it as such.
 
 #include <culm/base/value.hpp>
+
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -87,6 +89,10 @@ class Field {
   Field& set_default(Value value);
   bool in_range(double value) const;
   std::string wrong_size(std::size_t count) const;
+  std::string wrong_item(double value) const;
+  std::string wrong_item(const std::string& value) const;
+  template <class Item>
+  void find_wrong_items(const std::vector<Item>& items, std::vector<std::string>& messages) const;
 
   Kind kind_;
   std::string name_;

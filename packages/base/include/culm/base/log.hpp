@@ -32,7 +32,7 @@ class Log {
 
  private:
   struct Sinks;
-  std::shared_ptr<const Sinks> sinks_;
+  std::shared_ptr<Sinks> sinks_;
 };
 
 }  // namespace culm

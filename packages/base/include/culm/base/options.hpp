@@ -4,6 +4,7 @@
 
 #include <culm/base/issue.hpp>
 #include <culm/base/value.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
+
 #include <functional>
 #include <map>
 #include <string>

@@ -4,6 +4,7 @@
 
 #include <culm/base/field.hpp>
 #include <culm/base/issue.hpp>
+
 #include <functional>
 #include <map>
 #include <memory>

@@ -1,0 +1,112 @@
+#include <culm/base/error.hpp>
+#include <culm/base/ledger.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+namespace culm {
+namespace {
+
+std::string fixed(double value, int digits) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
+  return buffer;
+}
+
+std::string count_text(const std::optional<long long>& count) {
+  return count ? std::to_string(*count) : "–";
+}
+
+/// Three significant digits are enough for a glance; long runs get whole seconds.
+std::string time_text(double seconds) {
+  if (seconds >= 100.0) return fixed(seconds, 0) + " s";
+  if (seconds >= 1.0) return fixed(seconds, 1) + " s";
+  if (seconds >= 1e-3) return fixed(1e3 * seconds, 1) + " ms";
+  return fixed(1e6 * seconds, 1) + " µs";
+}
+
+/// Width on the screen: continuation bytes of UTF-8 take no column.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - width(row[i]), ' ');
+      text += i == 0 ? row[i] + padding : "   " + padding + row[i];
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+Ledger::Id Ledger::add(Entry entry) {
+  entries_.push_back(std::move(entry));
+  return static_cast<Id>(entries_.size()) - 1;
+}
+
+const Ledger::Entry& Ledger::entry(Id id) const {
+  internal_check(id >= 0 && static_cast<std::size_t>(id) < entries_.size(),
+                 "unknown entry of the ledger");
+  return entries_[static_cast<std::size_t>(id)];
+}
+
+double Ledger::seconds() const {
+  double sum = 0.0;
+  for (const Entry& entry : entries_) sum += entry.seconds;
+  return sum;
+}
+
+void Ledger::reset_times() {
+  for (Entry& entry : entries_) {
+    entry.seconds = 0.0;
+    entry.calls = 0;
+  }
+}
+
+std::string Ledger::report() const {
+  std::vector<std::vector<std::string>> rows = {
+      {"effect", "items", "unknowns", "entries/iter", "time", "share"}};
+  const double total = seconds();
+  for (const Entry& entry : entries_) {
+    const double share = total > 0.0 ? 100.0 * entry.seconds / total : 0.0;
+    rows.push_back({entry.name, count_text(entry.items), count_text(entry.unknowns),
+                    count_text(entry.entries_per_iteration), time_text(entry.seconds),
+                    fixed(share, 0) + " %"});
+  }
+  return table(rows);
+}
+
+void Ledger::book() {
+  const Clock::time_point now = Clock::now();
+  if (innermost_) {
+    entries_[static_cast<std::size_t>(innermost_->id_)].seconds +=
+        std::chrono::duration<double>(now - last_).count();
+  }
+  last_ = now;
+}
+
+Ledger::Scope::Scope(Ledger& ledger, Id id) : ledger_(ledger), outer_(ledger.innermost_), id_(id) {
+  CULM_ASSERT(id >= 0 && static_cast<std::size_t>(id) < ledger.entries_.size());
+  ledger_.book();
+  ledger_.innermost_ = this;
+  ++ledger_.entries_[static_cast<std::size_t>(id_)].calls;
+}
+
+Ledger::Scope::~Scope() {
+  ledger_.book();
+  ledger_.innermost_ = outer_;
+}
+
+}  // namespace culm
