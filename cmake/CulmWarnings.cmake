@@ -2,9 +2,10 @@
 function(culm_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC 12 reports these inside inlined Eigen expressions although nothing is wrong there.
+    # GCC 12 reports these inside inlined Eigen expressions and std::string concatenation, although
+    # nothing is wrong there.
     target_compile_options(
-      ${target} PRIVATE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread
+      ${target} PRIVATE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread -Wno-restrict
     )
   endif()
   if(CULM_WERROR)
