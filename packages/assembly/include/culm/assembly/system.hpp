@@ -1,0 +1,72 @@
+/// The discrete equations of a model on this rank: residual, tangent, and the update of the state.
+#pragma once
+
+#include <culm/assembly/layout.hpp>
+#include <culm/base/ledger.hpp>
+
+namespace culm::assembly {
+
+/// What an evaluation found; the same on all ranks.
+struct Evaluation {
+  Verdict verdict = Verdict::ok;
+  double force_residual = 0.0;        ///< largest entry of the force rows [N, N m]
+  double force_scale = 0.0;           ///< largest force of any item, what the residual is judged by
+  double constraint_violation = 0.0;  ///< largest |h|, lengths over the model's length [-]
+};
+
+/// Owns residual and matrix; the model is borrowed.
+class System {
+ public:
+  System(model::Model& model, const parallel::Comm& comm, Ledger& ledger);
+
+  /// Once per step, with the accepted state in state.prev.
+  void begin_step(const model::State& state, const Stencil& stencil);
+  /// Residual, and the tangent when wanted.
+  Evaluation evaluate(const model::State& state, const Stencil& stencil, Want want);
+  /// Moves state.next by the solution of the linear system, factor included: nodes
+  /// multiplicatively, eliminated nodes after their masters, multipliers additively.
+  void move(model::State& state, const Vector& increment, double factor);
+  /// Predicts stresses for the next tangent from the same increment, before move.
+  void extrapolate(const model::State& state, const Stencil& stencil,
+                   const Vector& increment, double factor);
+  /// Brings the coordinates and multipliers of all nodes up to date on all ranks, for output.
+  void synchronise(model::State& state) const;
+  /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
+  /// rows have entries of one size. @source formulation 4.2
+  void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
+
+  double stored_energy(const model::Coordinates& q) const;
+  /// Largest force that rounding of the coordinates alone can cause, from the last tangent.
+  double round_off_force() const;
+  double multiplier_scale() const { return multiplier_scale_; }
+
+  const Vector& residual() const { return *residual_; }
+  const Teuchos::RCP<const CrsMatrix>& matrix() const { return matrix_view_; }
+  const Layout& layout() const { return layout_; }
+  const model::Model& model() const { return model_; }
+  const parallel::Comm& comm() const { return comm_; }
+
+ private:
+  const Vector& import(const Vector& increment);
+
+  model::Model& model_;
+  parallel::Comm comm_;
+  Ledger& ledger_;
+  Layout layout_;
+  std::vector<model::Batch*> batches_;
+  std::vector<Ledger::Id> effects_;
+  Ledger::Id update_effect_;
+  std::vector<int> slaves_;
+  Teuchos::RCP<CrsMatrix> matrix_;
+  Teuchos::RCP<const CrsMatrix> matrix_view_;
+  Teuchos::RCP<Vector> residual_;
+  Teuchos::RCP<Vector> imported_;
+  Teuchos::RCP<const Import> importer_;
+  std::vector<std::size_t> row_begin_;
+  std::vector<int> diagonal_;        ///< place of the diagonal entry of each owned row
+  std::vector<bool> is_force_row_;
+  model::Coordinates linear_increment_;
+  double multiplier_scale_ = 1.0;
+};
+
+}  // namespace culm::assembly

@@ -1,0 +1,159 @@
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <algorithm>
+#include <culm/assembly/layout.hpp>
+#include <culm/parallel/partition.hpp>
+
+namespace culm::assembly {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
+  const model::UnknownTable& unknowns = model.unknowns();
+  const Neighbours neighbours = couple_blocks(model);
+  choose_owners(unknowns, neighbours);
+  number_locally(unknowns, neighbours);
+  build_graph(unknowns, neighbours);
+  for (model::Batch* batch : model.batches()) {
+    batch->place(place(*batch, unknowns), unknowns.form());
+  }
+}
+
+// Blocks that share an item, each block with itself; sorted.
+Layout::Neighbours Layout::couple_blocks(const model::Model& model) const {
+  const model::UnknownTable& unknowns = model.unknowns();
+  Neighbours neighbours(unknowns.blocks().size());
+  for (std::size_t b = 0; b < neighbours.size(); ++b) {
+    neighbours[b].push_back(static_cast<int>(b));
+  }
+  for (const model::Batch* batch : model.batches()) {
+    if (!batch->has_tangent()) continue;
+    for (int item = 0; item < batch->size(); ++item) {
+      const std::vector<int> blocks = batch->blocks(item, unknowns);
+      for (int a : blocks) {
+        for (int b : blocks) neighbours[index(a)].push_back(b);
+      }
+    }
+  }
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return neighbours;
+}
+
+void Layout::choose_owners(const model::UnknownTable& unknowns, const Neighbours& neighbours) {
+  parallel::Graph graph;
+  for (std::size_t b = 0; b < neighbours.size(); ++b) {
+    for (int other : neighbours[b]) {
+      if (other != static_cast<int>(b)) graph.neighbours.push_back(other);
+    }
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+    graph.weights.push_back(1 + unknowns.block(static_cast<int>(b)).shape.active);
+  }
+  owners_ = parallel::partition(graph, comm_.size());
+}
+
+// Columns: owned blocks in global order, then the blocks beside them in global order.
+void Layout::number_locally(const model::UnknownTable& unknowns, const Neighbours& neighbours) {
+  const std::size_t count = neighbours.size();
+  std::vector<bool> beside(count, false);
+  for (std::size_t b = 0; b < count; ++b) {
+    if (owners_[b] != comm_.rank()) continue;
+    for (int other : neighbours[b]) beside[index(other)] = owners_[index(other)] != comm_.rank();
+  }
+  local_row_.assign(count, -1);
+  local_column_.assign(count, -1);
+  int column = 0;
+  for (const bool owned : {true, false}) {
+    for (std::size_t b = 0; b < count; ++b) {
+      if (owned ? owners_[b] != comm_.rank() : !beside[b]) continue;
+      if (owned) local_row_[b] = column;
+      local_column_[b] = column;
+      local_blocks_.push_back({static_cast<int>(b), column, owned});
+      column += unknowns.block(static_cast<int>(b)).shape.active;
+    }
+  }
+}
+
+void Layout::build_graph(const model::UnknownTable& unknowns, const Neighbours& neighbours) {
+  std::vector<GlobalIndex> rows;
+  std::vector<GlobalIndex> columns;
+  for (const LocalBlock& local : local_blocks_) {
+    const model::Block& block = unknowns.block(local.block);
+    for (int i = 0; i < block.shape.active; ++i) {
+      if (local.owned) rows.push_back(block.first + i);
+      columns.push_back(block.first + i);
+    }
+  }
+  const auto comm = Teuchos::rcp(new Teuchos::MpiComm<int>(comm_.handle()));
+  const auto total = static_cast<Tpetra::global_size_t>(unknowns.num_unknowns());
+  if (comm_.size() == 1) {
+    row_map_ = Teuchos::rcp(new Map(total, 0, comm));  // contiguous: what KLU2 wants
+    column_map_ = row_map_;
+  } else {
+    const auto any = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+    row_map_ = Teuchos::rcp(new Map(total, Teuchos::arrayViewFromVector(rows), 0, comm));
+    column_map_ = Teuchos::rcp(new Map(any, Teuchos::arrayViewFromVector(columns), 0, comm));
+  }
+
+  Teuchos::ArrayRCP<std::size_t> begin(rows.size() + 1, 0);
+  std::vector<int> entries;
+  std::size_t row = 0;
+  runs_.resize(neighbours.size());
+  for (const LocalBlock& local : local_blocks_) {
+    if (!local.owned) continue;
+    std::vector<int> coupled = neighbours[index(local.block)];
+    std::sort(coupled.begin(), coupled.end(),
+              [&](int a, int b) { return local_column_[index(a)] < local_column_[index(b)]; });
+    std::vector<int> pattern;
+    for (int other : coupled) {
+      runs_[index(local.block)].emplace_back(other, static_cast<int>(pattern.size()));
+      const int active = unknowns.block(other).shape.active;
+      for (int j = 0; j < active; ++j) pattern.push_back(local_column_[index(other)] + j);
+    }
+    for (int i = 0; i < unknowns.block(local.block).shape.active; ++i) {
+      entries.insert(entries.end(), pattern.begin(), pattern.end());
+      begin[static_cast<Teuchos::ArrayRCP<std::size_t>::size_type>(++row)] = entries.size();
+    }
+  }
+  const auto size = static_cast<Teuchos::ArrayRCP<int>::size_type>(entries.size());
+  Teuchos::ArrayRCP<int> indices(size);
+  std::copy(entries.begin(), entries.end(), indices.begin());
+  const auto graph = Teuchos::rcp(new CrsGraph(row_map_, column_map_, begin, indices));
+  graph->expertStaticFillComplete(row_map_, row_map_);
+  graph_ = graph;
+}
+
+int Layout::offset_in_row(int row_block, int column_block) const {
+  for (const auto& [block, offset] : runs_[index(row_block)]) {
+    if (block == column_block) return offset;
+  }
+  return 0;  // no tangent between these blocks
+}
+
+model::Placement Layout::place(const model::Batch& batch,
+                               const model::UnknownTable& unknowns) const {
+  model::Placement placement;
+  for (int item = 0; item < batch.size(); ++item) {
+    const std::vector<int> blocks = batch.blocks(item, unknowns);
+    const bool here = std::any_of(blocks.begin(), blocks.end(), [&](int b) {
+      return owners_[index(b)] == comm_.rank();
+    });
+    if (!here) continue;
+    std::vector<model::Scatter::Rows> rows;
+    std::vector<int> offsets;
+    for (int a : blocks) {
+      rows.push_back({local_row_[index(a)], &unknowns.block(a).shape});
+      for (int b : blocks) offsets.push_back(offset_in_row(a, b));
+    }
+    placement.items.push_back(item);
+    placement.owned.push_back(owners_[index(blocks.front())] == comm_.rank());
+    placement.scatter.add_item(rows, offsets);
+  }
+  return placement;
+}
+
+}  // namespace culm::assembly

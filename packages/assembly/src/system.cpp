@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cmath>
+#include <culm/assembly/system.hpp>
+#include <limits>
+#include <numeric>
+
+namespace culm::assembly {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+long long entries_of(const model::Batch& batch, const model::UnknownTable& unknowns) {
+  if (!batch.has_tangent()) return 0;
+  long long entries = 0;
+  for (int item = 0; item < batch.size(); ++item) {
+    long long width = 0;
+    for (int b : batch.blocks(item, unknowns)) width += unknowns.block(b).shape.active;
+    entries += width * width;
+  }
+  return entries;
+}
+
+long long multipliers_of(const model::Batch& batch, const model::UnknownTable& unknowns) {
+  long long count = 0;
+  for (int item = 0; item < batch.size(); ++item) {
+    for (int b : batch.blocks(item, unknowns)) {
+      if (unknowns.block(b).kind == model::BlockKind::multipliers) {
+        count += unknowns.block(b).shape.active;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
+    : model_(model),
+      comm_(comm),
+      ledger_(ledger),
+      layout_(model, comm),
+      batches_(model.batches()),
+      update_effect_(ledger.add("Update of the state")) {
+  const model::UnknownTable& unknowns = model.unknowns();
+  for (const model::Batch* batch : batches_) {
+    Ledger::Entry entry;
+    entry.name = batch->effect();
+    entry.items = batch->size();
+    const long long multipliers = multipliers_of(*batch, unknowns);
+    if (multipliers > 0) entry.unknowns = multipliers;
+    if (batch->has_tangent()) entry.entries_per_iteration = entries_of(*batch, unknowns);
+    effects_.push_back(ledger.add(entry));
+  }
+  for (int node = 0; node < model.nodes().size(); ++node) {
+    if (model.nodes().is_slave(node)) slaves_.push_back(node);
+  }
+  matrix_ = Teuchos::rcp(new CrsMatrix(layout_.graph()));
+  matrix_->fillComplete(layout_.row_map(), layout_.row_map());
+  matrix_view_ = matrix_;
+  residual_ = Teuchos::rcp(new Vector(layout_.row_map()));
+  if (comm_.size() > 1) {
+    imported_ = Teuchos::rcp(new Vector(layout_.column_map()));
+    importer_ = Teuchos::rcp(new Import(layout_.row_map(), layout_.column_map()));
+  }
+  const auto graph = matrix_->getLocalMatrixHost().graph;
+  row_begin_.assign(graph.row_map.data(), graph.row_map.data() + graph.row_map.extent(0));
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    if (!local.owned) continue;
+    const model::Block& block = unknowns.block(local.block);
+    for (int i = 0; i < block.shape.active; ++i) {
+      const auto row = index(local.first_column + i);  // owned columns are numbered as rows
+      is_force_row_.push_back(block.kind == model::BlockKind::node);
+      const auto first = graph.entries.data() + row_begin_[row];
+      const auto last = graph.entries.data() + row_begin_[row + 1];
+      diagonal_.push_back(static_cast<int>(
+          row_begin_[row] +
+          static_cast<std::size_t>(std::find(first, last, static_cast<int>(row)) - first)));
+    }
+  }
+  linear_increment_.assign(model.nodes().reference().size(), 0.0);
+}
+
+void System::begin_step(const model::State& state, const Stencil& stencil) {
+  for (model::Batch* batch : batches_) batch->begin_step(state, stencil);
+}
+
+Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
+  model::Target target;
+  target.residual = values_of(*residual_);
+  target.row_begin = row_begin_;
+  target.multiplier_scale = multiplier_scale_;
+  std::fill(target.residual.begin(), target.residual.end(), 0.0);
+  if (want == Want::residual_and_tangent) {
+    const auto values = matrix_->getLocalMatrixHost().values;
+    target.values = {values.data(), values.extent(0)};
+    std::fill(target.values.begin(), target.values.end(), 0.0);
+  }
+  Verdict verdict = Verdict::ok;
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    const Ledger::Scope scope(ledger_, effects_[b]);
+    verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
+  }
+  double largest = 0.0;
+  for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
+    if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
+  }
+  double found[4] = {static_cast<double>(verdict), largest, target.force_scale,
+                     target.constraint_violation};
+  comm_.max(found);
+  return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3]};
+}
+
+const Vector& System::import(const Vector& increment) {
+  if (comm_.size() == 1) return increment;
+  imported_->doImport(increment, *importer_, Tpetra::INSERT);
+  return *imported_;
+}
+
+void System::move(model::State& state, const Vector& increment, double factor) {
+  const Ledger::Scope scope(ledger_, update_effect_);
+  const std::span<const double> dx = values_of(import(increment));
+  const model::UnknownTable& unknowns = model_.unknowns();
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = unknowns.block(local.block);
+    if (block.shape.active == 0) continue;
+    std::array<double, 12> u{};
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[index(i)];
+      if (at >= 0) u[index(i)] = factor * dx[index(local.first_column + at)];
+    }
+    if (block.kind == model::BlockKind::multipliers) {
+      for (int i = 0; i < block.shape.width; ++i) {
+        state.multipliers[index(block.first_multiplier + i)] += multiplier_scale_ * u[index(i)];
+      }
+    } else if (unknowns.form() == model::Form::null_space) {
+      model::move_node(Eigen::Map<const Vec6>(u.data()),
+                       model::NodeTable::slots(state.next, block.owner));
+    } else {
+      model::NodeTable::slots(state.next, block.owner) +=
+          Eigen::Map<const model::NodeSlots>(u.data());
+    }
+  }
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+}
+
+void System::extrapolate(const model::State& state, const Stencil& stencil,
+                         const Vector& increment, double factor) {
+  const std::span<const double> dx = values_of(import(increment));
+  const model::UnknownTable& unknowns = model_.unknowns();
+  const bool null_space = unknowns.form() == model::Form::null_space;
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = unknowns.block(local.block);
+    if (block.kind != model::BlockKind::node) continue;
+    auto du = model::NodeTable::slots(linear_increment_, block.owner);
+    std::array<double, 12> u{};
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[index(i)];
+      if (at >= 0) u[index(i)] = factor * dx[index(local.first_column + at)];
+    }
+    if (!null_space) {
+      du = Eigen::Map<const model::NodeSlots>(u.data());
+      continue;
+    }
+    const auto q = model::NodeTable::slots(state.next, block.owner);
+    const Vec3 turn(u[3], u[4], u[5]);
+    du.col(0) = Vec3(u[0], u[1], u[2]);
+    for (int i = 1; i < 4; ++i) du.col(i) = turn.cross(q.col(i));
+  }
+  // an eliminated node is linear in its master, so its increment follows in the same way
+  for (int slave : slaves_) model_.nodes().follow_master(slave, linear_increment_);
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    const Ledger::Scope scope(ledger_, effects_[b]);
+    batches_[b]->extrapolate(state, stencil, linear_increment_);
+  }
+}
+
+void System::synchronise(model::State& state) const {
+  if (comm_.size() == 1) return;
+  const model::UnknownTable& unknowns = model_.unknowns();
+  // every value comes from its owner and is zero elsewhere, so the sum is exact
+  for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
+    const model::Block& block = unknowns.block(b);
+    if (layout_.owners()[index(b)] == comm_.rank()) continue;
+    if (block.kind == model::BlockKind::node) {
+      model::NodeTable::slots(state.next, block.owner).setZero();
+    } else {
+      std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, 0.0);
+    }
+  }
+  comm_.sum(state.next);
+  comm_.sum(state.multipliers);
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+}
+
+void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil) {
+  multiplier_scale_ = 1.0;
+  if (model_.unknowns().num_multipliers() == 0) return;
+  evaluate(state, stencil, Want::residual_and_tangent);
+  const auto values = matrix_->getLocalMatrixHost().values;
+  double largest = 0.0;
+  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
+    if (is_force_row_[row]) largest = std::max(largest, std::abs(values(index(diagonal_[row]))));
+  }
+  largest = comm_.max(largest);
+  // a power of two scales without rounding; the root lies between the force and the unit rows
+  if (largest > 0.0) multiplier_scale_ = std::exp2(std::round(std::log2(largest)));
+}
+
+double System::stored_energy(const model::Coordinates& q) const {
+  double energy = 0.0;
+  for (const model::Batch* batch : batches_) energy += batch->stored_energy(q);
+  return comm_.sum(energy);
+}
+
+double System::round_off_force() const {
+  const auto values = matrix_->getLocalMatrixHost().values;
+  double largest = 0.0;
+  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
+    if (is_force_row_[row]) largest = std::max(largest, std::abs(values(index(diagonal_[row]))));
+  }
+  // coordinates are rounded to epsilon times the size of the model
+  return 4.0 * std::numeric_limits<double>::epsilon() * comm_.max(largest) * model_.length();
+}
+
+}  // namespace culm::assembly

@@ -1,0 +1,69 @@
+/// The ranks that work together.
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace culm::parallel {
+
+/// A group of MPI ranks. Rank 0 is the root of all gathers and broadcasts. A value type: copies
+/// refer to the same group. MPI must be initialised by the program.
+class Comm {
+ public:
+  explicit Comm(MPI_Comm comm = MPI_COMM_WORLD);
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+  MPI_Comm handle() const { return comm_; }
+
+  /// Largest value over all ranks; exact, hence independent of their number.
+  double max(double value) const;
+  int max(int value) const;
+  /// Elementwise, in place.
+  void max(std::span<double> values) const;
+  double sum(double value) const;
+  /// Elementwise, in place.
+  void sum(std::span<double> values) const;
+
+  /// Text of the root on all ranks.
+  std::string broadcast(std::string text) const;
+  void broadcast(std::span<double> values) const;
+
+  /// Pieces of all ranks one after the other, on the root; empty elsewhere.
+  std::vector<int> gather(std::span<const int> piece) const;
+  std::vector<long long> gather(std::span<const long long> piece) const;
+
+ private:
+  MPI_Comm comm_;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+/// Moves numbers between the pieces of all ranks and one array on the root, with counts that are
+/// exchanged once. On one rank nothing is copied more than once.
+class Funnel {
+ public:
+  Funnel() = default;
+  /// @param count length of this rank's piece
+  Funnel(const Comm& comm, int count);
+
+  /// Length of the whole array; on the root.
+  int total() const { return total_; }
+  /// Pieces one after the other into `whole` (root only).
+  void gather(std::span<const double> piece, std::span<double> whole) const;
+  /// The reverse.
+  void scatter(std::span<const double> whole, std::span<double> piece) const;
+
+ private:
+  MPI_Comm comm_ = MPI_COMM_SELF;
+  int count_ = 0;
+  int total_ = 0;
+  std::vector<int> counts_;
+  std::vector<int> starts_;
+};
+
+}  // namespace culm::parallel

@@ -1,0 +1,96 @@
+#include <culm/parallel/comm.hpp>
+#include <numeric>
+
+namespace culm::parallel {
+namespace {
+
+template <class T>
+std::vector<T> gather_pieces(MPI_Comm comm, int ranks, std::span<const T> piece,
+                             MPI_Datatype type) {
+  const int count = static_cast<int>(piece.size());
+  std::vector<int> counts(static_cast<std::size_t>(ranks));
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
+  std::vector<int> starts(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  const int total = rank == 0 ? std::accumulate(counts.begin(), counts.end(), 0) : 0;
+  std::vector<T> whole(static_cast<std::size_t>(total));
+  MPI_Gatherv(piece.data(), count, type, whole.data(), counts.data(), starts.data(), type, 0,
+              comm);
+  return whole;
+}
+
+}  // namespace
+
+Comm::Comm(MPI_Comm comm) : comm_(comm) {
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
+}
+
+double Comm::max(double value) const {
+  max(std::span(&value, 1));
+  return value;
+}
+
+int Comm::max(int value) const {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, comm_);
+  return value;
+}
+
+void Comm::max(std::span<double> values) const {
+  if (size_ == 1) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                comm_);
+}
+
+double Comm::sum(double value) const {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return value;
+}
+
+void Comm::sum(std::span<double> values) const {
+  if (size_ == 1) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                comm_);
+}
+
+std::string Comm::broadcast(std::string text) const {
+  auto length = static_cast<unsigned long long>(text.size());
+  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG_LONG, 0, comm_);
+  text.resize(length);
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, comm_);
+  return text;
+}
+
+void Comm::broadcast(std::span<double> values) const {
+  if (size_ == 1) return;
+  MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, comm_);
+}
+
+std::vector<int> Comm::gather(std::span<const int> piece) const {
+  return gather_pieces(comm_, size_, piece, MPI_INT);
+}
+
+std::vector<long long> Comm::gather(std::span<const long long> piece) const {
+  return gather_pieces(comm_, size_, piece, MPI_LONG_LONG);
+}
+
+Funnel::Funnel(const Comm& comm, int count) : comm_(comm.handle()), count_(count) {
+  counts_ = comm.gather(std::span<const int>(&count, 1));
+  starts_.resize(counts_.size());
+  std::exclusive_scan(counts_.begin(), counts_.end(), starts_.begin(), 0);
+  total_ = std::accumulate(counts_.begin(), counts_.end(), 0);
+}
+
+void Funnel::gather(std::span<const double> piece, std::span<double> whole) const {
+  MPI_Gatherv(piece.data(), count_, MPI_DOUBLE, whole.data(), counts_.data(), starts_.data(),
+              MPI_DOUBLE, 0, comm_);
+}
+
+void Funnel::scatter(std::span<const double> whole, std::span<double> piece) const {
+  MPI_Scatterv(whole.data(), counts_.data(), starts_.data(), MPI_DOUBLE, piece.data(), count_,
+               MPI_DOUBLE, 0, comm_);
+}
+
+}  // namespace culm::parallel

@@ -1,0 +1,36 @@
+#include <culm/parallel/comm.hpp>
+#include <gtest/gtest.h>
+
+namespace culm::parallel {
+namespace {
+
+TEST(Comm, MaximumIsTheSameOnAllRanks) {
+  const Comm comm;
+  EXPECT_EQ(comm.max(comm.rank()), comm.size() - 1);
+  EXPECT_EQ(comm.max(0.5 * comm.rank()), 0.5 * (comm.size() - 1));
+}
+
+TEST(Comm, BroadcastBringsTheTextOfTheRoot) {
+  const Comm comm;
+  const std::string mine = comm.is_root() ? "deck of the root" : "other";
+  EXPECT_EQ(comm.broadcast(mine), "deck of the root");
+}
+
+TEST(Funnel, ScatterUndoesGather) {
+  const Comm comm;
+  const std::vector<double> piece(static_cast<std::size_t>(comm.rank() + 1), 1.0 + comm.rank());
+  const Funnel funnel(comm, comm.rank() + 1);
+  std::vector<double> whole(static_cast<std::size_t>(funnel.total()));
+  funnel.gather(piece, whole);
+  if (comm.is_root()) {
+    ASSERT_EQ(funnel.total(), comm.size() * (comm.size() + 1) / 2);
+    EXPECT_EQ(whole.front(), 1.0);
+    EXPECT_EQ(whole.back(), comm.size());
+  }
+  std::vector<double> back(piece.size());
+  funnel.scatter(whole, back);
+  EXPECT_EQ(back, piece);
+}
+
+}  // namespace
+}  // namespace culm::parallel

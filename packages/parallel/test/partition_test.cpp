@@ -1,0 +1,37 @@
+#include <algorithm>
+#include <culm/parallel/partition.hpp>
+#include <gtest/gtest.h>
+
+namespace culm::parallel {
+namespace {
+
+Graph chain(int vertices) {
+  Graph graph;
+  for (int v = 0; v < vertices; ++v) {
+    if (v > 0) graph.neighbours.push_back(v - 1);
+    if (v + 1 < vertices) graph.neighbours.push_back(v + 1);
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+    graph.weights.push_back(6);
+  }
+  return graph;
+}
+
+TEST(Partition, ChainIsCutIntoEqualRuns) {
+  const std::vector<int> owner = partition(chain(90), 3);
+  for (int rank = 0; rank < 3; ++rank) {
+    EXPECT_NEAR(static_cast<double>(std::count(owner.begin(), owner.end(), rank)), 30.0, 2.0);
+  }
+  int cuts = 0;
+  for (std::size_t v = 1; v < owner.size(); ++v) cuts += owner[v] != owner[v - 1] ? 1 : 0;
+  EXPECT_EQ(cuts, 2);
+}
+
+TEST(Partition, IsReproducible) { EXPECT_EQ(partition(chain(57), 4), partition(chain(57), 4)); }
+
+TEST(Partition, OneRankOwnsEverything) {
+  const std::vector<int> owner = partition(chain(5), 1);
+  EXPECT_EQ(std::count(owner.begin(), owner.end(), 0), 5);
+}
+
+}  // namespace
+}  // namespace culm::parallel
