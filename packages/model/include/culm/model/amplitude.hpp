@@ -1,0 +1,45 @@
+/// How loads and prescribed motions vary in time.
+#pragma once
+
+#include <culm/base/registry.hpp>
+#include <culm/mechanics/stencil.hpp>
+#include <culm/model/state.hpp>
+
+#include <functional>
+
+namespace culm::model {
+
+/// A factor in time. Time is the load parameter in statics. A value: copies are independent.
+class Amplitude {
+ public:
+  using OfTime = std::function<double(double time)>;
+  using OfStep = std::function<double(double start, double end)>;
+
+  /// A function of time alone.
+  static Amplitude of_time(OfTime function);
+  /// One value per step, from the times of its ends: impulses, noise.
+  static Amplitude of_step(OfStep function);
+  /// Time, held between 0 and 1: the load parameter of a static analysis.
+  static Amplitude ramp();
+  static Amplitude constant(double value = 1.0);
+
+  /// What acts in a step: the value at (1 - theta) time_prev + theta time, or that of the step.
+  /// @source formulation 3.5
+  double in_step(const State& state, const Stencil& stencil) const;
+
+  /// A prescribed motion needs a function of time alone.
+  bool is_function_of_time() const { return static_cast<bool>(of_time_); }
+  /// @pre is_function_of_time()
+  double at(double time) const { return of_time_(time); }
+
+ private:
+  Amplitude() = default;  // without a function; for the makers above
+
+  OfTime of_time_;
+  OfStep of_step_;
+};
+
+/// All types of the deck's list "Functions".
+void register_amplitudes(Registry<Amplitude>& registry);
+
+}  // namespace culm::model

@@ -1,0 +1,51 @@
+/// What builders of loads and constraints share: the model they add to, and how they read nodes,
+/// vectors and functions from the deck.
+#pragma once
+
+#include <culm/base/options.hpp>
+#include <culm/base/registry.hpp>
+#include <culm/math/types.hpp>
+#include <culm/model/amplitude.hpp>
+#include <culm/model/model.hpp>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace culm::model {
+
+/// Where builders add to, and where they report mistakes of the deck.
+struct BuildContext {
+  Model& model;                                       ///< with all structures, not frozen
+  const std::map<std::string, Amplitude>& functions;  ///< list "Functions" of the deck
+  InputIssues& issues;
+};
+
+/// Types that add something to the model. @see Registry
+using BuilderRegistry = Registry<void, BuildContext&>;
+
+/// Parameter "Node", or another of this kind.
+Field node_field(std::string name = "Node",
+                 std::string doc =
+                     "Nodes it acts on, each by itself: 'structure/set', "
+                     "'structure/number' or 'structure'.");
+/// The nodes that a parameter names; none, and an issue, if there are none.
+std::vector<int> select_nodes(const Options& options, const std::string& parameter,
+                              BuildContext& context);
+
+/// Parameter "Structure".
+Field structure_field();
+/// The structure that parameter "Structure" names; null, and an issue, if there is none.
+const Structure* select_structure(const Options& options, BuildContext& context);
+
+/// Three components in space, or in the directors of a node.
+Field vector_field(std::string name, std::string unit, std::string doc);
+Vec3 vector(const Options& options, const std::string& parameter);
+
+/// Parameter "Function"; `fallback` is "Ramp" or "Constant", which exist in every deck.
+Field function_field(std::string fallback);
+/// The function that parameter "Function" names; nothing, and an issue, if there is none.
+std::optional<Amplitude> find_function(const Options& options, BuildContext& context);
+
+}  // namespace culm::model

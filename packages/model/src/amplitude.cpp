@@ -1,0 +1,33 @@
+#include <culm/model/amplitude.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace culm::model {
+
+Amplitude Amplitude::of_time(OfTime function) {
+  Amplitude amplitude;
+  amplitude.of_time_ = std::move(function);
+  return amplitude;
+}
+
+Amplitude Amplitude::of_step(OfStep function) {
+  Amplitude amplitude;
+  amplitude.of_step_ = std::move(function);
+  return amplitude;
+}
+
+Amplitude Amplitude::ramp() {
+  return of_time([](double time) { return std::clamp(time, 0.0, 1.0); });
+}
+
+Amplitude Amplitude::constant(double value) {
+  return of_time([value](double) { return value; });
+}
+
+double Amplitude::in_step(const State& state, const Stencil& stencil) const {
+  if (of_step_) return of_step_(state.time_prev, state.time);
+  return of_time_((1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time);
+}
+
+}  // namespace culm::model
