@@ -12,17 +12,17 @@ Vec3 sum(const SlotSum& factors, const Eigen::Matrix3Xd& q) {
 
 ConstraintRow linear_row(const Vec3& direction, SlotSum alpha, const Eigen::Matrix3Xd& q) {
   ConstraintRow row;
-  row.kind = ConstraintRow::Kind::linear;
   row.direction = direction;
   row.constant = direction.dot(sum(alpha, q));
   row.alpha = std::move(alpha);
   return row;
 }
 
-ConstraintRow product_row(SlotSum alpha, SlotSum beta, const Eigen::Matrix3Xd& q) {
+ConstraintRow product_row(SlotSum alpha, SlotSum beta, const Eigen::Matrix3Xd& q,
+                          const Vec3& origin) {
   ConstraintRow row;
-  row.kind = ConstraintRow::Kind::product;
-  row.constant = sum(alpha, q).dot(sum(beta, q));
+  row.direction = -origin;
+  row.constant = sum(alpha, q).dot(sum(beta, q) - origin);
   row.alpha = std::move(alpha);
   row.beta = std::move(beta);
   return row;

@@ -40,25 +40,26 @@ Vec3 sum(const SlotSum& factors, const ItemSlots& q) {
   return result;
 }
 
-double value(const ConstraintRow& row, const ItemSlots& q) {
-  const Vec3 P = sum(row.alpha, q);
-  const Vec3& other =
-      row.kind == ConstraintRow::Kind::linear ? row.direction : Vec3(sum(row.beta, q));
-  return P.dot(other) - row.constant;
+// Q = w + sum_s beta_s q_s
+Vec3 second_factor(const ConstraintRow& row, const ItemSlots& q) {
+  return row.linear() ? row.direction : Vec3(row.direction + sum(row.beta, q));
 }
 
-// H^T, one column per row of the constraint: alpha_s w, or alpha_s Q + beta_s P
+double value(const ConstraintRow& row, const ItemSlots& q) {
+  return sum(row.alpha, q).dot(second_factor(row, q)) - row.constant;
+}
+
+// H^T, one column per row of the constraint: alpha_s Q + beta_s P
 Rows gradient(const std::vector<ConstraintRow>& rows, const ItemSlots& q) {
   Rows H(3 * q.cols(), static_cast<int>(rows.size()));
   for (int k = 0; k < H.cols(); ++k) {
     const ConstraintRow& row = rows[static_cast<std::size_t>(k)];
-    const bool product = row.kind == ConstraintRow::Kind::product;
-    const Vec3 P = product ? sum(row.alpha, q) : Vec3::Zero();
-    const Vec3 Q = product ? sum(row.beta, q) : row.direction;
+    const Vec3 P = sum(row.alpha, q);
+    const Vec3 Q = second_factor(row, q);
     for (int s = 0; s < q.cols(); ++s) {
       const auto at = static_cast<std::size_t>(s);
       Vec3 column = row.alpha[at] * Q;
-      if (product) column += row.beta[at] * P;
+      if (!row.linear()) column += row.beta[at] * P;
       H.block<3, 1>(3 * s, k) = column;
     }
   }
@@ -69,7 +70,7 @@ Rows gradient(const std::vector<ConstraintRow>& rows, const ItemSlots& q) {
 Scalars curvature(const std::vector<ConstraintRow>& rows, const double* lambda, int slots) {
   Scalars A = Scalars::Zero(slots, slots);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].kind != ConstraintRow::Kind::product) continue;
+    if (rows[k].linear()) continue;
     const Eigen::Map<const Eigen::VectorXd> alpha(rows[k].alpha.data(), slots);
     const Eigen::Map<const Eigen::VectorXd> beta(rows[k].beta.data(), slots);
     for (int i = 0; i < slots; ++i) {

@@ -14,23 +14,23 @@ namespace culm::model {
 /// A combination of slots of the nodes of a constraint, sum_s factor_s q_s; four factors per node.
 using SlotSum = std::vector<double>;
 
-/// One equation h(q) = 0.
-///   linear   h = w . P - c      P = sum_s alpha_s q_s
-///   product  h = P . Q - c      Q = sum_s beta_s q_s
-/// @source formulation 2.1
+/// One equation h(q) = 0 of the slots,
+///   h = P . Q - c      P = sum_s alpha_s q_s      Q = w + sum_s beta_s q_s
+/// Without beta the row is linear. @source formulation 2.1
 struct ConstraintRow {
-  enum class Kind { linear, product };
-  Kind kind = Kind::linear;
-  Vec3 direction = Vec3::Zero();  ///< w; linear rows only
   SlotSum alpha;
-  SlotSum beta;  ///< product rows only
-  double constant = 0.0;
+  SlotSum beta;                   ///< empty in linear rows
+  Vec3 direction = Vec3::Zero();  ///< w
+  double constant = 0.0;          ///< c
+
+  bool linear() const { return beta.empty(); }
 };
 
 /// w . P - c, with c such that h = 0 at `q`, the slots of the nodes side by side, shape (3, 4 n).
 ConstraintRow linear_row(const Vec3& direction, SlotSum alpha, const Eigen::Matrix3Xd& q);
-/// P . Q - c, with c such that h = 0 at `q`.
-ConstraintRow product_row(SlotSum alpha, SlotSum beta, const Eigen::Matrix3Xd& q);
+/// P . (Q - origin) - c, with c such that h = 0 at `q`.
+ConstraintRow product_row(SlotSum alpha, SlotSum beta, const Eigen::Matrix3Xd& q,
+                          const Vec3& origin = Vec3::Zero());
 
 /// Position of a point fixed to node `a` of `n` nodes at `offset` in its directors.
 SlotSum attached_point(int a, int n, const Vec3& offset);
