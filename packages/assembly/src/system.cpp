@@ -77,6 +77,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
           static_cast<std::size_t>(std::find(first, last, static_cast<int>(row)) - first)));
     }
   }
+  length_ = model.length();
   linear_increment_.assign(model.nodes().reference().size(), 0.0);
 }
 
@@ -104,10 +105,22 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
     if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
   }
-  double found[4] = {static_cast<double>(verdict), largest, target.force_scale,
-                     target.constraint_violation};
+  // coordinates are rounded to epsilon times the size of the model
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * length_;
+  const double stiffness = want == Want::residual_and_tangent ? largest_diagonal() : 0.0;
+  double found[5] = {static_cast<double>(verdict), largest, target.force_scale,
+                     target.constraint_violation, rounding * stiffness};
   comm_.max(found);
-  return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3]};
+  return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3], found[4]};
+}
+
+double System::largest_diagonal() const {
+  const auto values = matrix_->getLocalMatrixHost().values;
+  double largest = 0.0;
+  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
+    if (is_force_row_[row]) largest = std::max(largest, std::abs(values(index(diagonal_[row]))));
+  }
+  return largest;
 }
 
 const Vector& System::import(const Vector& increment) {
@@ -196,12 +209,7 @@ void System::choose_multiplier_scale(const model::State& state, const Stencil& s
   multiplier_scale_ = 1.0;
   if (model_.unknowns().num_multipliers() == 0) return;
   evaluate(state, stencil, Want::residual_and_tangent);
-  const auto values = matrix_->getLocalMatrixHost().values;
-  double largest = 0.0;
-  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
-    if (is_force_row_[row]) largest = std::max(largest, std::abs(values(index(diagonal_[row]))));
-  }
-  largest = comm_.max(largest);
+  const double largest = comm_.max(largest_diagonal());
   // a power of two scales without rounding; the root lies between the force and the unit rows
   if (largest > 0.0) multiplier_scale_ = std::exp2(std::round(std::log2(largest)));
 }
@@ -210,16 +218,6 @@ double System::stored_energy(const model::Coordinates& q) const {
   double energy = 0.0;
   for (const model::Batch* batch : batches_) energy += batch->stored_energy(q);
   return comm_.sum(energy);
-}
-
-double System::round_off_force() const {
-  const auto values = matrix_->getLocalMatrixHost().values;
-  double largest = 0.0;
-  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
-    if (is_force_row_[row]) largest = std::max(largest, std::abs(values(index(diagonal_[row]))));
-  }
-  // coordinates are rounded to epsilon times the size of the model
-  return 4.0 * std::numeric_limits<double>::epsilon() * comm_.max(largest) * model_.length();
 }
 
 }  // namespace culm::assembly

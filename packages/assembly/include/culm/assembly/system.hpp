@@ -12,6 +12,7 @@ struct Evaluation {
   double force_residual = 0.0;        ///< largest entry of the force rows [N, N m]
   double force_scale = 0.0;           ///< largest force of any item, what the residual is judged by
   double constraint_violation = 0.0;  ///< largest |h|, lengths over the model's length [-]
+  double round_off_force = 0.0;       ///< what rounding of the coordinates alone can cause
 };
 
 /// Owns residual and matrix; the model is borrowed.
@@ -36,8 +37,6 @@ class System {
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
 
   double stored_energy(const model::Coordinates& q) const;
-  /// Largest force that rounding of the coordinates alone can cause, from the last tangent.
-  double round_off_force() const;
   double multiplier_scale() const { return multiplier_scale_; }
 
   const Vector& residual() const { return *residual_; }
@@ -47,6 +46,7 @@ class System {
   const parallel::Comm& comm() const { return comm_; }
 
  private:
+  double largest_diagonal() const;
   const Vector& import(const Vector& increment);
 
   model::Model& model_;
@@ -67,6 +67,7 @@ class System {
   std::vector<bool> is_force_row_;
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
+  double length_ = 1.0;
 };
 
 }  // namespace culm::assembly

@@ -1,0 +1,66 @@
+/// Newton's method for one step, by NOX.
+#pragma once
+
+#include <culm/assembly/system.hpp>
+#include <culm/solver/linear_solver.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace culm::solver {
+
+/// How an iteration is judged and steered.
+struct NewtonSettings {
+  double force_tolerance = 1e-10;       ///< largest force residual over the force scale [-]
+  double constraint_tolerance = 1e-11;  ///< largest |h|, lengths over the model's length [-]
+  int max_iterations = 25;
+  bool extrapolate_stress = true;  ///< stress prediction for the geometric part (formulation 5.2)
+  bool backtrack = false;          ///< shorten steps that increase the residual
+};
+
+/// Why a step ended.
+enum class StepEnd {
+  converged,
+  too_many_iterations,
+  diverged,        ///< increments or residual beyond any use
+  singular,        ///< the tangent has no inverse
+  not_finite,      ///< NaN or infinity
+  out_of_range,    ///< an element or law left its domain
+};
+
+/// One line of the convergence history.
+struct IterationRecord {
+  double force = 0.0;       ///< force residual over the force scale [-]
+  double constraint = 0.0;  ///< largest constraint violation [-]
+};
+
+/// Not converging is a value, because a smaller step may follow.
+struct StepOutcome {
+  StepEnd end = StepEnd::converged;
+  int iterations = 0;
+  std::vector<IterationRecord> history;
+  assembly::Evaluation last;
+  bool converged() const { return end == StepEnd::converged; }
+};
+
+/// A sentence for messages.
+std::string describe(StepEnd end);
+
+/// Solves the equations of one step after the other; made once per analysis.
+class NewtonSolver {
+ public:
+  NewtonSolver(assembly::System& system, LinearSolver& linear, const NewtonSettings& settings,
+               Ledger& ledger);
+  ~NewtonSolver();
+
+  /// Solves for state.next and the multipliers, starting from their values.
+  /// begin_step of the system must have been called for the step. On failure state holds the last
+  /// iterate.
+  StepOutcome solve(model::State& state, const Stencil& stencil);
+
+ private:
+  struct Nox;
+  std::unique_ptr<Nox> nox_;
+};
+
+}  // namespace culm::solver

@@ -1,0 +1,82 @@
+/// The equations of one step as NOX wants them.
+#pragma once
+
+#include <NOX_Abstract_Group.H>
+
+#include <culm/assembly/system.hpp>
+#include <culm/solver/linear_solver.hpp>
+#include <culm/solver/newton_solver.hpp>
+#include <memory>
+
+#include "newton_vector.hpp"
+
+namespace culm::solver {
+
+/// What all groups of one solver share. The state's `next` and `multipliers` are lent to the group
+/// that is being evaluated; between evaluations the groups keep them.
+struct NewtonProblem {
+  assembly::System& system;
+  LinearSolver& linear;
+  NewtonSettings settings;
+  Ledger& ledger;
+  Ledger::Id factor_effect;
+  Ledger::Id solve_effect;
+  model::State* state = nullptr;
+  Stencil stencil;
+  bool singular = false;       ///< the last factorisation failed
+  double largest_increment = 0.0;
+};
+
+/// A trial point. Rotations are updated multiplicatively in computeX, so X only counts increments
+/// since the start of the step; NOX needs no more, and setX does not move the point.
+class NewtonGroup final : public NOX::Abstract::Group {
+ public:
+  explicit NewtonGroup(std::shared_ptr<NewtonProblem> problem);
+  NewtonGroup(const NewtonGroup& other, NOX::CopyType type);
+  NewtonGroup(const NewtonGroup&) = delete;
+
+  /// Takes the start of a step from the problem's state.
+  void start();
+  /// Gives the trial point to the problem's state.
+  void finish();
+  const assembly::Evaluation& evaluation() const { return evaluation_; }
+
+  NOX::Abstract::Group& operator=(const NewtonGroup& other);
+  NOX::Abstract::Group& operator=(const NOX::Abstract::Group& other) override;
+  void setX(const NOX::Abstract::Vector& x) override;
+  void computeX(const NOX::Abstract::Group& from, const NOX::Abstract::Vector& direction,
+                double step) override;
+  ReturnType computeF() override;
+  ReturnType computeJacobian() override;
+  ReturnType computeNewton(Teuchos::ParameterList& parameters) override;
+  bool isF() const override { return has_residual_; }
+  bool isJacobian() const override { return has_tangent_; }
+  bool isNewton() const override { return has_newton_; }
+  const NOX::Abstract::Vector& getX() const override { return x_; }
+  const NOX::Abstract::Vector& getF() const override { return f_; }
+  double getNormF() const override { return f_.norm(NOX::Abstract::Vector::TwoNorm); }
+  const NOX::Abstract::Vector& getGradient() const override { return f_; }
+  const NOX::Abstract::Vector& getNewton() const override { return newton_; }
+  Teuchos::RCP<const NOX::Abstract::Vector> getXPtr() const override;
+  Teuchos::RCP<const NOX::Abstract::Vector> getFPtr() const override;
+  Teuchos::RCP<const NOX::Abstract::Vector> getGradientPtr() const override;
+  Teuchos::RCP<const NOX::Abstract::Vector> getNewtonPtr() const override;
+  Teuchos::RCP<NOX::Abstract::Group> clone(NOX::CopyType type) const override;
+
+ private:
+  void swap_with_state();
+  void forget_results();
+
+  std::shared_ptr<NewtonProblem> problem_;
+  model::Coordinates next_;
+  std::vector<double> multipliers_;
+  assembly::Evaluation evaluation_;
+  NewtonVector x_;
+  NewtonVector f_;
+  NewtonVector newton_;
+  bool has_residual_ = false;
+  bool has_tangent_ = false;
+  bool has_newton_ = false;
+};
+
+}  // namespace culm::solver

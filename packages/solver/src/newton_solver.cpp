@@ -1,0 +1,142 @@
+#include <NOX.H>
+
+#include <cmath>
+#include <culm/solver/newton_solver.hpp>
+
+#include "newton_group.hpp"
+
+namespace culm::solver {
+namespace {
+
+// Judges force and constraint rows separately, each relative to what it is made of.
+class BalanceTest final : public NOX::StatusTest::Generic {
+ public:
+  explicit BalanceTest(const NewtonProblem& problem) : problem_(problem) {}
+
+  void reset() {
+    history_.clear();
+    status_ = NOX::StatusTest::Unevaluated;
+  }
+  const std::vector<IterationRecord>& history() const { return history_; }
+
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver,
+                                          NOX::StatusTest::CheckType) override {
+    const auto& group = dynamic_cast<const NewtonGroup&>(solver.getSolutionGroup());
+    const assembly::Evaluation& e = group.evaluation();
+    const NewtonSettings& settings = problem_.settings;
+    history_.push_back({e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0,
+                        e.constraint_violation});
+    const bool forces = e.force_residual <= settings.force_tolerance * e.force_scale ||
+                        e.force_residual <= e.round_off_force;
+    const bool constraints = e.constraint_violation <= settings.constraint_tolerance;
+    status_ = forces && constraints ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
+    if (is_hopeless(e)) status_ = NOX::StatusTest::Failed;
+    return status_;
+  }
+  NOX::StatusTest::StatusType getStatus() const override { return status_; }
+  std::ostream& print(std::ostream& stream, int) const override { return stream; }
+
+ private:
+  // an increment of thousands of model lengths or hundreds of turns will not come back
+  bool is_hopeless(const assembly::Evaluation& e) const {
+    const double size = 1e3 * std::max(1.0, problem_.system.model().length());
+    return e.verdict != Verdict::ok ||
+           (problem_.largest_increment > size && history_.size() > 1);
+  }
+
+  const NewtonProblem& problem_;
+  std::vector<IterationRecord> history_;
+  NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
+};
+
+Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const NewtonSettings& settings) {
+  auto list = Teuchos::rcp(new Teuchos::ParameterList);
+  list->set("Nonlinear Solver", "Line Search Based");
+  list->sublist("Line Search").set("Method", settings.backtrack ? "Backtrack" : "Full Step");
+  list->sublist("Direction").set("Method", "Newton");
+  list->sublist("Printing").set("Output Information", 0);
+  return list;
+}
+
+}  // namespace
+
+struct NewtonSolver::Nox {
+  std::shared_ptr<NewtonProblem> problem;
+  Teuchos::RCP<NewtonGroup> group;
+  Teuchos::RCP<BalanceTest> balance;
+  Teuchos::RCP<NOX::StatusTest::Combo> tests;
+  Teuchos::RCP<NewtonVector> origin;
+  Teuchos::RCP<NOX::Solver::Generic> solver;
+
+  StepEnd find_end(NOX::StatusTest::StatusType status, const NewtonGroup& last) const {
+    if (status == NOX::StatusTest::Converged) return StepEnd::converged;
+    if (last.evaluation().verdict == Verdict::not_finite) return StepEnd::not_finite;
+    if (last.evaluation().verdict != Verdict::ok) return StepEnd::out_of_range;
+    if (problem->singular) return StepEnd::singular;
+    const auto iterations = static_cast<int>(balance->history().size()) - 1;
+    if (iterations >= problem->settings.max_iterations) return StepEnd::too_many_iterations;
+    return StepEnd::diverged;
+  }
+};
+
+std::string describe(StepEnd end) {
+  switch (end) {
+    case StepEnd::converged: return "converged";
+    case StepEnd::too_many_iterations: return "the iteration limit was reached";
+    case StepEnd::diverged: return "the iteration diverged";
+    case StepEnd::singular: return "the tangent is singular";
+    case StepEnd::not_finite: return "a force became infinite or not a number";
+    case StepEnd::out_of_range:
+      return "an element turned beyond its range or a law left its domain";
+  }
+  return {};
+}
+
+NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
+                           const NewtonSettings& settings, Ledger& ledger)
+    : nox_(std::make_unique<Nox>()) {
+  Ledger::Entry factor;
+  factor.name = "Factorisation, " + linear.name();
+  factor.unknowns = system.model().unknowns().num_unknowns();
+  const Ledger::Id factor_effect = ledger.add(factor);
+  const Ledger::Id solve_effect = ledger.add("Solution, " + linear.name());
+  nox_->problem = std::make_shared<NewtonProblem>(
+      NewtonProblem{system, linear, settings, ledger, factor_effect, solve_effect, nullptr, {}});
+  nox_->group = Teuchos::rcp(new NewtonGroup(nox_->problem));
+  nox_->balance = Teuchos::rcp(new BalanceTest(*nox_->problem));
+  nox_->origin = Teuchos::rcp(new NewtonVector(system.layout().row_map()));
+  nox_->tests = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
+  nox_->tests->addStatusTest(nox_->balance);
+  nox_->tests->addStatusTest(Teuchos::rcp(new NOX::StatusTest::MaxIters(settings.max_iterations)));
+  nox_->solver = NOX::Solver::buildSolver(nox_->group, nox_->tests, nox_parameters(settings));
+}
+
+NewtonSolver::~NewtonSolver() = default;
+
+StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
+  Nox& nox = *nox_;
+  nox.problem->state = &state;
+  nox.problem->stencil = stencil;
+  nox.problem->singular = false;
+  nox.problem->largest_increment = 0.0;
+  nox.balance->reset();
+  nox.group->start();
+  nox.origin->init(0.0);
+
+  NOX::StatusTest::StatusType status = NOX::StatusTest::Failed;
+  nox.group->setX(*nox.origin);
+  // NOX throws when the residual fails at the start of a step; that is an outcome, not an error
+  if (nox.group->computeF() == NOX::Abstract::Group::Ok) {
+    nox.solver->reset(*nox.origin);
+    status = nox.solver->solve();
+  }
+  StepOutcome outcome;
+  outcome.end = nox.find_end(status, *nox.group);
+  outcome.history = nox.balance->history();
+  outcome.iterations = std::max(0, static_cast<int>(outcome.history.size()) - 1);
+  outcome.last = nox.group->evaluation();
+  nox.group->finish();
+  return outcome;
+}
+
+}  // namespace culm::solver

@@ -1,0 +1,124 @@
+#include "rooted_matrix.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <algorithm>
+#include <numeric>
+
+namespace culm::solver {
+
+using assembly::CrsGraph;
+using assembly::CrsMatrix;
+using assembly::Map;
+using assembly::values_of;
+using assembly::Vector;
+
+RootedMatrix::RootedMatrix(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
+    : distributed_(std::move(matrix)), comm_(comm) {
+  if (comm_.size() == 1) {
+    // only read, but Amesos2 and the shifted copy want a common type
+    serial_ = Teuchos::rcp_const_cast<CrsMatrix>(distributed_);
+    rhs_ = Teuchos::rcp(new Vector(serial_->getRowMap()));
+    solution_ = Teuchos::rcp(new Vector(serial_->getRowMap()));
+    return;
+  }
+  plan_gather();
+}
+
+void RootedMatrix::plan_gather() {
+  const auto local = distributed_->getLocalMatrixHost();
+  const auto rows_here = static_cast<std::size_t>(local.numRows());
+  std::vector<long long> rows(rows_here);
+  std::vector<int> counts(rows_here);
+  std::vector<long long> columns;
+  for (std::size_t r = 0; r < rows_here; ++r) {
+    rows[r] = distributed_->getRowMap()->getGlobalElement(static_cast<int>(r));
+    counts[r] = static_cast<int>(local.graph.row_map(r + 1) - local.graph.row_map(r));
+    for (auto k = local.graph.row_map(r); k < local.graph.row_map(r + 1); ++k) {
+      columns.push_back(distributed_->getColMap()->getGlobalElement(local.graph.entries(k)));
+    }
+  }
+  value_funnel_ = parallel::Funnel(comm_, static_cast<int>(columns.size()));
+  row_funnel_ = parallel::Funnel(comm_, static_cast<int>(rows_here));
+  const auto all_rows = comm_.gather(std::span<const long long>(rows));
+  const auto all_counts = comm_.gather(std::span<const int>(counts));
+  const auto all_columns = comm_.gather(std::span<const long long>(columns));
+  if (comm_.is_root()) build_serial(all_rows, all_counts, all_columns);
+}
+
+void RootedMatrix::build_serial(const std::vector<long long>& rows, const std::vector<int>& counts,
+                                const std::vector<long long>& columns) {
+  const std::size_t n = rows.size();
+  row_place_.assign(rows.begin(), rows.end());
+  std::vector<std::size_t> first_of(n);  // where a gathered row starts in the stream of values
+  std::exclusive_scan(counts.begin(), counts.end(), first_of.begin(), std::size_t{0});
+  std::vector<std::size_t> gathered_row(n);
+  for (std::size_t g = 0; g < n; ++g) gathered_row[row_place_[g]] = g;
+
+  using Size = Teuchos::ArrayRCP<std::size_t>::size_type;
+  Teuchos::ArrayRCP<std::size_t> begin(static_cast<Size>(n + 1), 0);
+  Teuchos::ArrayRCP<int> entries(static_cast<Size>(columns.size()));
+  value_place_.resize(columns.size());
+  std::size_t at = 0;
+  for (std::size_t row = 0; row < n; ++row) {
+    const std::size_t g = gathered_row[row];
+    std::vector<std::size_t> order(static_cast<std::size_t>(counts[g]));
+    std::iota(order.begin(), order.end(), first_of[g]);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
+    for (std::size_t k : order) {
+      entries[static_cast<Size>(at)] = static_cast<int>(columns[k]);
+      value_place_[k] = at++;
+    }
+    begin[static_cast<Size>(row + 1)] = at;
+  }
+  const auto self = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
+  const auto map = Teuchos::rcp(new Map(static_cast<Tpetra::global_size_t>(n), 0, self));
+  const auto graph = Teuchos::rcp(new CrsGraph(map, map, begin, entries));
+  graph->expertStaticFillComplete(map, map);
+  serial_ = Teuchos::rcp(new CrsMatrix(graph));
+  serial_->fillComplete(map, map);
+  rhs_ = Teuchos::rcp(new Vector(map));
+  solution_ = Teuchos::rcp(new Vector(map));
+  gathered_values_.resize(columns.size());
+  gathered_rows_.resize(n);
+}
+
+void RootedMatrix::gather_values() {
+  if (comm_.size() == 1) return;
+  const auto local = distributed_->getLocalMatrixHost().values;
+  value_funnel_.gather({local.data(), local.extent(0)}, gathered_values_);
+  if (!comm_.is_root()) return;
+  const auto values = serial_->getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < value_place_.size(); ++k) {
+    values(value_place_[k]) = gathered_values_[k];
+  }
+}
+
+void RootedMatrix::gather_rhs(const Vector& b) {
+  if (comm_.size() == 1) {
+    const auto from = values_of(b);
+    std::copy(from.begin(), from.end(), values_of(*rhs_).begin());
+    return;
+  }
+  row_funnel_.gather(values_of(b), gathered_rows_);
+  if (!comm_.is_root()) return;
+  const auto rhs = values_of(*rhs_);
+  for (std::size_t g = 0; g < row_place_.size(); ++g) rhs[row_place_[g]] = gathered_rows_[g];
+}
+
+void RootedMatrix::scatter_solution(Vector& x) {
+  if (comm_.size() == 1) {
+    const auto from = values_of(*solution_);
+    std::copy(from.begin(), from.end(), values_of(x).begin());
+    return;
+  }
+  if (comm_.is_root()) {
+    const auto solution = values_of(*solution_);
+    for (std::size_t g = 0; g < row_place_.size(); ++g) {
+      gathered_rows_[g] = solution[row_place_[g]];
+    }
+  }
+  row_funnel_.scatter(gathered_rows_, values_of(x));
+}
+
+}  // namespace culm::solver
