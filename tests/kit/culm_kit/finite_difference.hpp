@@ -1,0 +1,31 @@
+/// Derivatives by central differences.
+#pragma once
+
+#include <culm/math/types.hpp>
+
+namespace culm::kit {
+
+/// Derivative of a vector function at x, shape (M, N); exact up to round-off for functions of
+/// degree two, whatever the step.
+/// @param f  maps Vec<N> to Vec<M>
+template <int M, int N, class F>
+Mat<M, N> central_difference(F&& f, const Vec<N>& x, double step = 1e-6) {
+  Mat<M, N> derivative;
+  for (int k = 0; k < N; ++k) {
+    Vec<N> ahead = x;
+    Vec<N> behind = x;
+    ahead[k] += step;
+    behind[k] -= step;
+    const Vec<M> difference = Vec<M>(f(ahead)) - Vec<M>(f(behind));
+    derivative.col(k) = difference / (2.0 * step);
+  }
+  return derivative;
+}
+
+/// Largest difference between two matrices, relative to the largest entry of the second.
+template <class A, class B>
+double relative_difference(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+}  // namespace culm::kit

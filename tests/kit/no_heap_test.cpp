@@ -1,0 +1,37 @@
+#include <Eigen/Core>
+#include <culm_kit/no_heap.hpp>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace culm::kit {
+namespace {
+
+// Keeps the compiler from removing an allocation nobody uses.
+template <class T>
+void keep(T& value) {
+  asm volatile("" : : "r"(&value) : "memory");
+}
+
+TEST(NoHeap, NoticesNew) {
+  const long before = allocation_count;
+  auto number = std::make_unique<double>(1.0);
+  keep(*number);
+  EXPECT_GT(allocation_count, before);
+}
+
+TEST(NoHeap, NoticesEigen) {
+  const long before = allocation_count;
+  Eigen::VectorXd vector(100);
+  keep(vector);
+  EXPECT_GT(allocation_count, before);
+}
+
+TEST(NoHeap, AcceptsTheStack) {
+  const NoHeap guard;
+  Eigen::Matrix<double, 6, 6> m = Eigen::Matrix<double, 6, 6>::Identity();
+  keep(m);
+}
+
+}  // namespace
+}  // namespace culm::kit
