@@ -170,7 +170,7 @@ void Field::find_wrong_items(const std::vector<Item>& items,
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string message = wrong_item(items[i]);
     if (message.empty() || ++wrong > shown) continue;
-    messages.push_back("item " + std::to_string(i + 1) + " " + message);
+    messages.push_back("item " + std::to_string(i + 1) + ": " + message);
   }
   if (wrong > shown) messages.push_back(std::to_string(wrong - shown) + " more items are wrong");
 }

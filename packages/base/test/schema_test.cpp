@@ -64,7 +64,7 @@ TEST(Field, ArraysCheckSizeAndEachItem) {
   EXPECT_EQ(numbers("A", "m", "").min_size(1).mistakes(Numbers{}),
             Messages{"must have at least 1 item, got 0"});
   EXPECT_EQ(numbers("A", "m", "").positive().mistakes(Numbers{1, -2, -3}),
-            (Messages{"item 2 must be > 0 m, got -2", "item 3 must be > 0 m, got -3"}));
+            (Messages{"item 2: must be > 0 m, got -2", "item 3: must be > 0 m, got -3"}));
 }
 
 TEST(Field, LongArraysAreNotComplainedAboutAtLength) {

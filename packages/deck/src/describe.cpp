@@ -1,0 +1,20 @@
+#include "describe.hpp"
+
+#include <culm/base/text.hpp>
+
+namespace culm::deck {
+
+std::string describe(const Field& field) {
+  std::string words = to_string(field.kind());
+  const std::string range = field.range_text();
+  if (!range.empty()) {
+    words += " " + range;
+  } else if (!field.unit().empty()) {
+    words += " in " + field.unit();
+  }
+  if (!field.size_text().empty()) words += ", " + field.size_text();
+  if (!field.choices().empty()) words += ": " + join(field.choices(), ", ");
+  return words;
+}
+
+}  // namespace culm::deck

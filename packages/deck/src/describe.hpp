@@ -1,0 +1,13 @@
+#pragma once
+
+#include <culm/base/field.hpp>
+
+#include <string>
+
+namespace culm::deck {
+
+/// Kind, size, range and unit of a field in words: "number > 0 kg", "numbers in m, 3 items",
+/// "text: box, tube".
+std::string describe(const Field& field);
+
+}  // namespace culm::deck

@@ -1,0 +1,73 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
+
+#include "raw_list.hpp"
+
+#include <algorithm>
+
+namespace culm::deck {
+namespace {
+
+struct Assignment {
+  std::vector<std::string> lists;
+  std::string name;
+  std::string value;
+};
+
+Assignment parse(const std::string& text) {
+  const auto equals = text.find('=');
+  Assignment assignment;
+  if (equals == std::string::npos) {
+    throw UsageError("--set needs 'List/Parameter=value', got '" + text + "'");
+  }
+  assignment.value = trim(std::string_view(text).substr(equals + 1));
+  std::string_view path = std::string_view(text).substr(0, equals);
+  while (true) {
+    const auto slash = path.find('/');
+    const std::string name(trim(path.substr(0, slash)));
+    if (name.empty()) throw UsageError("--set has an empty name in '" + text + "'");
+    if (slash == std::string_view::npos) {
+      assignment.name = name;
+      return assignment;
+    }
+    assignment.lists.push_back(name);
+    path.remove_prefix(slash + 1);
+  }
+}
+
+RawList& find_or_add_list(RawList& parent, const std::string& name) {
+  const auto found = std::ranges::find(parent.lists, name, &RawList::name);
+  if (found != parent.lists.end()) return *found;
+  RawList list;
+  list.file = command_line;
+  list.name = name;
+  return parent.lists.emplace_back(std::move(list));
+}
+
+RawParameter& find_or_add_value(RawList& list, const std::string& name) {
+  for (std::vector<RawParameter>* values : {&list.parameters, &list.variables}) {
+    const auto found = std::ranges::find(*values, name, &RawParameter::name);
+    if (found != values->end()) return *found;
+  }
+  RawParameter parameter;
+  parameter.name = name;
+  return list.parameters.emplace_back(std::move(parameter));
+}
+
+}  // namespace
+
+void apply_overrides(const std::vector<std::string>& overrides, RawList& root) {
+  for (const std::string& text : overrides) {
+    const Assignment assignment = parse(text);
+    RawList* list = &root;
+    for (const std::string& name : assignment.lists) list = &find_or_add_list(*list, name);
+    RawParameter& parameter = find_or_add_value(*list, assignment.name);
+    parameter.file = command_line;
+    parameter.line = 0;
+    parameter.value = assignment.value;
+    parameter.has_value = true;
+    parameter.is_default = false;
+  }
+}
+
+}  // namespace culm::deck

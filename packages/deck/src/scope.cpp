@@ -1,0 +1,158 @@
+#include "scope.hpp"
+
+#include <culm/base/nearest.hpp>
+#include <culm/base/text.hpp>
+#include <culm/deck/units.hpp>
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace culm::deck {
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+bool is_identifier_part(char c) { return is_letter(c) || (c >= '0' && c <= '9'); }
+
+/// The identifier at the beginning of a text; empty if there is none.
+std::string leading_identifier(std::string_view text) {
+  if (text.empty() || !is_letter(text.front())) return {};
+  return {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
+}
+
+/// "0.05 s" is a number and a unit.
+std::string unit_hint(std::string_view text) {
+  const auto end = text.find_last_of("0123456789.");
+  for (std::size_t cut = 1; end != std::string_view::npos && cut <= text.size(); ++cut) {
+    const std::string_view unit = trim(text.substr(cut));
+    if (!unit.empty() && literal_number(trim(text.substr(0, cut))) && find_unit(unit) &&
+        is_letter(unit.front())) {
+      return " – a unit stands in its own attribute: unit=\"" + std::string(unit) + "\"";
+    }
+  }
+  return {};
+}
+
+/// "1e999" and "1e-999"
+bool is_out_of_range(std::string_view text) {
+  double ignored = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ignored);
+  return error == std::errc::result_out_of_range && end == text.data() + text.size();
+}
+
+bool is_not_finite_word(std::string_view text) {
+  const std::string word = to_lower(text.substr(text.find_first_not_of("+-") == 1 ? 1 : 0));
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
+}  // namespace
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t shown = 60;
+  if (text.size() <= shown) return "'" + std::string(text) + "'";
+  std::size_t end = shown;
+  // Do not cut a UTF-8 sequence in two.
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return "'" + std::string(text.substr(0, end)) + "…'";
+}
+
+std::optional<double> literal_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+struct Scope::Parser {
+  mu::Parser parser;
+};
+
+Scope::Scope() : variables_{{"pi", std::numbers::pi}, {"e", std::numbers::e}} {}
+
+Scope::Scope(const Scope& outer) : variables_(outer.variables_) {}
+
+Scope::~Scope() = default;
+
+std::string Scope::define(const std::string& name, double value) {
+  if (leading_identifier(name) != name || name.empty()) {
+    return "the name of a variable must be letters, digits and '_', got " + quoted(name);
+  }
+  if (name == "pi" || name == "e" || parser().parser.GetFunDef().contains(name)) {
+    return "the name '" + name + "' is taken";
+  }
+  variables_[name] = value;
+  parser_.reset();
+  return {};
+}
+
+Evaluation Scope::evaluate(const std::string& text) const {
+  const std::string_view core = trim(text);
+  if (const auto number = literal_number(core)) return {*number, {}};
+  if (core.empty()) return {0.0, "must be a number, got ''"};
+  if (is_not_finite_word(core)) return {0.0, "must be a finite number, got " + quoted(core)};
+  if (is_out_of_range(core)) {
+    return {0.0, "must be within the range of double precision, got " + quoted(core)};
+  }
+  mu::Parser& parser = this->parser().parser;
+  try {
+    parser.SetExpr(std::string(core));
+    int count = 0;
+    const double* values = parser.Eval(count);
+    if (count != 1) {
+      return {0.0, "must be one number, got " + quoted(core)};
+    }
+    if (!std::isfinite(*values)) return {0.0, "must be finite, got " + quoted(core)};
+    return {*values, {}};
+  } catch (const mu::Parser::exception_type& error) {
+    return {0.0, explain(std::string(core), error.GetToken(), error.GetPos(), error.GetMsg())};
+  }
+}
+
+Scope::Parser& Scope::parser() const {
+  if (!parser_) {
+    parser_ = std::make_unique<Parser>();
+    // Constants, not variables: an expression cannot assign to them.
+    parser_->parser.ClearConst();
+    for (const auto& [name, value] : variables_) parser_->parser.DefineConst(name, value);
+  }
+  return *parser_;
+}
+
+std::string Scope::explain(const std::string& text, const std::string& token, int position,
+                           const std::string& reason) const {
+  const std::string message = "must be a number, got " + quoted(text);
+  std::string hint = unit_hint(text);
+  if (!hint.empty()) return message + hint;
+  const bool inside = position >= 0 && static_cast<std::size_t>(position) < text.size();
+  const std::string name =
+      inside ? leading_identifier(std::string_view(text).substr(static_cast<std::size_t>(position)))
+             : leading_identifier(token);
+  std::vector<std::string> known;
+  for (const auto& [variable, value] : variables_) known.push_back(variable);
+  if (name == text) {
+    // A lone word is probably no expression at all, unless it resembles a variable.
+    const std::string nearest = nearest_name(name, known);
+    return nearest.empty() ? message : message + " – did you mean '" + nearest + "'?";
+  }
+  const bool unknown =
+      !name.empty() && !variables_.contains(name) && !parser().parser.GetFunDef().contains(name);
+  if (!unknown) return message + " (" + std::string(trim(reason)) + ")";
+  const bool called =
+      inside &&
+      text.find_first_not_of(" ", static_cast<std::size_t>(position) + name.size()) < text.size() &&
+      text[text.find_first_not_of(" ", static_cast<std::size_t>(position) + name.size())] == '(';
+  if (called) {
+    for (const auto& [function, definition] : parser().parser.GetFunDef()) {
+      known.push_back(function);
+    }
+  }
+  return message + ": unknown " + (called ? "function" : "variable") + " '" + name + "'" +
+         did_you_mean(name, known);
+}
+
+}  // namespace culm::deck
