@@ -1,7 +1,9 @@
-#include <Teuchos_DefaultMpiComm.hpp>
-#include <algorithm>
 #include <culm/assembly/layout.hpp>
 #include <culm/parallel/partition.hpp>
+
+#include <Teuchos_DefaultMpiComm.hpp>
+
+#include <algorithm>
 
 namespace culm::assembly {
 namespace {
@@ -139,9 +141,8 @@ model::Placement Layout::place(const model::Batch& batch,
   model::Placement placement;
   for (int item = 0; item < batch.size(); ++item) {
     const std::vector<int> blocks = batch.blocks(item, unknowns);
-    const bool here = std::any_of(blocks.begin(), blocks.end(), [&](int b) {
-      return owners_[index(b)] == comm_.rank();
-    });
+    const bool here = std::any_of(blocks.begin(), blocks.end(),
+                                  [&](int b) { return owners_[index(b)] == comm_.rank(); });
     if (!here) continue;
     std::vector<model::Scatter::Rows> rows;
     std::vector<int> offsets;

@@ -1,6 +1,7 @@
+#include <culm/assembly/system.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <culm/assembly/system.hpp>
 #include <limits>
 #include <numeric>
 
@@ -156,8 +157,8 @@ void System::move(model::State& state, const Vector& increment, double factor) {
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
 }
 
-void System::extrapolate(const model::State& state, const Stencil& stencil,
-                         const Vector& increment, double factor) {
+void System::extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
+                         double factor) {
   const std::span<const double> dx = values_of(import(increment));
   const model::UnknownTable& unknowns = model_.unknowns();
   const bool null_space = unknowns.form() == model::Form::null_space;

@@ -1,4 +1,5 @@
 #include <culm/model/constraint.hpp>
+
 #include <utility>
 
 namespace culm::model {

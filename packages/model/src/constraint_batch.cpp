@@ -1,7 +1,9 @@
-#include <algorithm>
-#include <cmath>
 #include <culm/base/error.hpp>
 #include <culm/model/constraint_batch.hpp>
+#include <culm/model/item_motion.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace culm::model {
 namespace {
@@ -11,28 +13,11 @@ constexpr int max_width = 12 * ConstraintBatch::max_nodes;
 constexpr int max_rows = ConstraintBatch::max_rows;
 
 // Sizes vary with the constraint but are bounded, so nothing is on the heap.
-using ItemSlots = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, max_slots>;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_width,
-                           max_rows>;
+using ItemSlots = BoundedSlots<ConstraintBatch::max_nodes>;
+using Rows =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_width, max_rows>;
 using Scalars =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_slots, max_slots>;
-
-ItemSlots gather(const std::vector<int>& nodes, const Coordinates& q) {
-  ItemSlots slots(3, 4 * static_cast<int>(nodes.size()));
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    slots.middleCols<4>(4 * static_cast<int>(a)) = NodeTable::slots(q, nodes[a]);
-  }
-  return slots;
-}
-
-ItemSlots gather_arms(const NodeTable& table, const std::vector<int>& nodes,
-                      const Coordinates& q) {
-  ItemSlots arms(3, 4 * static_cast<int>(nodes.size()));
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    arms.middleCols<4>(4 * static_cast<int>(a)) = arms_of(table, nodes[a], q);
-  }
-  return arms;
-}
 
 Vec3 sum(const SlotSum& factors, const ItemSlots& q) {
   Vec3 result = Vec3::Zero();
@@ -125,8 +110,7 @@ std::vector<int> ConstraintBatch::blocks(int item, const UnknownTable& unknowns)
 
 void ConstraintBatch::number(const UnknownTable& unknowns) {
   for (Item& item : items_) {
-    item.first_multiplier =
-        unknowns.block(unknowns.constraint_block(item.number)).first_multiplier;
+    item.first_multiplier = unknowns.block(unknowns.constraint_block(item.number)).first_multiplier;
   }
 }
 
@@ -136,8 +120,7 @@ void ConstraintBatch::place(Placement placement, Form form) {
 }
 
 void ConstraintBatch::begin_step(const State& state, const Stencil& stencil) {
-  const double time_mid =
-      (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
+  const double time_mid = (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
   for (Item& item : items_) {
     if (!item.constraint.drive) continue;
     item.constraint.drive(time_mid, item.rows_mid);
@@ -168,11 +151,8 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   const double theta = stencil.theta;
   const double scale = target.multiplier_scale;
 
-  const ItemSlots next = gather(nodes, state.next);
-  const ItemSlots arms_next = gather_arms(nodes_, nodes, state.next);
-  const ItemSlots mid = (1.0 - theta) * gather(nodes, state.prev) + theta * next;
-  const ItemSlots arms_mid =
-      (1.0 - theta) * gather_arms(nodes_, nodes, state.prev) + theta * arms_next;
+  const ItemMotion<max_nodes> motion(nodes_, nodes, state, theta);
+  const auto& [mid, arms_mid, next, arms_next] = motion;
   const double* lambda = state.multipliers.data() + item.first_multiplier;
   const Eigen::Map<const Eigen::VectorXd> multipliers(lambda, m);
 
@@ -205,8 +185,7 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
       RowMat<W, W> block = RowMat<W, W>::Zero();
-      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
-                       arms_mid.template middleCols<4>(4 * a),
+      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b), arms_mid.template middleCols<4>(4 * a),
                        arms_next.template middleCols<4>(4 * b), block);
       if (a == b) {
         Space::add_turning(slot_forces.template middleCols<4>(4 * a),

@@ -1,6 +1,7 @@
+#include <culm/model/model.hpp>
+
 #include <algorithm>
 #include <charconv>
-#include <culm/model/model.hpp>
 
 namespace culm::model {
 

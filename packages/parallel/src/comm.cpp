@@ -1,4 +1,5 @@
 #include <culm/parallel/comm.hpp>
+
 #include <numeric>
 
 namespace culm::parallel {
@@ -16,8 +17,7 @@ std::vector<T> gather_pieces(MPI_Comm comm, int ranks, std::span<const T> piece,
   MPI_Comm_rank(comm, &rank);
   const int total = rank == 0 ? std::accumulate(counts.begin(), counts.end(), 0) : 0;
   std::vector<T> whole(static_cast<std::size_t>(total));
-  MPI_Gatherv(piece.data(), count, type, whole.data(), counts.data(), starts.data(), type, 0,
-              comm);
+  MPI_Gatherv(piece.data(), count, type, whole.data(), counts.data(), starts.data(), type, 0, comm);
   return whole;
 }
 
@@ -74,6 +74,10 @@ std::vector<int> Comm::gather(std::span<const int> piece) const {
 
 std::vector<long long> Comm::gather(std::span<const long long> piece) const {
   return gather_pieces(comm_, size_, piece, MPI_LONG_LONG);
+}
+
+std::vector<double> Comm::gather(std::span<const double> piece) const {
+  return gather_pieces(comm_, size_, piece, MPI_DOUBLE);
 }
 
 Funnel::Funnel(const Comm& comm, int count) : comm_(comm.handle()), count_(count) {

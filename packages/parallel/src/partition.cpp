@@ -1,8 +1,9 @@
+#include <culm/base/error.hpp>
+#include <culm/parallel/partition.hpp>
+
 #include <metis.h>
 
 #include <algorithm>
-#include <culm/base/error.hpp>
-#include <culm/parallel/partition.hpp>
 
 namespace culm::parallel {
 

@@ -1,4 +1,5 @@
 #include <culm/parallel/comm.hpp>
+
 #include <gtest/gtest.h>
 
 namespace culm::parallel {

@@ -1,6 +1,8 @@
-#include <algorithm>
 #include <culm/parallel/partition.hpp>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace culm::parallel {
 namespace {

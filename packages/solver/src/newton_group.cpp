@@ -56,12 +56,10 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NOX::Abstract::Group& other) 
   return *this = dynamic_cast<const NewtonGroup&>(other);
 }
 
-void NewtonGroup::setX(const NOX::Abstract::Vector& x) {
-  x_ = NewtonVector::cast(x);
-}
+void NewtonGroup::setX(const NOX::Abstract::Vector& x) { x_ = NewtonVector::cast(x); }
 
-void NewtonGroup::computeX(const NOX::Abstract::Group& from,
-                           const NOX::Abstract::Vector& direction, double step) {
+void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract::Vector& direction,
+                           double step) {
   const auto& origin = dynamic_cast<const NewtonGroup&>(from);
   const auto& increment = NewtonVector::cast(direction);
   next_ = origin.next_;

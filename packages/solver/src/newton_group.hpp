@@ -1,14 +1,15 @@
 /// The equations of one step as NOX wants them.
 #pragma once
 
-#include <NOX_Abstract_Group.H>
-
 #include <culm/assembly/system.hpp>
 #include <culm/solver/linear_solver.hpp>
 #include <culm/solver/newton_solver.hpp>
-#include <memory>
 
 #include "newton_vector.hpp"
+
+#include <NOX_Abstract_Group.H>
+
+#include <memory>
 
 namespace culm::solver {
 
@@ -23,7 +24,7 @@ struct NewtonProblem {
   Ledger::Id solve_effect;
   model::State* state = nullptr;
   Stencil stencil;
-  bool singular = false;       ///< the last factorisation failed
+  bool singular = false;  ///< the last factorisation failed
   double largest_increment = 0.0;
 };
 

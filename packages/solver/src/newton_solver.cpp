@@ -1,9 +1,10 @@
-#include <NOX.H>
-
-#include <cmath>
 #include <culm/solver/newton_solver.hpp>
 
 #include "newton_group.hpp"
+
+#include <NOX.H>
+
+#include <cmath>
 
 namespace culm::solver {
 namespace {
@@ -24,8 +25,8 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const auto& group = dynamic_cast<const NewtonGroup&>(solver.getSolutionGroup());
     const assembly::Evaluation& e = group.evaluation();
     const NewtonSettings& settings = problem_.settings;
-    history_.push_back({e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0,
-                        e.constraint_violation});
+    history_.push_back(
+        {e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0, e.constraint_violation});
     const bool forces = e.force_residual <= settings.force_tolerance * e.force_scale ||
                         e.force_residual <= e.round_off_force;
     const bool constraints = e.constraint_violation <= settings.constraint_tolerance;
@@ -40,8 +41,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   // an increment of thousands of model lengths or hundreds of turns will not come back
   bool is_hopeless(const assembly::Evaluation& e) const {
     const double size = 1e3 * std::max(1.0, problem_.system.model().length());
-    return e.verdict != Verdict::ok ||
-           (problem_.largest_increment > size && history_.size() > 1);
+    return e.verdict != Verdict::ok || (problem_.largest_increment > size && history_.size() > 1);
   }
 
   const NewtonProblem& problem_;
@@ -81,11 +81,16 @@ struct NewtonSolver::Nox {
 
 std::string describe(StepEnd end) {
   switch (end) {
-    case StepEnd::converged: return "converged";
-    case StepEnd::too_many_iterations: return "the iteration limit was reached";
-    case StepEnd::diverged: return "the iteration diverged";
-    case StepEnd::singular: return "the tangent is singular";
-    case StepEnd::not_finite: return "a force became infinite or not a number";
+    case StepEnd::converged:
+      return "converged";
+    case StepEnd::too_many_iterations:
+      return "the iteration limit was reached";
+    case StepEnd::diverged:
+      return "the iteration diverged";
+    case StepEnd::singular:
+      return "the tangent is singular";
+    case StepEnd::not_finite:
+      return "a force became infinite or not a number";
     case StepEnd::out_of_range:
       return "an element turned beyond its range or a law left its domain";
   }

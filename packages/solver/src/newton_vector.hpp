@@ -1,9 +1,9 @@
 /// A vector of unknowns as NOX wants it.
 #pragma once
 
-#include <NOX_Abstract_Vector.H>
-
 #include <culm/assembly/tpetra.hpp>
+
+#include <NOX_Abstract_Vector.H>
 
 namespace culm::solver {
 

@@ -1,6 +1,7 @@
 #include "rooted_matrix.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
+
 #include <algorithm>
 #include <numeric>
 

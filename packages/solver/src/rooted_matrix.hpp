@@ -3,6 +3,7 @@
 
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
+
 #include <vector>
 
 namespace culm::solver {

@@ -28,8 +28,8 @@ class System {
   /// multiplicatively, eliminated nodes after their masters, multipliers additively.
   void move(model::State& state, const Vector& increment, double factor);
   /// Predicts stresses for the next tangent from the same increment, before move.
-  void extrapolate(const model::State& state, const Stencil& stencil,
-                   const Vector& increment, double factor);
+  void extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
+                   double factor);
   /// Brings the coordinates and multipliers of all nodes up to date on all ranks, for output.
   void synchronise(model::State& state) const;
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
@@ -63,7 +63,7 @@ class System {
   Teuchos::RCP<Vector> imported_;
   Teuchos::RCP<const Import> importer_;
   std::vector<std::size_t> row_begin_;
-  std::vector<int> diagonal_;        ///< place of the diagonal entry of each owned row
+  std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;

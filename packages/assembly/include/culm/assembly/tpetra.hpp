@@ -6,6 +6,7 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
+
 #include <span>
 
 namespace culm::assembly {

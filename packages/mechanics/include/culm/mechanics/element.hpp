@@ -7,9 +7,10 @@
 /// written once, in ElementBatch (model).
 #pragma once
 
-#include <concepts>
 #include <culm/mechanics/node.hpp>
 #include <culm/mechanics/stencil.hpp>
+
+#include <concepts>
 
 namespace culm {
 
@@ -21,7 +22,7 @@ using Gradient = RowMat<3 * S, M>;
 /// Answer of the law at one point. Quadrature weight included.
 template <int M>
 struct Response {
-  Vec<M> stress;      ///< algorithmic stress conjugate to the forms, times weight
+  Vec<M> stress;         ///< algorithmic stress conjugate to the forms, times weight
   RowMat<M, M> tangent;  ///< its derivative by the forms at the end of the step
 };
 
@@ -37,23 +38,30 @@ concept Element = requires(const E& e, int point, const Slots<E::num_slots>& q,
   { E::num_strains } -> std::convertible_to<int>;  // forms per point
 
   // y(q) of a point; reference values subtracted
-  { e.strain(point, q, strain) } noexcept -> std::same_as<void>;
+  { e.strain(point, q, strain) }
+  noexcept->std::same_as<void>;
   // dy/dq of a point, linear in q; every entry is written
-  { e.gradient(point, q, B) } noexcept -> std::same_as<void>;
+  { e.gradient(point, q, B) }
+  noexcept->std::same_as<void>;
   // A += sum_I S_I A_I of a point
-  { e.add_curvature(point, y, A) } noexcept -> std::same_as<void>;
+  { e.add_curvature(point, y, A) }
+  noexcept->std::same_as<void>;
   // stress and tangent from the forms at both ends of the step
-  { e.respond(point, y, y, stencil, response) } noexcept -> std::same_as<Verdict>;
+  { e.respond(point, y, y, stencil, response) }
+  noexcept->std::same_as<Verdict>;
   // stored energy [J] of a point, weight included
-  { e.energy(point, y) } noexcept -> std::convertible_to<double>;
+  { e.energy(point, y) }
+  noexcept->std::convertible_to<double>;
   // constant scalar mass matrix between slots [kg, kg m, kg m^2]
-  { e.mass() } noexcept -> std::convertible_to<SlotMatrix<E::num_slots>>;
+  { e.mass() }
+  noexcept->std::convertible_to<SlotMatrix<E::num_slots>>;
 };
 
 /// An element that can show stress resultants, in the order of `E::resultant_names()`.
 template <class E>
 concept HasResultants = requires(const E& e, int point, const Vec<E::num_strains>& y) {
-  { e.resultants(point, y) } noexcept -> std::convertible_to<Vec<E::num_resultants>>;
+  { e.resultants(point, y) }
+  noexcept->std::convertible_to<Vec<E::num_resultants>>;
 };
 
 }  // namespace culm

@@ -24,9 +24,9 @@ enum class Want { residual, residual_and_tangent };
 /// larger value wins when outcomes of items or ranks are joined.
 enum class Verdict {
   ok = 0,
-  law_out_of_range,   ///< a material law or strain measure left its domain
-  inverted_element,   ///< a negative volume or a relative rotation beyond the element's range
-  not_finite,         ///< NaN or infinity in a force
+  law_out_of_range,  ///< a material law or strain measure left its domain
+  inverted_element,  ///< a negative volume or a relative rotation beyond the element's range
+  not_finite,        ///< NaN or infinity in a force
 };
 
 constexpr Verdict worse(Verdict a, Verdict b) { return a < b ? b : a; }

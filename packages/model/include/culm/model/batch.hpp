@@ -4,6 +4,7 @@
 #include <culm/mechanics/stencil.hpp>
 #include <culm/model/scatter.hpp>
 #include <culm/model/state.hpp>
+
 #include <span>
 #include <string>
 #include <vector>

@@ -1,9 +1,10 @@
 /// Kinematic constraints as rows of quadratic forms.
 #pragma once
 
-#include <bitset>
 #include <culm/math/types.hpp>
 #include <culm/model/node_table.hpp>
+
+#include <bitset>
 #include <functional>
 #include <optional>
 #include <string>

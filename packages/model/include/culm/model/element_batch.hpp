@@ -1,10 +1,11 @@
 /// All elements of one type: the mechanics every element shares, written once.
 #pragma once
 
-#include <cmath>
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/projection.hpp>
+
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -64,8 +65,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
   }
 
-  Verdict assemble(const State& state, const Stencil& stencil, Want want,
-                   Target& target) override {
+  Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
     if (form_ == Form::null_space) return assemble_as<NullSpace>(state, stencil, want, target);
     return assemble_as<FullSpace>(state, stencil, want, target);
   }
@@ -188,7 +188,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     Response<M> response;
     Gradient<S, M> B_mid;
     RowMat<W * N, M> R_mid;
-    Vec<W * N> residual = Vec<W * N>::Zero();
+    Vec<W* N> residual = Vec<W * N>::Zero();
     RowMat<W * N, W * N> tangent;
     SlotMatrix<S> scalars;                       // sum_I S_I A_I of the geometric part
     Vec<3 * S> slot_force = Vec<3 * S>::Zero();  // with the stress of the geometric part
@@ -200,8 +200,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     for (int p = 0; p < E::num_points; ++p) {
       element.strain(p, next, y);
       element.gradient(p, mid, B_mid);
-      verdict = worse(verdict,
-                      element.respond(p, strain_prev_[at(i, p)], y, stencil, response));
+      verdict = worse(verdict, element.respond(p, strain_prev_[at(i, p)], y, stencil, response));
       reduce<Space>(B_mid, arms_mid, R_mid);
       residual.noalias() += R_mid * response.stress;
       if (want == Want::residual) continue;
@@ -222,8 +221,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
 
     if (!std::isfinite(residual.sum())) return Verdict::not_finite;
-    target.force_scale =
-        std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
     for (int a = 0; a < N; ++a) {
       placement_.scatter.add_residual(i, a, residual.data() + W * a, target);
     }

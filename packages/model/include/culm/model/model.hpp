@@ -6,6 +6,7 @@
 #include <culm/model/constraint_batch.hpp>
 #include <culm/model/element_batch.hpp>
 #include <culm/model/structure.hpp>
+
 #include <deque>
 #include <memory>
 #include <string>

@@ -1,11 +1,12 @@
 /// The nodes of a model and how their unknowns are reduced.
 #pragma once
 
-#include <array>
-#include <bitset>
 #include <culm/math/types.hpp>
 #include <culm/mechanics/node.hpp>
 #include <culm/model/state.hpp>
+
+#include <array>
+#include <bitset>
 #include <vector>
 
 namespace culm::model {

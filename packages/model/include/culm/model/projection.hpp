@@ -1,9 +1,9 @@
 /// Projection of slot quantities to the unknowns of a node, for both forms of the equations.
 ///
-/// In the null-space form a node moves by (dx, dtheta): slot s changes by dx for the position and by
-/// dtheta x arm_s, where the arm of a director is the director itself and the arm of the position
-/// is the lever to the master of an eliminated node, zero otherwise. In the multiplier form the
-/// unknowns are the coordinates. Kernels are templates on one of the two policies below.
+/// In the null-space form a node moves by (dx, dtheta): slot s changes by dx for the position and
+/// by dtheta x arm_s, where the arm of a director is the director itself and the arm of the
+/// position is the lever to the master of an eliminated node, zero otherwise. In the multiplier
+/// form the unknowns are the coordinates. Kernels are templates on one of the two policies below.
 /// @source formulation 6.1, 6.4, 6.7
 #pragma once
 
@@ -39,7 +39,8 @@ struct NullSpace {
 
   /// K += P_theta,a^T (A x I3) P_next,b for the scalars A, shape (4, 4), between nodes a and b.
   template <class A, class Arms, class K>
-  static void add_pairs(const A& scalars, const Arms& arms_theta, const Arms& arms_next, K&& block) {
+  static void add_pairs(const A& scalars, const Arms& arms_theta, const Arms& arms_next,
+                        K&& block) {
     using Row3 = Eigen::Matrix<double, 1, 3>;
     for (int s = 0; s < 4; ++s) {
       // slot s of node a against all slots of node b: position scalar and summed arm

@@ -3,6 +3,7 @@
 
 #include <culm/math/types.hpp>
 #include <culm/model/unknowns.hpp>
+
 #include <span>
 #include <vector>
 
@@ -11,11 +12,11 @@ namespace culm::model {
 /// The owned part of a linear system that batches add to. CSR, one row per owned unknown.
 struct Target {
   std::span<double> residual;
-  std::span<double> values;                  ///< CSR values; empty when no tangent is wanted
-  std::span<const std::size_t> row_begin;    ///< CSR row pointers
-  double force_scale = 0.0;                  ///< largest force any item added
-  double constraint_violation = 0.0;         ///< largest |h|, lengths over the model's length
-  double multiplier_scale = 1.0;             ///< unknowns are multipliers / scale, rows times scale
+  std::span<double> values;                ///< CSR values; empty when no tangent is wanted
+  std::span<const std::size_t> row_begin;  ///< CSR row pointers
+  double force_scale = 0.0;                ///< largest force any item added
+  double constraint_violation = 0.0;       ///< largest |h|, lengths over the model's length
+  double multiplier_scale = 1.0;           ///< unknowns are multipliers / scale, rows times scale
 };
 
 /// Places of the items of one batch. A block of unknowns is one contiguous run in every row of any

@@ -14,8 +14,8 @@ using Coordinates = std::vector<double>;
 struct State {
   double time_prev = 0.0;  ///< start of the step: time [s], or the load parameter in statics [-]
   double time = 0.0;       ///< end of the step
-  Coordinates prev;   ///< accepted configuration at the start of the step
-  Coordinates next;   ///< trial configuration at the end of the step
+  Coordinates prev;        ///< accepted configuration at the start of the step
+  Coordinates next;        ///< trial configuration at the end of the step
   std::vector<double> multipliers_prev;  ///< Lagrange multipliers of the last accepted step
   std::vector<double> multipliers;       ///< trial multipliers, by multiplier index
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/math/types.hpp>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ class ResultantSource;
 ///   x = sum_a N_a (x_a + sum_k offset_k d_k,a),   d_k = sum_a N_a d_k,a.   @source formulation 3.7
 struct Marker {
   std::vector<int> nodes;
-  std::vector<double> weights;    ///< N_a, same length as nodes, sum 1
-  Vec3 offset = Vec3::Zero();     ///< in the directors of the nodes [m]
+  std::vector<double> weights;  ///< N_a, same length as nodes, sum 1
+  Vec3 offset = Vec3::Zero();   ///< in the directors of the nodes [m]
 };
 
 /// A marker at a node.

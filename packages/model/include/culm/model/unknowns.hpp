@@ -1,9 +1,10 @@
 /// Blocks of unknowns and their global numbers, independent of the number of ranks.
 #pragma once
 
+#include <culm/model/node_table.hpp>
+
 #include <array>
 #include <cstdint>
-#include <culm/model/node_table.hpp>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ enum class Form {
 
 /// The unknowns of one block that are really solved for.
 struct BlockShape {
-  int width = 0;   ///< unknowns a kernel writes
-  int active = 0;  ///< unknowns that are solved for
+  int width = 0;                           ///< unknowns a kernel writes
+  int active = 0;                          ///< unknowns that are solved for
   std::array<std::int8_t, 12> position{};  ///< place among the active ones, or -1
   bool full() const { return width == active; }
 };
@@ -30,7 +31,7 @@ enum class BlockKind { node, multipliers };
 /// constraint.
 struct Block {
   BlockKind kind = BlockKind::node;
-  int owner = 0;             ///< node number, or constraint number
+  int owner = 0;  ///< node number, or constraint number
   BlockShape shape;
   int first = 0;             ///< global index of the first active unknown
   int first_multiplier = 0;  ///< index into State::multipliers; multiplier blocks only

@@ -36,6 +36,7 @@ class Comm {
   /// Pieces of all ranks one after the other, on the root; empty elsewhere.
   std::vector<int> gather(std::span<const int> piece) const;
   std::vector<long long> gather(std::span<const long long> piece) const;
+  std::vector<double> gather(std::span<const double> piece) const;
 
  private:
   MPI_Comm comm_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/assembly/tpetra.hpp>
+
 #include <memory>
 #include <string>
 

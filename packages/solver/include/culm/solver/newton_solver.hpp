@@ -3,6 +3,7 @@
 
 #include <culm/assembly/system.hpp>
 #include <culm/solver/linear_solver.hpp>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,10 +23,10 @@ struct NewtonSettings {
 enum class StepEnd {
   converged,
   too_many_iterations,
-  diverged,        ///< increments or residual beyond any use
-  singular,        ///< the tangent has no inverse
-  not_finite,      ///< NaN or infinity
-  out_of_range,    ///< an element or law left its domain
+  diverged,      ///< increments or residual beyond any use
+  singular,      ///< the tangent has no inverse
+  not_finite,    ///< NaN or infinity
+  out_of_range,  ///< an element or law left its domain
 };
 
 /// One line of the convergence history.

@@ -1,0 +1,47 @@
+/// What every analysis shares.
+#pragma once
+
+#include <culm/base/log.hpp>
+#include <culm/solver/newton_solver.hpp>
+
+#include <functional>
+#include <memory>
+
+namespace culm::analysis {
+
+/// One step as seen from outside.
+struct StepReport {
+  int step = 0;       ///< accepted steps so far, this one included
+  double time = 0.0;  ///< load level in statics [-], time in dynamics [s]
+  double final_time = 0.0;
+  double increment = 0.0;
+  bool accepted = true;  ///< false: the step is tried again with a smaller increment
+  solver::StepOutcome outcome;
+};
+
+/// Whoever wants to see each step: results, progress, a coupling harness.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Called after each attempt. When it was accepted, state.next is the new equilibrium, up to date
+  /// on all ranks only after System::synchronise.
+  virtual void step(const StepReport& report, model::State& state) = 0;
+};
+
+/// What an analysis works on. All borrowed.
+struct Context {
+  assembly::System& system;
+  solver::LinearSolver& linear;
+  Ledger& ledger;
+  const Log& log;
+};
+
+/// A way to move a state. Throws NumericalError or NonFiniteError with a post-mortem when it has to
+/// give up; the state is then the last accepted one.
+class Analysis {
+ public:
+  virtual ~Analysis() = default;
+  virtual void run(Context& context, model::State& state, Observer& observer) = 0;
+};
+
+}  // namespace culm::analysis

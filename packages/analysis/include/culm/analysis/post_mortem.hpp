@@ -1,0 +1,52 @@
+/// Why a sound deck did not solve, in the user's terms.
+#pragma once
+
+#include <culm/analysis/analysis.hpp>
+
+#include <string>
+#include <vector>
+
+namespace culm::analysis {
+
+/// Remembers what a diagnosis needs while an analysis runs, and makes it when the analysis fails.
+class PostMortem {
+ public:
+  /// Measures the structure at the start of the analysis, where the system has begun a step.
+  /// Throws NumericalError if its tangent is singular there: a mechanism or redundant constraints.
+  /// @param first_level a level above that of state
+  PostMortem(Context& context, model::State& state, const Stencil& stencil, double first_level);
+
+  /// Adds an attempt to the history.
+  void record(const StepReport& report);
+
+  /// Throws NumericalError, or NonFiniteError if that is what happened in the last attempt. The
+  /// text is the same on all ranks. @param state the last accepted state
+  [[noreturn]] void give_up(model::State& state, const Stencil& stencil);
+
+ private:
+  /// One unknown with its share in a residual or in a direction.
+  struct Entry {
+    std::string name;
+    double value = 0.0;
+    bool is_multiplier = false;
+  };
+  std::vector<Entry> largest_entries(const assembly::Vector& vector, std::size_t count) const;
+  std::string name_of(int unknown) const;
+  /// d . p for the response K d = p to the load p of a unit level: grows without bound, then
+  /// changes sign, where load control ends. Infinite when the tangent is singular.
+  double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
+  /// Throws if the tangent that was factored last is singular to working precision.
+  void refuse_singular(const model::State& state);
+  std::string history() const;
+  std::string worst_rows() const;
+  std::string cause(model::State& state, const Stencil& stencil);
+  std::string singular_cause(const assembly::Vector& direction) const;
+
+  Context& context_;
+  double first_flexibility_ = 0.0;
+  double level_step_ = 0.0;
+  std::vector<StepReport> attempts_;
+  std::vector<Entry> worst_;
+};
+
+}  // namespace culm::analysis

@@ -1,0 +1,40 @@
+/// Static equilibrium under loads that grow with the load level.
+#pragma once
+
+#include <culm/analysis/analysis.hpp>
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
+
+#include <vector>
+
+namespace culm::analysis {
+
+/// How the load level is raised.
+struct StaticsSettings {
+  double final_level = 1.0;
+  double increment = 0.1;  ///< first increment of the level
+  double smallest_increment = 1e-6;
+  double largest_increment = 0.1;  ///< growth after easy steps ends here
+  int easy_iterations = 6;         ///< steps with at most so many let the increment grow
+  std::vector<double> levels;      ///< levels to be met exactly, rising
+  solver::NewtonSettings newton;
+};
+
+/// Load control with automatic cut-back and growth of the increment. The level plays the role of
+/// time in load functions. @source formulation 5.1
+class Statics final : public Analysis {
+ public:
+  explicit Statics(StaticsSettings settings) : settings_(std::move(settings)) {}
+
+  static Schema schema();
+  static std::unique_ptr<Analysis> make(const Options& options);
+
+  void run(Context& context, model::State& state, Observer& observer) override;
+
+ private:
+  double next_level(double level, double increment) const;
+
+  StaticsSettings settings_;
+};
+
+}  // namespace culm::analysis

@@ -1,0 +1,233 @@
+#include <culm/analysis/post_mortem.hpp>
+#include <culm/base/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace culm::analysis {
+namespace {
+
+using assembly::values_of;
+using assembly::Vector;
+
+constexpr double singular_ratio = 2e-15;  // |A v| / |A| of a direction that nothing resists
+
+const char* direction_name(int i) {
+  constexpr const char* names[] = {"x", "y", "z", "rotation x", "rotation y", "rotation z"};
+  return names[i];
+}
+
+const char* coordinate_name(int i) {
+  constexpr const char* names[] = {"x",    "y",    "z",    "d1 x", "d1 y", "d1 z",
+                                   "d2 x", "d2 y", "d2 z", "d3 x", "d3 y", "d3 z"};
+  return names[i];
+}
+
+// entries without any symmetry, the same for any number of ranks
+void fill_irregular(Vector& v) {
+  const auto map = v.getMap();
+  const auto values = values_of(v);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto global = static_cast<double>(map->getGlobalElement(static_cast<int>(i)));
+    values[i] = std::fmod(0.6180339887498949 * (global + 1.0), 1.0) - 0.4;
+  }
+}
+
+}  // namespace
+
+PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil,
+                       double first_level)
+    : context_(context), level_step_(first_level - state.time) {
+  first_flexibility_ = load_flexibility(state, stencil, level_step_);
+  refuse_singular(state);
+}
+
+void PostMortem::record(const StepReport& report) {
+  attempts_.push_back(report);
+  if (!report.accepted) worst_ = largest_entries(context_.system.residual(), 5);
+}
+
+std::string PostMortem::name_of(int unknown) const {
+  const model::Model& model = context_.system.model();
+  const auto& blocks = model.unknowns().blocks();
+  const auto after = std::upper_bound(blocks.begin(), blocks.end(), unknown,
+                                      [](int u, const model::Block& b) { return u < b.first; });
+  // blocks without unknowns share the first of their successor, so the last one before is right
+  const model::Block& block = *std::prev(after);
+  const int place = unknown - block.first;
+  int written = 0;
+  while (block.shape.position[static_cast<std::size_t>(written)] != place) ++written;
+  if (block.kind == model::BlockKind::multipliers) {
+    const model::Constraint& c = model.equations()[static_cast<std::size_t>(block.owner)];
+    return fmt::format("{} '{}', equation {}", c.type, c.name, written + 1);
+  }
+  const bool null_space = model.unknowns().form() == model::Form::null_space;
+  return fmt::format("{}, {}", model.node_name(block.owner),
+                     null_space ? direction_name(written) : coordinate_name(written));
+}
+
+std::vector<PostMortem::Entry> PostMortem::largest_entries(const Vector& vector,
+                                                           std::size_t count) const {
+  const auto values = values_of(vector);
+  std::vector<std::size_t> order(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const std::size_t kept = std::min(count, order.size());
+  const auto larger = [&](std::size_t a, std::size_t b) {
+    return std::abs(values[a]) > std::abs(values[b]);
+  };
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),
+                    larger);
+  std::vector<long long> mine;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < kept; ++i) {
+    mine.push_back(vector.getMap()->getGlobalElement(static_cast<int>(order[i])));
+    sizes.push_back(values[order[i]]);
+  }
+  const auto& comm = context_.system.comm();
+  const auto unknowns = comm.gather(std::span<const long long>(mine));
+  const auto all = comm.gather(std::span<const double>(sizes));
+  std::vector<std::pair<double, int>> sorted;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    sorted.emplace_back(all[i], static_cast<int>(unknowns[i]));
+  }
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  const model::UnknownTable& table = context_.system.model().unknowns();
+  const int first_multiplier = table.num_multipliers() == 0
+                                   ? table.num_unknowns()
+                                   : table.block(table.constraint_block(0)).first;
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < std::min(count, sorted.size()); ++i) {
+    entries.push_back(
+        {name_of(sorted[i].second), sorted[i].first, sorted[i].second >= first_multiplier});
+  }
+  return entries;
+}
+
+double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
+                                    double level_step) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  assembly::System& system = context_.system;
+  const double level = state.time;
+  state.time = level + level_step;
+  system.begin_step(state, stencil);
+  system.evaluate(state, stencil, Want::residual);
+  Vector load(system.residual(), Teuchos::Copy);
+  state.time = level;
+  system.begin_step(state, stencil);
+  system.evaluate(state, stencil, Want::residual_and_tangent);
+  load.update(1.0 / level_step, system.residual(), -1.0 / level_step);
+  if (!context_.linear.factor()) return infinite;
+  Vector response(load.getMap());
+  if (context_.linear.solve(load, response) > 1e-8) return infinite;
+  return load.dot(response);
+}
+
+void PostMortem::refuse_singular(const model::State& state) {
+  assembly::System& system = context_.system;
+  Vector probe(system.layout().row_map());
+  Vector response(system.layout().row_map());
+  fill_irregular(probe);
+  const double size = system.matrix()->getFrobeniusNorm();
+  const bool sound = std::isfinite(first_flexibility_) &&
+                     context_.linear.solve(probe, response) < 1e-8 &&
+                     response.normInf() * size < 1e13 * probe.normInf();
+  if (sound) return;
+  Vector direction(system.layout().row_map());
+  if (context_.linear.weakest_direction(direction) > singular_ratio) return;
+  throw NumericalError(system.comm().broadcast(
+      fmt::format("The equations are singular at level {:.6g}, before the first step.\n{}",
+                  state.time, singular_cause(direction))));
+}
+
+std::string PostMortem::singular_cause(const Vector& direction) const {
+  const std::vector<Entry> entries = largest_entries(direction, 200);
+  const bool redundant = !entries.empty() && entries.front().is_multiplier;
+  std::string text =
+      redundant ? "Likely cause: redundant constraints. These equations depend on each other:\n"
+                : "Likely cause: a mechanism. Nothing resists this motion:\n";
+  std::set<std::string> shown;
+  for (const Entry& entry : entries) {
+    if (shown.size() >= 6 || std::abs(entry.value) < 0.05) break;
+    if (!shown.insert(entry.name).second) continue;
+    text += fmt::format("  {:<40} {:+.3f}\n", entry.name, entry.value);
+  }
+  text += redundant ? "Try: remove one of the constraints, or a direction that another one holds."
+                    : "Try: add a support or a joint that holds it, or give the section stiffness.";
+  return text;
+}
+
+std::string PostMortem::history() const {
+  std::string text = "Last steps:\n";
+  const std::size_t first = attempts_.size() > 8 ? attempts_.size() - 8 : 0;
+  for (std::size_t i = first; i < attempts_.size(); ++i) {
+    const StepReport& a = attempts_[i];
+    text += fmt::format("  level {:<12.8g} increment {:<10.3g} {:>3} iterations  {}\n", a.time,
+                        a.increment, a.outcome.iterations, solver::describe(a.outcome.end));
+  }
+  if (!attempts_.empty()) {
+    text += "Force residual of the last attempt, relative:";
+    for (const solver::IterationRecord& r : attempts_.back().outcome.history) {
+      text += fmt::format(" {:.1e}", r.force);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string PostMortem::worst_rows() const {
+  std::string text = "Largest residuals of the last attempt:\n";
+  for (const Entry& entry : worst_) {
+    text += fmt::format("  {:<40} {:+.3e}\n", entry.name, entry.value);
+  }
+  return text;
+}
+
+std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
+  const double now = load_flexibility(state, stencil, level_step_);
+  const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;
+  if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
+    return fmt::format(
+        "Likely cause: a limit point. At level {:.6g} the structure keeps {:.1f} % of its initial\n"
+        "stiffness against this load; the load cannot grow further on this path.\n"
+        "Try: end below this level, or prescribe a displacement instead of the load.",
+        state.time, 100.0 * remaining);
+  }
+  Vector direction(context_.system.layout().row_map());
+  if (context_.linear.weakest_direction(direction) < singular_ratio) {
+    return singular_cause(direction);
+  }
+  if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
+    return "Likely cause: an element turns too far.\nTry: more elements.";
+  }
+  return fmt::format(
+      "Likely cause: the iteration does not find the next equilibrium although the structure "
+      "keeps\n"
+      "{:.1f} % of its stiffness; a bifurcation or a sudden change of the load may be near.\n"
+      "Try: more steps, more elements, 'Line Search' = Backtrack, or a small imperfection.",
+      100.0 * remaining);
+}
+
+void PostMortem::give_up(model::State& state, const Stencil& stencil) {
+  const StepReport& last = attempts_.back();
+  std::string text = fmt::format("No equilibrium beyond level {:.8g} of {:.8g}: {}.\n", state.time,
+                                 last.final_time, solver::describe(last.outcome.end));
+  text += history() + worst_rows();
+  const bool not_finite = last.outcome.end == solver::StepEnd::not_finite;
+  if (not_finite) {
+    text +=
+        "Likely cause: a load, stiffness or length beyond the range of numbers.\n"
+        "Try: check units and load functions.";
+  } else {
+    text += cause(state, stencil);
+  }
+  text = context_.system.comm().broadcast(text);
+  if (not_finite) throw NonFiniteError(text);
+  throw NumericalError(text);
+}
+
+}  // namespace culm::analysis

@@ -1,0 +1,126 @@
+#include <culm/analysis/newton_options.hpp>
+#include <culm/analysis/post_mortem.hpp>
+#include <culm/analysis/statics.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::analysis {
+namespace {
+
+void check_levels(const Options& options, InputIssues& issues) {
+  const std::vector<double>& levels = options.numbers("Levels");
+  const double final_level = options.number("Final Level");
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const bool rises = i == 0 ? levels[i] > 0.0 : levels[i] > levels[i - 1];
+    if (!rises || levels[i] > final_level) {
+      issues.add(options.where("Levels"),
+                 "levels must rise from above 0 to at most the final level");
+      return;
+    }
+  }
+}
+
+void accept(model::State& state) {
+  state.prev = state.next;
+  state.multipliers_prev = state.multipliers;
+  state.time_prev = state.time;
+}
+
+void reject(model::State& state) {
+  state.next = state.prev;
+  state.multipliers = state.multipliers_prev;
+  state.time = state.time_prev;
+}
+
+}  // namespace
+
+Schema Statics::schema() {
+  const StaticsSettings defaults;
+  return Schema("Static", "Equilibrium under loads that grow with the load level, by load control.")
+      .add(number("Final Level", "1", "Load level at the end; load functions take it as time.")
+               .positive()
+               .optional(defaults.final_level))
+      .add(integer("Steps", "Equal load steps to the final level, unless a step has to be cut.")
+               .at_least(1)
+               .optional(10))
+      .add(number("Smallest Increment", "1", "Increment of the level at which cutting back ends.")
+               .positive()
+               .optional(defaults.smallest_increment))
+      .add(number("Largest Increment", "1",
+                  "Bound on the growth after easy steps; the first increment if absent.")
+               .positive()
+               .optional())
+      .add(integer("Easy Iterations",
+                   "Steps with at most so many iterations let the increment grow.")
+               .at_least(1)
+               .optional(defaults.easy_iterations))
+      .add(numbers("Levels", "1", "Levels to be met exactly, rising.")
+               .optional(std::vector<double>{}))
+      .list("Newton", newton_schema(), Presence::defaulted)
+      .check(check_levels);
+}
+
+std::unique_ptr<Analysis> Statics::make(const Options& options) {
+  StaticsSettings settings;
+  settings.final_level = options.number("Final Level");
+  settings.increment = settings.final_level / options.integer("Steps");
+  settings.smallest_increment = options.number("Smallest Increment");
+  settings.largest_increment =
+      options.has("Largest Increment") ? options.number("Largest Increment") : settings.increment;
+  settings.easy_iterations = options.integer("Easy Iterations");
+  settings.levels = options.numbers("Levels");
+  settings.newton = newton_settings(options.list("Newton"));
+  return std::make_unique<Statics>(std::move(settings));
+}
+
+// The next level on the way, not passing one that must be met; leaves no sliver before it.
+double Statics::next_level(double level, double increment) const {
+  double bound = settings_.final_level;
+  for (auto at = settings_.levels.rbegin(); at != settings_.levels.rend(); ++at) {
+    if (*at > level * (1.0 + 1e-12)) bound = *at;
+  }
+  const double rest = bound - level;
+  if (rest <= increment * (1.0 + 1e-9)) return bound;
+  return rest < 1.5 * increment ? level + 0.5 * rest : level + increment;
+}
+
+void Statics::run(Context& context, model::State& state, Observer& observer) {
+  const Stencil stencil = Stencil::statics();
+  // levels start at zero for each analysis
+  state.time = state.time_prev = 0.0;
+  double increment = settings_.increment;
+  context.system.begin_step(state, stencil);
+  context.system.choose_multiplier_scale(state, stencil);
+  PostMortem post_mortem(context, state, stencil, next_level(0.0, increment));
+  solver::NewtonSolver newton(context.system, context.linear, settings_.newton, context.ledger);
+
+  int steps = 0;
+  while (state.time < settings_.final_level) {
+    state.time = next_level(state.time_prev, increment);
+    const double taken = state.time - state.time_prev;
+    context.system.begin_step(state, stencil);
+    StepReport report{steps, state.time, settings_.final_level,
+                      taken, true,       newton.solve(state, stencil)};
+    report.accepted = report.outcome.converged();
+    if (report.accepted) report.step = ++steps;
+    post_mortem.record(report);
+    if (report.accepted) {
+      accept(state);
+      if (report.outcome.iterations <= settings_.easy_iterations && taken >= increment) {
+        increment = std::min(1.5 * increment, settings_.largest_increment);
+      }
+    } else {
+      reject(state);
+      increment = 0.5 * taken;
+    }
+    observer.step(report, state);
+    // a number that is not finite will not become so with a smaller step
+    const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
+    if (!report.accepted && (not_finite || increment < settings_.smallest_increment)) {
+      post_mortem.give_up(state, stencil);
+    }
+  }
+}
+
+}  // namespace culm::analysis
