@@ -79,6 +79,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     }
   }
   length_ = model.length();
+  reactions_.assign(index(unknowns.num_reactions()), 0.0);
   linear_increment_.assign(model.nodes().reference().size(), 0.0);
 }
 
@@ -89,9 +90,11 @@ void System::begin_step(const model::State& state, const Stencil& stencil) {
 Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
   model::Target target;
   target.residual = values_of(*residual_);
+  target.reactions = reactions_;
   target.row_begin = row_begin_;
   target.multiplier_scale = multiplier_scale_;
   std::fill(target.residual.begin(), target.residual.end(), 0.0);
+  std::fill(reactions_.begin(), reactions_.end(), 0.0);
   if (want == Want::residual_and_tangent) {
     const auto values = matrix_->getLocalMatrixHost().values;
     target.values = {values.data(), values.extent(0)};
@@ -213,6 +216,18 @@ void System::choose_multiplier_scale(const model::State& state, const Stencil& s
   const double largest = comm_.max(largest_diagonal());
   // a power of two scales without rounding; the root lies between the force and the unit rows
   if (largest > 0.0) multiplier_scale_ = std::exp2(std::round(std::log2(largest)));
+}
+
+Vec6 System::reaction(int node) const {
+  const model::UnknownTable& unknowns = model_.unknowns();
+  const model::BlockShape& shape = unknowns.block(unknowns.node_block(node)).shape;
+  Vec6 reaction = Vec6::Zero();
+  if (unknowns.form() != model::Form::null_space) return reaction;
+  for (int i = 0; i < 6; ++i) {
+    const int at = shape.position[index(i)];
+    if (at < 0) reaction[i] = reactions_[index(shape.first_reaction - 1 - at)];
+  }
+  return reaction;
 }
 
 double System::stored_energy(const model::Coordinates& q) const {

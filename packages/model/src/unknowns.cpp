@@ -6,10 +6,11 @@ namespace {
 BlockShape shape_without(int width, std::bitset<6> fixed) {
   BlockShape shape;
   shape.width = width;
+  int gone = 0;
   for (int i = 0; i < width; ++i) {
-    const bool gone = i < 6 && fixed[static_cast<std::size_t>(i)];
+    const bool is_fixed = i < 6 && fixed[static_cast<std::size_t>(i)];
     shape.position[static_cast<std::size_t>(i)] =
-        gone ? std::int8_t{-1} : static_cast<std::int8_t>(shape.active++);
+        static_cast<std::int8_t>(is_fixed ? -1 - gone++ : shape.active++);
   }
   return shape;
 }
@@ -42,6 +43,8 @@ UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multi
   for (Block& block : blocks_) {
     block.first = num_unknowns_;
     num_unknowns_ += block.shape.active;
+    block.shape.first_reaction = num_reactions_;
+    num_reactions_ += block.shape.width - block.shape.active;
   }
 }
 

@@ -39,6 +39,12 @@ class System {
   double stored_energy(const model::Coordinates& q) const;
   double multiplier_scale() const { return multiplier_scale_; }
 
+  /// Force [N] and moment about the node [N m] by which what takes unknowns from a node acts on the
+  /// structure, at the last evaluation. Null-space form only; the same on all ranks.
+  Vec6 reaction(int node) const;
+  /// Brings reactions together after an evaluation, before reaction() is called.
+  void gather_reactions() { comm_.sum(reactions_); }
+
   const Vector& residual() const { return *residual_; }
   const Teuchos::RCP<const CrsMatrix>& matrix() const { return matrix_view_; }
   const Layout& layout() const { return layout_; }
@@ -57,6 +63,7 @@ class System {
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
   std::vector<int> slaves_;
+  std::vector<double> reactions_;
   Teuchos::RCP<CrsMatrix> matrix_;
   Teuchos::RCP<const CrsMatrix> matrix_view_;
   Teuchos::RCP<Vector> residual_;

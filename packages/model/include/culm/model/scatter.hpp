@@ -12,6 +12,7 @@ namespace culm::model {
 /// The owned part of a linear system that batches add to. CSR, one row per owned unknown.
 struct Target {
   std::span<double> residual;
+  std::span<double> reactions;               ///< on unknowns that supports took away; may be empty
   std::span<double> values;                ///< CSR values; empty when no tangent is wanted
   std::span<const std::size_t> row_begin;  ///< CSR row pointers
   double force_scale = 0.0;                ///< largest force any item added
@@ -44,7 +45,12 @@ class Scatter {
     double* out = target.residual.data() + rows.first;
     for (int i = 0; i < rows.shape->width; ++i) {
       const int at = rows.shape->position[static_cast<std::size_t>(i)];
-      if (at >= 0) out[at] += values[i];
+      if (at >= 0) {
+        out[at] += values[i];
+      } else if (!target.reactions.empty()) {
+        target.reactions[static_cast<std::size_t>(rows.shape->first_reaction - 1 - at)] +=
+            values[i];
+      }
     }
   }
 

@@ -20,7 +20,9 @@ enum class Form {
 struct BlockShape {
   int width = 0;                           ///< unknowns a kernel writes
   int active = 0;                          ///< unknowns that are solved for
-  std::array<std::int8_t, 12> position{};  ///< place among the active ones, or -1
+  /// Place among the active ones; -1 - k for the k-th one that a support takes away.
+  std::array<std::int8_t, 12> position{};
+  int first_reaction = 0;  ///< of the unknowns taken away, in the array of reactions
   bool full() const { return width == active; }
 };
 
@@ -51,6 +53,8 @@ class UnknownTable {
   int constraint_block(int constraint) const { return first_constraint_ + constraint; }
   int num_unknowns() const { return num_unknowns_; }
   int num_multipliers() const { return num_multipliers_; }
+  /// Unknowns that supports take away; each has a reaction.
+  int num_reactions() const { return num_reactions_; }
   Form form() const { return form_; }
 
  private:
@@ -59,6 +63,7 @@ class UnknownTable {
   int first_constraint_ = 0;
   int num_unknowns_ = 0;
   int num_multipliers_ = 0;
+  int num_reactions_ = 0;
   Form form_ = Form::null_space;
 };
 
