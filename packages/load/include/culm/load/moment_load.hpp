@@ -1,0 +1,73 @@
+/// Moments on nodes.
+#pragma once
+
+#include <culm/load/frame.hpp>
+#include <culm/model/amplitude.hpp>
+#include <culm/model/batch.hpp>
+#include <culm/model/node_table.hpp>
+
+#include <string>
+#include <vector>
+
+namespace culm::load {
+
+/// Moments a(t) m on nodes, fixed in space or following the directors, m = M_k d_k,theta.
+///
+/// The null-space form adds m to the rotational residual itself. The multiplier form spreads it on
+/// the directors so that sum_i d_i x f_i = m also where d_theta are shorter than one,
+///   f_d_i = (Ac^-1 m) x d_i      Ac = sum_i ( |d_i|^2 1 - d_i d_i^T ),
+/// hence both have the same solutions. @source formulation 3.1, 3.2
+class MomentLoad final : public model::Batch {
+ public:
+  MomentLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+             Frame frame)
+      : effect_(std::move(effect)),
+        nodes_(nodes),
+        amplitude_(std::move(amplitude)),
+        frame_(frame) {}
+
+  /// @param components  of the moment [N m]
+  void add_moment(int node, const Vec3& components) { items_.push_back({node, components}); }
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  /// A moment fixed in space has no stiffness in the null-space form.
+  bool has_tangent() const override {
+    return frame_ == Frame::directors || form_ == model::Form::multipliers;
+  }
+  void place(model::Placement placement, model::Form form) override;
+  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
+  double stored_energy(const model::Coordinates&) const override { return 0.0; }
+
+ private:
+  struct Item {
+    int node = -1;
+    Vec3 components = Vec3::Zero();
+  };
+  /// The directors of an item, and its moment there.
+  struct Motion {
+    Mat3 mid, next;
+    Vec3 components;  ///< times the amplitude
+    Vec3 moment;      ///< in space
+  };
+
+  Motion motion(const Item& item, const model::State& state, double theta, double factor) const;
+  void assemble_reduced(std::size_t i, const Motion& motion, double theta, bool tangent,
+                        model::Target& target) const;
+  void assemble_full(std::size_t i, const Motion& motion, double theta, bool tangent,
+                     model::Target& target) const;
+
+  std::string effect_;
+  const model::NodeTable& nodes_;
+  model::Amplitude amplitude_;
+  Frame frame_;
+  std::vector<Item> items_;
+  model::Placement placement_;
+  model::Form form_ = model::Form::multipliers;  // until placed, the one with more entries
+};
+
+}  // namespace culm::load

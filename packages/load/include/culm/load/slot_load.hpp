@@ -1,0 +1,68 @@
+/// Forces on slots that are constant or linear in the slots.
+#pragma once
+
+#include <culm/load/frame.hpp>
+#include <culm/model/amplitude.hpp>
+#include <culm/model/batch.hpp>
+#include <culm/model/projection.hpp>
+#include <culm/model/structure.hpp>
+
+#include <string>
+#include <vector>
+
+namespace culm::load {
+
+/// External forces on the slots of one to four nodes, a(t) times
+///   f_s = f0_s + sum_t L[s,t] q_t,theta.
+/// Points are linear in the slots, so a dead force F at a point is f0_s = T_s F, and a force
+/// F_k d_k that follows the directors is L = T D^T with D the slot factors of F_k d_k. Both are
+/// taken at q_theta, so the work of dead forces over a step is exact. @source formulation 3, 3.2
+class SlotLoad final : public model::Batch {
+ public:
+  static constexpr int max_nodes = 4;
+
+  SlotLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude)
+      : effect_(std::move(effect)), nodes_(nodes), amplitude_(std::move(amplitude)) {}
+
+  /// Adds a force at a material point. Points that follow each other on the same nodes share an
+  /// item. @param components  of the force [N], or of its share of a force per length
+  void add_force(const model::Marker& point, const Vec3& components, Frame frame);
+  /// Adds constant forces on the slots of a node, shape (3, 4) [N, N m].
+  void add_slot_forces(int node, const model::NodeSlots& forces);
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  /// Only forces that follow, or that have an arm about a node, change with its rotation.
+  bool has_tangent() const override;
+  void place(model::Placement placement, model::Form form) override;
+  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
+  double stored_energy(const model::Coordinates&) const override { return 0.0; }
+
+ private:
+  struct Item {
+    std::vector<int> nodes;
+    Eigen::Matrix3Xd constant;  // f0, shape (3, slots)
+    Eigen::MatrixXd linear;     // L, shape (slots, slots)
+    bool follows = false;       // L is not zero
+  };
+
+  Item& item_on(const std::vector<int>& nodes);
+  bool turns(const Item& item) const;
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                        double factor, bool tangent, model::Target& target) const;
+
+  std::string effect_;
+  const model::NodeTable& nodes_;
+  model::Amplitude amplitude_;
+  std::vector<Item> items_;
+  model::Placement placement_;
+  model::Form form_ = model::Form::null_space;
+  bool has_tangent_ = false;
+};
+
+}  // namespace culm::load

@@ -1,0 +1,45 @@
+#include "both_frames.hpp"
+
+#include <utility>
+
+namespace culm::load {
+namespace {
+
+void add_type(model::BuilderRegistry& registry, const std::string& type, Schema schema, Frame frame,
+              MakeLoad make) {
+  registry.add(type, std::move(schema), [=](const Options& options, model::BuildContext& context) {
+    auto function = model::find_function(options, context);
+    if (!function) return;
+    auto load = make({options, context, effect_name(type, options), *std::move(function), frame});
+    if (load) context.model.add_load(std::move(load));
+  });
+}
+
+}  // namespace
+
+void register_both_frames(model::BuilderRegistry& registry, const LoadType& type,
+                          const Schema& fields, MakeLoad make) {
+  const auto add = [&](const std::string& name, const char* frame_doc, const char* components,
+                       Frame frame) {
+    add_type(registry, name,
+             Schema(name, type.doc + frame_doc)
+                 .add_all(fields)
+                 .add(model::vector_field(type.quantity, type.unit, components))
+                 .add(model::function_field("Ramp")),
+             frame, make);
+  };
+  add(type.name, ", fixed in space.", "Components in space at function value 1.", Frame::space);
+  add("Follower " + type.name, ", turning with the directors.",
+      "Components in the directors at function value 1.", Frame::directors);
+}
+
+std::string effect_name(const std::string& type, const Options& options) {
+  return options.name().empty() ? type : type + ", " + options.name();
+}
+
+Field offset_field() {
+  return model::vector_field("Offset", "m", "From the node to the point, in its directors.")
+      .optional({0.0, 0.0, 0.0});
+}
+
+}  // namespace culm::load

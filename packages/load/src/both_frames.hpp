@@ -1,0 +1,44 @@
+/// Loads that come in two types, fixed in space and following the directors.
+#pragma once
+
+#include <culm/load/frame.hpp>
+#include <culm/model/build_context.hpp>
+
+#include <memory>
+#include <string>
+
+namespace culm::load {
+
+/// What a load is made from, read from the deck.
+struct LoadRequest {
+  const Options& options;
+  model::BuildContext& context;
+  std::string effect;  ///< name in the ledger
+  model::Amplitude function;
+  Frame frame;
+
+  Vec3 vector(const std::string& parameter) const { return model::vector(options, parameter); }
+  const model::NodeTable& nodes() const { return context.model.nodes(); }
+};
+
+/// Null, after an issue, where the deck asks for something that is not there.
+using MakeLoad = std::unique_ptr<model::Batch> (*)(const LoadRequest& request);
+
+struct LoadType {
+  std::string name;      ///< in the deck; that of the follower has "Follower " before it
+  std::string doc;       ///< what it is, without the end of the sentence
+  std::string quantity;  ///< name of the vector parameter
+  std::string unit;
+};
+
+/// Registers a load and its follower. @param fields  the parameters besides vector and function
+void register_both_frames(model::BuilderRegistry& registry, const LoadType& type,
+                          const Schema& fields, MakeLoad make);
+
+/// Name of a load in the ledger: the type and the name in the deck.
+std::string effect_name(const std::string& type, const Options& options);
+
+/// Parameter "Offset" of the point of attack.
+Field offset_field();
+
+}  // namespace culm::load

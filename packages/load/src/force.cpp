@@ -1,0 +1,26 @@
+#include <culm/load/slot_load.hpp>
+
+#include "both_frames.hpp"
+#include "types.hpp"
+
+namespace culm::load {
+namespace {
+
+std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+  auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
+  for (int node : model::select_nodes(request.options, "Node", request.context)) {
+    model::Marker point = model::marker_at(node);
+    point.offset = request.vector("Offset");
+    load->add_force(point, request.vector("Force"), request.frame);
+  }
+  return load;
+}
+
+}  // namespace
+
+void register_force(model::BuilderRegistry& registry) {
+  register_both_frames(registry, {"Force", "Force at a point of a node", "Force", "N"},
+                       Schema("").add(model::node_field()).add(offset_field()), make);
+}
+
+}  // namespace culm::load

@@ -1,0 +1,25 @@
+#include <culm/load/moment_load.hpp>
+
+#include "both_frames.hpp"
+#include "types.hpp"
+
+namespace culm::load {
+namespace {
+
+std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+  auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
+                                           request.frame);
+  for (int node : model::select_nodes(request.options, "Node", request.context)) {
+    load->add_moment(node, request.vector("Moment"));
+  }
+  return load;
+}
+
+}  // namespace
+
+void register_moment(model::BuilderRegistry& registry) {
+  register_both_frames(registry, {"Moment", "Moment on a node", "Moment", "N m"},
+                       Schema("").add(model::node_field()), make);
+}
+
+}  // namespace culm::load

@@ -1,0 +1,87 @@
+#include <culm/load/moment_load.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::load {
+
+std::vector<int> MomentLoad::blocks(int item, const model::UnknownTable& unknowns) const {
+  return {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
+}
+
+void MomentLoad::place(model::Placement placement, model::Form form) {
+  placement_ = std::move(placement);
+  form_ = form;
+}
+
+Verdict MomentLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
+                             model::Target& target) {
+  const double factor = amplitude_.in_step(state, stencil);
+  const bool tangent = want == Want::residual_and_tangent;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const Motion now = motion(item, state, stencil.theta, factor);
+    if (!std::isfinite(now.moment.sum())) return Verdict::not_finite;
+    if (form_ == model::Form::null_space) {
+      assemble_reduced(i, now, stencil.theta, tangent, target);
+    } else {
+      assemble_full(i, now, stencil.theta, tangent, target);
+    }
+  }
+  return Verdict::ok;
+}
+
+MomentLoad::Motion MomentLoad::motion(const Item& item, const model::State& state, double theta,
+                                      double factor) const {
+  Motion motion;
+  motion.next = model::NodeTable::slots(state.next, item.node).rightCols<3>();
+  motion.mid = (1.0 - theta) * model::NodeTable::slots(state.prev, item.node).rightCols<3>() +
+               theta * motion.next;
+  motion.components = factor * item.components;
+  motion.moment = frame_ == Frame::space ? motion.components : Vec3(motion.mid * motion.components);
+  return motion;
+}
+
+// r_theta = -m      dr_theta / dtheta = theta sum_k M_k [d_k,next]
+void MomentLoad::assemble_reduced(std::size_t i, const Motion& motion, double theta, bool tangent,
+                                  model::Target& target) const {
+  Vec6 residual;
+  residual << Vec3::Zero(), -motion.moment;
+  target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
+  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  if (!tangent || frame_ == Frame::space) return;
+  RowMat<6, 6> block = RowMat<6, 6>::Zero();
+  block.bottomRightCorner<3, 3>() = theta * skew(motion.next * motion.components);
+  placement_.scatter.add_tangent(i, 0, 0, block, target);
+}
+
+// r_d_i = -mh x d_i      mh = Ac^-1 m      Ac = sum_i ( |d_i|^2 1 - d_i d_i^T )
+// dmh = sum_j G_j dd_j      G_j = Ac^-1 ( M_j 1 - 2 mh d_j^T + (d_j . mh) 1 + d_j mh^T )
+// dr_d_i / dd_j = theta ( [d_i] G_j - delta_ij [mh] )
+void MomentLoad::assemble_full(std::size_t i, const Motion& motion, double theta, bool tangent,
+                               model::Target& target) const {
+  const Mat3& d = motion.mid;
+  const Mat3 inverse = (d.squaredNorm() * Mat3::Identity() - d * d.transpose()).inverse();
+  const Vec3 mh = inverse * motion.moment;
+  Vec<12> residual = Vec<12>::Zero();
+  for (int k = 0; k < 3; ++k) residual.segment<3>(3 + 3 * k) = -skew(mh) * d.col(k);
+  target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
+  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  if (!tangent) return;
+  RowMat<12, 12> block = RowMat<12, 12>::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const double follows = frame_ == Frame::directors ? motion.components[j] : 0.0;
+    Mat3 G = d.col(j) * mh.transpose() - 2.0 * mh * d.col(j).transpose();
+    G.diagonal().array() += follows + d.col(j).dot(mh);
+    G = inverse * G.eval();
+    for (int k = 0; k < 3; ++k) {
+      block.block<3, 3>(3 + 3 * k, 3 + 3 * j) = theta * skew(d.col(k)) * G;
+    }
+    block.block<3, 3>(3 + 3 * j, 3 + 3 * j) -= theta * skew(mh);
+  }
+  placement_.scatter.add_tangent(i, 0, 0, block, target);
+}
+
+}  // namespace culm::load

@@ -1,0 +1,142 @@
+#include <culm/base/error.hpp>
+#include <culm/load/slot_load.hpp>
+#include <culm/model/item_motion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::load {
+namespace {
+
+using Motion = model::ItemMotion<SlotLoad::max_nodes>;
+using ItemSlots = Motion::Slots;
+
+// x = sum_s T_s q_s of a material point
+Eigen::VectorXd point_factors(const model::Marker& point) {
+  Eigen::VectorXd T(4 * static_cast<int>(point.nodes.size()));
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    T.segment<4>(4 * static_cast<int>(a)) << point.weights[a], point.weights[a] * point.offset;
+  }
+  return T;
+}
+
+// F_k d_k = sum_s D_s q_s at a material point
+Eigen::VectorXd follower_factors(const model::Marker& point, const Vec3& components) {
+  Eigen::VectorXd D(4 * static_cast<int>(point.nodes.size()));
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    D.segment<4>(4 * static_cast<int>(a)) << 0.0, point.weights[a] * components;
+  }
+  return D;
+}
+
+}  // namespace
+
+SlotLoad::Item& SlotLoad::item_on(const std::vector<int>& nodes) {
+  internal_check(nodes.size() <= max_nodes, "a load acts on more nodes than SlotLoad provides for");
+  if (items_.empty() || items_.back().nodes != nodes) {
+    const int slots = 4 * static_cast<int>(nodes.size());
+    items_.push_back(
+        {nodes, Eigen::Matrix3Xd::Zero(3, slots), Eigen::MatrixXd::Zero(slots, slots)});
+  }
+  return items_.back();
+}
+
+void SlotLoad::add_force(const model::Marker& point, const Vec3& components, Frame frame) {
+  Item& item = item_on(point.nodes);
+  const Eigen::VectorXd T = point_factors(point);
+  if (frame == Frame::space) {
+    item.constant += components * T.transpose();
+  } else {
+    item.linear += T * follower_factors(point, components).transpose();
+    item.follows = !item.linear.isZero(0.0);
+  }
+}
+
+void SlotLoad::add_slot_forces(int node, const model::NodeSlots& forces) {
+  item_on({node}).constant += forces;
+}
+
+std::vector<int> SlotLoad::blocks(int item, const model::UnknownTable& unknowns) const {
+  std::vector<int> result;
+  for (int node : items_[static_cast<std::size_t>(item)].nodes) {
+    result.push_back(unknowns.node_block(node));
+  }
+  return result;
+}
+
+bool SlotLoad::turns(const Item& item) const {
+  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+    const auto forces = item.constant.middleCols<4>(4 * static_cast<int>(a));
+    const bool lever = nodes_.is_slave(item.nodes[a]);
+    if (!forces.rightCols<3>().isZero(0.0) || (lever && !forces.col(0).isZero(0.0))) return true;
+  }
+  return false;
+}
+
+bool SlotLoad::has_tangent() const {
+  return std::any_of(items_.begin(), items_.end(),
+                     [this](const Item& item) { return item.follows || turns(item); });
+}
+
+void SlotLoad::place(model::Placement placement, model::Form form) {
+  placement_ = std::move(placement);
+  form_ = form;
+  has_tangent_ = has_tangent();
+}
+
+Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
+                           model::Target& target) {
+  const double factor = amplitude_.in_step(state, stencil);
+  const bool tangent = has_tangent_ && want == Want::residual_and_tangent;
+  Verdict verdict = Verdict::ok;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const Verdict one =
+        form_ == model::Form::null_space
+            ? assemble_item<model::NullSpace>(i, state, stencil, factor, tangent, target)
+            : assemble_item<model::FullSpace>(i, state, stencil, factor, tangent, target);
+    verdict = worse(verdict, one);
+  }
+  return verdict;
+}
+
+template <class Space>
+Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                                double factor, bool tangent, model::Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const int n = static_cast<int>(item.nodes.size());
+  const Motion motion(nodes_, item.nodes, state, stencil.theta);
+  const auto& [mid, arms_mid, next, arms_next] = motion;
+
+  // r_s = -a (f0_s + sum_t L[s,t] q_t)
+  ItemSlots r = -factor * item.constant;
+  if (item.follows) r.noalias() -= factor * mid.lazyProduct(item.linear.transpose());
+  if (!std::isfinite(r.sum())) return Verdict::not_finite;
+  for (int a = 0; a < n; ++a) {
+    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
+    Vec<W> residual;
+    Space::reduce_rows(slot_residual, arms_mid.template middleCols<4>(4 * a), residual);
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    placement_.scatter.add_residual(i, a, residual.data(), target);
+  }
+  if (!tangent) return Verdict::ok;
+
+  // P_theta^T (-a theta L x I3) P_next, and the turning of P_theta
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      const SlotMatrix<4> pairs =
+          -factor * stencil.theta * item.linear.template block<4, 4>(4 * a, 4 * b);
+      Space::add_pairs(pairs, arms_mid.template middleCols<4>(4 * a),
+                       arms_next.template middleCols<4>(4 * b), block);
+      if (a == b) {
+        Space::add_turning(r.template middleCols<4>(4 * a), arms_next.template middleCols<4>(4 * a),
+                           stencil.theta, block);
+      }
+      placement_.scatter.add_tangent(i, a, b, block, target);
+    }
+  }
+  return Verdict::ok;
+}
+
+}  // namespace culm::load

@@ -1,0 +1,14 @@
+/// The types of loads, one source each.
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+namespace culm::load {
+
+void register_force(model::BuilderRegistry& registry);        // Force, Follower Force
+void register_moment(model::BuilderRegistry& registry);       // Moment, Follower Moment
+void register_line_force(model::BuilderRegistry& registry);   // Line Force, Follower Line Force
+void register_line_moment(model::BuilderRegistry& registry);  // Line Moment, Follower Line Moment
+void register_gravity(model::BuilderRegistry& registry);      // Gravity
+
+}  // namespace culm::load
