@@ -1,0 +1,12 @@
+/// What this package offers to the deck.
+#pragma once
+
+#include <culm/base/registry.hpp>
+#include <culm/material/section.hpp>
+
+namespace culm::material {
+
+/// Adds all section types.
+void register_sections(Registry<Section>& registry);
+
+}  // namespace culm::material

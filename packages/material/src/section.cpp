@@ -1,0 +1,121 @@
+#include <culm/material/section.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace culm::material {
+
+namespace {
+
+// Smallest eigenvalue of D A D with D = 1 / sqrt(diagonal): without units, so that one tolerance
+// serves N, N m and N m^2.
+template <int N>
+double smallest_scaled_eigenvalue(const Mat<N, N>& A) {
+  Vec<N> scale;
+  for (int i = 0; i < N; ++i) scale[i] = A(i, i) > 0.0 ? 1.0 / std::sqrt(A(i, i)) : 1.0;
+  const Mat<N, N> scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Mat<N, N>>(scaled, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
+
+template <int N>
+std::vector<std::string> form_mistakes(const Mat<N, N>& A, const std::string& what) {
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double size = std::sqrt(std::abs(A(i, i) * A(j, j))) + std::abs(A(i, j));
+      if (std::abs(A(i, j) - A(j, i)) > 1e-9 * size) {
+        return {fmt::format("{} is not symmetric: entry ({}, {}) is {} but ({}, {}) is {}", what,
+                            i + 1, j + 1, A(i, j), j + 1, i + 1, A(j, i))};
+      }
+    }
+  }
+  for (int i = 0; i < N; ++i) {
+    if (A(i, i) < 0.0) {
+      return {fmt::format("{} has the negative diagonal entry ({}, {}) = {}", what, i + 1, i + 1,
+                          A(i, i))};
+    }
+  }
+  const double smallest = smallest_scaled_eigenvalue(A);
+  if (smallest < -1e-9) {
+    return {
+        fmt::format("{} is not positive semidefinite: its smallest eigenvalue, with the "
+                    "diagonal scaled to one, is {:.3g}",
+                    what, smallest)};
+  }
+  return {};
+}
+
+Mat<2, 2> turn(double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return (Mat<2, 2>() << c, -s, s, c).finished();
+}
+
+}  // namespace
+
+Mat6 stiffness_matrix(const StiffnessValues& v) {
+  Mat6 C;
+  C << v.GA1, 0.0, 0.0, 0.0, 0.0, -v.GS1,     //
+      0.0, v.GA2, 0.0, 0.0, 0.0, v.GS2,       //
+      0.0, 0.0, v.EA, v.ES1, -v.ES2, 0.0,     //
+      0.0, 0.0, v.ES1, v.EI1, -v.EI12, 0.0,   //
+      0.0, 0.0, -v.ES2, -v.EI12, v.EI2, 0.0,  //
+      -v.GS1, v.GS2, 0.0, 0.0, 0.0, v.GIp;
+  return C;
+}
+
+Mat3 mass_matrix(const MassValues& v) {
+  Mat3 m;
+  m << v.rhoA, v.rhoS2, v.rhoS1, v.rhoS2, v.rhoI2, v.rhoI12, v.rhoS1, v.rhoI12, v.rhoI1;
+  return m;
+}
+
+// Strains in the section's own axes: e_own = diag(Q^T, Q^T) e, points: xi = Q2 xi_own.
+Section rotated(const Section& section, double angle) {
+  const Mat<2, 2> Q2 = turn(angle);
+  Mat6 T = Mat6::Identity();
+  T.topLeftCorner<2, 2>() = Q2.transpose();
+  T.block<2, 2>(3, 3) = Q2.transpose();
+  Mat3 P = Mat3::Identity();
+  P.bottomRightCorner<2, 2>() = Q2;
+  Section result{T.transpose() * section.stiffness * T, P * section.mass * P.transpose(), {}};
+  for (const Vec<2>& point : section.outline) result.outline.emplace_back(Q2 * point);
+  return result;
+}
+
+// Strains at the section's own origin: Γ_own = Γ + K x offset = Γ - [offset] K, points:
+// xi = xi_own + offset.
+Section shifted(const Section& section, const Vec<2>& offset) {
+  Mat6 T = Mat6::Identity();
+  T.topRightCorner<3, 3>() = -skew(Vec3(offset[0], offset[1], 0.0));
+  Mat3 P = Mat3::Identity();
+  P.bottomLeftCorner<2, 1>() = offset;
+  Section result{T.transpose() * section.stiffness * T, P * section.mass * P.transpose(), {}};
+  for (const Vec<2>& point : section.outline) result.outline.emplace_back(point + offset);
+  return result;
+}
+
+Section interpolate(const Section& a, const Section& b, double t) {
+  Section result{(1.0 - t) * a.stiffness + t * b.stiffness, (1.0 - t) * a.mass + t * b.mass,
+                 t < 0.5 ? a.outline : b.outline};
+  if (a.outline.size() == b.outline.size()) {
+    for (std::size_t i = 0; i < a.outline.size(); ++i) {
+      result.outline[i] = (1.0 - t) * a.outline[i] + t * b.outline[i];
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> stiffness_mistakes(const Mat6& stiffness) {
+  if (stiffness.isZero(0.0)) return {"the stiffness is zero"};
+  return form_mistakes<6>(stiffness, "the stiffness");
+}
+
+std::vector<std::string> mass_mistakes(const Mat3& mass) {
+  return form_mistakes<3>(mass, "the mass");
+}
+
+}  // namespace culm::material
