@@ -1,0 +1,14 @@
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+namespace culm::joint {
+
+/// Keeps a node in a plane: n . (x - x0) and u(n) . e for two directions e in the plane, three
+/// linear rows. Eliminated when n is a coordinate axis.
+/// @param normal  n, unit length
+model::Constraint planar_support(const model::NodeTable& nodes, int node, const Vec3& normal);
+
+void register_planar_support(model::BuilderRegistry& registry);
+
+}  // namespace culm::joint

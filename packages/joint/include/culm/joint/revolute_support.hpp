@@ -1,0 +1,17 @@
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+namespace culm::joint {
+
+/// Holds a point of a node and leaves the rotation about one axis: p(phi) - p0 and u(n) . e for
+/// two directions e normal to the axis, five linear rows. Eliminated when the axis is a coordinate
+/// axis and the point is the node.
+/// @param axis    n, unit length
+/// @param offset  phi, in the directors of the node [m]
+model::Constraint revolute_support(const model::NodeTable& nodes, int node, const Vec3& axis,
+                                   const Vec3& offset);
+
+void register_revolute_support(model::BuilderRegistry& registry);
+
+}  // namespace culm::joint

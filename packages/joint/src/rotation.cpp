@@ -1,0 +1,84 @@
+#include <culm/joint/rotation.hpp>
+
+#include "supports.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace culm::joint {
+namespace {
+
+// The longest projection of a director on the plane normal to n, unit length.
+Vec3 normal_of_body(const Mat3& triad, const Vec3& n) {
+  const Mat3 projections = triad - n * (n.transpose() * triad);
+  int longest = 0;
+  projections.colwise().squaredNorm().maxCoeff(&longest);
+  return projections.col(longest).normalized();
+}
+
+model::ConstraintRow row_of(const Vec3& direction, const Vec3& attached) {
+  model::ConstraintRow row;
+  row.direction = direction;
+  row.alpha = model::attached_vector(0, 1, attached);
+  return row;
+}
+
+void register_type(model::BuilderRegistry& registry, const std::string& type,
+                   const std::string& doc, decltype(&rotation) make) {
+  Schema schema = directed_schema(type, doc, "Axis", "Axis in the reference, of any length.");
+  add_motion("Angle", "rad", "Angle of rotation at function value 1.", schema);
+  registry.add(type, schema, [type, make](const Options& options, model::BuildContext& context) {
+    const auto motion = read_motion(options, "Angle", context);
+    if (!motion) return;
+    add_per_node(type, options, context, [&](int node) {
+      return make(context.model.nodes(), node, read_direction(options, "Axis"), *motion);
+    });
+  });
+}
+
+}  // namespace
+
+model::Constraint rotation(const model::NodeTable& nodes, int node, const Vec3& axis,
+                           const Prescribed& motion) {
+  const Mat3 triad = model::NodeTable::slots(nodes.reference(), node).rightCols<3>();
+  const Vec3 c0 = normal_of_body(triad, axis);
+  const Vec3 across = axis.cross(c0);
+  model::Constraint support = support_of(node);
+  support.rows = {row_of(across, triad.transpose() * c0)};
+  if (motion.moves()) {
+    support.drive = [=](double time, std::vector<model::ConstraintRow>& rows) {
+      const double alpha = motion.at(time);
+      rows.front().direction = -std::sin(alpha) * c0 + std::cos(alpha) * across;
+    };
+  }
+  return support;
+}
+
+model::Constraint rotation_local(const model::NodeTable& nodes, int node, const Vec3& axis,
+                                 const Prescribed& motion) {
+  const Mat3 triad = model::NodeTable::slots(nodes.reference(), node).rightCols<3>();
+  const Vec3 c0 = normal_of_body(triad, axis);
+  const Vec3 across = axis.cross(c0);
+  model::Constraint support = support_of(node);
+  support.rows = {row_of(c0, triad.transpose() * across)};
+  if (motion.moves()) {
+    support.drive = [=](double time, std::vector<model::ConstraintRow>& rows) {
+      const double alpha = motion.at(time);
+      const Vec3 e = std::sin(alpha) * c0 + std::cos(alpha) * across;
+      rows.front().alpha = model::attached_vector(0, 1, triad.transpose() * e);
+    };
+  }
+  return support;
+}
+
+void register_rotation(model::BuilderRegistry& registry) {
+  register_type(registry, "Rotation",
+                "Prescribes the rotation about an axis fixed in space; the others stay free.",
+                &rotation);
+  register_type(registry, "Rotation Local",
+                "Prescribes the rotation about an axis fixed in the node; the others stay free.",
+                &rotation_local);
+}
+
+}  // namespace culm::joint
