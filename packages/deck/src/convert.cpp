@@ -15,6 +15,8 @@
 namespace culm::deck {
 namespace {
 
+constexpr const char* no_value = "has no attribute 'value'";
+
 constexpr std::array kinds = {Kind::number,  Kind::integer,  Kind::flag, Kind::text,
                               Kind::numbers, Kind::integers, Kind::texts};
 
@@ -177,8 +179,8 @@ Unit find_factor(const RawParameter& raw, const Field& field, std::vector<std::s
 /// What was written, if a message about the value alone would not show it.
 std::string origin(const RawParameter& raw, const Value& value) {
   const bool scalar = kind_of(value) == Kind::number || kind_of(value) == Kind::integer;
-  if (raw.unit) return " (" + quoted(raw.value) + " in " + *raw.unit + ")";
-  return scalar && !literal_number(trim(raw.value)) ? " (" + quoted(raw.value) + ")" : "";
+  if (raw.unit) return " (" + quoted(*raw.value) + " in " + *raw.unit + ")";
+  return scalar && !literal_number(trim(*raw.value)) ? " (" + quoted(*raw.value) + ")" : "";
 }
 
 }  // namespace
@@ -191,6 +193,10 @@ std::string type_name(Kind kind) {
 
 Conversion convert(const RawParameter& raw, const Field& field, const Scope& scope) {
   Conversion result;
+  if (!raw.value) {
+    result.mistakes.emplace_back(no_value);
+    return result;
+  }
   if (std::string mistake = wrong_type(raw, field.kind()); !mistake.empty()) {
     result.mistakes.push_back(std::move(mistake));
     return result;
@@ -198,7 +204,7 @@ Conversion convert(const RawParameter& raw, const Field& field, const Scope& sco
   const Unit factor = find_factor(raw, field, result.mistakes);
   if (!result.mistakes.empty()) return result;
   Converter converter(scope, factor);
-  result.value = parse(converter, field.kind(), raw.value);
+  result.value = parse(converter, field.kind(), *raw.value);
   result.mistakes = converter.take_mistakes();
   if (!result.value || !result.mistakes.empty()) return result;
   for (const std::string& mistake : field.mistakes(*result.value)) {
@@ -209,13 +215,17 @@ Conversion convert(const RawParameter& raw, const Field& field, const Scope& sco
 
 Conversion convert_variable(const RawParameter& raw, const Scope& scope) {
   Conversion result;
+  if (!raw.value) {
+    result.mistakes.emplace_back(no_value);
+    return result;
+  }
   const std::optional<Unit> unit = raw.unit ? find_unit(*raw.unit) : Unit{};
   if (!unit) {
     result.mistakes.push_back(unknown_unit(*raw.unit));
     return result;
   }
   Converter converter(scope, *unit);
-  result.value = to_value(converter.number(raw.value));
+  result.value = to_value(converter.number(*raw.value));
   result.mistakes = converter.take_mistakes();
   return result;
 }

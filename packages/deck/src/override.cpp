@@ -65,7 +65,6 @@ void apply_overrides(const std::vector<std::string>& overrides, RawList& root) {
     parameter.file = command_line;
     parameter.line = 0;
     parameter.value = assignment.value;
-    parameter.has_value = true;
     parameter.is_default = false;
   }
 }

@@ -17,11 +17,10 @@ struct RawParameter {
   std::string file;
   int line = 0;
   std::string name;
-  std::string value;
+  std::optional<std::string> value;  ///< missing by mistake, which the validator reports
   std::optional<std::string> type;
   std::optional<std::string> unit;
   bool is_default = false;  ///< marked as such by a resolved deck
-  bool has_value = true;    ///< false: the attribute is missing, which was reported
 };
 
 /// A <ParameterList> as written, with its includes in place.

@@ -80,12 +80,10 @@ class RawReader {
     parameter.line = element.line;
     parameter.name = required_attribute(element, "name", parent);
     const std::string path = parameter.name.empty() ? parent : join_path(parent, parameter.name);
-    parameter.value = required_attribute(element, "value", path);
-    parameter.has_value = std::ranges::find(element.attributes, "value", &XmlAttribute::name) !=
-                          element.attributes.end();
     check_attributes(element, allowed, path);
     report_content(element, path);
     for (const XmlAttribute& attribute : element.attributes) {
+      if (attribute.name == "value") parameter.value = attribute.value;
       if (attribute.name == "type") parameter.type = attribute.value;
       if (attribute.name == "unit") parameter.unit = attribute.value;
       if (attribute.name == "isDefault") parameter.is_default = attribute.value == "true";
@@ -147,8 +145,7 @@ class RawReader {
       report(element.line, path, "<" + element.name + "> has no attribute '" + name + "'");
       return {};
     }
-    const bool is_value = name == "value";  // a text may be empty, a name may not
-    if (!is_value && trim(found->value).empty()) {
+    if (trim(found->value).empty()) {
       report(element.line, path, "<" + element.name + "> has an empty attribute '" + name + "'");
     }
     return found->value;

@@ -44,6 +44,11 @@ bool is_out_of_range(std::string_view text) {
   return error == std::errc::result_out_of_range && end == text.data() + text.size();
 }
 
+/// Whether the identifier that ends at `end` is followed by a parenthesis.
+bool is_called(std::string_view text, std::size_t end) {
+  return trim(text.substr(std::min(end, text.size()))).starts_with('(');
+}
+
 bool is_not_finite_word(std::string_view text) {
   const std::string word = to_lower(text.substr(text.find_first_not_of("+-") == 1 ? 1 : 0));
   return word == "nan" || word == "inf" || word == "infinity";
@@ -139,17 +144,13 @@ std::string Scope::explain(const std::string& text, const std::string& token, in
     const std::string nearest = nearest_name(name, known);
     return nearest.empty() ? message : message + " – did you mean '" + nearest + "'?";
   }
-  const bool unknown =
-      !name.empty() && !variables_.contains(name) && !parser().parser.GetFunDef().contains(name);
-  if (!unknown) return message + " (" + std::string(trim(reason)) + ")";
-  const bool called =
-      inside &&
-      text.find_first_not_of(" ", static_cast<std::size_t>(position) + name.size()) < text.size() &&
-      text[text.find_first_not_of(" ", static_cast<std::size_t>(position) + name.size())] == '(';
+  const auto& functions = parser().parser.GetFunDef();
+  if (name.empty() || variables_.contains(name) || functions.contains(name)) {
+    return message + " (" + std::string(trim(reason)) + ")";
+  }
+  const bool called = inside && is_called(text, static_cast<std::size_t>(position) + name.size());
   if (called) {
-    for (const auto& [function, definition] : parser().parser.GetFunDef()) {
-      known.push_back(function);
-    }
+    for (const auto& [function, definition] : functions) known.push_back(function);
   }
   return message + ": unknown " + (called ? "function" : "variable") + " '" + name + "'" +
          did_you_mean(name, known);

@@ -6,6 +6,7 @@
 #include "describe.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace culm::deck {
@@ -43,11 +44,13 @@ Options Validator::root(const RawList& raw, const Schema& schema) {
 /// `type` is the parameter that chose the schema; null if nothing did.
 Options Validator::list(const Place& place, const Schema& schema, const RawParameter* type) {
   const std::size_t issues_before = issues_.size();
-  Scope scope(place.outer);
-  define_variables(place, scope);
+  // A list without variables shares the scope above, and with it the parser, which is costly.
+  std::optional<Scope> own;
+  if (!place.raw.variables.empty()) define_variables(place, own.emplace(place.outer));
+  const Scope& scope = own ? *own : place.outer;
   Options options(place.raw.name, where_of(place.raw, place.path));
   if (type) {
-    options.set("Type", type->value, !type->is_default, where_of(*type, place.path));
+    options.set("Type", type->value.value(), !type->is_default, where_of(*type, place.path));
   }
   for (const Field& field : schema.fields()) read_field(place, field, scope, options);
   read_lists(place, schema, scope, options);
@@ -74,24 +77,22 @@ Options Validator::list_of_slot(const Place& place, const Schema::Slot& slot) {
     type.is_default = true;
   }
   Options nothing(place.raw.name, where_of(place.raw, place.path));
-  if (type.value.empty() && !written) {
+  if (!written && slot.default_type.empty()) {
     report(place, "missing 'Type'" + did_you_mean("", types));
     return nothing;
   }
-  if (!type.has_value) return nothing;
   const Conversion conversion = convert(type, text("Type", ""), place.outer);
   for (const std::string& mistake : conversion.mistakes) report(type, place.path, mistake);
   if (!conversion.value) return nothing;
-  if (const Schema* schema = slot.find(type.value)) return list(place, *schema, &type);
-  report(type, place.path, "unknown type '" + type.value + "'" + did_you_mean(type.value, types));
+  if (const Schema* schema = slot.find(*type.value)) return list(place, *schema, &type);
+  report(type, place.path, "unknown type '" + *type.value + "'" + did_you_mean(*type.value, types));
   return nothing;
 }
 
 void Validator::define_variables(const Place& place, Scope& scope) {
   for (const RawParameter& variable : place.raw.variables) {
     const Conversion conversion = convert_variable(variable, scope);
-    std::vector<std::string> mistakes;
-    if (variable.has_value) mistakes = conversion.mistakes;
+    std::vector<std::string> mistakes = conversion.mistakes;
     // A variable with a wrong value gets some value, so that its users are not blamed as well.
     const double value = conversion.value ? std::get<double>(*conversion.value) : 1.0;
     std::string wrong_name = scope.define(variable.name, value);
@@ -104,7 +105,6 @@ void Validator::read_field(const Place& place, const Field& field, const Scope& 
                            Options& options) {
   const Where list_where = where_of(place.raw, place.path);
   if (const RawParameter* raw = find(place.raw.parameters, field.name())) {
-    if (!raw->has_value) return;
     Conversion conversion = convert(*raw, field, scope);
     for (const std::string& mistake : conversion.mistakes) report(*raw, place.path, mistake);
     if (!conversion.value) return;

@@ -139,7 +139,7 @@ TEST(Read, OnlyTheAttributesOfADeckAreAllowed) {
             "deck.xml:4: Structures / top: <Parameter> has no attribute 'name'\n"
             "deck.xml:4: Structures / top: unknown attribute 'nam' of <Parameter> – did you mean "
             "'name'?\n"
-            "deck.xml:5: Structures / top / Fixed: <Parameter> has no attribute 'value'");
+            "deck.xml:5: Structures / top / Fixed: has no attribute 'value'");
 }
 
 TEST(Read, MistakesOfFormAndOfContentComeTogether) {

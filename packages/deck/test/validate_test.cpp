@@ -191,6 +191,15 @@ TEST(Validate, RulesAcrossParametersRunOnSoundLists) {
             "deck.xml:4: Structures / beam / Length: elements are longer than 100 m");
 }
 
+TEST(Validate, AUnitOfTheSchemaThatIsNoneIsABug) {
+  const Schema schema = Schema("culm").add(number("Mass", "stone", ""));
+  const Deck deck = Deck::parse_text(
+      "<ParameterList name=\"culm\"><Parameter name=\"Mass\" value=\"1\" unit=\"g\"/>"
+      "</ParameterList>",
+      "deck.xml");
+  EXPECT_THROW(deck.validate(schema), InternalError);
+}
+
 TEST(Validate, LongValuesAreCutInMessages) {
   const std::string message = mistakes(
       deck_around(beam("<Parameter name=\"Length\" value=\"" + std::string(100000, 'x') + "\"/>")));
