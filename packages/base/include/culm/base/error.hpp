@@ -3,7 +3,6 @@
 #include <culm/base/issue.hpp>
 #include <culm/base/nearest.hpp>
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,8 +20,9 @@ class Error : public std::runtime_error {
 /// A bug in culm itself. The text says so and asks for a report.
 class InternalError final : public Error {
  public:
-  explicit InternalError(std::string_view text,
-                         std::source_location place = std::source_location::current());
+  // The built-ins, because clang 14 has no std::source_location.
+  explicit InternalError(std::string_view text, const char* file = __builtin_FILE(),
+                         int line = __builtin_LINE());
   int exit_code() const noexcept override { return 1; }
 };
 
@@ -69,8 +69,8 @@ class FileError final : public Error {
 
 /// Throws InternalError with the caller's file and line if `condition` is false; in every build.
 inline void internal_check(bool condition, std::string_view text,
-                           std::source_location place = std::source_location::current()) {
-  if (!condition) throw InternalError(text, place);
+                           const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  if (!condition) throw InternalError(text, file, line);
 }
 
 }  // namespace culm
