@@ -191,7 +191,8 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
   }
 }
 
-void System::synchronise(model::State& state) const {
+void System::synchronise(model::State& state) {
+  gathered_reactions_ = reactions_;
   if (comm_.size() == 1) return;
   const model::UnknownTable& unknowns = model_.unknowns();
   // every value comes from its owner and is zero elsewhere, so the sum is exact
@@ -206,6 +207,7 @@ void System::synchronise(model::State& state) const {
   }
   comm_.sum(state.next);
   comm_.sum(state.multipliers);
+  comm_.sum(gathered_reactions_);
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
 }
 
@@ -218,14 +220,18 @@ void System::choose_multiplier_scale(const model::State& state, const Stencil& s
   if (largest > 0.0) multiplier_scale_ = std::exp2(std::round(std::log2(largest)));
 }
 
-Vec6 System::reaction(int node) const {
+Vec6 System::reaction(int node, const model::State& state) const {
   const model::UnknownTable& unknowns = model_.unknowns();
   const model::BlockShape& shape = unknowns.block(unknowns.node_block(node)).shape;
   Vec6 reaction = Vec6::Zero();
-  if (unknowns.form() != model::Form::null_space) return reaction;
-  for (int i = 0; i < 6; ++i) {
-    const int at = shape.position[index(i)];
-    if (at < 0) reaction[i] = reactions_[index(shape.first_reaction - 1 - at)];
+  if (unknowns.form() == model::Form::null_space) {
+    for (int i = 0; i < 6; ++i) {
+      const int at = shape.position[index(i)];
+      if (at < 0) reaction[i] = gathered_reactions_[index(shape.first_reaction - 1 - at)];
+    }
+  }
+  for (const auto& batch : model_.constraint_batches()) {
+    reaction += batch->reaction(node, state);
   }
   return reaction;
 }

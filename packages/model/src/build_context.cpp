@@ -28,11 +28,12 @@ Field node_field(std::string name, std::string doc) {
 
 std::vector<int> select_nodes(const Options& options, const std::string& parameter,
                               BuildContext& context) {
-  const std::string& name = options.text(parameter);
+  return find_nodes(options.text(parameter), options.where(parameter), context);
+}
+
+std::vector<int> find_nodes(const std::string& name, const Where& where, BuildContext& context) {
   std::vector<int> nodes = context.model.select_nodes(name);
-  if (nodes.empty()) {
-    context.issues.add(options.where(parameter), unknown_node(name, context.model));
-  }
+  if (nodes.empty()) context.issues.add(where, unknown_node(name, context.model));
   return nodes;
 }
 

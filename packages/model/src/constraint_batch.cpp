@@ -201,4 +201,26 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   return Verdict::ok;
 }
 
+Vec6 ConstraintBatch::reaction(int node, const State& state) const {
+  Vec6 total = Vec6::Zero();
+  for (const Item& item : items_) {
+    const std::vector<int>& nodes = item.constraint.nodes;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (nodes[a] != node) continue;
+      const ItemMotion<max_nodes> motion(nodes_, nodes, state, 1.0);
+      const Rows H = gradient(item.rows_next, motion.next);
+      const Eigen::Map<const Eigen::VectorXd> lambda(
+          state.multipliers.data() + item.first_multiplier, H.cols());
+      const int at = static_cast<int>(a);
+      const Eigen::VectorXd force = H.middleRows<12>(12 * at) * lambda;
+      NodeSlots arms = motion.next.middleCols<4>(4 * at);
+      arms.col(0).setZero();  // the moment is taken about the node
+      RowMat<6, 1> reduced;
+      NullSpace::reduce_rows(force, arms, reduced);
+      total -= reduced;
+    }
+  }
+  return total;
+}
+
 }  // namespace culm::model

@@ -97,6 +97,9 @@ const Structure* Model::find_structure(std::string_view name) const {
 }
 
 std::vector<int> Model::select_nodes(std::string_view name) const {
+  if (const auto set = node_sets_.find(std::string(name)); set != node_sets_.end()) {
+    return set->second;
+  }
   const auto slash = name.find('/');
   const Structure* structure = find_structure(name.substr(0, slash));
   if (structure == nullptr) return {};
@@ -114,6 +117,7 @@ std::vector<int> Model::select_nodes(std::string_view name) const {
 
 std::vector<std::string> Model::selectable_names() const {
   std::vector<std::string> names;
+  for (const auto& [set, nodes] : node_sets_) names.push_back(set);
   for (const Structure& structure : structures_) {
     names.push_back(structure.name);
     for (const auto& [set, nodes] : structure.sets) names.push_back(structure.name + "/" + set);

@@ -30,8 +30,9 @@ class System {
   /// Predicts stresses for the next tangent from the same increment, before move.
   void extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
                    double factor);
-  /// Brings the coordinates and multipliers of all nodes up to date on all ranks, for output.
-  void synchronise(model::State& state) const;
+  /// Brings coordinates, multipliers and reactions of all nodes up to date on all ranks, for
+  /// output.
+  void synchronise(model::State& state);
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
@@ -39,11 +40,10 @@ class System {
   double stored_energy(const model::Coordinates& q) const;
   double multiplier_scale() const { return multiplier_scale_; }
 
-  /// Force [N] and moment about the node [N m] by which what takes unknowns from a node acts on the
-  /// structure, at the last evaluation. Null-space form only; the same on all ranks.
-  Vec6 reaction(int node) const;
-  /// Brings reactions together after an evaluation, before reaction() is called.
-  void gather_reactions() { comm_.sum(reactions_); }
+  /// Force [N] and moment about the node [N m] by which supports and joints act on the structure
+  /// there: of the last evaluation where they take unknowns away, of the state's multipliers where
+  /// they are equations. Call synchronise first; the same on all ranks.
+  Vec6 reaction(int node, const model::State& state) const;
 
   const Vector& residual() const { return *residual_; }
   const Teuchos::RCP<const CrsMatrix>& matrix() const { return matrix_view_; }
@@ -63,7 +63,8 @@ class System {
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
   std::vector<int> slaves_;
-  std::vector<double> reactions_;
+  std::vector<double> reactions_;           ///< owned ones
+  std::vector<double> gathered_reactions_;  ///< all
   Teuchos::RCP<CrsMatrix> matrix_;
   Teuchos::RCP<const CrsMatrix> matrix_view_;
   Teuchos::RCP<Vector> residual_;

@@ -34,6 +34,9 @@ Field node_field(std::string name = "Node",
 std::vector<int> select_nodes(const Options& options, const std::string& parameter,
                               BuildContext& context);
 
+/// The nodes of a name that stands at `where`; none, and an issue, if there are none.
+std::vector<int> find_nodes(const std::string& name, const Where& where, BuildContext& context);
+
 /// Parameter "Structure".
 Field structure_field();
 /// The structure that parameter "Structure" names; null, and an issue, if there is none.

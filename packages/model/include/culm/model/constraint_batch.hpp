@@ -35,6 +35,10 @@ class ConstraintBatch final : public Batch {
   /// Where the multipliers of each item start in State::multipliers. Set with the numbering.
   void number(const UnknownTable& unknowns);
 
+  /// Force [N] and moment about the node [N m] by which the constraints act on a node,
+  /// -P^T H^T lambda at the end of the step.
+  Vec6 reaction(int node, const State& state) const;
+
  private:
   struct Item {
     Constraint constraint;

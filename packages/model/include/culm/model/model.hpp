@@ -41,6 +41,10 @@ class Model {
     element_batches_.push_back(std::move(batch));
     return result;
   }
+  /// Nodes under one name, for select_nodes.
+  void add_node_set(std::string name, std::vector<int> nodes) {
+    node_sets_[std::move(name)] = std::move(nodes);
+  }
   void add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
   /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
   void add_rigid_link(std::string name, int slave, int master);
@@ -52,7 +56,8 @@ class Model {
   // --- reading ----------------------------------------------------------------------------------
   const std::deque<Structure>& structures() const { return structures_; }
   const Structure* find_structure(std::string_view name) const;
-  /// Nodes named by "structure/number", "structure/set" or "structure"; empty when there are none.
+  /// Nodes named by "structure/number", "structure/set", "structure" or the name of a node set;
+  /// empty when there are none.
   std::vector<int> select_nodes(std::string_view name) const;
   /// All names select_nodes understands except numbers, for messages.
   std::vector<std::string> selectable_names() const;
@@ -66,6 +71,10 @@ class Model {
   /// All batches: elements, constraints, loads.
   std::vector<Batch*> batches() const;
   const std::vector<std::unique_ptr<Batch>>& element_batches() const { return element_batches_; }
+
+  const std::vector<std::unique_ptr<ConstraintBatch>>& constraint_batches() const {
+    return constraint_batches_;
+  }
 
   /// Mass times acceleration over all structures, in director coordinates.
   Coordinates mass_times(const Coordinates& acceleration) const;
@@ -82,6 +91,7 @@ class Model {
 
   NodeTable nodes_;
   std::deque<Structure> structures_;
+  std::map<std::string, std::vector<int>> node_sets_;
   std::vector<std::unique_ptr<Batch>> element_batches_;
   std::vector<Constraint> constraints_;
   std::vector<Constraint> equations_;

@@ -12,7 +12,7 @@ namespace culm::model {
 /// The owned part of a linear system that batches add to. CSR, one row per owned unknown.
 struct Target {
   std::span<double> residual;
-  std::span<double> reactions;               ///< on unknowns that supports took away; may be empty
+  std::span<double> reactions;             ///< on unknowns that supports took away; may be empty
   std::span<double> values;                ///< CSR values; empty when no tangent is wanted
   std::span<const std::size_t> row_begin;  ///< CSR row pointers
   double force_scale = 0.0;                ///< largest force any item added

@@ -18,8 +18,8 @@ enum class Form {
 
 /// The unknowns of one block that are really solved for.
 struct BlockShape {
-  int width = 0;                           ///< unknowns a kernel writes
-  int active = 0;                          ///< unknowns that are solved for
+  int width = 0;   ///< unknowns a kernel writes
+  int active = 0;  ///< unknowns that are solved for
   /// Place among the active ones; -1 - k for the k-th one that a support takes away.
   std::array<std::int8_t, 12> position{};
   int first_reaction = 0;  ///< of the unknowns taken away, in the array of reactions

@@ -1,0 +1,29 @@
+/// Everything a deck can name.
+#pragma once
+
+#include <culm/analysis/register_analysis.hpp>
+#include <culm/beam/register_beam.hpp>
+#include <culm/material/register_material.hpp>
+#include <culm/model/build_context.hpp>
+#include <culm/simulation/quantity.hpp>
+
+namespace culm::simulation {
+
+/// The registries of all packages.
+struct Catalogue {
+  /// Filled with all types culm has.
+  Catalogue();
+
+  Registry<material::Section> sections;
+  beam::StructureRegistry structures;
+  Registry<model::Amplitude> functions;
+  model::BuilderRegistry constraints;
+  model::BuilderRegistry loads;
+  analysis::AnalysisRegistry analyses;
+  QuantityRegistry quantities;
+
+  /// The schema of a whole deck.
+  Schema deck_schema() const;
+};
+
+}  // namespace culm::simulation

@@ -1,0 +1,33 @@
+/// What a history can watch.
+#pragma once
+
+#include <culm/assembly/system.hpp>
+#include <culm/base/registry.hpp>
+#include <culm/model/build_context.hpp>
+#include <culm/output/picture_mesh.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace culm::simulation {
+
+/// Some numbers of the state of a step.
+class Quantity {
+ public:
+  virtual ~Quantity() = default;
+  /// One per number, named below the name that the deck gives the quantity.
+  virtual std::vector<output::HistoryColumn> columns() const = 0;
+  /// Appends the numbers. Called on all ranks, with state.next up to date on all of them.
+  virtual void evaluate(const assembly::System& system, const model::State& state,
+                        std::vector<double>& numbers) const = 0;
+};
+
+/// Makers report mistakes as issues and may then return nothing.
+using QuantityRegistry = Registry<std::unique_ptr<Quantity>, model::BuildContext&>;
+
+/// Position, Displacement, Rotation and Reaction of a node.
+void register_node_quantities(QuantityRegistry& registry);
+/// Stress resultants of an element, and energies.
+void register_element_quantities(QuantityRegistry& registry);
+
+}  // namespace culm::simulation

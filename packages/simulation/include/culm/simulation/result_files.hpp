@@ -1,0 +1,74 @@
+/// Everything a run leaves on disk.
+#pragma once
+
+#include <culm/assembly/system.hpp>
+#include <culm/output/history_csv.hpp>
+#include <culm/output/recorder.hpp>
+#include <culm/output/vtu.hpp>
+#include <culm/output/xdmf.hpp>
+#include <culm/simulation/quantity.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::simulation {
+
+/// A quantity under the name that the deck gives it.
+struct WatchedQuantity {
+  std::string name;
+  std::unique_ptr<Quantity> quantity;
+};
+
+/// What to write, and how often.
+struct ResultSettings {
+  std::filesystem::path folder;
+  output::RunInfo info;
+  int every = 1;
+  bool pictures = true;
+};
+
+/// Gathers states and writes them on rank 0. All functions are called on all ranks, and throw
+/// FileError on all of them.
+class ResultFiles {
+ public:
+  ResultFiles(assembly::System& system, ResultSettings settings,
+              const std::vector<WatchedQuantity>& watched);
+
+  /// Adds a row to the history.
+  void add_history(double time, model::State& state);
+  /// Whether a step is one of those to be recorded.
+  bool is_due(int step) const { return step % settings_.every == 0; }
+  /// Records a whole state.
+  void record(double time, model::State& state);
+  /// Ends the files with the report of the run.
+  void finish(const std::string& report, const std::vector<output::NamedScalar>& scalars);
+  /// Paths of the files that a user opens.
+  std::vector<std::filesystem::path> paths() const;
+
+ private:
+  /// The files; on rank 0 only.
+  struct Files {
+    output::Recorder recorder;
+    output::XdmfFile xdmf;
+    output::HistoryCsv history;
+    std::optional<output::Pictures> pictures;
+  };
+
+  template <class Work>
+  void on_root(Work work) const;
+  void open();
+  std::vector<output::HistoryColumn> columns() const;
+  output::Frame frame(double time, const model::State& state) const;
+
+  assembly::System& system_;
+  ResultSettings settings_;
+  const std::vector<WatchedQuantity>& watched_;
+  std::unique_ptr<Files> files_;
+  int frames_ = 0;
+};
+
+}  // namespace culm::simulation

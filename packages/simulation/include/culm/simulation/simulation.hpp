@@ -1,0 +1,44 @@
+/// A deck as a running model.
+#pragma once
+
+#include <culm/base/ledger.hpp>
+#include <culm/base/log.hpp>
+#include <culm/base/options.hpp>
+#include <culm/parallel/comm.hpp>
+#include <culm/simulation/catalogue.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace culm::simulation {
+
+/// How a run talks and where it writes.
+struct RunSettings {
+  std::filesystem::path folder;  ///< for results
+  bool quiet = false;
+  bool terminal = false;  ///< standard output is a terminal
+};
+
+/// Builds the model of a deck and runs its analyses. The same on all ranks.
+class Simulation {
+ public:
+  /// Builds the model. Throws InputError with all mistakes.
+  /// @param deck validated with Catalogue::deck_schema
+  Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
+             const Log& log);
+  ~Simulation();
+
+  /// Runs all analyses and writes results. On NumericalError or NonFiniteError the files hold
+  /// everything up to the last accepted step, and the post-mortem as report.
+  void run(const RunSettings& settings);
+
+  /// Structures, masses, unknowns and effects, for `culm check`.
+  std::string summary() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace culm::simulation

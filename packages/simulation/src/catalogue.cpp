@@ -1,0 +1,78 @@
+#include <culm/joint/register_joint.hpp>
+#include <culm/load/register_load.hpp>
+#include <culm/simulation/catalogue.hpp>
+
+namespace culm::simulation {
+
+Catalogue::Catalogue() {
+  material::register_sections(sections);
+  beam::register_structures(structures);
+  model::register_amplitudes(functions);
+  joint::register_joints(constraints);
+  load::register_loads(loads);
+  analysis::register_analyses(analyses);
+  register_node_quantities(quantities);
+  register_element_quantities(quantities);
+}
+
+namespace {
+
+Schema solver_schema() {
+  return Schema("Solver", "Form of the equations and solution of linear systems.")
+      .add(choice("Form", {"Null Space", "Multipliers"},
+                  "Six unknowns per node, or the twelve director coordinates with all constraints "
+                  "as equations: the reference to compare with.")
+               .optional("Null Space"))
+      .add(choice("Linear Solver", {"KLU2"}, "Direct solver of the linear systems.")
+               .optional("KLU2"));
+}
+
+Schema node_sets_schema() {
+  Schema set("Node Set", "Nodes under one name.");
+  set.add(texts("Nodes", "Nodes, each as 'structure/number', 'structure/set' or 'structure'.")
+              .min_size(1));
+  return Schema("Node Sets",
+                "Node sets by name; where a node is asked for, the name stands for "
+                "all of them.")
+      .entries(std::move(set));
+}
+
+Schema output_schema(const QuantityRegistry& quantities) {
+  return Schema("Output", "What is written.")
+      .add(integer("Every", "Steps from one recorded state to the next.").at_least(1).optional(1))
+      .add(flag("Pictures", "Write VTU files beside run.h5.").optional(true))
+      .list("History",
+            Schema("History", "Quantities of each step, in history.csv and run.h5.")
+                .entries_by_type(quantities.variants()),
+            Presence::defaulted);
+}
+
+}  // namespace
+
+Schema Catalogue::deck_schema() const {
+  return Schema("culm", "An input deck.")
+      .add(text("Title", "What the deck shows.").optional(""))
+      .list("Sections",
+            Schema("Sections", "Cross-sections by name.").entries_by_type(sections.variants()),
+            Presence::defaulted)
+      .list("Structures", Schema("Structures", "Parts of the model by name.")
+                              .entries_by_type(structures.variants()))
+      .list("Node Sets", node_sets_schema(), Presence::defaulted)
+      .list("Functions",
+            Schema("Functions", "Functions of time by name; 'Ramp' and 'Constant' are there.")
+                .entries_by_type(functions.variants()),
+            Presence::defaulted)
+      .list("Constraints",
+            Schema("Constraints", "Supports and joints by name.")
+                .entries_by_type(constraints.variants()),
+            Presence::defaulted)
+      .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(loads.variants()),
+            Presence::defaulted)
+      .list("Solver", solver_schema(), Presence::defaulted)
+      .list("Analyses",
+            Schema("Analyses", "What is done, in this order; each starts from the last state.")
+                .entries_by_type(analyses.variants()))
+      .list("Output", output_schema(quantities), Presence::defaulted);
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,82 @@
+#include "model_builder.hpp"
+
+#include <map>
+#include <utility>
+
+namespace culm::simulation {
+namespace {
+
+// Everything of a list by name; mistakes that a maker throws are collected with all others.
+template <class Product>
+std::map<std::string, Product> make_all(const Registry<Product>& registry, const Options& list,
+                                        InputIssues& issues) {
+  std::map<std::string, Product> products;
+  for (const Options& entry : list.entries()) {
+    try {
+      products.emplace(entry.name(), registry.make(entry.text("Type"), entry));
+    } catch (const InputError& error) {
+      for (const InputIssue& issue : error.issues()) issues.add(issue);
+    }
+  }
+  return products;
+}
+
+template <class Context>
+void build_all(const Registry<void, Context&>& registry, const Options& list, Context& context) {
+  for (const Options& entry : list.entries()) {
+    try {
+      registry.make(entry.text("Type"), entry, context);
+    } catch (const InputError& error) {
+      for (const InputIssue& issue : error.issues()) context.issues.add(issue);
+    }
+  }
+}
+
+void add_node_sets(const Options& list, model::BuildContext& context) {
+  for (const Options& entry : list.entries()) {
+    if (context.model.find_structure(entry.name()) != nullptr) {
+      context.issues.add(entry.where(), "there is a structure of this name");
+      continue;
+    }
+    std::vector<int> nodes;
+    for (const std::string& name : entry.texts("Nodes")) {
+      const std::vector<int> some = model::find_nodes(name, entry.where("Nodes"), context);
+      nodes.insert(nodes.end(), some.begin(), some.end());
+    }
+    context.model.add_node_set(entry.name(), std::move(nodes));
+  }
+}
+
+std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const Options& list,
+                                             model::BuildContext& context) {
+  std::vector<WatchedQuantity> watched;
+  for (const Options& entry : list.entries()) {
+    auto quantity = catalogue.quantities.make(entry.text("Type"), entry, context);
+    if (quantity) watched.push_back({entry.name(), std::move(quantity)});
+  }
+  return watched;
+}
+
+}  // namespace
+
+std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
+                                         const Log& log, model::Model& model) {
+  InputIssues issues;
+  const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
+  const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
+  beam::StructureContext structures{model, sections, issues, log};
+  build_all(catalogue.structures, deck.list("Structures"), structures);
+  // what follows refers to structures; without them every reference would be a mistake
+  issues.throw_if_any();
+  model::BuildContext context{model, functions, issues};
+  add_node_sets(deck.list("Node Sets"), context);
+  build_all(catalogue.constraints, deck.list("Constraints"), context);
+  build_all(catalogue.loads, deck.list("Loads"), context);
+  auto watched = make_quantities(catalogue, deck.list("Output").list("History"), context);
+  issues.throw_if_any();
+  model.freeze(deck.list("Solver").text("Form") == "Null Space" ? model::Form::null_space
+                                                                : model::Form::multipliers);
+  return watched;
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,48 @@
+#include <culm/simulation/progress.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace culm::simulation {
+
+Progress::Progress(const Log& log, bool quiet, bool terminal)
+    : log_(log), quiet_(quiet), terminal_(terminal) {}
+
+void Progress::begin(const std::string& analysis) {
+  analysis_ = analysis;
+  tenth_ = 0;
+  start_ = std::chrono::steady_clock::now();
+}
+
+std::string Progress::line(const analysis::StepReport& report) const {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  const double done = report.time / report.final_time;
+  const double left = done > 0.0 ? spent.count() * (1.0 - done) / done : 0.0;
+  const auto& history = report.outcome.history;
+  const double residual = history.empty() ? 0.0 : history.back().force;
+  return fmt::format(
+      "{}: level {:.4g} of {:.4g}, step {}, {} iterations, residual {:.1e}, {:.0f} s left{}",
+      analysis_, report.time, report.final_time, report.step, report.outcome.iterations, residual,
+      left, report.accepted ? "" : ", cut back");
+}
+
+void Progress::show(const analysis::StepReport& report) {
+  if (quiet_) return;
+  if (terminal_) {
+    std::fputs(fmt::format("\r\033[K{}", line(report)).c_str(), stdout);
+    std::fflush(stdout);
+    open_ = true;
+    return;
+  }
+  const int tenth = static_cast<int>(10.0 * report.time / report.final_time + 1e-9);
+  if (!report.accepted || tenth > tenth_) log_.info(line(report));
+  if (report.accepted) tenth_ = tenth;
+}
+
+void Progress::end() {
+  if (open_) std::fputs("\n", stdout);
+  open_ = false;
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,45 @@
+/// Sees every step of a run: results, progress, statistics.
+#pragma once
+
+#include <culm/simulation/progress.hpp>
+#include <culm/simulation/result_files.hpp>
+
+namespace culm::simulation {
+
+class RunObserver final : public analysis::Observer {
+ public:
+  RunObserver(assembly::System& system, ResultFiles& files, Ledger& ledger,
+              Ledger::Id output_effect, Progress progress)
+      : system_(system),
+        files_(files),
+        ledger_(ledger),
+        output_effect_(output_effect),
+        progress_(std::move(progress)) {}
+
+  /// Records the reference state.
+  void start(model::State& state);
+  void begin(const std::string& analysis) { progress_.begin(analysis); }
+  void step(const analysis::StepReport& report, model::State& state) override;
+  /// Closes the files with a report of how the run ended.
+  void end(model::State& state, const std::string& outcome);
+  /// Results, ledger and convergence of the run, for the user.
+  std::string closing_words() const;
+
+ private:
+  std::string convergence() const;
+
+  assembly::System& system_;
+  ResultFiles& files_;
+  Ledger& ledger_;
+  Ledger::Id output_effect_;
+  Progress progress_;
+  bool is_recorded_ = true;  // the last accepted state is on disk
+  int accepted_ = 0;
+  int rejected_ = 0;
+  int iterations_ = 0;
+  int most_iterations_ = 0;
+  double worst_residual_ = 0.0;
+  double worst_constraint_ = 0.0;
+};
+
+}  // namespace culm::simulation

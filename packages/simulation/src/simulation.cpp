@@ -1,0 +1,92 @@
+#include <culm/base/error.hpp>
+#include <culm/base/version.hpp>
+#include <culm/deck/resolved.hpp>
+#include <culm/simulation/simulation.hpp>
+
+#include "model_builder.hpp"
+#include "run_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace culm::simulation {
+
+struct Simulation::Parts {
+  parallel::Comm comm;
+  const Catalogue& catalogue;
+  Options deck;
+  Log log;
+  Ledger ledger;
+  model::Model model;
+  std::vector<WatchedQuantity> watched;
+  std::unique_ptr<assembly::System> system;
+  std::unique_ptr<solver::LinearSolver> linear;
+};
+
+Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
+                       const Log& log)
+    : parts_(new Parts{comm, catalogue, deck, log, {}, {}, {}, {}, {}}) {
+  Parts& p = *parts_;
+  p.watched = build_model(catalogue, deck, log, p.model);
+  p.system = std::make_unique<assembly::System>(p.model, comm, p.ledger);
+  p.linear = solver::make_rooted_klu2(p.system->matrix(), comm);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::run(const RunSettings& settings) {
+  Parts& p = *parts_;
+  const Options& output = p.deck.list("Output");
+  ResultFiles files(*p.system,
+                    {settings.folder,
+                     {p.deck.text("Title"), std::string(version), deck::resolved(p.deck)},
+                     output.integer("Every"),
+                     output.flag("Pictures")},
+                    p.watched);
+  const Ledger::Id output_effect = p.ledger.add("Output");
+  RunObserver observer(*p.system, files, p.ledger, output_effect,
+                       Progress(p.log, settings.quiet, settings.terminal));
+  analysis::Context context{*p.system, *p.linear, p.ledger, p.log};
+  model::State state = p.model.initial_state();
+  observer.start(state);
+  try {
+    for (const Options& entry : p.deck.list("Analyses").entries()) {
+      observer.begin(entry.name());
+      p.catalogue.analyses.make(entry.text("Type"), entry)->run(context, state, observer);
+    }
+  } catch (const Error& error) {
+    observer.end(state, error.what());
+    throw;
+  }
+  observer.end(state, "done");
+  if (!settings.quiet) p.log.info(observer.closing_words());
+}
+
+std::string Simulation::summary() const {
+  const model::Model& model = parts_->model;
+  const model::UnknownTable& unknowns = model.unknowns();
+  std::string text;
+  for (const model::Structure& structure : model.structures()) {
+    text += fmt::format("structure '{}': {} nodes, {} elements\n", structure.name,
+                        structure.nodes.size(), structure.cells.size());
+  }
+  const auto entries = parts_->system->matrix()->getGlobalNumEntries();
+  text += fmt::format("mass: {:.6g} kg\n", model.mass());
+  text += fmt::format("unknowns: {} ({} multipliers), matrix entries: {}\n",
+                      unknowns.num_unknowns(), unknowns.num_multipliers(), entries);
+  text +=
+      fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
+  const auto count = [](const std::optional<long long>& n) {
+    return n ? std::to_string(*n) : std::string("-");
+  };
+  for (const Ledger::Entry& e : parts_->ledger.entries()) {
+    if (!e.items) continue;
+    text += fmt::format("{:<40} {:>10} {:>10} {:>14}\n", e.name, count(e.items), count(e.unknowns),
+                        count(e.entries_per_iteration));
+  }
+  return text;
+}
+
+}  // namespace culm::simulation

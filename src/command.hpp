@@ -1,0 +1,27 @@
+/// The verbs of the application, one file each.
+#pragma once
+
+#include <culm/parallel/comm.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace culm::app {
+
+/// A deck and what the command line changes about it.
+struct DeckArguments {
+  std::string deck;
+  std::vector<std::string> overrides;  ///< path=value
+  std::filesystem::path folder;        ///< for results; results/<name of the deck> if empty
+  bool quiet = false;
+};
+
+/// Runs a deck.
+void run(const parallel::Comm& comm, const DeckArguments& arguments);
+/// Parses, builds, counts and validates a deck without solving it.
+void check(const parallel::Comm& comm, const DeckArguments& arguments);
+/// Prints the input reference, or the part of it that has a name.
+void reference(const parallel::Comm& comm, const std::string& name);
+
+}  // namespace culm::app

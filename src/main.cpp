@@ -1,0 +1,80 @@
+// culm: nonlinear dynamics of slender structures, driven by decks.
+
+#include <culm/base/error.hpp>
+#include <culm/base/version.hpp>
+#include <culm/simulation/session.hpp>
+
+#include "command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <mpi.h>
+
+#include <cstdio>
+#include <functional>
+
+namespace {
+
+using culm::app::DeckArguments;
+
+void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
+  verb.add_option("deck", arguments.deck, "Input deck, XML")->required();
+  verb.add_option("--set", arguments.overrides,
+                  "Replace a value: Structures/beam/Elements=32; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
+}
+
+// Declares all verbs; the chosen one becomes `action`.
+void declare_verbs(CLI::App& app, DeckArguments& arguments, std::string& name,
+                   std::function<void(const culm::parallel::Comm&)>& action) {
+  using culm::parallel::Comm;
+  app.set_version_flag("--version", std::string(culm::version));
+  app.require_subcommand(1);
+  CLI::App* run = app.add_subcommand("run", "Run a deck");
+  add_deck_options(*run, arguments);
+  run->add_option("--output", arguments.folder,
+                  "Folder for results; results/<name of the deck> if not given");
+  run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments); }; });
+  CLI::App* check = app.add_subcommand("check", "Parse, build and count a deck; do not solve it");
+  add_deck_options(*check, arguments);
+  check->callback([&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments); }; });
+  CLI::App* reference = app.add_subcommand("reference", "Print what a deck may contain");
+  reference->add_option("name", name, "A list, type or parameter; everything if not given");
+  reference->callback(
+      [&] { action = [&](const Comm& comm) { culm::app::reference(comm, name); }; });
+}
+
+// The error is the same on all ranks, so one speaks for them.
+int report(const culm::Error& error, const culm::parallel::Comm& comm) {
+  if (comm.is_root()) std::fprintf(stderr, "%s\n", error.what());
+  return error.exit_code();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const culm::simulation::Session session(argc, argv);
+  const culm::parallel::Comm comm;
+  CLI::App app("culm: nonlinear dynamics of slender structures", "culm");
+  DeckArguments arguments;
+  std::string name;
+  std::function<void(const culm::parallel::Comm&)> action;
+  declare_verbs(app, arguments, name, action);
+  try {
+    app.parse(argc, argv);
+    action(comm);
+  } catch (const CLI::ParseError& error) {
+    const int code = comm.is_root() ? app.exit(error) : error.get_exit_code();
+    return code == 0 ? 0 : 2;
+  } catch (const culm::Error& error) {
+    return report(error, comm);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "internal error: %s\nThis is a bug in culm; please report it.\n",
+                 error.what());
+    // other ranks may be waiting for this one
+    if (comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, 1);
+    return 1;
+  }
+  return 0;
+}
