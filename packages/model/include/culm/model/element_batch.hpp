@@ -232,7 +232,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int b = 0; b < N; ++b) {
         auto block = tangent.template block<W, W>(W * a, W * b);
         const SlotMatrix<4> pairs = theta * scalars.template block<4, 4>(4 * a, 4 * b);
-        Space::add_pairs(pairs, arms_mid.template middleCols<4>(4 * a),
+        Space::add_pairs(pairs, std::as_const(arms_mid).template middleCols<4>(4 * a),
                          arms_next.template middleCols<4>(4 * b), block);
         if (a == b) {
           Space::add_turning(slot_forces.template middleCols<4>(4 * a),
