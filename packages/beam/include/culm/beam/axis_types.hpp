@@ -1,0 +1,15 @@
+/// The ways a deck can describe the axis of a beam: list `Curve`, by `Type`.
+#pragma once
+
+#include <culm/base/registry.hpp>
+#include <culm/beam/axis.hpp>
+
+namespace culm::beam {
+
+/// Makers take the order of the elements. They throw InputError for impossible geometry.
+using AxisRegistry = Registry<Axis, int>;
+
+/// Adds Line, Polyline, Arc, Arc Through Points, Helix and Nodes.
+void register_axes(AxisRegistry& registry);
+
+}  // namespace culm::beam

@@ -1,0 +1,29 @@
+/// Elements along an axis.
+#pragma once
+
+#include <culm/beam/axis.hpp>
+#include <culm/beam/section_table.hpp>
+#include <culm/model/model.hpp>
+
+#include <vector>
+
+namespace culm::beam {
+
+/// The kinds of beam elements a deck can choose from.
+enum class ElementKind { director_1, director_2, director_3, helical };
+
+/// Polynomial order: nodes per element minus one.
+int order_of(ElementKind kind);
+
+/// What the elements of a beam look like before it is loaded.
+struct ReferenceState {
+  double largest_turn = 0.0;  ///< largest relative rotation of the ends of an element [rad]
+};
+
+/// Adds the elements of one chain to the model, their cells and line points to the structure.
+/// @param nodes  numbers of the chain's nodes in the model; order * elements + 1 of them
+ReferenceState add_elements(ElementKind kind, const Chain& chain, const std::vector<int>& nodes,
+                            const SectionTable& sections, model::Model& model,
+                            model::Structure& structure);
+
+}  // namespace culm::beam

@@ -1,0 +1,36 @@
+/// Sections along a beam.
+#pragma once
+
+#include <culm/base/schema.hpp>
+#include <culm/material/section.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace culm::beam {
+
+/// Sections at places of the relative span, linear between them and constant beyond.
+class SectionTable {
+ public:
+  /// One section all along.
+  explicit SectionTable(material::Section section);
+  /// @pre as many positions as sections, at least one, not descending
+  SectionTable(std::vector<material::Section> sections, std::vector<double> positions);
+
+  /// Section at a span in [0, 1].
+  material::Section at(double span) const;
+
+ private:
+  std::vector<material::Section> sections_;
+  std::vector<double> positions_;
+};
+
+/// `Section`, or `Sections` with `Section Positions`, and the rules between them.
+void add_section_fields(Schema& schema);
+
+/// The table that the fields describe. Throws InputError for names that are not among `sections`.
+SectionTable read_sections(const Options& options,
+                           const std::map<std::string, material::Section>& sections);
+
+}  // namespace culm::beam

@@ -1,0 +1,152 @@
+#include <culm/beam/beam_elements.hpp>
+#include <culm/beam/director_beam.hpp>
+#include <culm/beam/helical_beam.hpp>
+#include <culm/math/lagrange.hpp>
+#include <culm/math/quadrature.hpp>
+#include <culm/math/rotation.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace culm::beam {
+
+namespace {
+
+// The nodes of one element.
+template <class Beam>
+struct Stretch {
+  static constexpr int order = Beam::num_nodes - 1;
+  using Shape = Lagrange<order>;
+
+  typename Beam::Nodes slots;
+  Vec<Beam::num_nodes> spans;
+  std::array<int, Beam::num_nodes> nodes;
+
+  Stretch(const Chain& chain, const std::vector<int>& numbers, std::size_t first) {
+    for (int a = 0; a < Beam::num_nodes; ++a) {
+      const std::size_t at = first + static_cast<std::size_t>(a);
+      slots.template middleCols<4>(4 * a) << chain[at].position, chain[at].triad;
+      spans[a] = chain[at].span;
+      nodes[static_cast<std::size_t>(a)] = numbers[at];
+    }
+  }
+
+  material::Section section_at(const SectionTable& sections, double xi) const {
+    return sections.at(Shape::values(xi).dot(spans));
+  }
+
+  template <std::size_t Points>
+  std::array<Mat3, Points> masses(const SectionTable& sections) const {
+    std::array<Mat3, Points> result;
+    const auto rule = gauss_legendre(Points);
+    for (std::size_t g = 0; g < Points; ++g) result[g] = section_at(sections, rule[g].xi).mass;
+    return result;
+  }
+
+  double turn() const {
+    const Mat3 first = slots.template middleCols<3>(1);
+    const Mat3 last = slots.template middleCols<3>(4 * order + 1);
+    return log_rotation(first.transpose() * last).norm();
+  }
+
+  // |dX/dxi| of the interpolated axis
+  double jacobian(double xi) const {
+    const auto dN = Shape::derivatives(xi);
+    Vec3 tangent = Vec3::Zero();
+    for (int a = 0; a <= order; ++a) tangent += dN[a] * slots.col(4 * a);
+    return tangent.norm();
+  }
+};
+
+template <int Order>
+DirectorBeam<Order> make_element(const Stretch<DirectorBeam<Order>>& stretch,
+                                 const SectionTable& sections) {
+  std::array<Mat6, Order> stiffness;
+  const auto rule = gauss_legendre(Order);
+  for (std::size_t g = 0; g < stiffness.size(); ++g) {
+    stiffness[g] = stretch.section_at(sections, rule[g].xi).stiffness;
+  }
+  return {stretch.slots, stiffness, stretch.template masses<Order + 1>(sections)};
+}
+
+HelicalBeam make_element(const Stretch<HelicalBeam>& stretch, const SectionTable& sections) {
+  return {stretch.slots, stretch.section_at(sections, 0.0).stiffness, stretch.masses<2>(sections)};
+}
+
+// Length that one unit of xi stands for: the elements' own measure, so that loads per length and
+// mass agree.
+template <int Order>
+double jacobian(const DirectorBeam<Order>&, const Stretch<DirectorBeam<Order>>& stretch,
+                double xi) {
+  return stretch.jacobian(xi);
+}
+double jacobian(const HelicalBeam& element, const Stretch<HelicalBeam>&, double) {
+  return 0.5 * element.length();
+}
+
+template <class Beam>
+void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
+                     model::Structure& structure) {
+  for (const auto& [xi, weight] : gauss_legendre(Beam::num_nodes)) {
+    const auto N = Lagrange<Beam::num_nodes - 1>::values(xi);
+    model::LinePoint point;
+    point.marker.nodes.assign(stretch.nodes.begin(), stretch.nodes.end());
+    point.marker.weights.assign(N.begin(), N.end());
+    point.length = weight * jacobian(element, stretch, xi);
+    structure.line_points.push_back(std::move(point));
+  }
+}
+
+template <class Beam>
+ReferenceState add_all(const std::string& effect, const Chain& chain, const std::vector<int>& nodes,
+                       const SectionTable& sections, model::Model& model,
+                       model::Structure& structure) {
+  ReferenceState reference;
+  auto& batch = model.elements<Beam>(effect);
+  constexpr std::size_t order = Beam::num_nodes - 1;
+  for (std::size_t first = 0; first + order < chain.size(); first += order) {
+    const Stretch<Beam> stretch(chain, nodes, first);
+    const Beam element = make_element(stretch, sections);
+    reference.largest_turn = std::max(reference.largest_turn, stretch.turn());
+    add_line_points(element, stretch, structure);
+    const int item = batch.add(element, stretch.nodes);
+    structure.cells.push_back({{stretch.nodes.begin(), stretch.nodes.end()}, &batch, item});
+  }
+  return reference;
+}
+
+}  // namespace
+
+int order_of(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::director_2:
+      return 2;
+    case ElementKind::director_3:
+      return 3;
+    case ElementKind::director_1:
+    case ElementKind::helical:
+      break;
+  }
+  return 1;
+}
+
+ReferenceState add_elements(ElementKind kind, const Chain& chain, const std::vector<int>& nodes,
+                            const SectionTable& sections, model::Model& model,
+                            model::Structure& structure) {
+  const auto add = [&]<class Beam>(const std::string& effect) {
+    return add_all<Beam>(effect, chain, nodes, sections, model, structure);
+  };
+  switch (kind) {
+    case ElementKind::director_1:
+      return add.template operator()<DirectorBeam<1>>("Beam, director, order 1");
+    case ElementKind::director_2:
+      return add.template operator()<DirectorBeam<2>>("Beam, director, order 2");
+    case ElementKind::director_3:
+      return add.template operator()<DirectorBeam<3>>("Beam, director, order 3");
+    case ElementKind::helical:
+      break;
+  }
+  return add.template operator()<HelicalBeam>("Beam, helical");
+}
+
+}  // namespace culm::beam

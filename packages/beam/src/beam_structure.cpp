@@ -1,0 +1,117 @@
+#include <culm/beam/axis_types.hpp>
+#include <culm/beam/beam_elements.hpp>
+#include <culm/beam/beam_structure.hpp>
+#include <culm/beam/helical_beam.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace culm::beam {
+
+namespace {
+
+// Beyond this relative rotation per element the error of linear directors, 2/3 of its square, is
+// more than three percent. @source formulation 1.3.4
+constexpr double director_1_turn = 0.2;
+
+AxisRegistry axes() {
+  AxisRegistry registry;
+  register_axes(registry);
+  return registry;
+}
+
+ElementKind read_kind(const Options& options) {
+  if (options.text("Element") == "Helical") return ElementKind::helical;
+  switch (options.integer("Order")) {
+    case 1:
+      return ElementKind::director_1;
+    case 2:
+      return ElementKind::director_2;
+    default:
+      return ElementKind::director_3;
+  }
+}
+
+std::vector<int> add_nodes(const Chain& chain, const SectionTable& sections, model::Model& model,
+                           model::Structure& structure) {
+  std::vector<int> numbers;
+  for (const AxisNode& node : chain) {
+    model::NodeSlots slots;
+    slots << node.position, node.triad;
+    numbers.push_back(model.nodes().add(slots));
+    structure.outlines.push_back(sections.at(node.span).outline);
+    if (std::abs(node.span - 0.5) < 1e-9) structure.sets["middle"].push_back(numbers.back());
+  }
+  structure.nodes.insert(structure.nodes.end(), numbers.begin(), numbers.end());
+  return numbers;
+}
+
+// Joins a chain to the one before it: `slave` is its first node.
+void link_corner(int master, int slave, model::Model& model, model::Structure& structure) {
+  auto& corners = structure.sets["corners"];
+  corners.push_back(master);
+  model.add_rigid_link(fmt::format("{}, corner {}", structure.name, corners.size()), slave, master);
+}
+
+void check_turn(ElementKind kind, double turn, const Options& options,
+                const StructureContext& context) {
+  if (kind == ElementKind::helical && turn >= HelicalBeam::max_rotation) {
+    throw InputError(options.list("Curve").where(),
+                     fmt::format("the ends of an element are turned by {:.3g} rad against each "
+                                 "other; helical elements need less than {:g}: take more elements",
+                                 turn, HelicalBeam::max_rotation));
+  }
+  if (kind == ElementKind::director_1 && turn > director_1_turn) {
+    context.log.warning(fmt::format(
+        "{}: the ends of an element are turned by {:.2g} rad against each other; director elements "
+        "of order 1 are good below {:g}: take more elements, a higher order or helical elements",
+        to_string(options.where()), turn, director_1_turn));
+  }
+}
+
+}  // namespace
+
+Schema beam_schema() {
+  Schema schema("Beam", "Geometrically exact beam along an axis.");
+  add_section_fields(schema);
+  schema
+      .add(choice("Element", {"Director", "Helical"},
+                  "Director: positions and directors are interpolated. Helical: two nodes, exact "
+                  "for constant strain.")
+               .optional("Director"))
+      .add(integer("Order", "Order of interpolation of director elements: nodes minus one.")
+               .between(1, 3)
+               .optional(1))
+      .list_by_type("Curve", axes().variants())
+      .check([](const Options& beam, InputIssues& issues) {
+        if (beam.text("Element") == "Helical" && beam.integer("Order") != 1) {
+          issues.add(beam.where("Order"), "helical elements have two nodes: leave 'Order' out");
+        }
+      });
+  return schema;
+}
+
+void add_beam(const Options& options, StructureContext& context) {
+  const ElementKind kind = read_kind(options);
+  const SectionTable sections = read_sections(options, context.sections);
+  const Options& curve = options.list("Curve");
+  const Axis axis = axes().make(curve.text("Type"), curve, order_of(kind));
+
+  model::Structure& structure = context.model.add_structure(options.name());
+  double largest_turn = 0.0;
+  for (const Chain& chain : axis.chains) {
+    const int before = structure.nodes.empty() ? -1 : structure.nodes.back();
+    const std::vector<int> nodes = add_nodes(chain, sections, context.model, structure);
+    if (before >= 0) link_corner(before, nodes.front(), context.model, structure);
+    const ReferenceState reference =
+        add_elements(kind, chain, nodes, sections, context.model, structure);
+    largest_turn = std::max(largest_turn, reference.largest_turn);
+  }
+  structure.sets["first"] = {structure.nodes.front()};
+  structure.sets["last"] = {structure.nodes.back()};
+  structure.sets["all"] = structure.nodes;
+  check_turn(kind, largest_turn, options, context);
+}
+
+}  // namespace culm::beam

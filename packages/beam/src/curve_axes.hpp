@@ -1,0 +1,25 @@
+/// Axis types that are smooth curves.
+#pragma once
+
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
+#include <culm/beam/axis.hpp>
+
+namespace culm::beam {
+
+Schema line_schema();
+Axis make_line(const Options& options, int order);
+
+Schema polyline_schema();
+Axis make_polyline(const Options& options, int order);
+
+Schema arc_schema();
+Axis make_arc(const Options& options, int order);
+
+Schema arc_through_points_schema();
+Axis make_arc_through_points(const Options& options, int order);
+
+Schema helix_schema();
+Axis make_helix(const Options& options, int order);
+
+}  // namespace culm::beam

@@ -1,0 +1,10 @@
+#include <culm/beam/beam_structure.hpp>
+#include <culm/beam/register_beam.hpp>
+
+namespace culm::beam {
+
+void register_structures(StructureRegistry& registry) {
+  registry.add("Beam", beam_schema(), add_beam);
+}
+
+}  // namespace culm::beam

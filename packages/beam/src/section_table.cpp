@@ -1,0 +1,61 @@
+#include <culm/base/error.hpp>
+#include <culm/base/options.hpp>
+#include <culm/beam/section_table.hpp>
+#include <culm/beam/span_table.hpp>
+
+#include <utility>
+
+namespace culm::beam {
+
+SectionTable::SectionTable(material::Section section)
+    : sections_{std::move(section)}, positions_{0.0} {}
+
+SectionTable::SectionTable(std::vector<material::Section> sections, std::vector<double> positions)
+    : sections_(std::move(sections)), positions_(std::move(positions)) {}
+
+material::Section SectionTable::at(double span) const {
+  const TablePlace place = find_place(positions_, span);
+  return material::interpolate(sections_[place.first], sections_[place.second], place.t);
+}
+
+void add_section_fields(Schema& schema) {
+  schema.add(text("Section", "Section all along, by its name in Sections.").optional())
+      .add(texts("Sections", "Sections along the axis, by their names in Sections, instead of one.")
+               .min_size(1)
+               .optional())
+      .add(numbers("Section Positions", "1",
+                   "Places of these sections, 0 at the start and 1 at the end of the axis; linear "
+                   "between them.")
+               .between(0.0, 1.0)
+               .optional())
+      .check([](const Options& beam, InputIssues& issues) {
+        if (beam.has("Section") == beam.has("Sections")) {
+          issues.add(beam.where(), "give one of 'Section' and 'Sections'");
+        } else if (beam.has("Sections") != beam.has("Section Positions")) {
+          issues.add(beam.where(), "'Sections' and 'Section Positions' need each other");
+        } else if (beam.has("Sections")) {
+          check_positions(beam, "Section Positions", beam.texts("Sections").size(), issues);
+        }
+      });
+}
+
+SectionTable read_sections(const Options& options,
+                           const std::map<std::string, material::Section>& sections) {
+  const std::string field = options.has("Section") ? "Section" : "Sections";
+  const auto find = [&](const std::string& name) {
+    const auto found = sections.find(name);
+    if (found == sections.end()) {
+      std::vector<std::string> known;
+      for (const auto& [one, section] : sections) known.push_back(one);
+      throw InputError(options.where(field),
+                       "unknown section '" + name + "'" + did_you_mean(name, known));
+    }
+    return found->second;
+  };
+  if (options.has("Section")) return SectionTable(find(options.text("Section")));
+  std::vector<material::Section> along;
+  for (const std::string& name : options.texts("Sections")) along.push_back(find(name));
+  return {std::move(along), options.numbers("Section Positions")};
+}
+
+}  // namespace culm::beam
