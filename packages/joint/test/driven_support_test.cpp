@@ -1,0 +1,98 @@
+#include <culm/joint/rotation.hpp>
+#include <culm/joint/simple_support.hpp>
+#include <culm/joint/simple_support_local.hpp>
+#include <culm/math/rotation.hpp>
+
+#include <Eigen/Geometry>
+#include <culm_kit/dense_assembly.hpp>
+#include <gtest/gtest.h>
+
+namespace culm::joint {
+namespace {
+
+const Vec3 axis = Vec3(0.6, -0.3, 0.8).normalized();
+
+// Amount times t: a motion that is not a ramp, so that times beyond 1 tell.
+Prescribed proportional(double amount) {
+  return {amount, model::Amplitude::of_time([](double t) { return t; })};
+}
+
+class DrivenSupport : public testing::Test {
+ protected:
+  const model::NodeSlots reference = kit::random_node(1);
+  model::NodeTable nodes;
+  DrivenSupport() { nodes.add(reference); }
+
+  /// The value of the only row of a support at a time.
+  static double row(model::Constraint support, double time, const model::NodeSlots& q) {
+    if (support.drive) support.drive(time, support.rows);
+    const model::ConstraintRow& row = support.rows.front();
+    const Eigen::Vector4d alpha(row.alpha.data());
+    Vec3 second = row.direction;
+    if (!row.linear()) second += q * Eigen::Vector4d(row.beta.data());
+    return (q * alpha).dot(second) - row.constant;
+  }
+  model::NodeSlots turned(const Vec3& rotation) const {
+    model::NodeSlots q = reference;
+    q.rightCols<3>() = exp_rotation(rotation) * reference.rightCols<3>();
+    return q;
+  }
+};
+
+constexpr double round_off = 1e-15;
+
+TEST_F(DrivenSupport, RotationRowsVanishAfterTheExactRotation) {
+  for (double time : {0.0, 0.4, 1.0, 2.5, -1.3}) {
+    const model::NodeSlots q = turned(2.0 * time * axis);
+    EXPECT_LT(std::abs(row(rotation(nodes, 0, axis, proportional(2.0)), time, q)), round_off);
+    EXPECT_LT(std::abs(row(rotation_local(nodes, 0, axis, proportional(2.0)), time, q)), round_off);
+  }
+}
+
+TEST_F(DrivenSupport, RotationRowsMeasureTheAngleThatIsMissing) {
+  const model::NodeSlots q = turned(0.9 * axis);
+  const double missing = 0.3;
+  // a body vector of length one, in the plane of rotation
+  EXPECT_NEAR(row(rotation(nodes, 0, axis, proportional(0.9 - missing)), 1.0, q), std::sin(missing),
+              round_off);
+  EXPECT_NEAR(row(rotation_local(nodes, 0, axis, proportional(0.9 - missing)), 1.0, q),
+              -std::sin(missing), round_off);
+}
+
+TEST_F(DrivenSupport, RotationLeavesRotationsAcrossTheDrivenVectorFree) {
+  const Vec3 c0 = any_normal(axis);
+  // the plane of axis and c0 is where the row does not look
+  model::NodeTable aligned;
+  model::NodeSlots q = model::NodeSlots::Zero();
+  q.rightCols<3>() << axis, c0, axis.cross(c0);
+  aligned.add(q);
+  const model::Constraint support = rotation(aligned, 0, axis, proportional(0.0));
+  const Mat3 triad = q.rightCols<3>();
+  for (const Vec3& free : {c0, Vec3(axis.cross(c0))}) {
+    q.rightCols<3>() = exp_rotation(0.7 * free) * triad;
+    EXPECT_LT(std::abs(row(support, 0.0, q)), round_off);
+  }
+  q.rightCols<3>() = exp_rotation(0.7 * axis) * triad;
+  EXPECT_NEAR(row(support, 0.0, q), std::sin(0.7), round_off);
+}
+
+TEST_F(DrivenSupport, SimpleSupportsFollowTheirTranslation) {
+  model::NodeSlots q = reference;
+  q.col(0) += 0.75 * axis + 2.0 * any_normal(axis);
+  EXPECT_NEAR(row(simple_support(nodes, 0, axis, Vec3::Zero(), proportional(0.5)), 1.5, q), 0.0,
+              round_off);
+  EXPECT_NEAR(row(simple_support_local(nodes, 0, axis, proportional(0.5)), 1.5, q), 0.0, round_off);
+}
+
+TEST_F(DrivenSupport, OnlyTheLocalDirectionTurnsWithTheNode) {
+  const Vec3 turn(0.3, 0.9, -0.4);
+  model::NodeSlots q = turned(turn);
+  const Vec3 away(0.2, 0.5, -0.7);
+  q.col(0) += away;
+  EXPECT_NEAR(row(simple_support(nodes, 0, axis, Vec3::Zero()), 0.0, q), axis.dot(away), round_off);
+  EXPECT_NEAR(row(simple_support_local(nodes, 0, axis), 0.0, q),
+              (exp_rotation(turn) * axis).dot(away), round_off);
+}
+
+}  // namespace
+}  // namespace culm::joint

@@ -1,0 +1,112 @@
+/// Laws that every batch obeys in both forms of the equations, with and without eliminated nodes.
+#pragma once
+
+#include <culm_kit/dense_assembly.hpp>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace culm::kit {
+
+/// Statics, the conserving step, and a step with numerical dissipation.
+inline const std::vector<Stencil> law_stencils = {
+    Stencil::statics(), Stencil::midpoint(0.4), {0.4, 0.5, 0.75}};
+
+/// Fills a model; called anew for each form.
+using FillModel = std::function<void(model::Model&)>;
+
+inline model::Batch* find_batch(const model::Model& model, const std::string& effect) {
+  for (model::Batch* batch : model.batches()) {
+    if (batch->effect() == effect) return batch;
+  }
+  return nullptr;
+}
+
+inline double largest(const Eigen::MatrixXd& m) { return m.cwiseAbs().maxCoeff(); }
+
+/// The tangent of a batch is the derivative of its residual under the update of the solver.
+/// @source formulation 6.7
+inline void expect_tangent_is_derivative(const FillModel& fill, const std::string& effect) {
+  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
+    for (const Stencil& stencil : law_stencils) {
+      SCOPED_TRACE(testing::Message() << "form " << static_cast<int>(form) << ", theta "
+                                      << stencil.theta << " / " << stencil.theta_strain);
+      model::Model model;
+      fill(model);
+      model.freeze(form);
+      const DenseAssembly::Batches tested = {find_batch(model, effect)};
+      ASSERT_NE(tested.front(), nullptr);
+      const model::State state = random_state(model, 3);
+      DenseAssembly dense(model);
+      dense.begin_step(state, stencil);
+      const Eigen::MatrixXd K = dense.tangent(state, stencil, tested);
+      const Eigen::MatrixXd expected = dense.difference_tangent(state, stencil, tested);
+      const double scale = 1.0 + largest(dense.residual(state, stencil, tested));
+      EXPECT_LT(largest(K - expected), 1e-11 * (scale + largest(expected)));
+      EXPECT_TRUE(tested.front()->has_tangent() || K.isZero(0.0));
+    }
+  }
+}
+
+/// Gives the multipliers of all constraints of a name the same values, whatever their number.
+inline void set_multipliers(const model::Model& model, const std::string& name,
+                            model::State& state) {
+  for (std::size_t c = 0; c < model.equations().size(); ++c) {
+    if (model.equations()[c].name != name) continue;
+    const auto& block =
+        model.unknowns().block(model.unknowns().constraint_block(static_cast<int>(c)));
+    Random random(17);
+    for (int i = 0; i < block.shape.width; ++i) {
+      state.multipliers[static_cast<std::size_t>(block.first_multiplier + i)] = random.number();
+    }
+  }
+}
+
+/// The node rows of a residual, for all nodes, zero where there are none.
+inline Eigen::VectorXd node_rows(const model::Model& model, const Eigen::VectorXd& residual) {
+  const bool reduced = model.unknowns().form() == model::Form::null_space;
+  const int width = reduced ? 6 : 12;
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(width * model.nodes().size());
+  for (const model::Block& block : model.unknowns().blocks()) {
+    if (block.kind != model::BlockKind::node || block.shape.active == 0) continue;
+    rows.segment(width * block.owner, width) = residual.segment(block.first, width);
+  }
+  return rows;
+}
+
+/// The residual of the null-space form is P(q_theta)^T times that of the multiplier form.
+/// No node of the model may have supports. @source formulation 6.2
+inline void expect_residual_is_projected(const FillModel& fill, const std::string& effect) {
+  model::Model reduced;
+  model::Model full;
+  fill(reduced);
+  fill(full);
+  reduced.freeze(model::Form::null_space);
+  full.freeze(model::Form::multipliers);
+  DenseAssembly reduced_system(reduced);
+  DenseAssembly full_system(full);
+  for (const Stencil& stencil : law_stencils) {
+    SCOPED_TRACE(testing::Message() << "theta " << stencil.theta);
+    model::State state = random_state(reduced, 4);
+    model::State full_state = full.initial_state();
+    full_state.time_prev = state.time_prev;
+    full_state.time = state.time;
+    full_state.prev = state.prev;
+    full_state.next = state.next;
+    set_multipliers(reduced, effect, state);
+    set_multipliers(full, effect, full_state);
+    reduced_system.begin_step(state, stencil);
+    full_system.begin_step(full_state, stencil);
+    const Eigen::VectorXd r =
+        node_rows(reduced, reduced_system.residual(state, stencil, {find_batch(reduced, effect)}));
+    const Eigen::VectorXd R =
+        node_rows(full, full_system.residual(full_state, stencil, {find_batch(full, effect)}));
+    const Eigen::MatrixXd P = null_space_matrix(reduced.nodes(), at_theta(state, stencil.theta));
+    ASSERT_GT(largest(R), 0.0);
+    EXPECT_LT(largest(r - P.transpose() * R), 1e-13 * (1.0 + largest(R)));
+  }
+}
+
+}  // namespace culm::kit

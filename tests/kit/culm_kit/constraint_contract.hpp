@@ -1,0 +1,261 @@
+/// The laws every constraint obeys, as one typed test suite. A test file brings them all by a line:
+///
+///     INSTANTIATE_TYPED_TEST_SUITE_P(Ball, ConstraintContract, testing::Types<BallCase>);
+///
+/// where the case says how to make the constraint:
+///
+///     struct BallCase {
+///       static constexpr int num_nodes = 2;
+///       static constexpr bool eliminated = false;   // by the null-space form
+///       static model::Constraint make(const model::NodeTable& nodes);  // of nodes 0, 1, …
+///     };
+///
+/// Nodes have random positions and triads. JointContract adds what joints between bodies obey.
+/// @source formulation 0.3, 2.1, 2.8, 6.4
+#pragma once
+
+#include <culm/model/constraint.hpp>
+
+#include <culm_kit/batch_laws.hpp>
+#include <culm_kit/dense_assembly.hpp>
+#include <culm_kit/no_heap.hpp>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+namespace culm::kit {
+
+/// The rows of a constraint as ConstraintBatch evaluates them: in the multiplier form h is the
+/// residual of its own rows, and H their tangent.
+template <class Case>
+class ConstraintContract : public testing::Test {
+ protected:
+  static constexpr int num_nodes = Case::num_nodes;
+  static constexpr int width = 12 * num_nodes;
+  static constexpr const char* name = "tested";
+
+  ConstraintContract() {
+    fill(rows_model_, false);
+    rows_model_.freeze(model::Form::multipliers);
+    rows_ = std::make_unique<DenseAssembly>(rows_model_);
+    const model::UnknownTable& unknowns = rows_model_.unknowns();
+    first_row_ = unknowns.block(unknowns.constraint_block(0)).first;
+    num_rows_ = unknowns.block(unknowns.constraint_block(0)).shape.width;
+  }
+
+  static void add_nodes(model::Model& model) {
+    for (int node = 0; node < num_nodes; ++node) model.nodes().add(random_node(10 + node));
+  }
+  /// The constraint, kept as equations, and on demand a master that node 0 follows.
+  static void fill(model::Model& model, bool with_slave) {
+    add_nodes(model);
+    model::Constraint constraint = Case::make(model.nodes());
+    constraint.name = constraint.type = name;
+    constraint.fix.reset();
+    constraint.link.reset();
+    model.add_constraint(std::move(constraint));
+    if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(random_node(20)));
+  }
+
+  model::State state_at(const model::Coordinates& q) const {
+    model::State state = rows_model_.initial_state();
+    state.prev = state.next = q;
+    return state;
+  }
+  /// h(q) at time zero
+  Eigen::VectorXd h(const model::Coordinates& q) {
+    return rows_->residual(state_at(q), Stencil::statics()).segment(first_row_, num_rows_);
+  }
+  /// H(q) at time zero, shape (rows, 12 nodes)
+  Eigen::MatrixXd H(const model::Coordinates& q) {
+    return rows_->tangent(state_at(q), Stencil::statics()).block(first_row_, 0, num_rows_, width);
+  }
+
+  const model::NodeTable& nodes() const { return rows_model_.nodes(); }
+  const model::Coordinates& reference() const { return nodes().reference(); }
+  /// Any slots, admissible or not.
+  static model::Coordinates any(int seed) {
+    Random random(seed);
+    model::Coordinates q(static_cast<std::size_t>(width));
+    for (double& value : q) value = random.number();
+    return q;
+  }
+  /// The reference moved as one rigid body.
+  model::Coordinates moved(int seed) const {
+    const RigidMotion motion = RigidMotion::random(seed);
+    model::Coordinates q = reference();
+    for (int node = 0; node < num_nodes; ++node) {
+      auto slots = model::NodeTable::slots(q, node);
+      slots = motion(Slots<4>(slots), NodeKind::node12);
+    }
+    return q;
+  }
+  static Eigen::Map<const Eigen::VectorXd> flat(const model::Coordinates& q) {
+    return {q.data(), static_cast<Eigen::Index>(q.size())};
+  }
+  static long rank(const Eigen::MatrixXd& m) {
+    return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(m.transpose()).setThreshold(1e-10).rank();
+  }
+
+  /// Gradient of the six internal constraints of a node, written out from formulation 2.2.
+  static Eigen::MatrixXd internal_gradient(const model::Coordinates& q, int node) {
+    const Mat3 d = model::NodeTable::slots(q, node).template rightCols<3>();
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, width);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      const int at = 12 * node + 3;
+      H.block<1, 3>(i, at + 3 * i) = d.col(i).transpose();
+      H.block<1, 3>(3 + i, at + 3 * j) = d.col(k).transpose();
+      H.block<1, 3>(3 + i, at + 3 * k) = d.col(j).transpose();
+    }
+    return H;
+  }
+
+  static constexpr double round_off = 1e-14;  // some tens of operations with numbers up to 3
+
+ private:
+  model::Model rows_model_;
+  std::unique_ptr<DenseAssembly> rows_;
+  int first_row_ = 0;
+  int num_rows_ = 0;
+};
+
+TYPED_TEST_SUITE_P(ConstraintContract);
+
+TYPED_TEST_P(ConstraintContract, HoldsInTheReference) {
+  EXPECT_LT(largest(this->h(this->reference())), this->round_off);
+}
+
+TYPED_TEST_P(ConstraintContract, GradientIsDerivativeOfTheRows) {
+  const model::Coordinates q = this->any(1);
+  const Eigen::MatrixXd H = this->H(q);
+  constexpr double step = 0.25;  // central differences of quadratic forms are exact
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    model::Coordinates ahead = q;
+    model::Coordinates behind = q;
+    ahead[i] += step;
+    behind[i] -= step;
+    const Eigen::VectorXd difference = (this->h(ahead) - this->h(behind)) / (2.0 * step);
+    EXPECT_LT(largest(H.col(static_cast<Eigen::Index>(i)) - difference), this->round_off);
+  }
+}
+
+// h(q1) - h(q0) = H(q_1/2) (q1 - q0): constraint forces do no work
+TYPED_TEST_P(ConstraintContract, IncrementIsMidpointGradientTimesMotion) {
+  model::State state;
+  state.prev = this->any(1);
+  state.next = this->any(2);
+  const Eigen::VectorXd increment =
+      this->H(at_theta(state, 0.5)) * (this->flat(state.next) - this->flat(state.prev));
+  EXPECT_LT(largest(this->h(state.next) - this->h(state.prev) - increment), this->round_off);
+}
+
+TYPED_TEST_P(ConstraintContract, RowsAreIndependentOfTheInternalOnesTheyDoNotReplace) {
+  const model::Coordinates& q = this->reference();
+  const int replaced = TypeParam::make(this->nodes()).replaces_internal;
+  Eigen::MatrixXd kept = this->H(q);
+  Eigen::MatrixXd all = kept;
+  for (int node = 0; node < TypeParam::num_nodes; ++node) {
+    const Eigen::MatrixXd internal = this->internal_gradient(q, node);
+    all = (Eigen::MatrixXd(all.rows() + 6, all.cols()) << all, internal).finished();
+    if (node == replaced) continue;
+    kept = (Eigen::MatrixXd(kept.rows() + 6, kept.cols()) << kept, internal).finished();
+  }
+  EXPECT_EQ(this->rank(kept), kept.rows());
+  EXPECT_EQ(this->rank(all), kept.rows());  // the replaced ones are implied
+}
+
+TYPED_TEST_P(ConstraintContract, EliminationLeavesTheMotionsThatTheRowsLeave) {
+  model::Model model;
+  this->add_nodes(model);
+  model.add_constraint(TypeParam::make(model.nodes()));
+  model.freeze(model::Form::null_space);
+  ASSERT_EQ(model.equations().empty(), TypeParam::eliminated);
+  if (!TypeParam::eliminated) return;
+  // as many unknowns are gone as there are independent reduced rows
+  const Eigen::MatrixXd P = null_space_matrix(this->nodes(), this->reference());
+  const DenseAssembly dense(model);
+  EXPECT_EQ(dense.size(), P.cols() - this->rank(this->H(this->reference()) * P));
+  // and what is left moves without breaking a row
+  model::State state = model.initial_state();
+  Random random(6);
+  for (int i = 0; i < 3; ++i) {
+    dense.move(state, Eigen::VectorXd::NullaryExpr(dense.size(), [&] { return random.number(); }));
+    EXPECT_LT(largest(this->h(state.next)), this->round_off);
+  }
+}
+
+TYPED_TEST_P(ConstraintContract, TangentIsDerivativeOfResidual) {
+  for (const bool with_slave : {false, true}) {
+    SCOPED_TRACE(with_slave ? "with an eliminated node" : "all nodes free");
+    expect_tangent_is_derivative([&](model::Model& model) { this->fill(model, with_slave); },
+                                 this->name);
+  }
+}
+
+TYPED_TEST_P(ConstraintContract, NullSpaceResidualIsProjected) {
+  for (const bool with_slave : {false, true}) {
+    SCOPED_TRACE(with_slave ? "with an eliminated node" : "all nodes free");
+    expect_residual_is_projected([&](model::Model& model) { this->fill(model, with_slave); },
+                                 this->name);
+  }
+}
+
+TYPED_TEST_P(ConstraintContract, AssembleAllocatesNothing) {
+  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
+    model::Model model;
+    this->fill(model, true);
+    model.freeze(form);
+    DenseAssembly dense(model);
+    const model::State state = random_state(model, 3);
+    const Stencil stencil = Stencil::midpoint(0.4);
+    dense.begin_step(state, stencil);
+    const DenseAssembly::Batches tested = {find_batch(model, this->name)};
+    NoHeap guard;
+    EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
+  }
+}
+
+REGISTER_TYPED_TEST_SUITE_P(ConstraintContract, HoldsInTheReference, GradientIsDerivativeOfTheRows,
+                            IncrementIsMidpointGradientTimesMotion,
+                            RowsAreIndependentOfTheInternalOnesTheyDoNotReplace,
+                            EliminationLeavesTheMotionsThatTheRowsLeave,
+                            TangentIsDerivativeOfResidual, NullSpaceResidualIsProjected,
+                            AssembleAllocatesNothing);
+
+template <class Case>
+class JointContract : public ConstraintContract<Case> {};
+
+TYPED_TEST_SUITE_P(JointContract);
+
+TYPED_TEST_P(JointContract, HoldsUnderRigidMotion) {
+  EXPECT_LT(largest(this->h(this->moved(1))), 10.0 * this->round_off);
+}
+
+// At q_1/2 of a step between admissible ends H^T lambda has no resultant force and moment: the
+// joint keeps the momenta.
+TYPED_TEST_P(JointContract, ForcesBalance) {
+  model::State state;
+  state.prev = this->moved(1);
+  state.next = this->moved(2);
+  const model::Coordinates q = at_theta(state, 0.5);
+  const Eigen::MatrixXd H = this->H(q);
+  for (Eigen::Index row = 0; row < H.rows(); ++row) {
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+    for (int slot = 0; slot < 4 * TypeParam::num_nodes; ++slot) {
+      const Vec3 f = H.block<1, 3>(row, 3 * slot).transpose();
+      const Vec3 arm = Eigen::Map<const Vec3>(q.data() + 3 * slot);
+      if (slot % 4 == 0) force += f;
+      moment += skew(arm) * f;
+    }
+    EXPECT_LT(force.norm(), this->round_off);
+    EXPECT_LT(moment.norm(), this->round_off);
+  }
+}
+
+REGISTER_TYPED_TEST_SUITE_P(JointContract, HoldsUnderRigidMotion, ForcesBalance);
+
+}  // namespace culm::kit
