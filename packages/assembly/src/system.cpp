@@ -1,5 +1,7 @@
 #include <culm/assembly/system.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
