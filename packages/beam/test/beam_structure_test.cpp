@@ -1,0 +1,193 @@
+#include <culm/base/error.hpp>
+#include <culm/beam/beam_structure.hpp>
+#include <culm/beam/director_beam.hpp>
+#include <culm/beam/helical_beam.hpp>
+
+#include <Eigen/Geometry>
+#include <culm_kit/deck_list.hpp>
+#include <culm_kit/rigid_motion.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <sstream>
+
+namespace culm::beam {
+namespace {
+
+using kit::GivenValues;
+using testing::HasSubstr;
+using Numbers = std::vector<double>;
+
+Options beam_list(const GivenValues& beam, const std::string& curve_type,
+                  const GivenValues& curve) {
+  const Schema schema = beam_schema();
+  Options options = kit::deck_list(schema, beam, "blade");
+  Options list = kit::deck_list(*schema.find_slot("Curve")->find(curve_type), curve, "Curve");
+  list.set("Type", curve_type);
+  options.add_list(list);
+  return options;
+}
+
+// A model with one beam.
+class BeamStructure : public testing::Test {
+ protected:
+  const model::Structure& add(const GivenValues& beam, const std::string& curve_type,
+                              const GivenValues& curve) {
+    StructureContext context{model, sections, issues, log};
+    add_beam(beam_list(beam, curve_type, curve), context);
+    return *model.find_structure("blade");
+  }
+  const model::Structure& add_line(const GivenValues& beam, int elements = 4) {
+    return add(beam, "Line",
+               {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, 3}}, {"Elements", elements}});
+  }
+
+  static material::Section section() {
+    return {kit::Random(1).positive_matrix<6>(),
+            kit::Random(2).positive_matrix<3>(),
+            {{-1, -1}, {1, -1}, {0, 1}}};
+  }
+
+  model::Model model;
+  std::map<std::string, material::Section> sections{{"tube", section()}};
+  InputIssues issues;
+  std::ostringstream messages;
+  Log log{messages, LogLevel::info};
+};
+
+const GivenValues director_2{{"Section", std::string("tube")}, {"Order", 2}};
+const GivenValues director_1{{"Section", std::string("tube")}};
+const GivenValues helical{{"Section", std::string("tube")}, {"Element", std::string("Helical")}};
+
+TEST_F(BeamStructure, HasNodesCellsSetsAndOutlines) {
+  const model::Structure& beam = add_line(director_2);
+  EXPECT_EQ(beam.nodes.size(), 9U);
+  EXPECT_EQ(beam.cells.size(), 4U);
+  EXPECT_EQ(beam.cells[1].nodes, (std::vector<int>{2, 3, 4}));
+  EXPECT_EQ(beam.cells[1].item, 1);
+  EXPECT_EQ(beam.sets.at("first"), std::vector<int>{0});
+  EXPECT_EQ(beam.sets.at("middle"), std::vector<int>{4});
+  EXPECT_EQ(beam.sets.at("last"), std::vector<int>{8});
+  EXPECT_EQ(beam.sets.at("all"), beam.nodes);
+  ASSERT_EQ(beam.outlines.size(), 9U);
+  EXPECT_EQ(beam.outlines[3].size(), 3U);
+  EXPECT_EQ(messages.str(), "");
+}
+
+TEST_F(BeamStructure, ElementsOfOneKindShareABatch) {
+  add_line(director_1);
+  EXPECT_EQ(model.elements<DirectorBeam<1>>("Beam, director, order 1").size(), 4);
+  EXPECT_EQ(model.element_batches().size(), 1U);
+}
+
+TEST_F(BeamStructure, WeighsWhatItsSectionsWeigh) {
+  for (const GivenValues& kind : {director_1, director_2, helical}) {
+    model::Model fresh;
+    StructureContext context{fresh, sections, issues, log};
+    add_beam(beam_list(kind, "Line",
+                       {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, 3}}, {"Elements", 4}}),
+             context);
+    EXPECT_NEAR(fresh.mass(), 3.0 * section().mass(0, 0), 1e-13);
+  }
+}
+
+TEST_F(BeamStructure, LinePointsCoverItsLength) {
+  const model::Structure& beam = add(helical, "Arc",
+                                     {{"Centre", Numbers{0, 0, 0}},
+                                      {"Axis", Numbers{0, 0, 1}},
+                                      {"From", Numbers{2, 0, 0}},
+                                      {"Angle", 1.5},
+                                      {"Elements", 2}});
+  double length = 0.0;
+  for (const model::LinePoint& point : beam.line_points) {
+    length += point.length;
+    EXPECT_NEAR(point.marker.weights[0] + point.marker.weights[1], 1.0, 1e-15);
+  }
+  EXPECT_NEAR(length, 3.0, 1e-14);  // the helix knows the length of its arc
+  EXPECT_EQ(beam.line_points.size(), 4U);
+}
+
+TEST_F(BeamStructure, LinksTheNodesAtAKink) {
+  const model::Structure& beam =
+      add(director_1, "Polyline",
+          {{"Points", Numbers{0, 0, 0, 0, 2, 0, 1, 2, 0}}, {"Elements", std::vector{4, 2}}});
+  EXPECT_EQ(beam.nodes.size(), 8U);
+  EXPECT_EQ(beam.cells.size(), 6U);
+  EXPECT_EQ(beam.sets.at("corners"), std::vector<int>{4});
+  ASSERT_EQ(model.constraints().size(), 1U);
+  EXPECT_EQ(model.constraints()[0].name, "blade, corner 1");
+  EXPECT_EQ(model.constraints()[0].nodes, (std::vector<int>{4, 5}));
+}
+
+TEST_F(BeamStructure, IsFreeOfStressHoweverItIsCurved) {
+  add(director_2, "Helix",
+      {{"Centre", Numbers{0, 0, 0}},
+       {"Axis", Numbers{0, 1, 0}},
+       {"From", Numbers{2, 0, 0}},
+       {"Angle", 3.0},
+       {"Pitch", 1.0},
+       {"Elements", 6},
+       {"Pre-Twist", Numbers{0.0, 0.8}},
+       {"Pre-Twist Positions", Numbers{0.0, 1.0}}});
+  auto& batch = model.elements<DirectorBeam<2>>("Beam, director, order 2");
+  std::vector<double> resultants;
+  for (int item = 0; item < batch.size(); ++item) {
+    batch.resultants(item, model.nodes().reference(), resultants);
+  }
+  EXPECT_EQ(resultants.size(), 36U);
+  for (double value : resultants) EXPECT_NEAR(value, 0.0, 1e-13);
+}
+
+TEST_F(BeamStructure, TapersBetweenItsSections) {
+  material::Section thick = section();
+  thick.stiffness *= 3.0;
+  sections["root"] = thick;
+  add_line({{"Sections", std::vector<std::string>{"root", "tube"}},
+            {"Section Positions", Numbers{0.0, 1.0}}},
+           2);
+  const auto& batch = model.elements<DirectorBeam<1>>("Beam, director, order 1");
+  const Vec6 e = Vec6::Unit(3);
+  // the Gauss point of the first element lies at a quarter of the span
+  EXPECT_LT((batch.element(0).resultants(0, e) - 2.5 * section().stiffness.col(3)).norm(), 1e-14);
+}
+
+TEST_F(BeamStructure, WarnsOfCoarseMeshesOfOrderOneOnly) {
+  const GivenValues quarter{{"Centre", Numbers{0, 0, 0}},
+                            {"Axis", Numbers{0, 0, 1}},
+                            {"From", Numbers{2, 0, 0}},
+                            {"Angle", 1.5},
+                            {"Elements", 5}};
+  add(director_1, "Arc", quarter);
+  EXPECT_THAT(messages.str(), HasSubstr("the ends of an element are turned by 0.3 rad"));
+  messages.str("");
+  add(helical, "Arc", quarter);
+  EXPECT_EQ(messages.str(), "");
+}
+
+TEST_F(BeamStructure, RefusesHelicalElementsTurnedTooFar) {
+  EXPECT_THROW(add(helical, "Arc",
+                   {{"Centre", Numbers{0, 0, 0}},
+                    {"Axis", Numbers{0, 0, 1}},
+                    {"From", Numbers{2, 0, 0}},
+                    {"Angle", std::numbers::pi},
+                    {"Elements", 1}}),
+               InputError);
+}
+
+TEST_F(BeamStructure, HelicalElementsHaveNoOrder) {
+  const Schema schema = beam_schema();
+  GivenValues given = helical;
+  given.emplace_back("Order", 2);
+  EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
+            std::vector<std::string>{"helical elements have two nodes: leave 'Order' out"});
+}
+
+TEST(RegisterStructures, OffersTheBeam) {
+  StructureRegistry registry;
+  register_structures(registry);
+  EXPECT_EQ(registry.names(), std::vector<std::string>{"Beam"});
+}
+
+}  // namespace
+}  // namespace culm::beam
