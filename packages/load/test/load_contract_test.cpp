@@ -1,0 +1,116 @@
+#include <culm/load/moment_load.hpp>
+#include <culm/load/slot_load.hpp>
+
+#include <Eigen/Geometry>
+#include <culm_kit/load_contract.hpp>
+
+#include <memory>
+
+namespace culm::load {
+namespace {
+
+using kit::Resultant;
+using model::Coordinates;
+using model::NodeTable;
+
+const Vec3 components(1.3, -2.1, 0.7);
+const Vec3 offset(0.2, -0.5, 0.3);
+
+/// Between nodes, off their axis, as the points of a line are.
+model::Marker point_on(int num_nodes) {
+  model::Marker point;
+  for (int node = 0; node < num_nodes; ++node) point.nodes.push_back(node);
+  point.weights = num_nodes == 1   ? std::vector{1.0}
+                  : num_nodes == 2 ? std::vector{0.3, 0.7}
+                                   : std::vector{-0.1, 0.4, 0.6, 0.1};
+  point.offset = offset;
+  return point;
+}
+
+template <int Nodes, Frame F>
+struct ForceCase {
+  static constexpr int num_nodes = Nodes;
+  static constexpr bool follows = F == Frame::directors;
+
+  static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
+    auto load = std::make_unique<SlotLoad>("Force", nodes, amplitude);
+    load->add_force(point_on(Nodes), components, F);
+    return load;
+  }
+  static Resultant resultant(const Coordinates& q) {
+    const model::Marker point = point_on(Nodes);
+    Vec3 x = Vec3::Zero();
+    Mat3 triad = Mat3::Zero();
+    for (int node = 0; node < Nodes; ++node) {
+      const auto slots = NodeTable::slots(q, node);
+      const double weight = point.weights[static_cast<std::size_t>(node)];
+      x += weight * (slots.col(0) + slots.rightCols<3>() * offset);
+      triad += weight * slots.rightCols<3>();
+    }
+    const Vec3 force = follows ? Vec3(triad * components) : components;
+    return {force, x.cross(force)};
+  }
+};
+
+/// At the node itself: no arm, hence no stiffness of a dead force.
+struct CentralForceCase {
+  static constexpr int num_nodes = 1;
+  static constexpr bool follows = false;
+  static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
+    auto load = std::make_unique<SlotLoad>("Force", nodes, amplitude);
+    load->add_force(model::marker_at(0), components, Frame::space);
+    return load;
+  }
+  static Resultant resultant(const Coordinates& q) {
+    return {components, NodeTable::slots(q, 0).col(0).cross(components)};
+  }
+};
+
+/// Two items of one batch that share a node.
+struct TwoForcesCase {
+  static constexpr int num_nodes = 2;
+  static constexpr bool follows = true;
+  static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
+    auto load = std::make_unique<SlotLoad>("Force", nodes, amplitude);
+    load->add_force(point_on(2), components, Frame::directors);
+    load->add_force(point_on(1), 2.0 * components, Frame::directors);
+    return load;
+  }
+  static Resultant resultant(const Coordinates& q) {
+    const Resultant a = ForceCase<2, Frame::directors>::resultant(q);
+    const Resultant b = ForceCase<1, Frame::directors>::resultant(q);
+    return {a.force + 2.0 * b.force, a.moment + 2.0 * b.moment};
+  }
+};
+
+template <Frame F>
+struct MomentCase {
+  static constexpr int num_nodes = 1;
+  static constexpr bool follows = F == Frame::directors;
+  static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
+    auto load = std::make_unique<MomentLoad>("Moment", nodes, amplitude, F);
+    load->add_moment(0, components);
+    return load;
+  }
+  static Resultant resultant(const Coordinates& q) {
+    const Mat3 triad = NodeTable::slots(q, 0).rightCols<3>();
+    return {Vec3::Zero(), follows ? Vec3(triad * components) : components};
+  }
+};
+
+using Cases =
+    testing::Types<CentralForceCase, ForceCase<1, Frame::space>, ForceCase<2, Frame::space>,
+                   ForceCase<4, Frame::space>, ForceCase<1, Frame::directors>,
+                   ForceCase<2, Frame::directors>, ForceCase<4, Frame::directors>, TwoForcesCase,
+                   MomentCase<Frame::space>, MomentCase<Frame::directors>>;
+
+}  // namespace
+}  // namespace culm::load
+
+namespace culm::kit {
+INSTANTIATE_TYPED_TEST_SUITE_P(Load, LoadContract, load::Cases);
+}
