@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace culm::output {
+
+/// A text file of head, entries and tail that is complete and readable at any time. It is rewritten
+/// through a temporary file, but not for every entry, which would take quadratic time: only when it
+/// lacks an eighth of its entries or ten seconds.
+class GrowingFile {
+ public:
+  /// Writes the file without entries. Throws FileError.
+  GrowingFile(std::filesystem::path path, std::string head, std::string tail);
+  GrowingFile(GrowingFile&&) = default;
+  GrowingFile& operator=(GrowingFile&&) = default;
+  /// Writes what is missing; use write() to learn whether that worked.
+  ~GrowingFile();
+
+  /// Adds an entry. Throws FileError.
+  void add(const std::string& entry);
+
+  /// Brings the file up to date. Throws FileError.
+  void write();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_due() const;
+
+  std::filesystem::path path_;
+  std::string text_;  // head and entries
+  std::string tail_;
+  std::size_t entries_ = 0;
+  std::size_t written_entries_ = 0;
+  Clock::time_point written_at_;
+};
+
+}  // namespace culm::output

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <culm/output/picture_mesh.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace culm::output {
+
+/// What identifies a run in its result file.
+struct RunInfo {
+  std::string title;
+  std::string version;   ///< of the program
+  std::string deck_xml;  ///< the deck with all variables and defaults resolved
+};
+
+/// Writes the result file of a run, run.h5:
+///
+///     /deck     xml; attributes title, version
+///     /mesh/<structure>     position, director1..3, cell_types, cell_offsets, connectivity,
+///     topology /steps/000000/<structure>   position, displacement, director1..3, resultants, node
+///     arrays /history/values   one row per add_history(); attributes names, units; first column
+///     time /report   text, scalars/<name>
+///
+/// and per step whatever Frame::arrays holds in /steps/000000/%arrays. In names the characters / :
+/// % | are written as %XX.
+///
+/// Each record(), add_history() and write_report() takes effect in the file as a whole before it
+/// returns: a killed process loses at most the step it was writing. If it is killed in the
+/// microseconds of a commit, run.h5.journal holds the rest of it and recover_run() brings it home.
+/// Viewers may read the file meanwhile. Call it on one process only. All functions throw FileError
+/// with path and reason.
+class Recorder {
+ public:
+  /// Replaces a file of this name, but only when deck, mesh and empty tables are complete.
+  Recorder(const std::filesystem::path& path, const RunInfo& info,
+           std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history);
+  Recorder(Recorder&&) noexcept;
+  Recorder& operator=(Recorder&&) noexcept;
+  /// Closes the file; use close() to learn whether that worked.
+  ~Recorder();
+
+  /// Writes one step. Its index must not have been used before.
+  void record(const Frame& frame);
+
+  /// Adds a row to the history.
+  /// @param time    s
+  /// @param values  one per column given to the constructor
+  void add_history(double time, std::span<const double> values);
+
+  /// Writes the final report, or replaces the one that is there.
+  void write_report(const std::string& text, std::span<const NamedScalar> scalars);
+
+  /// Closes the file; nothing can be recorded afterwards.
+  void close();
+
+ private:
+  class File;
+  std::unique_ptr<File> file_;
+};
+
+/// Completes the last commit of a run that was killed, from the journal beside its file; to be
+/// called before such a file is read. Does nothing if there is no need or if the run is alive.
+/// Returns whether it changed the file. Throws FileError.
+bool recover_run(const std::filesystem::path& path);
+
+}  // namespace culm::output

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <culm/output/growing_file.hpp>
+#include <culm/output/picture_mesh.hpp>
+#include <culm/output/skin.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace culm::output {
+
+/// Pictures for ParaView and VTK. In the given folder
+///
+///     <stem>.pvd         all steps: centre lines, nodes and mid-surfaces
+///     <stem>_skin.pvd    all steps: surface of structures with outlines; only if there are any
+///     <stem>_vtu/        per step and structure type one file of each kind
+///
+/// Point data: displacement, director1..3, node arrays. Cell data: structure (its number; the names
+/// are in the field data), every resultant, and vectors as in StructureMesh::resultant_names.
+/// Points are in the deformed place already.
+class Pictures {
+ public:
+  /// Throws FileError; InternalError if a mesh contradicts itself.
+  Pictures(const std::filesystem::path& folder, const std::string& stem,
+           std::vector<StructureMesh> meshes);
+
+  /// Writes the files of one step. The collections may lag behind, see GrowingFile. Throws
+  /// FileError.
+  void add(const Frame& frame);
+
+  /// Brings the collections up to date, as at the end of a run. Throws FileError.
+  void write();
+
+ private:
+  // All structures of one type.
+  struct Group {
+    std::string file_part;
+    std::vector<std::size_t> structures;
+    std::vector<std::size_t> skinned;  // those of them that have a skin
+  };
+
+  void make_groups();
+  void make_skins();
+
+  std::filesystem::path folder_;
+  std::string vtu_folder_;
+  std::vector<StructureMesh> meshes_;
+  std::vector<std::string> names_;
+  std::vector<Skin> skins_;
+  std::vector<std::vector<Vec3>> reference_skins_;
+  std::vector<Group> groups_;
+  GrowingFile collection_;
+  std::unique_ptr<GrowingFile> skin_collection_;
+};
+
+}  // namespace culm::output

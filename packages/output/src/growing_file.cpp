@@ -1,0 +1,41 @@
+#include <culm/base/error.hpp>
+#include <culm/output/growing_file.hpp>
+
+#include "replace_file.hpp"
+
+#include <utility>
+
+namespace culm::output {
+
+GrowingFile::GrowingFile(std::filesystem::path path, std::string head, std::string tail)
+    : path_(std::move(path)), text_(std::move(head)), tail_(std::move(tail)) {
+  write();
+}
+
+GrowingFile::~GrowingFile() {
+  if (entries_ == written_entries_) return;
+  try {
+    write();
+  } catch (const Error&) {
+    // The file keeps its last complete content; a destructor has nobody to tell.
+  }
+}
+
+void GrowingFile::add(const std::string& entry) {
+  text_ += entry;
+  ++entries_;
+  if (is_due()) write();
+}
+
+bool GrowingFile::is_due() const {
+  return entries_ > written_entries_ + written_entries_ / 8 ||
+         Clock::now() - written_at_ > std::chrono::seconds(10);
+}
+
+void GrowingFile::write() {
+  replace_file(path_, text_ + tail_);
+  written_entries_ = entries_;
+  written_at_ = Clock::now();
+}
+
+}  // namespace culm::output

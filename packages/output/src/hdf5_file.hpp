@@ -1,0 +1,77 @@
+#pragma once
+
+#include "hdf5_handle.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace culm::output {
+
+/// Lengths of a dataset, slowest index first.
+using Shape = std::vector<hsize_t>;
+
+/// An HDF5 file with the few things we put into one or read from one. Every failure throws
+/// FileError with the path and HDF5's innermost reason. `where` is the file or a group of it.
+class Hdf5File {
+ public:
+  /// Creates a file, replacing one of this name.
+  static Hdf5File create(const std::filesystem::path& path);
+  /// Opens an existing file for reading, after recover().
+  static Hdf5File open(const std::filesystem::path& path);
+
+  hid_t id() const { return file_.id(); }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Completes what a killed process left undone in a file. Returns whether that was needed.
+  static bool recover(const std::filesystem::path& path);
+
+  /// Gives the open file its final name. From then on each flush takes effect as a whole or, if the
+  /// process is killed, not at all; see JournaledFile.
+  void move_to(const std::filesystem::path& path);
+  /// Hands everything written so far to the operating system.
+  void flush();
+  void close();
+
+  Handle make_group(hid_t where, const std::string& name);
+  void remove_if_present(hid_t where, const std::string& name);
+
+  void write(hid_t where, const std::string& name, std::span<const double> values,
+             const Shape& shape);
+  void write(hid_t where, const std::string& name, std::span<const int> values);
+  void write(hid_t where, const std::string& name, const std::string& text);
+  /// An empty table of doubles that grows by append_row().
+  Handle make_growing_table(hid_t where, const std::string& name, hsize_t columns);
+  /// @param row  number of rows so far
+  void append_row(hid_t table, hsize_t row, std::span<const double> values);
+
+  void set_attribute(hid_t where, const std::string& name, double value);
+  void set_attribute(hid_t where, const std::string& name, int value);
+  void set_attribute(hid_t where, const std::string& name, const std::string& text);
+  void set_attribute(hid_t where, const std::string& name, std::span<const std::string> texts);
+
+  /// Returns an identifier or status unchanged, or throws FileError: cannot `action`.
+  template <class T>
+  T check(T status, std::string_view action) const {
+    if (status < 0) fail(action);
+    return status;
+  }
+
+ private:
+  Hdf5File(std::filesystem::path path, Handle file)
+      : path_(std::move(path)), file_(std::move(file)) {}
+
+  [[noreturn]] void fail(std::string_view action) const;
+  Handle make_dataset(hid_t where, const std::string& name, hid_t type, const Shape& shape);
+  void write_attribute(hid_t where, const std::string& name, hid_t type, hid_t space,
+                       const void* data);
+  Handle text_type() const;
+  Handle simple_space(const Shape& shape) const;
+
+  std::filesystem::path path_;
+  Handle file_;
+};
+
+}  // namespace culm::output

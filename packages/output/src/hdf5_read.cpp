@@ -1,0 +1,104 @@
+#include "hdf5_read.hpp"
+
+#include <culm/base/error.hpp>
+
+namespace culm::output {
+
+namespace {
+
+herr_t keep_name(hid_t, const char* name, const H5L_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+Handle open_attribute(const Hdf5File& file, hid_t where, const std::string& name) {
+  return {file.check(H5Aopen(where, name.c_str(), H5P_DEFAULT), "find attribute " + name),
+          H5Aclose};
+}
+
+Handle open_dataset(const Hdf5File& file, hid_t where, const std::string& name) {
+  return {file.check(H5Dopen2(where, name.c_str(), H5P_DEFAULT), "open dataset " + name), H5Dclose};
+}
+
+template <class T>
+T read_number(const Hdf5File& file, hid_t where, const std::string& name, hid_t type) {
+  const Handle attribute = open_attribute(file, where, name);
+  const Handle space(file.check(H5Aget_space(attribute.id()), "read attribute " + name), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space.id()) != 1) {
+    throw FileError(file.path().string(), "attribute " + name + " must be one number");
+  }
+  T value{};
+  file.check(H5Aread(attribute.id(), type, &value), "read attribute " + name);
+  return value;
+}
+
+}  // namespace
+
+Handle open_group(const Hdf5File& file, hid_t where, const std::string& name) {
+  return {file.check(H5Gopen2(where, name.c_str(), H5P_DEFAULT), "open group " + name), H5Gclose};
+}
+
+std::vector<std::string> list_links(const Hdf5File& file, hid_t group) {
+  std::vector<std::string> names;
+  file.check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, keep_name, &names),
+             "list a group");
+  return names;
+}
+
+bool has_link(const Hdf5File& file, hid_t group, const std::string& name) {
+  return file.check(H5Lexists(group, name.c_str(), H5P_DEFAULT), "look for " + name) > 0;
+}
+
+Shape read_shape(const Hdf5File& file, hid_t where, const std::string& name) {
+  const Handle dataset = open_dataset(file, where, name);
+  const Handle space(file.check(H5Dget_space(dataset.id()), "read " + name), H5Sclose);
+  const int rank = file.check(H5Sget_simple_extent_ndims(space.id()), "read " + name);
+  Shape shape(static_cast<std::size_t>(rank));
+  file.check(H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr), "read " + name);
+  return shape;
+}
+
+std::vector<int> read_ints(const Hdf5File& file, hid_t where, const std::string& name) {
+  const Shape shape = read_shape(file, where, name);
+  if (shape.size() != 1) {
+    throw FileError(file.path().string(), "dataset " + name + " must have one dimension");
+  }
+  std::vector<int> values(shape[0]);
+  const Handle dataset = open_dataset(file, where, name);
+  file.check(H5Dread(dataset.id(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+             "read dataset " + name);
+  return values;
+}
+
+double read_double(const Hdf5File& file, hid_t where, const std::string& attribute) {
+  return read_number<double>(file, where, attribute, H5T_NATIVE_DOUBLE);
+}
+
+int read_int(const Hdf5File& file, hid_t where, const std::string& attribute) {
+  return read_number<int>(file, where, attribute, H5T_NATIVE_INT);
+}
+
+std::string read_text(const Hdf5File& file, hid_t where, const std::string& name) {
+  const std::vector<std::string> texts = read_texts(file, where, name);
+  if (texts.size() != 1) throw FileError(file.path().string(), name + " must be one text");
+  return texts[0];
+}
+
+std::vector<std::string> read_texts(const Hdf5File& file, hid_t where, const std::string& name) {
+  const Handle attribute = open_attribute(file, where, name);
+  const Handle space(file.check(H5Aget_space(attribute.id()), "read attribute " + name), H5Sclose);
+  const Handle type(file.check(H5Aget_type(attribute.id()), "read attribute " + name), H5Tclose);
+  if (H5Tis_variable_str(type.id()) <= 0) {
+    throw FileError(file.path().string(), "attribute " + name + " must be text");
+  }
+  const hssize_t count = H5Sget_simple_extent_npoints(space.id());
+  std::vector<char*> data(static_cast<std::size_t>(count), nullptr);
+  if (data.empty()) return {};
+  file.check(H5Aread(attribute.id(), type.id(), data.data()), "read attribute " + name);
+  std::vector<std::string> texts;
+  for (const char* text : data) texts.emplace_back(text != nullptr ? text : "");
+  H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, data.data());
+  return texts;
+}
+
+}  // namespace culm::output

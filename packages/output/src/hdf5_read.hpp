@@ -1,0 +1,33 @@
+/// What the result file tells about itself.
+#pragma once
+
+#include "hdf5_file.hpp"
+
+#include <string>
+#include <vector>
+
+namespace culm::output {
+
+Handle open_group(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// Names of what a group holds, in alphabetical order.
+std::vector<std::string> list_links(const Hdf5File& file, hid_t group);
+
+bool has_link(const Hdf5File& file, hid_t group, const std::string& name);
+
+/// Lengths of a dataset.
+Shape read_shape(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// A dataset of one dimension.
+std::vector<int> read_ints(const Hdf5File& file, hid_t where, const std::string& name);
+
+double read_double(const Hdf5File& file, hid_t where, const std::string& attribute);
+int read_int(const Hdf5File& file, hid_t where, const std::string& attribute);
+
+std::string read_text(const Hdf5File& file, hid_t where, const std::string& attribute);
+
+/// An attribute that is a list of texts.
+std::vector<std::string> read_texts(const Hdf5File& file, hid_t where,
+                                    const std::string& attribute);
+
+}  // namespace culm::output

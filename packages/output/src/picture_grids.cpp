@@ -1,0 +1,92 @@
+#include "picture_grids.hpp"
+
+#include "mesh_tables.hpp"
+
+namespace culm::output {
+
+namespace {
+
+// "N" for N1, N2, N3 at `first`; empty if these are not the names there.
+std::string vector_name(const std::vector<std::string>& names, std::size_t first) {
+  if (first + 3 > names.size() || names[first].size() < 2) return "";
+  const std::string stem = names[first].substr(0, names[first].size() - 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (names[first + i] != stem + std::to_string(i + 1)) return "";
+  }
+  return stem;
+}
+
+// Columns `first` to `first + columns` of the resultants; one row per entry of `cells`.
+std::vector<double> pick(const StructureState& state, const std::vector<int>& cells,
+                         std::size_t first, std::size_t columns) {
+  std::vector<double> values;
+  values.reserve(cells.size() * columns);
+  for (const int cell : cells) {
+    const std::vector<double>& row = state.resultants[static_cast<std::size_t>(cell)];
+    for (std::size_t c = first; c < first + columns; ++c) values.push_back(row[c]);
+  }
+  return values;
+}
+
+std::vector<VtuArray> resultant_arrays(const StructureMesh& mesh, const StructureState& state,
+                                       const std::vector<int>& cells) {
+  std::vector<VtuArray> arrays;
+  const std::vector<std::string>& names = mesh.resultant_names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    arrays.push_back({names[i], 1, pick(state, cells, i, 1)});
+    const std::string vector = vector_name(names, i);
+    if (vector.empty()) continue;
+    arrays.push_back({vector, 3, pick(state, cells, i, 3), {names[i], names[i + 1], names[i + 2]}});
+  }
+  return arrays;
+}
+
+std::vector<VtuArray> node_data(const StructureMesh& mesh, const StructureState& state) {
+  std::vector<VtuArray> arrays{
+      {"displacement", 3, flatten_difference(state.positions, mesh.positions)}};
+  for (const int number : director_numbers(mesh.directors)) {
+    arrays.push_back(
+        {"director" + std::to_string(number), 3, flatten_director(state.triads, number)});
+  }
+  for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
+    const NodeArray& array = mesh.node_arrays[a];
+    arrays.push_back({array.name, array.columns, state.node_values[a]});
+  }
+  return arrays;
+}
+
+}  // namespace
+
+VtuGrid centre_grid(const StructureMesh& mesh, const StructureState& state, int number) {
+  const CellTable table = cell_table(mesh.cells);
+  std::vector<int> cells;
+  for (int c = 0; c < mesh.cell_count(); ++c) cells.push_back(c);
+  return {.points = flatten(state.positions),
+          .connectivity = table.connectivity,
+          .offsets = table.offsets,
+          .types = table.types,
+          .structures = std::vector<int>(cells.size(), number),
+          .point_data = node_data(mesh, state),
+          .cell_data = resultant_arrays(mesh, state, cells)};
+}
+
+VtuGrid skin_grid(const StructureMesh& mesh, const StructureState& state, int number,
+                  const Skin& skin, const std::vector<Vec3>& reference) {
+  constexpr int quad = 9, polygon = 7;
+  const std::vector<Vec3> points = skin.points(state.positions, state.triads);
+  VtuGrid grid;
+  grid.points = flatten(points);
+  std::vector<int> cells;
+  for (const Skin::Face& face : skin.faces()) {
+    grid.connectivity.insert(grid.connectivity.end(), face.points.begin(), face.points.end());
+    grid.offsets.push_back(static_cast<int>(grid.connectivity.size()));
+    grid.types.push_back(face.points.size() == 4 ? quad : polygon);
+    cells.push_back(face.cell);
+  }
+  grid.structures.assign(cells.size(), number);
+  grid.point_data = {{"displacement", 3, flatten_difference(points, reference)}};
+  grid.cell_data = resultant_arrays(mesh, state, cells);
+  return grid;
+}
+
+}  // namespace culm::output

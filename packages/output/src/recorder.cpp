@@ -1,0 +1,241 @@
+#include <culm/base/error.hpp>
+#include <culm/output/recorder.hpp>
+
+#include "hdf5_file.hpp"
+#include "mesh_tables.hpp"
+#include "names.hpp"
+#include "replace_file.hpp"
+
+#include <utility>
+
+namespace culm::output {
+
+namespace {
+
+// Version of the layout of the file, for readers.
+constexpr int format_version = 1;
+
+void write_deck(Hdf5File& file, const RunInfo& info) {
+  const Handle group = file.make_group(file.id(), "deck");
+  file.set_attribute(group.id(), "title", info.title);
+  file.set_attribute(group.id(), "version", info.version);
+  file.write(group.id(), "xml", info.deck_xml);
+}
+
+void write_directors(Hdf5File& file, hid_t group, Directors kind, const std::vector<Mat3>& triads) {
+  for (const int number : director_numbers(kind)) {
+    file.write(group, "director" + std::to_string(number), flatten_director(triads, number),
+               {triads.size(), 3});
+  }
+}
+
+void write_node_array_names(Hdf5File& file, hid_t group, const std::vector<NodeArray>& arrays) {
+  std::vector<std::string> names;
+  std::vector<int> columns;
+  for (const NodeArray& array : arrays) {
+    names.push_back(array.name);
+    columns.push_back(array.columns);
+  }
+  file.set_attribute(group, "node_array_names", names);
+  file.write(group, "node_array_columns", columns);
+}
+
+void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int number) {
+  const Handle group = file.make_group(parent, link_name(mesh.name));
+  file.set_attribute(group.id(), "name", mesh.name);
+  file.set_attribute(group.id(), "type", mesh.type);
+  file.set_attribute(group.id(), "number", number);
+  file.set_attribute(group.id(), "resultant_names", mesh.resultant_names);
+  write_node_array_names(file, group.id(), mesh.node_arrays);
+
+  file.write(group.id(), "position", flatten(mesh.positions), {mesh.positions.size(), 3});
+  write_directors(file, group.id(), mesh.directors, mesh.triads);
+  const CellTable cells = cell_table(mesh.cells);
+  file.write(group.id(), "cell_types", cells.types);
+  file.write(group.id(), "cell_offsets", cells.offsets);
+  file.write(group.id(), "connectivity", cells.connectivity);
+  file.write(group.id(), "topology", xdmf_topology(mesh.cells));
+}
+
+Handle make_history(Hdf5File& file, const std::vector<HistoryColumn>& columns) {
+  std::vector<std::string> names{"time"};
+  std::vector<std::string> units{"s"};
+  for (const HistoryColumn& column : columns) {
+    names.push_back(column.name);
+    units.push_back(column.unit);
+  }
+  const Handle group = file.make_group(file.id(), "history");
+  Handle table = file.make_growing_table(group.id(), "values", names.size());
+  file.set_attribute(table.id(), "names", names);
+  file.set_attribute(table.id(), "units", units);
+  return table;
+}
+
+Shape table_shape(std::size_t size, int columns) {
+  const auto width = static_cast<hsize_t>(columns);
+  return columns == 1 ? Shape{size} : Shape{size / width, width};
+}
+
+void write_state(Hdf5File& file, hid_t parent, const StructureMesh& mesh,
+                 const StructureState& state) {
+  const Handle group = file.make_group(parent, link_name(mesh.name));
+  const Shape shape{state.positions.size(), 3};
+  file.write(group.id(), "position", flatten(state.positions), shape);
+  file.write(group.id(), "displacement", flatten_difference(state.positions, mesh.positions),
+             shape);
+  write_directors(file, group.id(), mesh.directors, state.triads);
+  if (!mesh.resultant_names.empty()) {
+    file.write(group.id(), "resultants", flatten_rows(state.resultants),
+               {mesh.cells.size(), mesh.resultant_names.size()});
+  }
+  for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
+    const NodeArray& array = mesh.node_arrays[a];
+    const std::vector<double>& values = state.node_values[a];
+    file.write(group.id(), link_name(array.name), values,
+               table_shape(values.size(), array.columns));
+  }
+}
+
+// Removes a file that was never finished.
+class Cleanup {
+ public:
+  explicit Cleanup(std::filesystem::path path) : path_(std::move(path)) {}
+  Cleanup(const Cleanup&) = delete;
+  Cleanup& operator=(const Cleanup&) = delete;
+  ~Cleanup() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  void disarm() { path_.clear(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+/// The open file, its meshes and the place where the history ends.
+class Recorder::File {
+ public:
+  File(const std::filesystem::path& path, const RunInfo& info, std::vector<StructureMesh> meshes,
+       const std::vector<HistoryColumn>& history)
+      : meshes_(std::move(meshes)),
+        columns_(history.size()),
+        file_(Hdf5File::create(temporary_name(path))) {
+    Cleanup cleanup(file_.path());
+    file_.set_attribute(file_.id(), "format", "culm run");
+    file_.set_attribute(file_.id(), "format_version", format_version);
+    write_deck(file_, info);
+    const Handle mesh_group = file_.make_group(file_.id(), "mesh");
+    int number = 0;
+    for (const StructureMesh& mesh : meshes_) write_mesh(file_, mesh_group.id(), mesh, number++);
+    steps_ = file_.make_group(file_.id(), "steps");
+    history_ = make_history(file_, history);
+    file_.flush();
+    file_.move_to(path);
+    cleanup.disarm();
+  }
+
+  void record(const Frame& frame) {
+    check_frame(meshes_, frame);
+    const Handle step = file_.make_group(steps_.id(), step_name(frame.index));
+    file_.set_attribute(step.id(), "time", frame.time);
+    file_.set_attribute(step.id(), "index", frame.index);
+    for (std::size_t s = 0; s < meshes_.size(); ++s) {
+      write_state(file_, step.id(), meshes_[s], frame.structures[s]);
+    }
+    if (!frame.arrays.empty()) write_arrays(step.id(), frame.arrays);
+    file_.flush();
+  }
+
+  void add_history(double time, std::span<const double> values) {
+    internal_check(values.size() == columns_, "one value per history column");
+    std::vector<double> row{time};
+    row.insert(row.end(), values.begin(), values.end());
+    file_.append_row(history_.id(), rows_++, row);
+    file_.flush();
+  }
+
+  void write_report(const std::string& text, std::span<const NamedScalar> scalars) {
+    file_.remove_if_present(file_.id(), "report");
+    const Handle report = file_.make_group(file_.id(), "report");
+    file_.write(report.id(), "text", text);
+    const Handle group = file_.make_group(report.id(), "scalars");
+    for (const NamedScalar& scalar : scalars) {
+      const std::string name = link_name(scalar.name);
+      file_.write(group.id(), name, std::span(&scalar.value, 1), {});
+      const Handle dataset(
+          file_.check(H5Dopen2(group.id(), name.c_str(), H5P_DEFAULT), "open dataset " + name),
+          H5Dclose);
+      file_.set_attribute(dataset.id(), "unit", scalar.unit);
+    }
+    file_.flush();
+  }
+
+  void close() {
+    file_.check(steps_.close(), "close steps");
+    file_.check(history_.close(), "close history");
+    file_.close();
+  }
+
+ private:
+  void write_arrays(hid_t step, const std::vector<NamedArray>& arrays) {
+    // A structure may have any name, so free arrays stand in a place that no structure name makes.
+    const Handle group = file_.make_group(step, "%arrays");
+    for (const NamedArray& array : arrays) {
+      file_.write(group.id(), link_name(array.name), array.values,
+                  table_shape(array.values.size(), array.columns));
+    }
+  }
+
+  std::vector<StructureMesh> meshes_;
+  std::size_t columns_;
+  Hdf5File file_;
+  Handle steps_;
+  Handle history_;
+  hsize_t rows_ = 0;
+};
+
+Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
+                   std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history) {
+  check_meshes(meshes);
+  const QuietHdf5 quiet;
+  file_ = std::make_unique<File>(path, info, std::move(meshes), history);
+}
+
+bool recover_run(const std::filesystem::path& path) { return Hdf5File::recover(path); }
+
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+
+Recorder::~Recorder() {
+  const QuietHdf5 quiet;
+  file_.reset();
+}
+
+void Recorder::record(const Frame& frame) {
+  internal_check(file_ != nullptr, "the recorder is closed");
+  const QuietHdf5 quiet;
+  file_->record(frame);
+}
+
+void Recorder::add_history(double time, std::span<const double> values) {
+  internal_check(file_ != nullptr, "the recorder is closed");
+  const QuietHdf5 quiet;
+  file_->add_history(time, values);
+}
+
+void Recorder::write_report(const std::string& text, std::span<const NamedScalar> scalars) {
+  internal_check(file_ != nullptr, "the recorder is closed");
+  const QuietHdf5 quiet;
+  file_->write_report(text, scalars);
+}
+
+void Recorder::close() {
+  if (!file_) return;
+  const QuietHdf5 quiet;
+  file_->close();
+  file_.reset();
+}
+
+}  // namespace culm::output

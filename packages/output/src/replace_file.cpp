@@ -1,0 +1,55 @@
+#include "replace_file.hpp"
+
+#include <culm/base/error.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+namespace culm::output {
+
+namespace {
+
+[[noreturn]] void give_up(const std::filesystem::path& path, int error) {
+  throw FileError(path.string(), "cannot write: " + std::generic_category().message(error));
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) give_up(path, errno);
+  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
+  int error = written ? 0 : errno;
+  // A full disk may show only when the last bytes leave the buffer.
+  if (std::fclose(file) != 0 && error == 0) error = errno;
+  if (error != 0) {
+    std::remove(path.c_str());
+    give_up(path, error);
+  }
+}
+
+}  // namespace
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  return path.string() + ".part";
+}
+
+void move_into_place(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) throw FileError(to.string(), "cannot replace: " + error.message());
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path temporary = temporary_name(path);
+  write_file(temporary, content);
+  move_into_place(temporary, path);
+}
+
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw FileError(path.string(), "cannot create folder: " + error.message());
+}
+
+}  // namespace culm::output

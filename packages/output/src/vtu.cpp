@@ -1,0 +1,104 @@
+#include <culm/output/vtu.hpp>
+
+#include "names.hpp"
+#include "picture_grids.hpp"
+#include "replace_file.hpp"
+#include "vtu_grid.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace culm::output {
+
+namespace {
+
+GrowingFile make_collection(const std::filesystem::path& path) {
+  return {path,
+          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<Collection>\n",
+          "</Collection>\n</VTKFile>\n"};
+}
+
+std::string collection_entry(double time, std::size_t part, const std::string& file) {
+  return fmt::format("<DataSet timestep=\"{:.17g}\" part=\"{}\" file=\"{}\"/>\n", time, part,
+                     xml_escape(file));
+}
+
+}  // namespace
+
+Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
+                   std::vector<StructureMesh> meshes)
+    : folder_(folder),
+      vtu_folder_(stem + "_vtu"),
+      meshes_(std::move(meshes)),
+      collection_(make_collection(folder / (stem + ".pvd"))) {
+  check_meshes(meshes_);
+  make_folder(folder_ / vtu_folder_);
+  for (const StructureMesh& mesh : meshes_) names_.push_back(mesh.name);
+  make_skins();
+  make_groups();
+  const bool skinned =
+      std::any_of(skins_.begin(), skins_.end(), [](const Skin& skin) { return !skin.empty(); });
+  if (skinned) {
+    skin_collection_ =
+        std::make_unique<GrowingFile>(make_collection(folder / (stem + "_skin.pvd")));
+  }
+}
+
+void Pictures::make_skins() {
+  for (const StructureMesh& mesh : meshes_) {
+    const Skin& skin = skins_.emplace_back(mesh);
+    reference_skins_.push_back(skin.points(mesh.positions, mesh.triads));
+  }
+}
+
+void Pictures::make_groups() {
+  std::vector<std::string> types;
+  std::set<std::string> parts;
+  for (std::size_t s = 0; s < meshes_.size(); ++s) {
+    const auto found = std::find(types.begin(), types.end(), meshes_[s].type);
+    const auto g = static_cast<std::size_t>(found - types.begin());
+    if (found == types.end()) {
+      types.push_back(meshes_[s].type);
+      // Types that differ only in characters that files cannot have get a number.
+      std::string part = file_part(meshes_[s].type);
+      while (!parts.insert(part).second) part += "_" + std::to_string(g);
+      groups_.push_back({part, {}, {}});
+    }
+    groups_[g].structures.push_back(s);
+    if (!skins_[s].empty()) groups_[g].skinned.push_back(s);
+  }
+}
+
+void Pictures::add(const Frame& frame) {
+  check_frame(meshes_, frame);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    std::vector<VtuGrid> centres;
+    std::vector<VtuGrid> skins;
+    for (const std::size_t s : group.structures) {
+      centres.push_back(centre_grid(meshes_[s], frame.structures[s], static_cast<int>(s)));
+    }
+    for (const std::size_t s : group.skinned) {
+      skins.push_back(skin_grid(meshes_[s], frame.structures[s], static_cast<int>(s), skins_[s],
+                                reference_skins_[s]));
+    }
+    const std::string file =
+        fmt::format("{}/{}_{}", vtu_folder_, group.file_part, step_name(frame.index));
+    replace_file(folder_ / (file + ".vtu"), vtu_text(merge(centres), frame.time, names_));
+    collection_.add(collection_entry(frame.time, g, file + ".vtu"));
+    if (skins.empty()) continue;
+    replace_file(folder_ / (file + "_skin.vtu"), vtu_text(merge(skins), frame.time, names_));
+    skin_collection_->add(collection_entry(frame.time, g, file + "_skin.vtu"));
+  }
+}
+
+void Pictures::write() {
+  collection_.write();
+  if (skin_collection_) skin_collection_->write();
+}
+
+}  // namespace culm::output

@@ -1,0 +1,92 @@
+#include <culm/base/error.hpp>
+#include <culm/output/xdmf.hpp>
+
+#include "hdf5_read.hpp"
+#include "names.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace culm::output {
+
+namespace {
+
+using Step = std::pair<int, double>;  // index, time
+
+std::vector<int> find_directors(const Hdf5File& file, hid_t group) {
+  std::vector<int> numbers;
+  for (const int number : {1, 2, 3}) {
+    if (has_link(file, group, "director" + std::to_string(number))) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::vector<NodeArray> read_node_arrays(const Hdf5File& file, hid_t group) {
+  const std::vector<std::string> names = read_texts(file, group, "node_array_names");
+  const std::vector<int> columns = read_ints(file, group, "node_array_columns");
+  if (columns.size() != names.size()) {
+    throw FileError(file.path().string(), "node arrays need one number of columns each");
+  }
+  std::vector<NodeArray> arrays;
+  for (std::size_t a = 0; a < names.size(); ++a) arrays.push_back({names[a], columns[a]});
+  return arrays;
+}
+
+std::size_t read_length(const Hdf5File& file, hid_t group, const std::string& name) {
+  const Shape shape = read_shape(file, group, name);
+  if (shape.empty()) throw FileError(file.path().string(), "dataset " + name + " has no rows");
+  return shape[0];
+}
+
+XdmfStructure read_structure(const Hdf5File& file, hid_t group) {
+  return {.name = read_text(file, group, "name"),
+          .nodes = read_length(file, group, "position"),
+          .cells = read_length(file, group, "cell_types"),
+          .topology_size = read_length(file, group, "topology"),
+          .directors = find_directors(file, group),
+          .resultant_names = read_texts(file, group, "resultant_names"),
+          .node_arrays = read_node_arrays(file, group)};
+}
+
+std::vector<XdmfStructure> read_structures(const Hdf5File& file) {
+  const Handle meshes = open_group(file, file.id(), "mesh");
+  std::vector<std::pair<int, XdmfStructure>> numbered;
+  for (const std::string& name : list_links(file, meshes.id())) {
+    const Handle group = open_group(file, meshes.id(), name);
+    numbered.emplace_back(read_int(file, group.id(), "number"), read_structure(file, group.id()));
+  }
+  std::sort(numbered.begin(), numbered.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<XdmfStructure> structures;
+  for (auto& [number, structure] : numbered) structures.push_back(std::move(structure));
+  return structures;
+}
+
+std::vector<Step> read_steps(const Hdf5File& file) {
+  const Handle steps = open_group(file, file.id(), "steps");
+  std::vector<Step> found;
+  for (const std::string& name : list_links(file, steps.id())) {
+    const Handle group = open_group(file, steps.id(), name);
+    found.emplace_back(read_int(file, group.id(), "index"), read_double(file, group.id(), "time"));
+  }
+  // Alphabetical order is not that of the indices once these have more than six digits.
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::filesystem::path write_xdmf_for(const std::filesystem::path& h5) {
+  const QuietHdf5 quiet;
+  const Hdf5File file = Hdf5File::open(h5);
+  if (!has_link(file, file.id(), "mesh") || !has_link(file, file.id(), "steps")) {
+    throw FileError(h5.string(), "is not a result file of culm");
+  }
+  const std::filesystem::path path = std::filesystem::path(h5).replace_extension(".xdmf");
+  XdmfFile index(path, h5.filename().string(), read_structures(file));
+  for (const auto& [number, time] : read_steps(file)) index.add_step(number, time);
+  index.write();
+  return path;
+}
+
+}  // namespace culm::output

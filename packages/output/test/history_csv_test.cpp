@@ -1,0 +1,65 @@
+#include <culm/base/error.hpp>
+#include <culm/output/history_csv.hpp>
+
+#include "read_back.hpp"
+#include "sample_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+namespace culm::output {
+namespace {
+
+TEST(HistoryCsv, HeaderNamesColumnsAndUnits) {
+  const TemporaryFolder folder;
+  const HistoryCsv history(folder / "h.csv", {{"energy", "J"}, {"steps", ""}, {"a,\"b\"", "m"}});
+  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,energy [J],steps,\"a,\"\"b\"\" [m]\"\n");
+}
+
+TEST(HistoryCsv, NumbersReadBackExactlyWhileTheFileIsOpen) {
+  const TemporaryFolder folder;
+  HistoryCsv history(folder / "h.csv", {{"x", "m"}});
+  const double values[] = {0.1, 1.0 / 3.0, -std::numeric_limits<double>::denorm_min(),
+                           std::numeric_limits<double>::max(), 123456789.123456789};
+  for (const double value : values) history.add(value, std::array{-value});
+  std::string text = read_text_file(folder / "h.csv");
+  const char* cursor = text.c_str() + text.find('\n') + 1;
+  for (const double value : values) {
+    char* end = nullptr;
+    EXPECT_EQ(std::strtod(cursor, &end), value);
+    EXPECT_EQ(*end, ',');
+    EXPECT_EQ(std::strtod(end + 1, &end), -value);
+    EXPECT_EQ(*end, '\n');
+    cursor = end + 1;
+  }
+  EXPECT_EQ(*cursor, '\0');
+}
+
+TEST(HistoryCsv, UnwritablePlacesAreFileErrors) {
+  const TemporaryFolder folder;
+  try {
+    const HistoryCsv history(folder / "missing/h.csv", {});
+    FAIL() << "no error";
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder / "missing/h.csv").string() + ": cannot write: No such file or directory");
+  }
+}
+
+TEST(HistoryCsv, FullDiskIsAFileError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
+  EXPECT_THROW(HistoryCsv("/dev/full", {{"x", "m"}}), FileError);
+}
+
+TEST(HistoryCsv, WrongNumberOfValuesIsABug) {
+  const TemporaryFolder folder;
+  HistoryCsv history(folder / "h.csv", {{"x", "m"}});
+  EXPECT_THROW(history.add(0.0, std::array{1.0, 2.0}), InternalError);
+}
+
+}  // namespace
+}  // namespace culm::output

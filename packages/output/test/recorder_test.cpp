@@ -1,0 +1,240 @@
+#include <culm/base/error.hpp>
+#include <culm/output/recorder.hpp>
+
+#include "read_back.hpp"
+#include "sample_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <csignal>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace culm::output {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const RunInfo info{"bent tube", "0.1.0", "<ParameterList name=\"µ\"/>\n"};
+
+Recorder make_recorder(const std::filesystem::path& path) {
+  return {path, info, sample_meshes(4), {{"energy", "J"}, {"drift", ""}}};
+}
+
+TEST(Recorder, StepsReadBackWhileTheFileIsOpen) {
+  const TemporaryFolder folder;
+  const std::vector<StructureMesh> meshes = sample_meshes(4);
+  Recorder recorder = make_recorder(folder / "run.h5");
+  for (int i = 0; i < 3; ++i) recorder.record(sample_frame(meshes, i));
+  const auto read = [&](const std::string& name) {
+    return read_dataset(folder / "run.h5", "/steps/000002/" + name);
+  };
+  const StructureState state = sample_frame(meshes, 2).structures[0];
+  for (std::size_t n = 0; n < 5; ++n) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      EXPECT_EQ(read("main tube/position").at(3 * n + k), state.positions[n][i]);
+      EXPECT_EQ(read("main tube/displacement").at(3 * n + k),
+                state.positions[n][i] - meshes[0].positions[n][i]);
+      EXPECT_EQ(read("main tube/director2").at(3 * n + k), state.triads[n](i, 1));
+    }
+  }
+  EXPECT_THAT(read("main tube/temperature"), ElementsAre(300, 301, 302, 303, 304));
+  EXPECT_EQ(read("main tube/resultants").at(6 * 3 + 5), 35.0);
+  EXPECT_THAT(read("patch/resultants"), ElementsAre(7.5));
+  EXPECT_THAT(read("hub%2Fleft/director1"), ElementsAre(1, 0, 0));
+  EXPECT_THAT(read("%arrays/multipliers"), ElementsAre(1, 2, 3));
+}
+
+TEST(Recorder, MeshReadsBack) {
+  const TemporaryFolder folder;
+  const Recorder recorder = make_recorder(folder / "run.h5");
+  const auto read = [&](const std::string& name) {
+    return read_dataset(folder / "run.h5", "/mesh/" + name);
+  };
+  EXPECT_THAT(read("main tube/connectivity"), ElementsAre(0, 1, 1, 2, 2, 3, 3, 4));
+  EXPECT_THAT(read("main tube/cell_offsets"), ElementsAre(2, 4, 6, 8));
+  EXPECT_THAT(read("main tube/cell_types"), ElementsAre(4, 4, 4, 4));
+  EXPECT_THAT(read("patch/topology"), ElementsAre(5, 0, 1, 2, 3));
+  EXPECT_THAT(read("patch/director3").size(), 12U);
+  EXPECT_TRUE(read("patch/director1").empty());
+  EXPECT_THAT(read("hub%2Fleft/topology"), ElementsAre(1, 1, 0));
+}
+
+TEST(Recorder, HistoryGrowsRowByRow) {
+  const TemporaryFolder folder;
+  Recorder recorder = make_recorder(folder / "run.h5");
+  std::vector<double> expected;
+  for (int i = 0; i < 1000; ++i) {  // several chunks
+    recorder.add_history(0.5 * i, std::array{1.0 * i, -2.0 * i});
+    expected.insert(expected.end(), {0.5 * i, 1.0 * i, -2.0 * i});
+  }
+  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values"), expected);
+}
+
+// The reader that users have, too.
+TEST(Recorder, PythonReadsTheWholeFile) {
+  if (!has_python("h5py")) GTEST_SKIP() << "no h5py";
+  const TemporaryFolder folder;
+  Recorder recorder = make_recorder(folder / "run.h5");
+  recorder.record(sample_frame(sample_meshes(4), 0));
+  recorder.record(sample_frame(sample_meshes(4), 7));
+  recorder.add_history(0.25, std::array{1.0, std::numeric_limits<double>::quiet_NaN()});
+  recorder.write_report("first", {});
+  const NamedScalar scalars[] = {{"energy drift", "J", 1e-12}, {"a/b", "", 2.0}};
+  recorder.write_report("finished\n", scalars);
+  recorder.close();
+  const std::string text = run_python(R"(
+import h5py, sys
+f = h5py.File(sys.argv[1], 'r')
+print(f.attrs['format'], f.attrs['format_version'])
+print(f['deck'].attrs['title'], f['deck'].attrs['version'], repr(f['deck/xml'].asstr()[()]))
+print(sorted(f['steps']), [f['steps'][s].attrs['time'] for s in f['steps']])
+print(f['mesh/main tube'].attrs['type'], list(f['mesh/main tube'].attrs['resultant_names']))
+print(f['mesh/hub%2Fleft'].attrs['name'], len(f['mesh/hub%2Fleft'].attrs['resultant_names']))
+print(f['steps/000007/main tube/position'].shape, f['steps/000007/main tube/resultants'].shape)
+h = f['history/values']
+print(list(h.attrs['names']), list(h.attrs['units']), h[...].tolist())
+s = f['report/scalars']
+print(repr(f['report/text'].asstr()[()]), {k: (s[k][()], s[k].attrs['unit']) for k in s})
+)",
+                                      folder / "run.h5");
+  EXPECT_EQ(text,
+            "culm run 1\n"
+            "bent tube 0.1.0 '<ParameterList name=\"µ\"/>\\n'\n"
+            "['000000', '000007'] [0.0, 0.7000000000000001]\n"
+            "Beam ['N1', 'N2', 'N3', 'M1', 'M2', 'M3']\n"
+            "hub/left 0\n"
+            "(5, 3) (4, 6)\n"
+            "['time', 'energy', 'drift'] ['s', 'J', ''] [[0.25, 1.0, nan]]\n"
+            "'finished\\n' {'a%2Fb': (2.0, ''), 'energy drift': (1e-12, 'J')}\n");
+}
+
+TEST(Recorder, KilledRunLosesAtMostTheStepItWrote) {
+  for (int round = 0; round < 8; ++round) {
+    const TemporaryFolder folder;
+    int progress[2];
+    ASSERT_EQ(::pipe(progress), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      Recorder recorder = make_recorder(folder / "run.h5");
+      Frame frame = sample_frame(sample_meshes(4), 1);
+      for (frame.index = 0;; ++frame.index) {
+        recorder.record(frame);
+        recorder.add_history(frame.index, std::array{1.0 * frame.index, 0.0});
+        if (::write(progress[1], &frame.index, sizeof frame.index) < 0) ::_exit(1);
+      }
+    }
+    ::close(progress[1]);
+    int last = -1;
+    while (last < 100 + 7 * round) ASSERT_GT(::read(progress[0], &last, sizeof last), 0);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    while (::read(progress[0], &last, sizeof last) > 0) continue;
+    ::close(progress[0]);
+
+    recover_run(folder / "run.h5");
+    EXPECT_GE(count_links(folder / "run.h5", "/steps"), last + 1);
+    const std::string step = "/steps/" + std::to_string(1000000 + last).substr(1);
+    EXPECT_EQ(read_dataset(folder / "run.h5", step + "/main tube/position").size(), 15U);
+    EXPECT_GE(read_dataset(folder / "run.h5", "/history/values").size(), 3U * (last + 1U));
+  }
+}
+
+TEST(Recorder, NothingButTheFinishedFileStaysInTheFolder) {
+  const TemporaryFolder folder;
+  { Recorder recorder = make_recorder(folder / "run.h5"); }
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().filename(), "run.h5");
+  }
+}
+
+TEST(Recorder, MissingFolderIsAFileErrorWithTheReason) {
+  const TemporaryFolder folder;
+  try {
+    make_recorder(folder / "missing/run.h5");
+    FAIL() << "no error";
+  } catch (const FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr((folder / "missing/run.h5").string()));
+    EXPECT_THAT(error.what(), HasSubstr("No such file or directory"));
+  }
+}
+
+TEST(Recorder, ReadOnlyFolderIsAFileError) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryFolder folder;
+  std::filesystem::permissions(
+      folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_THROW(make_recorder(folder / "run.h5"), FileError);
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+}
+
+TEST(Recorder, FileInPlaceOfTheFolderIsAFileError) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "text";
+  EXPECT_THROW(make_recorder(folder / "file/run.h5"), FileError);
+}
+
+TEST(Recorder, OldFileStaysIfTheNewOneCannotBeMade) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "run.h5.part");
+  std::ofstream(folder / "run.h5") << "old";
+  EXPECT_THROW(make_recorder(folder / "run.h5"), FileError);
+  EXPECT_EQ(read_text_file(folder / "run.h5"), "old");
+}
+
+// In a process of its own, because the limit cannot be lifted again.
+TEST(Recorder, FullDiskIsAFileErrorAndKeepsEarlierSteps) {
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{100000, 100000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    int code = 1;
+    try {
+      Recorder recorder = make_recorder(folder / "run.h5");
+      Frame frame = sample_frame(sample_meshes(4), 1);
+      for (frame.index = 0; frame.index < 1000; ++frame.index) recorder.record(frame);
+    } catch (const FileError& error) {
+      code = std::string(error.what()).find("File too large") != std::string::npos ? 6 : 2;
+    }
+    ::_exit(code);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 6);
+  recover_run(folder / "run.h5");
+  EXPECT_GE(count_links(folder / "run.h5", "/steps"), 3);
+  EXPECT_EQ(read_dataset(folder / "run.h5", "/steps/000001/main tube/position").size(), 15U);
+}
+
+TEST(Recorder, StepsAreNotOverwritten) {
+  const TemporaryFolder folder;
+  Recorder recorder = make_recorder(folder / "run.h5");
+  recorder.record(sample_frame(sample_meshes(4), 0));
+  EXPECT_THROW(recorder.record(sample_frame(sample_meshes(4), 0)), FileError);
+}
+
+TEST(Recorder, WrongSizesAreABug) {
+  const TemporaryFolder folder;
+  Recorder recorder = make_recorder(folder / "run.h5");
+  Frame frame = sample_frame(sample_meshes(4), 0);
+  frame.structures[0].positions.pop_back();
+  EXPECT_THROW(recorder.record(frame), InternalError);
+  EXPECT_THROW(recorder.add_history(0.0, std::array{1.0}), InternalError);
+  recorder.close();
+  EXPECT_THROW(recorder.record(sample_frame(sample_meshes(4), 0)), InternalError);
+  std::vector<StructureMesh> twins = {body_mesh(), body_mesh()};
+  EXPECT_THROW(Recorder(folder / "twins.h5", info, twins, {}), InternalError);
+}
+
+}  // namespace
+}  // namespace culm::output
