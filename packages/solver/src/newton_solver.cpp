@@ -54,6 +54,8 @@ Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const NewtonSettings& settin
   list->set("Nonlinear Solver", "Line Search Based");
   list->sublist("Line Search").set("Method", settings.backtrack ? "Backtrack" : "Full Step");
   list->sublist("Direction").set("Method", "Newton");
+  // a failed linear solve leaves no direction; NOX would go on with what it finds
+  list->sublist("Direction").sublist("Newton").set("Rescue Bad Newton Solve", false);
   list->sublist("Printing").set("Output Information", 0);
   return list;
 }

@@ -21,8 +21,8 @@ class LinearSolver {
   virtual std::string name() const = 0;
   /// Factors the present values. @return false if the matrix is singular to working precision
   virtual bool factor() = 0;
-  /// x = A^-1 b with the last factors. @return |b - A x| / (|A| |x| + |b|) in the maximum norm,
-  /// the same on all ranks; above 1e-8 the factors are useless
+  /// x = A^-1 b with the last factors. @return |b - A x| over the largest sum of terms of a row, in
+  /// the maximum norm, the same on all ranks; above 1e-8 the factors are useless
   virtual double solve(const Vector& b, Vector& x) = 0;
   /// Approximates the direction in which A is weakest by inverse iteration on a slightly shifted
   /// copy. @return |A v| / |A| for the returned v of unit maximum norm

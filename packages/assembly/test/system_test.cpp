@@ -1,0 +1,115 @@
+#include <culm/assembly/system.hpp>
+
+#include <culm_kit/chain_model.hpp>
+#include <culm_kit/dense_assembly.hpp>
+#include <gtest/gtest.h>
+
+namespace culm::assembly {
+namespace {
+
+using model::Form;
+
+// A chain with everything that changes places: a clamp, a slave with a lever, a constraint kept as
+// equations.
+void build(model::Model& model, Form form) {
+  kit::add_chain(model, 12);
+  model.add_constraint(kit::clamp(model, 0));
+  model.add_rigid_link("link", 5, 4);
+  model::Constraint joint = kit::pin(model, 9);
+  joint.fix.reset();
+  joint.nodes = {9, 11};
+  for (model::ConstraintRow& row : joint.rows) row.alpha = {1.0, 0, 0, 0, -1.0, 0, 0, 0.2};
+  model.add_constraint(joint);
+  model.freeze(form);
+}
+
+class SystemTest : public ::testing::TestWithParam<Form> {};
+
+TEST_P(SystemTest, DistributedSystemEqualsDenseAssembly) {
+  model::Model reference_model;
+  build(reference_model, GetParam());
+  kit::DenseAssembly dense(reference_model);
+  model::State state = kit::random_state(reference_model, 3);
+  const Stencil stencil = Stencil::midpoint(0.1);
+  dense.begin_step(state, stencil);
+  const Eigen::VectorXd residual = dense.residual(state, stencil);
+  const Eigen::MatrixXd tangent = dense.tangent(state, stencil);
+
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  system.begin_step(state, stencil);
+  const Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
+  EXPECT_EQ(found.verdict, Verdict::ok);
+
+  const auto matrix = system.matrix()->getLocalMatrixHost();
+  const auto values = values_of(system.residual());
+  const double size = tangent.cwiseAbs().maxCoeff();
+  for (int row = 0; row < matrix.numRows(); ++row) {
+    const auto global = system.matrix()->getRowMap()->getGlobalElement(row);
+    // only the order of additions may differ
+    EXPECT_NEAR(values[static_cast<std::size_t>(row)], residual[global], 1e-13 * size);
+    Eigen::RowVectorXd sparse = Eigen::RowVectorXd::Zero(tangent.cols());
+    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
+      sparse[system.matrix()->getColMap()->getGlobalElement(matrix.graph.entries(k))] =
+          matrix.values(k);
+    }
+    EXPECT_LT((sparse - tangent.row(global)).cwiseAbs().maxCoeff(), 1e-13 * size);
+  }
+}
+
+TEST_P(SystemTest, MoveAndSynchroniseGiveTheSameStateOnAllRanks) {
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  model::State state = model.initial_state();
+  Eigen::VectorXd whole(model.unknowns().num_unknowns());
+  for (int i = 0; i < whole.size(); ++i) whole[i] = 0.01 * std::sin(1.0 + i);
+  Vector increment(system.layout().row_map());
+  const auto values = values_of(increment);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = whole[system.layout().row_map()->getGlobalElement(static_cast<int>(i))];
+  }
+  system.move(state, increment, 1.0);
+  system.synchronise(state);
+
+  model::Model expected_model;
+  build(expected_model, GetParam());
+  const kit::DenseAssembly dense(expected_model);
+  model::State expected = expected_model.initial_state();
+  dense.move(expected, whole);
+  for (std::size_t i = 0; i < state.next.size(); ++i) {
+    EXPECT_DOUBLE_EQ(state.next[i], expected.next[i]);
+  }
+  for (std::size_t i = 0; i < state.multipliers.size(); ++i) {
+    EXPECT_DOUBLE_EQ(state.multipliers[i], expected.multipliers[i]);
+  }
+}
+
+TEST_P(SystemTest, EnergyCountsEachElementOnce) {
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  const model::State state = kit::random_state(model, 5);
+  double expected = 0.0;
+  const auto& batch = model.elements<kit::SpringLink>("Spring link");
+  for (int item = 0; item < batch.size(); ++item) {
+    Slots<8> q;
+    q << model::NodeTable::slots(state.next, item), model::NodeTable::slots(state.next, item + 1);
+    Vec6 strain;
+    batch.element(item).strain(0, q, strain);
+    expected += batch.element(item).energy(0, strain);
+  }
+  EXPECT_NEAR(system.stored_energy(state.next), expected, 1e-12 * expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, SystemTest, ::testing::Values(Form::null_space, Form::multipliers),
+                         [](const auto& form) {
+                           return form.param == Form::null_space ? "NullSpace" : "Multipliers";
+                         });
+
+}  // namespace
+}  // namespace culm::assembly

@@ -1,0 +1,112 @@
+#include <culm/solver/newton_solver.hpp>
+
+#include <culm_kit/chain_model.hpp>
+#include <gtest/gtest.h>
+
+namespace culm::solver {
+namespace {
+
+// A chain whose far end is carried to a place by a constraint.
+class CarriedChain {
+ public:
+  CarriedChain(model::Form form, double distance, const NewtonSettings& settings) {
+    kit::add_chain(model, 6);
+    model.add_constraint(kit::clamp(model, 0));
+    model::Constraint carried = kit::pin(model, 6);
+    carried.fix.reset();
+    carried.rows[2].constant += distance;
+    model.add_constraint(carried);
+    model.freeze(form);
+    system = std::make_unique<assembly::System>(model, comm, ledger);
+    linear = make_rooted_klu2(system->matrix(), comm);
+    newton = std::make_unique<NewtonSolver>(*system, *linear, settings, ledger);
+    state = model.initial_state();
+    system->begin_step(state, Stencil::statics());
+    system->choose_multiplier_scale(state, Stencil::statics());
+  }
+  StepOutcome solve() {
+    const StepOutcome outcome = newton->solve(state, Stencil::statics());
+    system->synchronise(state);
+    return outcome;
+  }
+
+  parallel::Comm comm;
+  Ledger ledger;
+  model::Model model;
+  std::unique_ptr<assembly::System> system;
+  std::unique_ptr<LinearSolver> linear;
+  std::unique_ptr<NewtonSolver> newton;
+  model::State state;
+};
+
+TEST(NewtonSolver, ConvergesQuadratically) {
+  NewtonSettings settings;
+  settings.extrapolate_stress = false;
+  CarriedChain chain(model::Form::null_space, 0.5, settings);
+  const StepOutcome outcome = chain.solve();
+  ASSERT_TRUE(outcome.converged());
+  // the last three residuals above round-off: r_next < C r^2 with a moderate C
+  const auto& history = outcome.history;
+  const std::size_t last = history.size() - 1;
+  EXPECT_LT(history[last].force, 100.0 * history[last - 1].force * history[last - 1].force + 1e-10);
+  EXPECT_NEAR(model::NodeTable::slots(chain.state.next, 6)(2, 0), 0.6 + 0.5, 1e-10);
+}
+
+TEST(NewtonSolver, StressExtrapolationChangesThePathButNotTheSolution) {
+  NewtonSettings plain;
+  plain.extrapolate_stress = false;
+  CarriedChain a(model::Form::null_space, 0.3, plain);
+  CarriedChain b(model::Form::null_space, 0.3, NewtonSettings{});
+  ASSERT_TRUE(a.solve().converged());
+  ASSERT_TRUE(b.solve().converged());
+  for (std::size_t i = 0; i < a.state.next.size(); ++i) {
+    EXPECT_NEAR(a.state.next[i], b.state.next[i], 1e-9);
+  }
+}
+
+TEST(NewtonSolver, BothFormsHaveTheSameSolution) {
+  CarriedChain a(model::Form::null_space, 0.3, NewtonSettings{});
+  CarriedChain b(model::Form::multipliers, 0.3, NewtonSettings{});
+  ASSERT_TRUE(a.solve().converged());
+  ASSERT_TRUE(b.solve().converged());
+  for (std::size_t i = 0; i < a.state.next.size(); ++i) {
+    EXPECT_NEAR(a.state.next[i], b.state.next[i], 1e-9);
+  }
+  for (int node = 0; node <= 6; node += 6) {
+    EXPECT_LT((a.system->reaction(node, a.state) - b.system->reaction(node, b.state)).norm(), 1e-7);
+  }
+}
+
+TEST(NewtonSolver, ReactionsOfAnUnloadedStructureAreInBalance) {
+  CarriedChain chain(model::Form::null_space, 0.4, NewtonSettings{});
+  ASSERT_TRUE(chain.solve().converged());
+  const Vec6 root = chain.system->reaction(0, chain.state);
+  const Vec6 tip = chain.system->reaction(6, chain.state);
+  const Vec3 arm = model::NodeTable::slots(chain.state.next, 6).col(0) -
+                   model::NodeTable::slots(chain.state.next, 0).col(0);
+  ASSERT_GT(tip.head<3>().norm(), 1.0);
+  EXPECT_LT((root + tip).head<3>().norm(), 1e-9);
+  const Vec3 tip_force = tip.head<3>();
+  const Vec3 moment = root.tail<3>() + tip.tail<3>() + skew(arm) * tip_force;
+  EXPECT_LT(moment.norm(), 1e-8);
+}
+
+TEST(NewtonSolver, FailureIsAValueWithAReason) {
+  NewtonSettings settings;
+  settings.max_iterations = 2;
+  CarriedChain chain(model::Form::null_space, 0.5, settings);
+  const StepOutcome outcome = chain.solve();
+  EXPECT_EQ(outcome.end, StepEnd::too_many_iterations);
+  EXPECT_EQ(outcome.iterations, 2);
+}
+
+TEST(NewtonSolver, NumbersThatAreNotFiniteStopInTheSameIteration) {
+  CarriedChain chain(model::Form::null_space, 0.1, NewtonSettings{});
+  chain.state.next[40] = std::numeric_limits<double>::quiet_NaN();
+  const StepOutcome outcome = chain.solve();
+  EXPECT_EQ(outcome.end, StepEnd::not_finite);
+  EXPECT_EQ(outcome.iterations, 0);
+}
+
+}  // namespace
+}  // namespace culm::solver
