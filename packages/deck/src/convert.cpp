@@ -194,7 +194,7 @@ std::string type_name(Kind kind) {
 Conversion convert(const RawParameter& raw, const Field& field, const Scope& scope) {
   Conversion result;
   if (!raw.value) {
-    result.mistakes.emplace_back(no_value);
+    if (!raw.is_reported) result.mistakes.emplace_back(no_value);
     return result;
   }
   if (std::string mistake = wrong_type(raw, field.kind()); !mistake.empty()) {
@@ -216,7 +216,7 @@ Conversion convert(const RawParameter& raw, const Field& field, const Scope& sco
 Conversion convert_variable(const RawParameter& raw, const Scope& scope) {
   Conversion result;
   if (!raw.value) {
-    result.mistakes.emplace_back(no_value);
+    if (!raw.is_reported) result.mistakes.emplace_back(no_value);
     return result;
   }
   const std::optional<Unit> unit = raw.unit ? find_unit(*raw.unit) : Unit{};

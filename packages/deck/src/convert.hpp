@@ -11,7 +11,7 @@
 
 namespace culm::deck {
 
-/// A value in SI units, or what is wrong with it.
+/// A value in SI units, or what is wrong with it; neither if that is among the issues already.
 struct Conversion {
   std::optional<Value> value;
   std::vector<std::string> mistakes;

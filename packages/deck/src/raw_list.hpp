@@ -17,10 +17,11 @@ struct RawParameter {
   std::string file;
   int line = 0;
   std::string name;
-  std::optional<std::string> value;  ///< missing by mistake, which the validator reports
+  std::optional<std::string> value;  ///< missing by mistake
   std::optional<std::string> type;
   std::optional<std::string> unit;
-  bool is_default = false;  ///< marked as such by a resolved deck
+  bool is_default = false;   ///< marked as such by a resolved deck
+  bool is_reported = false;  ///< why there is no value is among the issues already
 };
 
 /// A <ParameterList> as written, with its includes in place.
@@ -31,6 +32,8 @@ struct RawList {
   std::vector<RawParameter> parameters;
   std::vector<RawParameter> variables;
   std::vector<RawList> lists;
+  /// A mistake that is among the issues already may be why something is missing here.
+  bool is_incomplete = false;
 };
 
 /// Gives the text of a file, or nothing if it cannot be read.

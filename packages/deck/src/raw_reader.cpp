@@ -48,7 +48,7 @@ class RawReader {
     list.line = element.line;
     const std::string above = parent.value_or("");
     check_attributes(element, {"name"}, above);
-    list.name = required_attribute(element, "name", above);
+    list.name = required_attribute(element, "name", {"name"}, above);
     read_children(element, parent ? join_path(above, list.name) : "", list);
     report_duplicates(list, parent ? join_path(above, list.name) : "");
     return list;
@@ -57,19 +57,32 @@ class RawReader {
   void read_children(const XmlElement& element, const std::string& path, RawList& list) {
     report_text(element, path);
     for (const XmlElement& child : element.children) {
-      if (child.name == "ParameterList") {
-        list.lists.push_back(read_list(child, path));
-      } else if (child.name == "Parameter") {
-        list.parameters.push_back(
-            read_parameter(child, {"name", "value", "type", "unit", "isDefault"}, path));
-      } else if (child.name == "Variable") {
-        list.variables.push_back(read_parameter(child, {"name", "value", "unit"}, path));
-      } else if (child.name == "xi:include") {
-        read_include(child, path, list);
-      } else {
+      std::string name = child.name;
+      if (std::ranges::find(element_names, name) == element_names.end()) {
         report(child.line, path,
-               "unknown element <" + child.name + ">" + did_you_mean(child.name, element_names));
+               "unknown element <" + name + ">" + did_you_mean(name, element_names));
+        // Read as what it was meant to be, so that nothing is missed below for its sake.
+        name = nearest_name(name, element_names);
       }
+      read_child(name, child, path, list);
+    }
+  }
+
+  void read_child(const std::string& name, const XmlElement& child, const std::string& path,
+                  RawList& list) {
+    if (name == "ParameterList") {
+      list.lists.push_back(read_list(child, path));
+      list.is_incomplete |= list.lists.back().name.empty();
+    } else if (name == "Parameter") {
+      list.parameters.push_back(
+          read_parameter(child, {"name", "value", "type", "unit", "isDefault"}, path));
+      list.is_incomplete |= list.parameters.back().name.empty();
+    } else if (name == "Variable") {
+      list.variables.push_back(read_parameter(child, {"name", "value", "unit"}, path));
+    } else if (name == "xi:include") {
+      list.is_incomplete |= !read_include(child, path, list);
+    } else {
+      list.is_incomplete = true;
     }
   }
 
@@ -78,53 +91,60 @@ class RawReader {
     RawParameter parameter;
     parameter.file = file();
     parameter.line = element.line;
-    parameter.name = required_attribute(element, "name", parent);
+    parameter.name = required_attribute(element, "name", allowed, parent);
     const std::string path = parameter.name.empty() ? parent : join_path(parent, parameter.name);
-    check_attributes(element, allowed, path);
+    parameter.is_reported = !check_attributes(element, allowed, path);
     report_content(element, path);
-    for (const XmlAttribute& attribute : element.attributes) {
-      if (attribute.name == "value") parameter.value = attribute.value;
-      if (attribute.name == "type") parameter.type = attribute.value;
-      if (attribute.name == "unit") parameter.unit = attribute.value;
-      if (attribute.name == "isDefault") parameter.is_default = attribute.value == "true";
-    }
+    parameter.value = find_attribute(element, "value", allowed);
+    parameter.type = find_attribute(element, "type", allowed);
+    parameter.unit = find_attribute(element, "unit", allowed);
+    parameter.is_default = find_attribute(element, "isDefault", allowed) == "true";
     return parameter;
   }
 
-  void read_include(const XmlElement& element, const std::string& path, RawList& list) {
+  /// Returns whether all of it could be read.
+  bool read_include(const XmlElement& element, const std::string& path, RawList& list) {
     check_attributes(element, {"href"}, path);
     report_content(element, path);
-    const std::string href = required_attribute(element, "href", path);
-    if (href.empty()) return;
+    const std::string href = required_attribute(element, "href", {"href"}, path);
+    if (href.empty()) return false;
     const std::string target =
         (std::filesystem::path(file()).parent_path() / href).lexically_normal().generic_string();
     if (std::ranges::find(files_, target) != files_.end()) {
-      return report(element.line, path,
-                    "'" + target + "' includes itself: " + join(files_, " → ") + " → " + target);
+      report(element.line, path,
+             "'" + target + "' includes itself: " + join(files_, " → ") + " → " + target);
+      return false;
     }
     if (files_.size() > max_include_depth) {
-      return report(element.line, path,
-                    "includes are nested deeper than " + std::to_string(max_include_depth));
+      report(element.line, path,
+             "includes are nested deeper than " + std::to_string(max_include_depth));
+      return false;
     }
     const std::optional<std::string> text = source_(target);
-    if (!text) return report(element.line, path, "cannot read the included file '" + target + "'");
+    if (!text) {
+      report(element.line, path, "cannot read the included file '" + target + "'");
+      return false;
+    }
     // Files that include each other twice at every level would multiply without end.
     bytes_ += text->size();
     if (bytes_ > max_bytes) {
-      return report(element.line, path, "the deck with its includes is larger than 64 MB");
+      report(element.line, path, "the deck with its includes is larger than 64 MB");
+      return false;
     }
     files_.push_back(target);
-    splice(*text, path, list);
+    const bool is_whole = splice(*text, path, list);
     files_.pop_back();
+    return is_whole;
   }
 
   /// The content of an included list of the same name joins `list`; any other becomes its child.
-  void splice(const std::string& text, const std::string& path, RawList& list) {
+  /// Returns whether there is such a list.
+  bool splice(const std::string& text, const std::string& path, RawList& list) {
     try {
       const XmlElement root = read_xml(text, file());
       if (root.name != "ParameterList") {
         report(root.line, path, "the root must be <ParameterList>, got <" + root.name + ">");
-        return;
+        return false;
       }
       const auto name = std::ranges::find(root.attributes, "name", &XmlAttribute::name);
       if (name != root.attributes.end() && name->value == list.name) {
@@ -133,32 +153,60 @@ class RawReader {
       } else {
         list.lists.push_back(read_list(root, path));
       }
+      return true;
     } catch (const InputError& error) {
       for (const InputIssue& issue : error.issues()) issues_.add(issue);
+      return false;
     }
+  }
+
+  static bool is_known(const XmlAttribute& attribute, const std::vector<std::string>& allowed) {
+    return std::ranges::find(allowed, attribute.name) != allowed.end();
+  }
+
+  /// The attribute of this name, or one that was meant to have it, which is a mistake of its own.
+  static std::optional<std::string> find_attribute(const XmlElement& element,
+                                                   const std::string& name,
+                                                   const std::vector<std::string>& allowed) {
+    const auto found = std::ranges::find(element.attributes, name, &XmlAttribute::name);
+    if (found != element.attributes.end()) return found->value;
+    for (const XmlAttribute& attribute : element.attributes) {
+      if (is_known(attribute, allowed)) continue;
+      if (nearest_name(attribute.name, allowed) == name) return attribute.value;
+    }
+    return std::nullopt;
   }
 
   std::string required_attribute(const XmlElement& element, const std::string& name,
-                                 const std::string& path) {
-    const auto found = std::ranges::find(element.attributes, name, &XmlAttribute::name);
-    if (found == element.attributes.end()) {
-      report(element.line, path, "<" + element.name + "> has no attribute '" + name + "'");
+                                 const std::vector<std::string>& allowed, const std::string& path) {
+    const std::optional<std::string> found = find_attribute(element, name, allowed);
+    if (!found) {
+      // An unknown attribute, which is a mistake of its own, may be this one.
+      const bool all_known = std::ranges::all_of(
+          element.attributes, [&](const auto& attribute) { return is_known(attribute, allowed); });
+      if (all_known) {
+        report(element.line, path, "<" + element.name + "> has no attribute '" + name + "'");
+      }
       return {};
     }
-    if (trim(found->value).empty()) {
+    if (trim(*found).empty()) {
       report(element.line, path, "<" + element.name + "> has an empty attribute '" + name + "'");
     }
-    return found->value;
+    return *found;
   }
 
-  void check_attributes(const XmlElement& element, const std::vector<std::string>& allowed,
+  /// Returns whether all attributes are known.
+  bool check_attributes(const XmlElement& element, const std::vector<std::string>& allowed,
                         const std::string& path) {
+    bool all_known = true;
     for (const XmlAttribute& attribute : element.attributes) {
-      if (std::ranges::find(allowed, attribute.name) != allowed.end()) continue;
+      if (is_known(attribute, allowed)) continue;
+      all_known = false;
       report(element.line, path,
              "unknown attribute '" + attribute.name + "' of <" + element.name + ">" +
                  did_you_mean(attribute.name, allowed));
     }
+    return all_known;
   }
 
   void report_text(const XmlElement& element, const std::string& path) {

@@ -30,6 +30,16 @@ Where where_of(const RawParameter& raw, const std::string& list_path) {
   return {raw.file, raw.line, join_path(list_path, raw.name)};
 }
 
+/// Whether one of the items has an unknown name that was meant to be this one.
+template <class Item>
+bool is_misspelt(const std::string& name, const std::vector<Item>& items,
+                 const std::vector<std::string>& known) {
+  return std::ranges::any_of(items, [&](const Item& item) {
+    return std::ranges::find(known, item.name) == known.end() &&
+           nearest_name(item.name, known) == name;
+  });
+}
+
 }  // namespace
 
 Options Validator::root(const RawList& raw, const Schema& schema) {
@@ -43,7 +53,7 @@ Options Validator::root(const RawList& raw, const Schema& schema) {
 
 /// `type` is the parameter that chose the schema; null if nothing did.
 Options Validator::list(const Place& place, const Schema& schema, const RawParameter* type) {
-  const std::size_t issues_before = issues_.size();
+  const std::size_t mistakes_before = issues_.size() + silent_mistakes_;
   // A list without variables shares the scope above, and with it the parser, which is costly.
   std::optional<Scope> own;
   if (!place.raw.variables.empty()) define_variables(place, own.emplace(place.outer));
@@ -52,11 +62,11 @@ Options Validator::list(const Place& place, const Schema& schema, const RawParam
   if (type) {
     options.set("Type", type->value.value(), !type->is_default, where_of(*type, place.path));
   }
-  for (const Field& field : schema.fields()) read_field(place, field, scope, options);
+  for (const Field& field : schema.fields()) read_field(place, schema, field, scope, options);
   read_lists(place, schema, scope, options);
   report_unknown(place, schema, type != nullptr);
   // Rules across parameters rely on the rules of each.
-  if (issues_.size() == issues_before) {
+  if (issues_.size() + silent_mistakes_ == mistakes_before) {
     for (const Schema::Check& check : schema.checks()) check(options, issues_);
   }
   return options;
@@ -78,12 +88,15 @@ Options Validator::list_of_slot(const Place& place, const Schema::Slot& slot) {
   }
   Options nothing(place.raw.name, where_of(place.raw, place.path));
   if (!written && slot.default_type.empty()) {
-    report(place, "missing 'Type'" + did_you_mean("", types));
+    report_missing(place, false, "missing 'Type'" + did_you_mean("", types));
     return nothing;
   }
   const Conversion conversion = convert(type, text("Type", ""), place.outer);
   for (const std::string& mistake : conversion.mistakes) report(type, place.path, mistake);
-  if (!conversion.value) return nothing;
+  if (!conversion.value) {
+    ++silent_mistakes_;
+    return nothing;
+  }
   if (const Schema* schema = slot.find(*type.value)) return list(place, *schema, &type);
   report(type, place.path, "unknown type '" + *type.value + "'" + did_you_mean(*type.value, types));
   return nothing;
@@ -101,13 +114,16 @@ void Validator::define_variables(const Place& place, Scope& scope) {
   }
 }
 
-void Validator::read_field(const Place& place, const Field& field, const Scope& scope,
-                           Options& options) {
+void Validator::read_field(const Place& place, const Schema& schema, const Field& field,
+                           const Scope& scope, Options& options) {
   const Where list_where = where_of(place.raw, place.path);
   if (const RawParameter* raw = find(place.raw.parameters, field.name())) {
     Conversion conversion = convert(*raw, field, scope);
     for (const std::string& mistake : conversion.mistakes) report(*raw, place.path, mistake);
-    if (!conversion.value) return;
+    if (!conversion.value) {
+      ++silent_mistakes_;
+      return;
+    }
     // A resolved deck marks defaults; one that was edited by hand is none any more.
     const bool given = !raw->is_default || conversion.value != field.default_value();
     options.set(field.name(), std::move(*conversion.value), given, where_of(*raw, place.path));
@@ -115,7 +131,8 @@ void Validator::read_field(const Place& place, const Field& field, const Scope& 
     issues_.add(where_of(*wrong, join_path(place.path, wrong->name)),
                 "must be a <Parameter>, found a <ParameterList>");
   } else if (field.required()) {
-    report(place, "missing '" + field.name() + "' (" + describe(field) + ")");
+    report_missing(place, is_misspelt(field.name(), place.raw.parameters, schema.field_names()),
+                   "missing '" + field.name() + "' (" + describe(field) + ")");
   } else if (field.default_value()) {
     options.set(field.name(), *field.default_value(), false, list_where);
   } else {
@@ -129,7 +146,7 @@ void Validator::read_lists(const Place& place, const Schema& schema, const Scope
     if (const RawList* raw = find(place.raw.lists, slot.name)) {
       options.add_list(list_of_slot({*raw, join_path(place.path, raw->name), scope}, slot));
     } else if (!find(place.raw.parameters, slot.name)) {
-      absent_list(place, slot, scope, options);
+      absent_list(place, schema, slot, scope, options);
     }
   }
   if (!schema.entries()) return;
@@ -142,10 +159,13 @@ void Validator::read_lists(const Place& place, const Schema& schema, const Scope
   }
 }
 
-void Validator::absent_list(const Place& place, const Schema::Slot& slot, const Scope& scope,
-                            Options& options) {
+void Validator::absent_list(const Place& place, const Schema& schema, const Schema::Slot& slot,
+                            const Scope& scope, Options& options) {
   if (slot.presence == Presence::required) {
-    report(place, "missing list '" + slot.name + "'");
+    // Where lists have any name, none is unknown.
+    const bool misspelt =
+        !schema.entries() && is_misspelt(slot.name, place.raw.lists, schema.list_names());
+    report_missing(place, misspelt, "missing list '" + slot.name + "'");
   } else if (slot.presence == Presence::optional) {
     options.declare_list(slot.name);
   } else {
@@ -178,6 +198,15 @@ void Validator::report_unknown(const Place& place, const Schema& schema, bool ha
     }
     issues_.add({raw.file, raw.line, where_of(place.raw, place.path).path},
                 "unknown list '" + raw.name + "'" + did_you_mean(raw.name, lists));
+  }
+}
+
+/// One mistake, one message: what is missing because of another mistake is not reported.
+void Validator::report_missing(const Place& place, bool is_misspelt, const std::string& message) {
+  if (is_misspelt || place.raw.is_incomplete) {
+    ++silent_mistakes_;
+  } else {
+    report(place, message);
   }
 }
 

@@ -49,7 +49,10 @@ class Builder {
   void text(std::string_view text) {
     if (open_.empty() || trim(text).empty() || !open_.back().stray_text.empty()) return;
     open_.back().stray_text = trim(text);
-    open_.back().stray_line = parser_->input->line;
+    // The parser stands at the end of the text.
+    const auto rest = text.substr(text.find(open_.back().stray_text));
+    open_.back().stray_line =
+        parser_->input->line - static_cast<int>(std::ranges::count(rest, '\n'));
   }
 
   void fail(std::string message) { fail(std::move(message), parser_->input->line); }

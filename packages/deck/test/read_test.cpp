@@ -125,21 +125,44 @@ TEST(Read, LinesAreCountedBeyondSixtyFiveThousand) {
 }
 
 TEST(Read, OnlyTheElementsOfADeckAreAllowed) {
-  EXPECT_EQ(mistakes(deck_around("<ParameterLst name=\"x\"/>\n<beam/>\nwords")),
+  EXPECT_EQ(mistakes(deck_around("<ParameterLst name=\"x\"><Parameter name=\"Type\" "
+                                 "value=\"Beem\"/></ParameterLst>\n<beam/>\nwords\n\n")),
             "deck.xml:3: Structures: unknown element <ParameterLst> – did you mean "
             "'ParameterList'?\n"
+            "deck.xml:3: Structures / x / Type: unknown type 'Beem' – did you mean 'Beam'?\n"
             "deck.xml:4: Structures: unknown element <beam> (allowed: ParameterList, Parameter, "
             "Variable, xi:include)\n"
-            "deck.xml:6: Structures: text between elements is not allowed: 'words'");
+            "deck.xml:5: Structures: text between elements is not allowed: 'words'");
 }
 
 TEST(Read, OnlyTheAttributesOfADeckAreAllowed) {
   EXPECT_EQ(mistakes(deck_around(body("\n<Parameter nam=\"Fixed\" value=\"true\"/>"
-                                      "\n<Parameter name=\"Fixed\"/>"))),
-            "deck.xml:4: Structures / top: <Parameter> has no attribute 'name'\n"
-            "deck.xml:4: Structures / top: unknown attribute 'nam' of <Parameter> – did you mean "
-            "'name'?\n"
-            "deck.xml:5: Structures / top / Fixed: has no attribute 'value'");
+                                      "\n<Parameter name=\"Position\"/>"))),
+            "deck.xml:4: Structures / top / Fixed: unknown attribute 'nam' of <Parameter> – did "
+            "you mean 'name'?\n"
+            "deck.xml:5: Structures / top / Position: has no attribute 'value'");
+}
+
+TEST(Read, OneMistakeOfFormGivesOneMessage) {
+  const auto beam_of = [](const std::string& length) {
+    return mistakes(deck_around(beam("\n" + length)));
+  };
+  const std::string place = "deck.xml:4: Structures / beam";
+  EXPECT_EQ(beam_of("<Parameter name=\"Length\" val=\"2\"/>"),
+            place +
+                " / Length: unknown attribute 'val' of <Parameter> (allowed: name, value, type, "
+                "unit, isDefault)");
+  EXPECT_EQ(beam_of("<Parameter id=\"Length\" value=\"2\"/>"),
+            place +
+                ": unknown attribute 'id' of <Parameter> (allowed: name, value, type, unit, "
+                "isDefault)");
+  EXPECT_EQ(beam_of("<Parameter value=\"2\"/>"), place + ": <Parameter> has no attribute 'name'");
+  EXPECT_EQ(beam_of("<Paramter name=\"Length\" value=\"2\"/>"),
+            place + ": unknown element <Paramter> – did you mean 'Parameter'?");
+  EXPECT_EQ(beam_of("<number name=\"Length\" value=\"2\"/>"),
+            place +
+                ": unknown element <number> (allowed: ParameterList, Parameter, Variable, "
+                "xi:include)");
 }
 
 TEST(Read, MistakesOfFormAndOfContentComeTogether) {
@@ -196,6 +219,13 @@ TEST_F(Files, AnIncludeThatCannotBeReadIsReportedAtItsLine) {
                                                       "<xi:include href=\"parts\"/>"))),
             "deck.xml:3: Structures: cannot read the included file 'none.xml'\n"
             "deck.xml:4: Structures: cannot read the included file 'parts'");
+}
+
+TEST_F(Files, WhatABrokenIncludeMayHoldIsNotMissed) {
+  EXPECT_EQ(mistakes_of(write("deck.xml",
+                              "<ParameterList name=\"culm\">\n<xi:include href=\"none.xml\"/>\n"
+                              "</ParameterList>")),
+            "deck.xml:2: cannot read the included file 'none.xml'");
 }
 
 TEST_F(Files, ABrokenIncludeDoesNotHideOtherMistakes) {

@@ -59,7 +59,6 @@ TEST(Validate, AllMistakesAreReportedInOnePassInTheOrderOfTheFile) {
   <ParameterList name="Tyme"/>
 </ParameterList>)";
   EXPECT_EQ(mistakes(text),
-            "deck.xml:3: Structures / top: missing 'Inertia' (numbers > 0 kg m^2, 3 items)\n"
             "deck.xml:5: Structures / top / Mass: must be > 0 kg, got -15\n"
             "deck.xml:9: Structures / top: unknown name 'Interia' – did you mean 'Inertia'?\n"
             "deck.xml:10: Structures / top / Position: must have 3 items, got 2\n"
@@ -166,6 +165,14 @@ TEST(Validate, AMissingTypeListsWhatThereIs) {
 TEST(Validate, MissingListsAreReportedAtTheirParent) {
   EXPECT_EQ(mistakes("<ParameterList name=\"culm\">\n</ParameterList>"),
             "deck.xml:1: culm: missing list 'Structures'");
+}
+
+TEST(Validate, AMisspeltNameIsNotMissingAsWell) {
+  EXPECT_EQ(mistakes(deck_around(beam("\n<Parameter name=\"Lenght\" value=\"2\"/>"))),
+            "deck.xml:4: Structures / beam: unknown name 'Lenght' – did you mean 'Length'?");
+  EXPECT_EQ(mistakes("<ParameterList name=\"culm\">\n<ParameterList name=\"Structure\"/>\n"
+                     "</ParameterList>"),
+            "deck.xml:2: culm: unknown list 'Structure' – did you mean 'Structures'?");
 }
 
 TEST(Validate, TheRootHasTheNameOfTheSchema) {
