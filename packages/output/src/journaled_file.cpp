@@ -169,11 +169,10 @@ std::vector<std::byte> JournaledFile::encode_changes() const {
 
 void JournaledFile::write_journal(std::span<const std::byte> body) {
   const Header header{magic, body.size(), checksum(body)};
-  std::vector<std::byte> entry(sizeof header + body.size());
-  std::memcpy(entry.data(), &header, sizeof header);
-  std::memcpy(entry.data() + sizeof header, body.data(), body.size());
   journal_in_use_ = true;
-  write_all(journal_, 0, entry);
+  // The header last: until it is there, the journal counts as empty.
+  write_all(journal_, sizeof header, body);
+  write_all(journal_, 0, std::as_bytes(std::span(&header, 1)));
 }
 
 void JournaledFile::void_journal() {
