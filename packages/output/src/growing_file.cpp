@@ -13,7 +13,8 @@ GrowingFile::GrowingFile(std::filesystem::path path, std::string head, std::stri
 }
 
 GrowingFile::~GrowingFile() {
-  if (entries_ == written_entries_) return;
+  // Without a path this is what is left of a moved file.
+  if (path_.empty() || entries_ == written_entries_) return;
   try {
     write();
   } catch (const Error&) {
