@@ -77,6 +77,42 @@ Jet rotation_coupling(double t2) noexcept {
           scale * scale * scale * (4.0 * pole * pole * pole + p.second)};
 }
 
+// Derivatives of phi(psi, r) = w . (Γ, K); there is no second derivative by r.
+struct RotationDerivatives {
+  Vec3 by_psi;
+  Vec3 by_r;
+  Mat3 psi_psi;
+  Mat3 psi_r;
+};
+
+// With n, m the weights of Γ, K and s = psi . psi:
+//   phi = n . r - 1/2 psi . (r x n) + g(s) p + m . psi / h ,  p = (n . psi)(psi . r) - (n . r) s
+RotationDerivatives weigh_by_rotation(const Vec3& psi, const Vec3& r, const Vec6& w,
+                                      double h) noexcept {
+  const Vec3 n = w.head<3>();
+  const double s = psi.squaredNorm();
+  const Jet g = rotation_coupling(s);
+  const double n_psi = n.dot(psi);
+  const double r_psi = r.dot(psi);
+  const double n_r = n.dot(r);
+  const double p = n_psi * r_psi - n_r * s;
+  const Vec3 p_psi = n * r_psi + n_psi * r - 2.0 * n_r * psi;  // ∂p/∂psi
+  const Vec3 p_r = n_psi * psi - s * n;                        // ∂p/∂r
+
+  RotationDerivatives d;
+  d.by_psi = -0.5 * r.cross(n) + 2.0 * g.first * p * psi + g.value * p_psi + w.tail<3>() / h;
+  d.by_r = n - 0.5 * n.cross(psi) + g.value * p_r;
+  const Mat3 outer = psi * p_psi.transpose();
+  const Mat3 nr = n * r.transpose();
+  d.psi_psi = 2.0 * g.first * (outer + outer.transpose()) + g.value * (nr + nr.transpose());
+  d.psi_psi += 4.0 * g.second * p * psi * psi.transpose();
+  d.psi_psi.diagonal().array() += 2.0 * (g.first * p - g.value * n_r);
+  d.psi_r = 0.5 * skew(n) + 2.0 * g.first * psi * p_r.transpose();
+  d.psi_r += g.value * (n * psi.transpose() - 2.0 * psi * n.transpose());
+  d.psi_r.diagonal().array() += g.value * n_psi;
+  return d;
+}
+
 // A quantity over a step: mean of its end values, and their difference. Products follow exactly:
 // mean(u v) = mu mv + 1/4 du dv ,  delta(u v) = mu dv + du mv, so differences never cancel.
 template <class T>
@@ -152,51 +188,23 @@ Mat<6, 7> helical_strain_gradient(const Vec<7>& z, double h) noexcept {
   return J;
 }
 
-// With n, m the weights of Γ, K and s = psi . psi:
-//   phi = n . r - 1/2 psi . (r x n) + g(s) p ,  p = (n . psi)(psi . r) - (n . r) s
+// psi = f(c) a:  ∂psi/∂c = f' a ,  ∂psi/∂a = f 1 ,  ∂2psi/∂c2 = f'' a ,  ∂2psi/∂c∂a = f' 1
 WeightedHelicalStrain weigh_helical_strain(const Vec<7>& z, const Vec6& w, double h) noexcept {
-  const HelicalInvariants inv(z);
-  const Vec3& r = inv.r;
-  const Vec3& a = inv.a;
-  const Vec3 n = w.head<3>();
-  const Jet f = angle_by_sine(inv.c);
-  const Vec3 psi = f.value * a;
-  const double s = psi.squaredNorm();
-  const Jet g = rotation_coupling(s);
-  const double n_psi = n.dot(psi);
-  const double r_psi = r.dot(psi);
-  const double n_r = n.dot(r);
-  const double p = n_psi * r_psi - n_r * s;
-  const Vec3 p_psi = n * r_psi + n_psi * r - 2.0 * n_r * psi;  // ∂p/∂psi
-  const Vec3 p_r = n_psi * psi - s * n;                        // ∂p/∂r
-
-  const Vec3 by_psi =
-      -0.5 * r.cross(n) + 2.0 * g.first * p * psi + g.value * p_psi + w.tail<3>() / h;
+  const HelicalInvariants m(z);
+  const Jet f = angle_by_sine(m.c);
+  const RotationDerivatives phi = weigh_by_rotation(f.value * m.a, m.r, w, h);
   WeightedHelicalStrain result;
-  result.gradient << f.first * by_psi.dot(a), f.value * by_psi,
-      n - 0.5 * n.cross(psi) + g.value * p_r;
-
-  // second derivatives by psi and by (psi, r)
-  const Mat3 outer = psi * p_psi.transpose();
-  const Mat3 nr = n * r.transpose();
-  Mat3 H = 2.0 * g.first * (outer + outer.transpose()) + g.value * (nr + nr.transpose());
-  H += 4.0 * g.second * p * psi * psi.transpose();
-  H.diagonal().array() += 2.0 * (g.first * p - g.value * n_r);
-  Mat3 H_r = 0.5 * skew(n) + 2.0 * g.first * psi * p_r.transpose();
-  H_r += g.value * (n * psi.transpose() - 2.0 * psi * n.transpose());
-  H_r.diagonal().array() += g.value * n_psi;
-
-  // psi = f(c) a:  ∂psi/∂c = f' a ,  ∂psi/∂a = f 1 ,  ∂2psi/∂c2 = f'' a ,  ∂2psi/∂c∂a = f' 1
-  const Vec3 Ha = H * a;
-  Mat<7, 7>& K = result.hessian;
-  K(0, 0) = f.first * f.first * a.dot(Ha) + f.second * by_psi.dot(a);
-  K.block<3, 1>(1, 0) = f.first * (f.value * Ha + by_psi);
-  K.block<3, 3>(1, 1) = f.value * f.value * H;
-  K.block<3, 1>(4, 0) = f.first * H_r.transpose() * a;
-  K.block<3, 3>(4, 1) = f.value * H_r.transpose();
-  K.block<3, 3>(4, 4).setZero();
-  K.block<1, 6>(0, 1) = K.block<6, 1>(1, 0).transpose();
-  K.block<3, 3>(1, 4) = K.block<3, 3>(4, 1).transpose();
+  result.gradient << f.first * phi.by_psi.dot(m.a), f.value * phi.by_psi, phi.by_r;
+  const Vec3 Ha = phi.psi_psi * m.a;
+  Mat<7, 7>& H = result.hessian;
+  H(0, 0) = f.first * f.first * m.a.dot(Ha) + f.second * phi.by_psi.dot(m.a);
+  H.block<3, 1>(1, 0) = f.first * (f.value * Ha + phi.by_psi);
+  H.block<3, 3>(1, 1) = f.value * f.value * phi.psi_psi;
+  H.block<3, 1>(4, 0) = f.first * phi.psi_r.transpose() * m.a;
+  H.block<3, 3>(4, 1) = f.value * phi.psi_r.transpose();
+  H.block<3, 3>(4, 4).setZero();
+  H.block<1, 6>(0, 1) = H.block<6, 1>(1, 0).transpose();
+  H.block<3, 3>(1, 4) = H.block<3, 3>(4, 1).transpose();
   return result;
 }
 
