@@ -14,6 +14,7 @@ namespace {
 using assembly::values_of;
 using assembly::Vector;
 
+constexpr std::size_t kept_attempts = 8;
 constexpr double singular_ratio = 2e-15;  // |A v| / |A| of a direction that nothing resists
 
 const char* direction_name(int i) {
@@ -46,7 +47,15 @@ PostMortem::PostMortem(Context& context, model::State& state, const Stencil& ste
   refuse_singular(state);
 }
 
+PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil)
+    : context_(context) {
+  context_.system.evaluate(state, stencil, Want::residual_and_tangent);
+  if (!context_.linear.factor()) first_flexibility_ = std::numeric_limits<double>::infinity();
+  refuse_singular(state);
+}
+
 void PostMortem::record(const StepReport& report) {
+  if (attempts_.size() == kept_attempts) attempts_.pop_front();
   attempts_.push_back(report);
   if (!report.accepted) worst_ = largest_entries(context_.system.residual(), 5);
 }
@@ -140,8 +149,8 @@ void PostMortem::refuse_singular(const model::State& state) {
   Vector direction(system.layout().row_map());
   if (context_.linear.weakest_direction(direction) > singular_ratio) return;
   throw NumericalError(system.comm().broadcast(
-      fmt::format("The equations are singular at level {:.6g}, before the first step.\n{}",
-                  state.time, singular_cause(direction))));
+      fmt::format("The equations are singular at {} {:.6g}, before the first step.\n{}",
+                  time_word(), state.time, singular_cause(direction))));
 }
 
 std::string PostMortem::singular_cause(const Vector& direction) const {
@@ -163,11 +172,9 @@ std::string PostMortem::singular_cause(const Vector& direction) const {
 
 std::string PostMortem::history() const {
   std::string text = "Last steps:\n";
-  const std::size_t first = attempts_.size() > 8 ? attempts_.size() - 8 : 0;
-  for (std::size_t i = first; i < attempts_.size(); ++i) {
-    const StepReport& a = attempts_[i];
-    text += fmt::format("  level {:<12.8g} increment {:<10.3g} {:>3} iterations  {}\n", a.time,
-                        a.increment, a.outcome.iterations, solver::describe(a.outcome.end));
+  for (const StepReport& a : attempts_) {
+    text += fmt::format("  {} {:<12.8g} increment {:<10.3g} {:>3} iterations  {}\n", time_word(),
+                        a.time, a.increment, a.outcome.iterations, solver::describe(a.outcome.end));
   }
   if (!attempts_.empty()) {
     text += "Force residual of the last attempt, relative:";
@@ -188,6 +195,7 @@ std::string PostMortem::worst_rows() const {
 }
 
 std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
+  if (level_step_ == 0.0) return dynamic_cause();
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;
   if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
@@ -212,10 +220,18 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
       100.0 * remaining);
 }
 
+std::string PostMortem::dynamic_cause() const {
+  if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
+    return "Likely cause: an element turns too far in a step.\nTry: a smaller step, more elements.";
+  }
+  return "Likely cause: a sudden change of load, or motion that the mesh cannot follow.\n"
+         "Try: a smaller step, 'Line Search' = Backtrack, more elements, or some dissipation.";
+}
+
 void PostMortem::give_up(model::State& state, const Stencil& stencil) {
   const StepReport& last = attempts_.back();
-  std::string text = fmt::format("No equilibrium beyond level {:.8g} of {:.8g}: {}.\n", state.time,
-                                 last.final_time, solver::describe(last.outcome.end));
+  std::string text = fmt::format("No equilibrium beyond {} {:.8g} of {:.8g}: {}.\n", time_word(),
+                                 state.time, last.final_time, solver::describe(last.outcome.end));
   text += history() + worst_rows();
   const bool not_finite = last.outcome.end == solver::StepEnd::not_finite;
   if (not_finite) {

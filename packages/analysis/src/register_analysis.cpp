@@ -1,3 +1,4 @@
+#include <culm/analysis/dynamics.hpp>
 #include <culm/analysis/register_analysis.hpp>
 #include <culm/analysis/statics.hpp>
 
@@ -5,6 +6,7 @@ namespace culm::analysis {
 
 void register_analyses(AnalysisRegistry& registry) {
   registry.add("Static", Statics::schema(), Statics::make);
+  registry.add("Dynamic", Dynamics::schema(), Dynamics::make);
 }
 
 }  // namespace culm::analysis

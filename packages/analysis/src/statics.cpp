@@ -21,18 +21,6 @@ void check_levels(const Options& options, InputIssues& issues) {
   }
 }
 
-void accept(model::State& state) {
-  state.prev = state.next;
-  state.multipliers_prev = state.multipliers;
-  state.time_prev = state.time;
-}
-
-void reject(model::State& state) {
-  state.next = state.prev;
-  state.multipliers = state.multipliers_prev;
-  state.time = state.time_prev;
-}
-
 }  // namespace
 
 Schema Statics::schema() {
@@ -85,7 +73,7 @@ double Statics::next_level(double level, double increment) const {
   return rest < 1.5 * increment ? level + 0.5 * rest : level + increment;
 }
 
-void Statics::run(Context& context, model::State& state, Observer& observer) {
+AnalysisReport Statics::run(Context& context, model::State& state, Observer& observer) {
   const Stencil stencil = Stencil::statics();
   // levels start at zero for each analysis
   state.time = state.time_prev = 0.0;
@@ -121,6 +109,7 @@ void Statics::run(Context& context, model::State& state, Observer& observer) {
       post_mortem.give_up(state, stencil);
     }
   }
+  return {};
 }
 
 }  // namespace culm::analysis

@@ -1,4 +1,5 @@
 #include <culm/assembly/system.hpp>
+#include <culm/base/error.hpp>
 
 #include <Eigen/Geometry>
 
@@ -33,6 +34,18 @@ long long multipliers_of(const model::Batch& batch, const model::UnknownTable& u
     }
   }
   return count;
+}
+
+// (v, omega) of a node at the start of the step, omega = 1/2 sum_i d_i x w_i. @source
+// formulation 1.1
+Vec6 velocity_of(const model::State& state, int node) {
+  const auto q = model::NodeTable::slots(state.prev, node);
+  const auto v = model::NodeTable::slots(state.velocity, node);
+  Vec6 u;
+  u.head<3>() = v.col(0);
+  u.tail<3>().setZero();
+  for (int i = 1; i < 4; ++i) u.tail<3>() += 0.5 * Vec3(q.col(i)).cross(Vec3(v.col(i)));
+  return u;
 }
 
 }  // namespace
@@ -97,7 +110,7 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   target.multiplier_scale = multiplier_scale_;
   std::fill(target.residual.begin(), target.residual.end(), 0.0);
   std::fill(reactions_.begin(), reactions_.end(), 0.0);
-  if (want == Want::residual_and_tangent) {
+  if (want != Want::residual) {
     const auto values = matrix_->getLocalMatrixHost().values;
     target.values = {values.data(), values.extent(0)};
     std::fill(target.values.begin(), target.values.end(), 0.0);
@@ -203,14 +216,21 @@ void System::synchronise(model::State& state) {
     if (layout_.owners()[index(b)] == comm_.rank()) continue;
     if (block.kind == model::BlockKind::node) {
       model::NodeTable::slots(state.next, block.owner).setZero();
+      if (!state.velocity.empty()) {
+        model::NodeTable::slots(state.velocity, block.owner).setZero();
+      }
     } else {
       std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, 0.0);
     }
   }
   comm_.sum(state.next);
+  comm_.sum(state.velocity);
   comm_.sum(state.multipliers);
   comm_.sum(gathered_reactions_);
-  for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+  for (int slave : slaves_) {
+    model_.nodes().follow_master(slave, state.next);
+    if (!state.velocity.empty()) model_.nodes().follow_master(slave, state.velocity);
+  }
 }
 
 void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil) {
@@ -238,10 +258,123 @@ Vec6 System::reaction(int node, const model::State& state) const {
   return reaction;
 }
 
-double System::stored_energy(const model::Coordinates& q) const {
+void System::coast(model::State& state, double time) const {
+  const model::UnknownTable& unknowns = model_.unknowns();
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = unknowns.block(local.block);
+    if (block.kind != model::BlockKind::node || block.shape.active == 0) continue;
+    Vec6 u = time * velocity_of(state, block.owner);
+    for (int i = 0; i < 6 && block.shape.width == 6; ++i) {
+      if (block.shape.position[index(i)] < 0) u[i] = 0.0;
+    }
+    model::move_node(u, model::NodeTable::slots(state.next, block.owner));
+  }
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+}
+
+double System::project_velocity(model::State& state, const Solve& solve_mass) {
+  const Evaluation found = evaluate(state, Stencil::statics(), Want::mass);
+  internal_check(found.verdict == Verdict::ok, "a mass matrix is not finite");
+  const model::UnknownTable& unknowns = model_.unknowns();
+  const bool null_space = unknowns.form() == model::Form::null_space;
+  Vector velocity(layout_.row_map());
+  const auto u = values_of(velocity);
+  const auto each_unknown = [&](auto action) {
+    for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+      const model::Block& block = unknowns.block(local.block);
+      if (block.kind != model::BlockKind::node) continue;
+      action(local, block);
+    }
+  };
+  each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
+    if (!local.owned) return;
+    const Vec6 rigid = velocity_of(state, block.owner);
+    const auto slots = model::NodeTable::slots(state.velocity, block.owner);
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[index(i)];
+      if (at >= 0) u[index(local.first_column + at)] = null_space ? rigid[i] : slots.data()[i];
+    }
+  });
+  // only the constraint rows are out of balance: H v = 0
+  Vector rhs(layout_.row_map());
+  matrix_->apply(velocity, rhs);
+  const auto b = values_of(rhs);
+  for (std::size_t row = 0; row < b.size(); ++row) b[row] = is_force_row_[row] ? 0.0 : -b[row];
+  Vector change(layout_.row_map());
+  solve_mass(rhs, change);
+  velocity.update(1.0, change, 1.0);
+
+  const model::Coordinates before = state.velocity;
+  const std::span<const double> all = values_of(import(velocity));
+  std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
+  each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
+    std::array<double, 12> w{};
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[index(i)];
+      if (at >= 0) w[index(i)] = all[index(local.first_column + at)];
+    }
+    auto v = model::NodeTable::slots(state.velocity, block.owner);
+    if (!null_space) {
+      v = Eigen::Map<const model::NodeSlots>(w.data());
+      return;
+    }
+    const auto q = model::NodeTable::slots(state.next, block.owner);
+    const Vec3 turn(w[3], w[4], w[5]);
+    v.col(0) = Vec3(w[0], w[1], w[2]);
+    for (int i = 1; i < 4; ++i) v.col(i) = turn.cross(q.col(i));
+  });
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
+  double largest = 0.0;
+  each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
+    const auto first = static_cast<std::size_t>(model::NodeTable::offset(block.owner));
+    for (std::size_t i = first; i < first + 12; ++i) {
+      largest = std::max(largest, std::abs(state.velocity[i] - before[i]));
+    }
+  });
+  return comm_.max(largest);
+}
+
+double System::strain_energy(const model::Coordinates& q) const {
   double energy = 0.0;
-  for (const model::Batch* batch : batches_) energy += batch->stored_energy(q);
+  for (const auto& batch : model_.element_batches()) energy += batch->stored_energy(q);
   return comm_.sum(energy);
+}
+
+Energies System::energies(const model::Coordinates& q, const model::Momentum& momentum) const {
+  Energies energies;
+  energies.kinetic = momentum.kinetic_energy;
+  energies.strain = strain_energy(q);
+  for (const auto& load : model_.loads()) energies.potential += load->stored_energy(q);
+  energies.potential = comm_.sum(energies.potential);
+  return energies;
+}
+
+model::Momentum System::momentum(const model::Coordinates& q,
+                                 const model::Coordinates& velocity) const {
+  model::Momentum total;
+  for (const auto& batch : model_.element_batches()) {
+    if (const auto* source = dynamic_cast<const model::MassSource*>(batch.get())) {
+      source->add_momentum(q, velocity, total);
+    }
+  }
+  total.kinetic_energy = comm_.sum(total.kinetic_energy);
+  comm_.sum(std::span(total.linear.data(), 3));
+  comm_.sum(std::span(total.angular.data(), 3));
+  return total;
+}
+
+model::StepWork System::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork total;
+  for (const model::Batch* batch : batches_) total += batch->step_work(state, stencil);
+  double scalars[4] = {total.external, total.drives, total.damping, total.dissipation};
+  comm_.sum(scalars);
+  total.external = scalars[0];
+  total.drives = scalars[1];
+  total.damping = scalars[2];
+  total.dissipation = scalars[3];
+  comm_.sum(std::span(total.force.data(), 3));
+  comm_.sum(std::span(total.moment.data(), 3));
+  return total;
 }
 
 }  // namespace culm::assembly

@@ -1,4 +1,5 @@
 #include <culm/load/moment_load.hpp>
+#include <culm/math/rotation.hpp>
 
 #include <Eigen/LU>
 
@@ -82,6 +83,21 @@ void MomentLoad::assemble_full(std::size_t i, const Motion& motion, double theta
     block.block<3, 3>(3 + 3 * j, 3 + 3 * j) -= theta * skew(mh);
   }
   placement_.scatter.add_tangent(i, 0, 0, block, target);
+}
+
+model::StepWork MomentLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  const double factor = amplitude_.in_step(state, stencil);
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const Vec3 moment = motion(item, state, stencil.theta, factor).moment;
+    const Mat3 prev = model::NodeTable::slots(state.prev, item.node).rightCols<3>();
+    const Mat3 next = model::NodeTable::slots(state.next, item.node).rightCols<3>();
+    work.external += moment.dot(cayley_vector(prev, next));
+    work.moment += moment;
+  }
+  return work;
 }
 
 }  // namespace culm::load

@@ -2,6 +2,8 @@
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -137,6 +139,44 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
     }
   }
   return Verdict::ok;
+}
+
+bool SlotLoad::has_potential() const {
+  return amplitude_.is_constant() &&
+         std::none_of(items_.begin(), items_.end(), [](const Item& item) { return item.follows; });
+}
+
+double SlotLoad::stored_energy(const model::Coordinates& q) const {
+  if (!has_potential()) return 0.0;
+  double work = 0.0;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+      const auto forces = item.constant.middleCols<4>(4 * static_cast<int>(a));
+      work += forces.cwiseProduct(model::NodeTable::slots(q, item.nodes[a])).sum();
+    }
+  }
+  return -amplitude_.at(0.0) * work;
+}
+
+model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  const double factor = amplitude_.in_step(state, stencil);
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const Motion motion(nodes_, item.nodes, state, stencil.theta);
+    const ItemSlots f = factor * (item.constant + motion.mid * item.linear.transpose());
+    for (int s = 0; s < f.cols(); ++s) {
+      const auto node = item.nodes[static_cast<std::size_t>(s / 4)];
+      const Vec3 moved = motion.next.col(s) - model::NodeTable::slots(state.prev, node).col(s % 4);
+      if (!has_potential()) work.external += moved.dot(f.col(s));
+      if (s % 4 == 0) work.force += f.col(s);
+      work.moment += Vec3(motion.mid.col(s)).cross(Vec3(f.col(s)));
+    }
+  }
+  return work;
 }
 
 }  // namespace culm::load

@@ -22,7 +22,9 @@ Amplitude Amplitude::ramp() {
 }
 
 Amplitude Amplitude::constant(double value) {
-  return of_time([value](double) { return value; });
+  Amplitude amplitude = of_time([value](double) { return value; });
+  amplitude.is_constant_ = true;
+  return amplitude;
 }
 
 double Amplitude::in_step(const State& state, const Stencil& stencil) const {

@@ -46,6 +46,7 @@ Constraint internal_constraint(const NodeTable& nodes, int node) {
   constraint.name = "directors of node " + std::to_string(node);
   constraint.type = "Internal, unit directors";
   constraint.nodes = {node};
+  constraint.is_internal = true;
   const Eigen::Matrix3Xd q = NodeTable::slots(nodes.reference(), node);
   constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   for (const auto& [i, j] : pairs) {

@@ -132,6 +132,11 @@ Verdict ConstraintBatch::assemble(const State& state, const Stencil& stencil, Wa
                                   Target& target) {
   Verdict verdict = Verdict::ok;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (want == Want::mass) {
+      if (form_ == Form::null_space) assemble_jacobian<NullSpace>(i, state, target);
+      if (form_ == Form::multipliers) assemble_jacobian<FullSpace>(i, state, target);
+      continue;
+    }
     const Verdict one = form_ == Form::null_space
                             ? assemble_item<NullSpace>(i, state, stencil, want, target)
                             : assemble_item<FullSpace>(i, state, stencil, want, target);
@@ -148,18 +153,13 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   const std::vector<int>& nodes = item.constraint.nodes;
   const int n = static_cast<int>(nodes.size());
   const int m = static_cast<int>(item.rows_next.size());
-  const double theta = stencil.theta;
-  const double scale = target.multiplier_scale;
-
-  const ItemMotion<max_nodes> motion(nodes_, nodes, state, theta);
-  const auto& [mid, arms_mid, next, arms_next] = motion;
-  const double* lambda = state.multipliers.data() + item.first_multiplier;
-  const Eigen::Map<const Eigen::VectorXd> multipliers(lambda, m);
-
-  const Rows H_mid = gradient(item.rows_mid, mid);
-  const Rows R_mid = reduce<Space>(H_mid, arms_mid);
+  const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
+  const Eigen::Map<const Eigen::VectorXd> lambda(state.multipliers.data() + item.first_multiplier,
+                                                 m);
+  const Rows H_mid = gradient(item.rows_mid, motion.mid);
+  const Rows R_mid = reduce<Space>(H_mid, motion.arms_mid);
   Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_width, 1> force(W * n);
-  force.noalias() = R_mid.lazyProduct(multipliers);
+  force.noalias() = R_mid.lazyProduct(lambda);
   if (!std::isfinite(force.sum())) return Verdict::not_finite;
   target.force_scale = std::max(target.force_scale, force.lpNorm<Eigen::Infinity>());
   for (int a = 0; a < n; ++a) {
@@ -168,37 +168,88 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   std::array<double, max_rows> h{};
   for (int k = 0; k < m; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    h[at] = value(item.rows_next[at], next);
+    h[at] = value(item.rows_next[at], motion.next);
     if (!std::isfinite(h[at])) return Verdict::not_finite;
     target.constraint_violation =
         std::max(target.constraint_violation, std::abs(h[at]) / item.measure[at]);
-    h[at] *= scale;
+    h[at] *= target.multiplier_scale;
   }
   placement_.scatter.add_residual(i, n, h.data(), target);
   if (want == Want::residual) return Verdict::ok;
 
-  const Rows R_next = reduce<Space>(gradient(item.rows_next, next), arms_next);
+  const Rows R_next = reduce<Space>(gradient(item.rows_next, motion.next), motion.arms_next);
+  add_border<Space>(i, R_mid, R_next, target);
+  add_curvature<Space>(i, motion, H_mid, lambda.data(), stencil.theta, target);
+  return Verdict::ok;
+}
+
+// The multiplier columns P^T H^T and rows H P, scaled.
+template <class Space, class Jacobian>
+void ConstraintBatch::add_border(std::size_t i, const Jacobian& columns, const Jacobian& rows,
+                                 Target& target) const {
+  constexpr int W = Space::width;
+  const int n = static_cast<int>(columns.rows()) / W;
+  for (int a = 0; a < n; ++a) {
+    const Jacobian column = target.multiplier_scale * columns.template middleRows<W>(W * a);
+    const Jacobian row = target.multiplier_scale * rows.template middleRows<W>(W * a).transpose();
+    placement_.scatter.add_tangent(i, a, n, column, target);
+    placement_.scatter.add_tangent(i, n, a, row, target);
+  }
+}
+
+// theta sum_k lambda_k A_k between the nodes, and the turning of the projection under H^T lambda.
+template <class Space, class Motion, class Jacobian>
+void ConstraintBatch::add_curvature(std::size_t i, const Motion& motion, const Jacobian& H_mid,
+                                    const double* lambda, double theta, Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const int n = static_cast<int>(item.constraint.nodes.size());
   const Scalars A = theta * curvature(item.rows_mid, lambda, 4 * n);
   Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_width, 1> slot_force(12 * n);
-  slot_force.noalias() = H_mid.lazyProduct(multipliers);
+  slot_force.noalias() = H_mid.lazyProduct(Eigen::Map<const Eigen::VectorXd>(lambda, H_mid.cols()));
   const Eigen::Map<const ItemSlots> slot_forces(slot_force.data(), 3, 4 * n);
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
       RowMat<W, W> block = RowMat<W, W>::Zero();
-      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b), arms_mid.template middleCols<4>(4 * a),
-                       arms_next.template middleCols<4>(4 * b), block);
+      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
+                       motion.arms_mid.template middleCols<4>(4 * a),
+                       motion.arms_next.template middleCols<4>(4 * b), block);
       if (a == b) {
         Space::add_turning(slot_forces.template middleCols<4>(4 * a),
-                           arms_next.template middleCols<4>(4 * a), theta, block);
+                           motion.arms_next.template middleCols<4>(4 * a), theta, block);
       }
       placement_.scatter.add_tangent(i, a, b, block, target);
     }
-    const Rows column = scale * R_mid.template middleRows<W>(W * a);
-    const Rows row = scale * R_next.template middleRows<W>(W * a).transpose();
-    placement_.scatter.add_tangent(i, a, n, column, target);
-    placement_.scatter.add_tangent(i, n, a, row, target);
   }
-  return Verdict::ok;
+}
+
+// The Jacobian at the end of the step on both sides, as it borders a mass matrix.
+template <class Space>
+void ConstraintBatch::assemble_jacobian(std::size_t i, const State& state, Target& target) const {
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const ItemMotion<max_nodes> motion(nodes_, item.constraint.nodes, state, 1.0);
+  const Rows R = reduce<Space>(gradient(item.rows_next, motion.next), motion.arms_next);
+  add_border<Space>(i, R, R, target);
+}
+
+StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) const {
+  StepWork work;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    if (!placement_.owned[i] || !item.constraint.drive) continue;
+    const std::vector<int>& nodes = item.constraint.nodes;
+    const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
+    const Rows H = gradient(item.rows_mid, motion.mid);
+    ItemSlots moved = motion.next;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      moved.middleCols<4>(4 * static_cast<int>(a)) -= NodeTable::slots(state.prev, nodes[a]);
+    }
+    // the constraint acts with -H^T lambda
+    work.drives -= (H.transpose() * moved.reshaped())
+                       .dot(Eigen::Map<const Eigen::VectorXd>(
+                           state.multipliers.data() + item.first_multiplier, H.cols()));
+  }
+  return work;
 }
 
 Vec6 ConstraintBatch::reaction(int node, const State& state) const {

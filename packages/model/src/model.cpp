@@ -1,5 +1,7 @@
 #include <culm/model/model.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <charconv>
 
@@ -11,6 +13,26 @@ Structure& Model::add_structure(std::string name) {
   return structures_.back();
 }
 
+MassBatch& Model::masses(const std::string& effect) {
+  for (const auto& batch : element_batches_) {
+    auto* same = dynamic_cast<MassBatch*>(batch.get());
+    if (same != nullptr && same->effect() == effect) return *same;
+  }
+  auto batch = std::make_unique<MassBatch>(effect, nodes_);
+  MassBatch& result = *batch;
+  element_batches_.push_back(std::move(batch));
+  return result;
+}
+
+void Model::add_initial_velocity(int node, const Vec3& velocity, const Vec3& omega,
+                                 const Vec3& about) {
+  initial_velocity_.resize(nodes_.reference().size(), 0.0);
+  const auto q = NodeTable::slots(nodes_.reference(), node);
+  auto v = NodeTable::slots(initial_velocity_, node);
+  v.col(0) += velocity + omega.cross(Vec3(q.col(0) - about));
+  for (int i = 1; i < 4; ++i) v.col(i) += omega.cross(Vec3(q.col(i)));
+}
+
 void Model::add_rigid_link(std::string name, int slave, int master) {
   Constraint c;
   c.name = std::move(name);
@@ -18,6 +40,7 @@ void Model::add_rigid_link(std::string name, int slave, int master) {
   c.nodes = {master, slave};
   c.link = Constraint::Link{slave, master};
   c.replaces_internal = slave;
+  c.is_internal = true;
   Eigen::Matrix3Xd q(3, 8);
   q << NodeTable::slots(nodes_.reference(), master), NodeTable::slots(nodes_.reference(), slave);
   const Mat3 triad = q.block<3, 3>(0, 1);
@@ -177,6 +200,8 @@ double Model::length() const {
 State Model::initial_state() const {
   State state;
   state.prev = state.next = nodes_.reference();
+  state.velocity = initial_velocity_;
+  state.velocity.resize(state.prev.size(), 0.0);
   state.multipliers.assign(static_cast<std::size_t>(unknowns_.num_multipliers()), 0.0);
   state.multipliers_prev = state.multipliers;
   return state;

@@ -45,7 +45,7 @@ class StrainEnergy final : public Quantity {
   std::vector<output::HistoryColumn> columns() const override { return {{"", "J"}}; }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
-    numbers.push_back(system.stored_energy(state.next));
+    numbers.push_back(system.strain_energy(state.next));
   }
 };
 

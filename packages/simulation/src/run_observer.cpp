@@ -30,18 +30,25 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   progress_.show(report);
 }
 
+void RunObserver::finish_analysis(const analysis::AnalysisReport& report) {
+  certificates_ += report.text;
+  for (const auto& [name, value] : report.numbers) numbers_.push_back({name, "", value});
+}
+
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
   const Ledger::Scope scope(ledger_, output_effect_);
   // a run that fails leaves its last accepted state
   if (!is_recorded_) files_.record(state.time, state);
-  files_.finish(outcome + "\n\n" + convergence() + ledger_.report(),
-                {{"accepted steps", "", static_cast<double>(accepted_)},
-                 {"rejected steps", "", static_cast<double>(rejected_)},
-                 {"iterations", "", static_cast<double>(iterations_)},
-                 {"worst force residual", "", worst_residual_},
-                 {"worst constraint violation", "", worst_constraint_},
-                 {"final time", "", state.time}});
+  std::vector<output::NamedScalar> numbers = {
+      {"accepted steps", "", static_cast<double>(accepted_)},
+      {"rejected steps", "", static_cast<double>(rejected_)},
+      {"iterations", "", static_cast<double>(iterations_)},
+      {"worst force residual", "", worst_residual_},
+      {"worst constraint violation", "", worst_constraint_},
+      {"final time", "", state.time}};
+  numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
+  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers);
 }
 
 std::string RunObserver::convergence() const {
@@ -54,7 +61,7 @@ std::string RunObserver::convergence() const {
 }
 
 std::string RunObserver::closing_words() const {
-  std::string text = "\n" + ledger_.report() + "\n" + convergence() + "results:";
+  std::string text = "\n" + ledger_.report() + "\n" + certificates_ + convergence() + "results:";
   for (const auto& path : files_.paths()) text += "\n  " + path.string();
   return text;
 }

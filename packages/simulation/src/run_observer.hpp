@@ -20,6 +20,7 @@ class RunObserver final : public analysis::Observer {
   void start(model::State& state);
   void begin(const std::string& analysis) { progress_.begin(analysis); }
   void step(const analysis::StepReport& report, model::State& state) override;
+  void finish_analysis(const analysis::AnalysisReport& report);
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
   /// Results, ledger and convergence of the run, for the user.
@@ -34,6 +35,8 @@ class RunObserver final : public analysis::Observer {
   Ledger::Id output_effect_;
   Progress progress_;
   bool is_recorded_ = true;  // the last accepted state is on disk
+  std::string certificates_;
+  std::vector<output::NamedScalar> numbers_;
   int accepted_ = 0;
   int rejected_ = 0;
   int iterations_ = 0;

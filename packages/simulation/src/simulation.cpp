@@ -54,7 +54,8 @@ void Simulation::run(const RunSettings& settings) {
   try {
     for (const Options& entry : p.deck.list("Analyses").entries()) {
       observer.begin(entry.name());
-      p.catalogue.analyses.make(entry.text("Type"), entry)->run(context, state, observer);
+      const auto analysis = p.catalogue.analyses.make(entry.text("Type"), entry);
+      observer.finish_analysis(analysis->run(context, state, observer));
     }
   } catch (const Error& error) {
     observer.end(state, error.what());

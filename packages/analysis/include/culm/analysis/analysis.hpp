@@ -4,8 +4,10 @@
 #include <culm/base/log.hpp>
 #include <culm/solver/newton_solver.hpp>
 
-#include <functional>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace culm::analysis {
 
@@ -36,12 +38,23 @@ struct Context {
   const Log& log;
 };
 
+/// What an analysis says at its end, beside its steps.
+struct AnalysisReport {
+  std::string text;
+  std::vector<std::pair<std::string, double>> numbers;
+};
+
+/// Makes the new equilibrium the start of the next step.
+void accept(model::State& state);
+/// Goes back to the start of the step.
+void reject(model::State& state);
+
 /// A way to move a state. Throws NumericalError or NonFiniteError with a post-mortem when it has to
 /// give up; the state is then the last accepted one.
 class Analysis {
  public:
   virtual ~Analysis() = default;
-  virtual void run(Context& context, model::State& state, Observer& observer) = 0;
+  virtual AnalysisReport run(Context& context, model::State& state, Observer& observer) = 0;
 };
 
 }  // namespace culm::analysis

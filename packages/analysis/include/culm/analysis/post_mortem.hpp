@@ -3,6 +3,7 @@
 
 #include <culm/analysis/analysis.hpp>
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ class PostMortem {
   /// Throws NumericalError if its tangent is singular there: a mechanism or redundant constraints.
   /// @param first_level a level above that of state
   PostMortem(Context& context, model::State& state, const Stencil& stencil, double first_level);
+  /// The same in dynamics, where no load can be too large for an equilibrium.
+  PostMortem(Context& context, model::State& state, const Stencil& stencil);
 
   /// Adds an attempt to the history.
   void record(const StepReport& report);
@@ -37,15 +40,17 @@ class PostMortem {
   double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
   /// Throws if the tangent that was factored last is singular to working precision.
   void refuse_singular(const model::State& state);
+  const char* time_word() const { return level_step_ == 0.0 ? "time" : "level"; }
   std::string history() const;
   std::string worst_rows() const;
   std::string cause(model::State& state, const Stencil& stencil);
+  std::string dynamic_cause() const;
   std::string singular_cause(const assembly::Vector& direction) const;
 
   Context& context_;
   double first_flexibility_ = 0.0;
-  double level_step_ = 0.0;
-  std::vector<StepReport> attempts_;
+  double level_step_ = 0.0;          ///< 0 in dynamics
+  std::deque<StepReport> attempts_;  ///< the last ones
   std::vector<Entry> worst_;
 };
 

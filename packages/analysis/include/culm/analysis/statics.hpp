@@ -29,7 +29,7 @@ class Statics final : public Analysis {
   static Schema schema();
   static std::unique_ptr<Analysis> make(const Options& options);
 
-  void run(Context& context, model::State& state, Observer& observer) override;
+  AnalysisReport run(Context& context, model::State& state, Observer& observer) override;
 
  private:
   double next_level(double level, double increment) const;

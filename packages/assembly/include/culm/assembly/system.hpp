@@ -4,6 +4,8 @@
 #include <culm/assembly/layout.hpp>
 #include <culm/base/ledger.hpp>
 
+#include <functional>
+
 namespace culm::assembly {
 
 /// What an evaluation found; the same on all ranks.
@@ -13,6 +15,14 @@ struct Evaluation {
   double force_scale = 0.0;           ///< largest force of any item, what the residual is judged by
   double constraint_violation = 0.0;  ///< largest |h|, lengths over the model's length [-]
   double round_off_force = 0.0;       ///< what rounding of the coordinates alone can cause
+};
+
+/// Energies of the whole model at one time.
+struct Energies {
+  double kinetic = 0.0;    ///< [J]
+  double strain = 0.0;     ///< [J]
+  double potential = 0.0;  ///< of loads that have one [J]
+  double total() const { return kinetic + strain + potential; }
 };
 
 /// Owns residual and matrix; the model is borrowed.
@@ -37,7 +47,22 @@ class System {
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
 
-  double stored_energy(const model::Coordinates& q) const;
+  /// Moves state.next on by `time` [s] with the velocity of the start of the step: the first guess
+  /// of a step.
+  void coast(model::State& state, double time) const;
+  /// Makes the velocity follow from supports, links and constraints: the nearest one in the metric
+  /// of the mass. `solve_mass` solves with the matrix as it stands when it is called.
+  /// @source formulation 4.7
+  /// @return largest change of a velocity [m/s, 1/s]
+  using Solve = std::function<void(const Vector& b, Vector& x)>;
+  double project_velocity(model::State& state, const Solve& solve_mass);
+
+  /// Strain energy of all elements [J].
+  double strain_energy(const model::Coordinates& q) const;
+  Energies energies(const model::Coordinates& q, const model::Momentum& momentum) const;
+  model::Momentum momentum(const model::Coordinates& q, const model::Coordinates& velocity) const;
+  /// What loads, drives and dampers did in the step from state.prev to state.next.
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const;
   double multiplier_scale() const { return multiplier_scale_; }
 
   /// Force [N] and moment about the node [N m] by which supports and joints act on the structure

@@ -42,6 +42,8 @@ class MomentLoad final : public model::Batch {
                    model::Target& target) override;
   void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
   double stored_energy(const model::Coordinates&) const override { return 0.0; }
+  /// Work m . tau over the Cayley rotation vector of the step. @source formulation 3.1
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
   struct Item {

@@ -40,7 +40,9 @@ class SlotLoad final : public model::Batch {
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
-  double stored_energy(const model::Coordinates&) const override { return 0.0; }
+  /// -f . q of loads that are constant in time and space, otherwise zero.
+  double stored_energy(const model::Coordinates& q) const override;
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
   struct Item {
@@ -52,6 +54,7 @@ class SlotLoad final : public model::Batch {
 
   Item& item_on(const std::vector<int>& nodes);
   bool turns(const Item& item) const;
+  bool has_potential() const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;

@@ -12,13 +12,20 @@ struct Stencil {
   double step = 0.0;          ///< time step [s]; 0 in statics
   double theta = 1.0;         ///< point of the step where forces act [-]
   double theta_strain = 1.0;  ///< weight of the new strain in the stress [-]
+  /// Derivative of the acceleration in the equations by q_next [1/s^2]; 0: no inertia.
+  double inertia = 0.0;
 
-  static constexpr Stencil statics() { return {0.0, 1.0, 1.0}; }
-  static constexpr Stencil midpoint(double step) { return {step, 0.5, 0.5}; }
+  static constexpr Stencil statics() { return {}; }
+  /// Dq = step (v_prev + v_next) / 2, hence Dv / step = 2 Dq / step^2 - 2 v_prev / step.
+  static constexpr Stencil midpoint(double step) { return {step, 0.5, 0.5, 2.0 / (step * step)}; }
 };
 
 /// What an assembly pass is asked for.
-enum class Want { residual, residual_and_tangent };
+enum class Want {
+  residual,
+  residual_and_tangent,
+  mass,  ///< mass matrix and constraint Jacobians at q_next, in place of the tangent
+};
 
 /// The outcome of an evaluation, the same type for kernels and for whole systems. Ordered: the
 /// larger value wins when outcomes of items or ranks are joined.

@@ -29,12 +29,15 @@ class Amplitude {
 
   /// A prescribed motion needs a function of time alone.
   bool is_function_of_time() const { return static_cast<bool>(of_time_); }
+  /// The same at all times.
+  bool is_constant() const { return is_constant_; }
   /// @pre is_function_of_time()
   double at(double time) const { return of_time_(time); }
 
  private:
   Amplitude() = default;  // without a function; for the makers above
 
+  bool is_constant_ = false;
   OfTime of_time_;
   OfStep of_step_;
 };

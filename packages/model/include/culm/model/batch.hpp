@@ -18,6 +18,26 @@ struct Placement {
   Scatter scatter;          ///< one entry per item above, same order
 };
 
+/// What the owned items of a batch did in a step from state.prev to state.next.
+struct StepWork {
+  double external = 0.0;       ///< work of loads that have no potential [J]
+  double drives = 0.0;         ///< work of prescribed motions [J]
+  double damping = 0.0;        ///< energy taken by dampers and physical damping, >= 0 [J]
+  double dissipation = 0.0;    ///< energy taken by numerical dissipation, >= 0 [J]
+  Vec3 force = Vec3::Zero();   ///< resultant of the external forces at theta [N]
+  Vec3 moment = Vec3::Zero();  ///< their moment about the origin [N m]
+
+  StepWork& operator+=(const StepWork& other) {
+    external += other.external;
+    drives += other.drives;
+    damping += other.damping;
+    dissipation += other.dissipation;
+    force += other.force;
+    moment += other.moment;
+    return *this;
+  }
+};
+
 /// Items of one kind: elements of one type, one load, the constraints.
 class Batch {
  public:
@@ -43,8 +63,17 @@ class Batch {
   virtual void extrapolate(const State& state, const Stencil& stencil,
                            const Coordinates& increment) = 0;
 
-  /// Energy stored in the owned items at a configuration [J].
+  /// Energy stored in the owned items at a configuration [J]: strain energy, or the potential of a
+  /// load that has one.
   virtual double stored_energy(const Coordinates& q) const = 0;
+  virtual StepWork step_work(const State& state, const Stencil& stencil) const = 0;
+};
+
+/// Kinetic energy and momenta.
+struct Momentum {
+  double kinetic_energy = 0.0;  ///< [J]
+  Vec3 linear = Vec3::Zero();   ///< [N s]
+  Vec3 angular = Vec3::Zero();  ///< about the origin [N m s]
 };
 
 /// Has inertia.
@@ -53,6 +82,9 @@ class MassSource {
   virtual ~MassSource() = default;
   /// force += M acceleration over all items, both in director coordinates.
   virtual void add_mass_times(const Coordinates& acceleration, Coordinates& force) const = 0;
+  /// Adds what the owned items contribute at a configuration and its velocity.
+  virtual void add_momentum(const Coordinates& q, const Coordinates& velocity,
+                            Momentum& momentum) const = 0;
 };
 
 /// Shows stress resultants of its items.

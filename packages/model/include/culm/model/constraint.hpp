@@ -58,6 +58,8 @@ struct Constraint {
   std::optional<Link> link;
   /// Node whose internal constraints the rows imply, -1 if none (formulation 2.8).
   int replaces_internal = -1;
+  /// Acts between nodes only, hence keeps the momenta of the model.
+  bool is_internal = false;
   /// Moves the rows in time (inhomogeneous constraints); empty for fixed ones.
   std::function<void(double time, std::vector<ConstraintRow>& rows)> drive;
 };

@@ -31,6 +31,7 @@ class ConstraintBatch final : public Batch {
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override;
   void extrapolate(const State&, const Stencil&, const Coordinates&) override {}  // no stress
   double stored_energy(const Coordinates&) const override { return 0.0; }
+  StepWork step_work(const State& state, const Stencil& stencil) const override;
 
   /// Where the multipliers of each item start in State::multipliers. Set with the numbering.
   void number(const UnknownTable& unknowns);
@@ -52,6 +53,14 @@ class ConstraintBatch final : public Batch {
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) const;
+  template <class Space, class Jacobian>
+  void add_border(std::size_t i, const Jacobian& columns, const Jacobian& rows,
+                  Target& target) const;
+  template <class Space, class Motion, class Jacobian>
+  void add_curvature(std::size_t i, const Motion& motion, const Jacobian& H_mid,
+                     const double* lambda, double theta, Target& target) const;
+  template <class Space>
+  void assemble_jacobian(std::size_t i, const State& state, Target& target) const;
 
   std::string effect_;
   const NodeTable& nodes_;

@@ -3,6 +3,7 @@
 
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
+#include <culm/model/inertia.hpp>
 #include <culm/model/projection.hpp>
 
 #include <cmath>
@@ -57,7 +58,10 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
 
   void begin_step(const State& state, const Stencil& stencil) override {
     use_predicted_ = false;
-    if (stencil.theta_strain == 1.0) return;  // the old strain has no weight
+    if (stencil.inertia != 0.0 && masses_.empty()) {
+      for (int item : placement_.items) masses_.push_back(element(item).mass());
+    }
+    if (stencil.step == 0.0) return;  // the old strain has no weight in statics
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.prev);
       const E& element = this->element(placement_.items[i]);
@@ -115,6 +119,35 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
   }
 
+  void add_momentum(const Coordinates& q, const Coordinates& velocity,
+                    Momentum& momentum) const override {
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (!placement_.owned[i]) continue;
+      const int item = placement_.items[i];
+      add_item_momentum<S>(element(item).mass(), gather(item, q), gather(item, velocity), momentum);
+    }
+  }
+
+  StepWork step_work(const State& state, const Stencil& stencil) const override {
+    StepWork work;
+    Strain y;
+    Response<M> response;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (!placement_.owned[i]) continue;
+      const int item = placement_.items[i];
+      const ItemSlots q = gather(item, state.next);
+      for (int p = 0; p < E::num_points; ++p) {
+        const Strain& prev = strain_prev_[at(i, p)];
+        element(item).strain(p, q, y);
+        element(item).respond(p, prev, y, stencil, response);
+        // what the stress takes beyond the change of the stored energy
+        work.dissipation += response.stress.dot(y - prev) -
+                            (element(item).energy(p, y) - element(item).energy(p, prev));
+      }
+    }
+    return work;
+  }
+
   std::vector<std::string> resultant_names() const override {
     const auto names = E::resultant_names();
     return {names.begin(), names.end()};
@@ -161,87 +194,156 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   Verdict assemble_as(const State& state, const Stencil& stencil, Want want, Target& target) {
     Verdict verdict = Verdict::ok;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-      verdict = worse(verdict, assemble_item<Space>(i, state, stencil, want, target));
+      verdict = worse(verdict, want == Want::mass
+                                   ? assemble_mass<Space>(i, state, target)
+                                   : assemble_item<Space>(i, state, stencil, want, target));
     }
     return verdict;
   }
 
+  // Slots and arms of an item where forces act, and at the end of the step.
+  struct Motion {
+    ItemSlots next, arms_next, mid, arms_mid;
+  };
+
+  Motion gather_motion(int item, const State& state, double theta) const {
+    Motion m;
+    m.next = gather(item, state.next);
+    m.arms_next = gather_arms(item, m.next, state.next);
+    if (theta == 1.0) {
+      m.mid = m.next;
+      m.arms_mid = m.arms_next;
+    } else {
+      const ItemSlots prev = gather(item, state.prev);
+      m.mid = (1.0 - theta) * prev + theta * m.next;
+      m.arms_mid = (1.0 - theta) * gather_arms(item, prev, state.prev) + theta * m.arms_next;
+    }
+    return m;
+  }
+
+  // What an item adds: residual and tangent in unknowns, and the parts of the tangent that come
+  // from scalars between slots and from forces on slots.
+  template <class Space>
+  struct Contribution {
+    static constexpr int W = Space::width;
+    Vec<W* N> residual = Vec<W * N>::Zero();
+    RowMat<W * N, W * N> tangent;
+    SlotMatrix<S> scalars;
+    Vec<3 * S> slot_force;
+    bool with_tangent;
+
+    explicit Contribution(bool tangent_wanted) : with_tangent(tangent_wanted) {
+      if (!with_tangent) return;
+      tangent.setZero();
+      scalars.setZero();
+      slot_force.setZero();
+    }
+  };
+
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) {
-    constexpr int W = Space::width;
-    const int item = placement_.items[i];
-    const E& element = this->element(item);
-    const double theta = stencil.theta;
-    const ItemSlots next = gather(item, state.next);
-    const ItemSlots arms_next = gather_arms(item, next, state.next);
-    ItemSlots mid = next;
-    ItemSlots arms_mid = arms_next;
-    if (theta != 1.0) {
-      const ItemSlots prev = gather(item, state.prev);
-      mid = (1.0 - theta) * prev + theta * next;
-      arms_mid = (1.0 - theta) * gather_arms(item, prev, state.prev) + theta * arms_next;
-    }
+    const Motion motion = gather_motion(placement_.items[i], state, stencil.theta);
+    Contribution<Space> c(want == Want::residual_and_tangent);
+    const Verdict verdict = add_stress(i, motion, stencil, c);
+    if (stencil.inertia != 0.0) add_inertia(i, motion, state, stencil, c);
+    if (!std::isfinite(c.residual.sum())) return Verdict::not_finite;
+    scatter(i, motion, stencil.theta, c, target);
+    return verdict;
+  }
 
+  // B(q_theta)^T S and its derivative
+  template <class Space>
+  Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil,
+                     Contribution<Space>& c) {
+    const E& element = this->element(placement_.items[i]);
     Verdict verdict = Verdict::ok;
     Strain y;
     Response<M> response;
     Gradient<S, M> B_mid;
-    RowMat<W * N, M> R_mid;
-    Vec<W* N> residual = Vec<W * N>::Zero();
-    RowMat<W * N, W * N> tangent;
-    SlotMatrix<S> scalars;                       // sum_I S_I A_I of the geometric part
-    Vec<3 * S> slot_force = Vec<3 * S>::Zero();  // with the stress of the geometric part
-    if (want == Want::residual_and_tangent) {
-      tangent.setZero();
-      scalars.setZero();
-    }
-
+    RowMat<Space::width * N, M> R_mid;
     for (int p = 0; p < E::num_points; ++p) {
-      element.strain(p, next, y);
-      element.gradient(p, mid, B_mid);
+      element.strain(p, motion.next, y);
+      element.gradient(p, motion.mid, B_mid);
       verdict = worse(verdict, element.respond(p, strain_prev_[at(i, p)], y, stencil, response));
-      reduce<Space>(B_mid, arms_mid, R_mid);
-      residual.noalias() += R_mid * response.stress;
-      if (want == Want::residual) continue;
+      reduce<Space>(B_mid, motion.arms_mid, R_mid);
+      c.residual.noalias() += R_mid * response.stress;
+      if (!c.with_tangent) continue;
 
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
-      slot_force.noalias() += B_mid * stress;
-      element.add_curvature(p, stress, scalars);
-      const RowMat<W * N, M> RD = R_mid * response.tangent;
-      if (theta == 1.0) {
-        tangent.noalias() += RD * R_mid.transpose();
+      c.slot_force.noalias() += B_mid * stress;
+      SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
+      element.add_curvature(p, stress, curvature);
+      c.scalars += stencil.theta * curvature;
+      const RowMat<Space::width * N, M> RD = R_mid * response.tangent;
+      if (stencil.theta == 1.0) {
+        c.tangent.noalias() += RD * R_mid.transpose();
       } else {
         Gradient<S, M> B_next;
-        RowMat<W * N, M> R_next;
-        element.gradient(p, next, B_next);
-        reduce<Space>(B_next, arms_next, R_next);
-        tangent.noalias() += RD * R_next.transpose();
+        RowMat<Space::width * N, M> R_next;
+        element.gradient(p, motion.next, B_next);
+        reduce<Space>(B_next, motion.arms_next, R_next);
+        c.tangent.noalias() += RD * R_next.transpose();
       }
     }
+    return verdict;
+  }
 
-    if (!std::isfinite(residual.sum())) return Verdict::not_finite;
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+  // M a with a = inertia (q_next - q_prev) + offset
+  template <class Space>
+  void add_inertia(std::size_t i, const Motion& motion, const State& state, const Stencil& stencil,
+                   Contribution<Space>& c) {
+    const int item = placement_.items[i];
+    const SlotMatrix<S>& mass = masses_[i];
+    const ItemSlots force =
+        inertia_force<S>(mass, stencil.inertia * (motion.next - gather(item, state.prev)) +
+                                   gather(item, state.acceleration_offset));
     for (int a = 0; a < N; ++a) {
-      placement_.scatter.add_residual(i, a, residual.data() + W * a, target);
+      const Vec<12> slots =
+          force.template middleCols<4>(4 * a).template reshaped<Eigen::AutoOrder>();
+      RowMat<Space::width, 1> reduced;
+      Space::reduce_rows(slots, motion.arms_mid.template middleCols<4>(4 * a), reduced);
+      c.residual.template segment<Space::width>(Space::width * a) += reduced;
     }
-    if (want == Want::residual) return verdict;
+    if (!c.with_tangent) return;
+    c.slot_force += force.template reshaped<Eigen::AutoOrder>();
+    c.scalars += stencil.inertia * mass;
+  }
 
-    const Eigen::Map<const ItemSlots> slot_forces(slot_force.data());
+  template <class Space>
+  void scatter(std::size_t i, const Motion& motion, double theta, Contribution<Space>& c,
+               Target& target) {
+    constexpr int W = Space::width;
+    target.force_scale =
+        std::max(target.force_scale, c.residual.template lpNorm<Eigen::Infinity>());
+    for (int a = 0; a < N; ++a) {
+      placement_.scatter.add_residual(i, a, c.residual.data() + W * a, target);
+    }
+    if (!c.with_tangent) return;
+    const Eigen::Map<const ItemSlots> slot_forces(c.slot_force.data());
     for (int a = 0; a < N; ++a) {
       for (int b = 0; b < N; ++b) {
-        auto block = tangent.template block<W, W>(W * a, W * b);
-        const SlotMatrix<4> pairs = theta * scalars.template block<4, 4>(4 * a, 4 * b);
-        Space::add_pairs(pairs, std::as_const(arms_mid).template middleCols<4>(4 * a),
-                         arms_next.template middleCols<4>(4 * b), block);
+        auto block = c.tangent.template block<W, W>(W * a, W * b);
+        Space::add_pairs(c.scalars.template block<4, 4>(4 * a, 4 * b),
+                         motion.arms_mid.template middleCols<4>(4 * a),
+                         motion.arms_next.template middleCols<4>(4 * b), block);
         if (a == b) {
           Space::add_turning(slot_forces.template middleCols<4>(4 * a),
-                             arms_next.template middleCols<4>(4 * a), theta, block);
+                             motion.arms_next.template middleCols<4>(4 * a), theta, block);
         }
         placement_.scatter.add_tangent(i, a, b, block, target);
       }
     }
-    return verdict;
+  }
+
+  // P^T M P at the end of the step
+  template <class Space>
+  Verdict assemble_mass(std::size_t i, const State& state, Target& target) {
+    const Motion motion = gather_motion(placement_.items[i], state, 1.0);
+    Contribution<Space> c(true);
+    c.scalars = element(placement_.items[i]).mass();
+    scatter(i, motion, 1.0, c, target);
+    return Verdict::ok;
   }
 
   template <class Space>
@@ -259,6 +361,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   std::vector<std::array<int, N>> connectivity_;
   Placement placement_;
   Form form_ = Form::null_space;
+  std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia is wanted
   std::vector<Strain> strain_prev_;
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;

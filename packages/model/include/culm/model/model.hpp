@@ -5,6 +5,7 @@
 #include <culm/model/constraint.hpp>
 #include <culm/model/constraint_batch.hpp>
 #include <culm/model/element_batch.hpp>
+#include <culm/model/mass_batch.hpp>
 #include <culm/model/structure.hpp>
 
 #include <deque>
@@ -41,6 +42,11 @@ class Model {
     element_batches_.push_back(std::move(batch));
     return result;
   }
+  /// The batch of masses with this ledger name, made when it is first asked for.
+  MassBatch& masses(const std::string& effect);
+  /// Sets the velocity that a node has at the start of a dynamic analysis, v + omega x (p - about)
+  /// for every point p of the node; constraints are imposed later.
+  void add_initial_velocity(int node, const Vec3& velocity, const Vec3& omega, const Vec3& about);
   /// Nodes under one name, for select_nodes.
   void add_node_set(std::string name, std::vector<int> nodes) {
     node_sets_[std::move(name)] = std::move(nodes);
@@ -72,6 +78,7 @@ class Model {
   std::vector<Batch*> batches() const;
   const std::vector<std::unique_ptr<Batch>>& element_batches() const { return element_batches_; }
 
+  const std::vector<std::unique_ptr<Batch>>& loads() const { return loads_; }
   const std::vector<std::unique_ptr<ConstraintBatch>>& constraint_batches() const {
     return constraint_batches_;
   }
@@ -82,7 +89,7 @@ class Model {
   double mass() const;
   /// Diagonal of the box around all nodes [m]; 1 for a single point.
   double length() const;
-  /// The reference configuration with zero multipliers.
+  /// The reference configuration with zero multipliers and the initial velocity.
   State initial_state() const;
 
  private:
@@ -97,6 +104,7 @@ class Model {
   std::vector<Constraint> equations_;
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
+  Coordinates initial_velocity_;
   UnknownTable unknowns_;
 };
 

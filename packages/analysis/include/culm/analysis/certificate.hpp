@@ -1,0 +1,49 @@
+/// Whether a run kept what its scheme promises.
+#pragma once
+
+#include <culm/assembly/system.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::analysis {
+
+/// Follows energy and momenta through a dynamic run and balances them against loads, drives,
+/// dampers and dissipation. @source formulation 4.3, 4.6
+class Certificate {
+ public:
+  /// @param promises whether the scheme balances energy and momenta exactly
+  Certificate(const assembly::System& system, bool promises);
+
+  void start(const model::State& state);
+  /// After each accepted step, with the velocity of its end already in state.velocity.
+  void record(const model::State& state, const Stencil& stencil, double constraint_violation);
+
+  /// A table for the user: balances, drifts, verdicts.
+  std::string text() const;
+  /// The same as numbers.
+  std::vector<std::pair<std::string, double>> numbers() const;
+
+ private:
+  double energy_scale() const;
+  bool is_free() const;
+
+  const assembly::System& system_;
+  bool promises_;
+  assembly::Energies first_, last_;
+  model::Momentum first_momentum_, momentum_;
+  model::StepWork work_;  ///< summed over all steps
+  Vec3 impulse_ = Vec3::Zero();
+  Vec3 angular_impulse_ = Vec3::Zero();
+  double largest_kinetic_ = 0.0, largest_strain_ = 0.0;
+  double largest_work_ = 0.0;
+  double largest_linear_ = 0.0, largest_angular_ = 0.0;
+  double energy_drift_ = 0.0;   ///< largest defect of the balance [J]
+  double linear_drift_ = 0.0;   ///< [N s]
+  double angular_drift_ = 0.0;  ///< [N m s]
+  double constraint_violation_ = 0.0;
+  int steps_ = 0;
+};
+
+}  // namespace culm::analysis

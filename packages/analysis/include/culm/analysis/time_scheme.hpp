@@ -1,0 +1,56 @@
+/// How a step of time is cut.
+#pragma once
+
+#include <culm/mechanics/stencil.hpp>
+#include <culm/model/state.hpp>
+
+#include <string>
+
+namespace culm::analysis {
+
+/// Relates accelerations and velocities to the configurations at both ends of a step.
+class TimeScheme {
+ public:
+  virtual ~TimeScheme() = default;
+  virtual std::string name() const = 0;
+  /// Whether energy and momenta obey exact balances.
+  virtual bool conserves() const = 0;
+  /// Once, with position and velocity of the start.
+  virtual void start(model::State& state) = 0;
+  /// Before a step of length h [s]: sets state.acceleration_offset. @return the step's stencil
+  virtual Stencil begin(model::State& state, double h) = 0;
+  /// After an accepted step, before prev takes the place of next: sets state.velocity.
+  virtual void finish(model::State& state, double h) = 0;
+};
+
+/// Energy-momentum conserving: mean velocity, forces at mid-step, mean of the end strains.
+/// @source formulation 4.1
+class ConservingScheme final : public TimeScheme {
+ public:
+  std::string name() const override { return "Conserving"; }
+  bool conserves() const override { return true; }
+  void start(model::State&) override {}
+  Stencil begin(model::State& state, double h) override;
+  void finish(model::State& state, double h) override;
+};
+
+/// Generalised-alpha on the same equations, for comparison: second order, dissipates what the step
+/// does not resolve, keeps neither energy nor momenta.
+/// @source Chung, Hulbert, J. Appl. Mech. 60 (1993) 371-375; as an integrator of constrained
+/// systems: Arnold, Bruls, Multibody Syst. Dyn. 18 (2007) 185-202
+class GeneralisedAlphaScheme final : public TimeScheme {
+ public:
+  /// @param spectral_radius at infinite frequency, in [0, 1]
+  explicit GeneralisedAlphaScheme(double spectral_radius);
+  std::string name() const override { return "Generalised Alpha"; }
+  bool conserves() const override { return false; }
+  void start(model::State& state) override;
+  Stencil begin(model::State& state, double h) override;
+  void finish(model::State& state, double h) override;
+
+ private:
+  double alpha_m_, alpha_f_, beta_, gamma_;
+  model::Coordinates acceleration_;
+};
+
+}  // namespace culm::analysis

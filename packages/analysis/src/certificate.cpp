@@ -1,0 +1,117 @@
+#include <culm/analysis/certificate.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::analysis {
+namespace {
+
+// What round-off and the tolerance of the solver may add up to.
+constexpr double energy_promise = 1e-9;
+constexpr double momentum_promise = 1e-10;
+constexpr double constraint_promise = 1e-10;
+
+std::string verdict(double drift, double promise) { return drift <= promise ? "kept" : "BROKEN"; }
+
+double relative(double drift, double scale) { return scale > 0.0 ? drift / scale : drift; }
+
+}  // namespace
+
+Certificate::Certificate(const assembly::System& system, bool promises)
+    : system_(system), promises_(promises) {}
+
+void Certificate::start(const model::State& state) {
+  first_momentum_ = momentum_ = system_.momentum(state.next, state.velocity);
+  first_ = last_ = system_.energies(state.next, momentum_);
+  largest_kinetic_ = first_.kinetic;
+  largest_strain_ = first_.strain;
+  largest_linear_ = momentum_.linear.norm();
+  largest_angular_ = momentum_.angular.norm();
+}
+
+void Certificate::record(const model::State& state, const Stencil& stencil,
+                         double constraint_violation) {
+  ++steps_;
+  momentum_ = system_.momentum(state.next, state.velocity);
+  last_ = system_.energies(state.next, momentum_);
+  const model::StepWork step = system_.step_work(state, stencil);
+  work_ += step;
+  impulse_ += stencil.step * step.force;
+  angular_impulse_ += stencil.step * step.moment;
+
+  largest_kinetic_ = std::max(largest_kinetic_, last_.kinetic);
+  largest_strain_ = std::max(largest_strain_, last_.strain);
+  largest_work_ = std::max(largest_work_, std::abs(work_.external) + std::abs(work_.drives));
+  largest_linear_ = std::max(largest_linear_, momentum_.linear.norm());
+  largest_angular_ = std::max(largest_angular_, momentum_.angular.norm());
+  const double balance =
+      first_.total() + work_.external + work_.drives - work_.damping - work_.dissipation;
+  energy_drift_ = std::max(energy_drift_, std::abs(last_.total() - balance));
+  linear_drift_ =
+      std::max(linear_drift_, (momentum_.linear - first_momentum_.linear - impulse_).norm());
+  angular_drift_ = std::max(
+      angular_drift_, (momentum_.angular - first_momentum_.angular - angular_impulse_).norm());
+  constraint_violation_ = std::max(constraint_violation_, constraint_violation);
+}
+
+double Certificate::energy_scale() const {
+  return std::max({largest_kinetic_, largest_strain_, largest_work_});
+}
+
+// Nothing holds the model from outside.
+bool Certificate::is_free() const {
+  const auto& constraints = system_.model().constraints();
+  return std::all_of(constraints.begin(), constraints.end(),
+                     [](const model::Constraint& c) { return c.is_internal; });
+}
+
+std::vector<std::pair<std::string, double>> Certificate::numbers() const {
+  std::vector<std::pair<std::string, double>> numbers = {
+      {"kinetic energy", last_.kinetic},
+      {"strain energy", last_.strain},
+      {"potential energy", last_.potential},
+      {"work of loads", work_.external},
+      {"work of drives", work_.drives},
+      {"energy taken by dampers", work_.damping},
+      {"energy taken by dissipation", work_.dissipation},
+      {"relative energy drift", relative(energy_drift_, energy_scale())},
+      {"constraint drift", constraint_violation_}};
+  if (is_free()) {
+    numbers.emplace_back("relative linear momentum drift",
+                         relative(linear_drift_, largest_linear_));
+    numbers.emplace_back("relative angular momentum drift",
+                         relative(angular_drift_, largest_angular_));
+  }
+  return numbers;
+}
+
+std::string Certificate::text() const {
+  std::string text = fmt::format("conservation over {} steps\n", steps_);
+  const auto line = [&text](const std::string& name, double first, double last) {
+    text += fmt::format("  {:<28} {:>16.9g} J  -> {:>16.9g} J\n", name, first, last);
+  };
+  line("kinetic energy", first_.kinetic, last_.kinetic);
+  line("strain energy", first_.strain, last_.strain);
+  line("potential energy", first_.potential, last_.potential);
+  text += fmt::format(
+      "  work: loads {:.9g} J, drives {:.9g} J; taken: dampers {:.6g} J, dissipation {:.6g} J\n",
+      work_.external, work_.drives, work_.damping, work_.dissipation);
+  const auto drift = [&](const std::string& name, double value, double promise) {
+    text += fmt::format("  {:<28} {:.2e}  {}\n", name, value,
+                        promises_ ? verdict(value, promise) : "not promised by this scheme");
+  };
+  drift("energy balance", relative(energy_drift_, energy_scale()), energy_promise);
+  if (is_free()) {
+    drift("linear momentum", relative(linear_drift_, largest_linear_), momentum_promise);
+    drift("angular momentum", relative(angular_drift_, largest_angular_), momentum_promise);
+  } else {
+    text += "  momenta: the model is held, so supports change them\n";
+  }
+  text += fmt::format("  {:<28} {:.2e}  {}\n", "constraints", constraint_violation_,
+                      verdict(constraint_violation_, constraint_promise));
+  return text;
+}
+
+}  // namespace culm::analysis

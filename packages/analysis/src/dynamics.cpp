@@ -1,0 +1,123 @@
+#include <culm/analysis/certificate.hpp>
+#include <culm/analysis/dynamics.hpp>
+#include <culm/analysis/newton_options.hpp>
+#include <culm/analysis/post_mortem.hpp>
+#include <culm/base/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::analysis {
+
+Schema Dynamics::schema() {
+  return Schema("Dynamic", "Motion in time from the present state and velocity.")
+      .add(number("End Time", "s", "Time at the end; the analysis starts at time 0.").positive())
+      .add(number("Step", "s", "Time step; cut where an iteration fails.").positive())
+      .add(number("Smallest Step", "s",
+                  "Time step at which cutting ends; a thousandth of the step if absent.")
+               .positive()
+               .optional())
+      .add(choice("Scheme", {"Conserving", "Generalised Alpha"},
+                  "Conserving keeps energy and momenta exactly; Generalised Alpha is there to "
+                  "compare with.")
+               .optional("Conserving"))
+      .add(number("Spectral Radius", "1",
+                  "Of Generalised Alpha at infinite frequency: 1 damps nothing, 0 most.")
+               .between(0.0, 1.0)
+               .optional(0.8))
+      .list("Newton", newton_schema(), Presence::defaulted);
+}
+
+std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
+  DynamicsSettings settings;
+  settings.end_time = options.number("End Time");
+  settings.step = options.number("Step");
+  settings.smallest_step =
+      options.has("Smallest Step") ? options.number("Smallest Step") : 1e-3 * settings.step;
+  settings.newton = newton_settings(options.list("Newton"));
+  std::unique_ptr<TimeScheme> scheme = std::make_unique<ConservingScheme>();
+  if (options.text("Scheme") == "Generalised Alpha") {
+    scheme = std::make_unique<GeneralisedAlphaScheme>(options.number("Spectral Radius"));
+  }
+  return std::make_unique<Dynamics>(std::move(settings), std::move(scheme));
+}
+
+// Velocities that constraints do not allow would never decay, so they are removed.
+void Dynamics::prepare(Context& context, model::State& state) {
+  state.time = state.time_prev = 0.0;
+  state.acceleration_offset.assign(state.velocity.size(), 0.0);
+  context.system.begin_step(state, Stencil::statics());
+  const double change =
+      context.system.project_velocity(state, [&](const assembly::Vector& b, assembly::Vector& x) {
+        if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
+          throw NumericalError(
+              "The mass matrix is singular: some node moves without mass.\n"
+              "Try: give every structure a density or mass, and rotary inertia to its nodes.");
+        }
+      });
+  const auto largest = [](const std::vector<double>& v) {
+    double result = 0.0;
+    for (double entry : v) result = std::max(result, std::abs(entry));
+    return result;
+  };
+  if (change > 1e-9 * std::max(1.0, largest(state.velocity))) {
+    context.log.warning(fmt::format(
+        "initial velocities were made to fit the constraints; largest change {:.3g}", change));
+  }
+  scheme_->start(state);
+}
+
+AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& observer) {
+  assembly::System& system = context.system;
+  prepare(context, state);
+  double h = settings_.step;
+  Stencil stencil = scheme_->begin(state, h);
+  system.begin_step(state, stencil);
+  system.choose_multiplier_scale(state, stencil);
+  PostMortem post_mortem(context, state, stencil);
+  solver::NewtonSolver newton(system, context.linear, settings_.newton, context.ledger);
+  const Ledger::Id certificate_effect = context.ledger.add("Certificate");
+  Certificate certificate(system, scheme_->conserves());
+  certificate.start(state);
+
+  int steps = 0;
+  const auto grid = [this](double time) {  // the next multiple of the step after a time
+    const double next = settings_.step * (std::floor(time / settings_.step + 1e-6) + 1.0);
+    return next > settings_.end_time - 1e-6 * settings_.step ? settings_.end_time : next;
+  };
+  while (state.time < settings_.end_time) {
+    const double target = grid(state.time_prev);
+    state.time = state.time_prev + 1.01 * h > target ? target : state.time_prev + h;
+    const double taken = state.time - state.time_prev;
+    stencil = scheme_->begin(state, taken);
+    system.begin_step(state, stencil);
+    system.coast(state, taken);
+    StepReport report{steps, state.time, settings_.end_time,
+                      taken, true,       newton.solve(state, stencil)};
+    report.accepted = report.outcome.converged();
+    if (report.accepted) {
+      report.step = ++steps;
+      scheme_->finish(state, taken);
+      {
+        const Ledger::Scope scope(context.ledger, certificate_effect);
+        certificate.record(state, stencil, report.outcome.last.constraint_violation);
+      }
+      accept(state);
+      h = std::min(2.0 * h, settings_.step);
+    } else {
+      reject(state);
+      h = 0.5 * taken;
+    }
+    post_mortem.record(report);
+    observer.step(report, state);
+    const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
+    if (!report.accepted && (not_finite || h < settings_.smallest_step)) {
+      post_mortem.give_up(state, stencil);
+    }
+  }
+  return {certificate.text(), certificate.numbers()};
+}
+
+}  // namespace culm::analysis

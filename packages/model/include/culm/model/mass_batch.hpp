@@ -1,0 +1,54 @@
+/// Nodes with mass but without stiffness: rigid bodies and point masses.
+#pragma once
+
+#include <culm/model/batch.hpp>
+#include <culm/model/node_table.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::model {
+
+/// Constant scalar mass matrices on the slots (x, d1, d2, d3) of single nodes,
+/// [[m, S^T], [S, J]] with the Euler tensor J. @source formulation 1.2, eq. (1.1)
+class MassBatch final : public Batch, public MassSource {
+ public:
+  MassBatch(std::string effect, const NodeTable& nodes)
+      : effect_(std::move(effect)), nodes_(nodes) {}
+
+  /// @param mass symmetric positive semidefinite [kg, kg m, kg m^2]
+  void add(int node, const SlotMatrix<4>& mass) { items_.push_back({node, mass}); }
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
+  bool has_tangent() const override { return true; }
+  void place(Placement placement, Form form) override;
+  void begin_step(const State&, const Stencil&) override {}  // nothing is kept
+  Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override;
+  void extrapolate(const State&, const Stencil&, const Coordinates&) override {}  // no stress
+  double stored_energy(const Coordinates&) const override { return 0.0; }
+  StepWork step_work(const State&, const Stencil&) const override { return {}; }
+  void add_mass_times(const Coordinates& acceleration, Coordinates& force) const override;
+  void add_momentum(const Coordinates& q, const Coordinates& velocity,
+                    Momentum& momentum) const override;
+
+ private:
+  struct Item {
+    int node = -1;
+    SlotMatrix<4> mass;
+  };
+
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
+                        Target& target) const;
+
+  std::string effect_;
+  const NodeTable& nodes_;
+  std::vector<Item> items_;
+  Placement placement_;
+  Form form_ = Form::null_space;
+};
+
+}  // namespace culm::model
