@@ -46,7 +46,9 @@ TYPED_TEST_P(ElementContract, CurvatureIsDerivativeOfGradient) {
     this->element.add_curvature(p, this->S_random, A);
     A.array() -= 1.0;
     const auto K = central_difference<T::N, T::N>(
-        [&](const Vec<T::N>& q) { return this->gradient(p, T::unflat(q)) * this->S_random; },
+        [&](const Vec<T::N>& q) -> Vec<T::N> {
+          return this->gradient(p, T::unflat(q)) * this->S_random;
+        },
         T::flat(this->q_any), 1.0);
     for (int s = 0; s < T::S; ++s) {
       for (int t = 0; t < T::S; ++t) {

@@ -3,21 +3,23 @@
 
 #include <culm/math/types.hpp>
 
+#include <type_traits>
+
 namespace culm::kit {
 
 /// Derivative of a vector function at x, shape (M, N); exact up to round-off for functions of
 /// degree two, whatever the step.
-/// @param f  maps Vec<N> to Vec<M>
+/// @param f  maps Vec<N> to Vec<M>; a value, because an expression would outlive what it refers to
 template <int M, int N, class F>
 Mat<M, N> central_difference(F&& f, const Vec<N>& x, double step = 1e-6) {
+  static_assert(std::is_same_v<decltype(f(x)), Vec<M>>);
   Mat<M, N> derivative;
   for (int k = 0; k < N; ++k) {
     Vec<N> ahead = x;
     Vec<N> behind = x;
     ahead[k] += step;
     behind[k] -= step;
-    const Vec<M> difference = Vec<M>(f(ahead)) - Vec<M>(f(behind));
-    derivative.col(k) = difference / (2.0 * step);
+    derivative.col(k) = (f(ahead) - f(behind)) / (2.0 * step);
   }
   return derivative;
 }
