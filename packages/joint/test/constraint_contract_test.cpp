@@ -1,10 +1,17 @@
+#include <culm/joint/cylindrical_joint.hpp>
 #include <culm/joint/planar_support.hpp>
+#include <culm/joint/prismatic_joint.hpp>
+#include <culm/joint/revolute_joint.hpp>
 #include <culm/joint/revolute_support.hpp>
 #include <culm/joint/rigid_support.hpp>
 #include <culm/joint/rotation.hpp>
 #include <culm/joint/simple_support.hpp>
 #include <culm/joint/simple_support_local.hpp>
+#include <culm/joint/spherical_joint.hpp>
 #include <culm/joint/spherical_support.hpp>
+#include <culm/joint/universal_joint.hpp>
+#include <culm/joint/weld.hpp>
+#include <culm/math/rotation.hpp>
 
 #include <culm_kit/constraint_contract.hpp>
 
@@ -90,6 +97,33 @@ struct RigidLink {
   }
 };
 
+struct PairCase {
+  static constexpr int num_nodes = 2;
+  static constexpr bool eliminated = false;
+  static NodePair pair(const NodeTable& nodes) { return {nodes, 0, 1, offset}; }
+};
+struct Ball : PairCase {
+  static Constraint make(const NodeTable& n) { return spherical_joint(pair(n)); }
+};
+struct Hinge : PairCase {
+  static Constraint make(const NodeTable& n) { return revolute_joint(pair(n), oblique); }
+};
+struct Cylinder : PairCase {
+  static Constraint make(const NodeTable& n) { return cylindrical_joint(pair(n), oblique); }
+};
+struct Slider : PairCase {
+  static Constraint make(const NodeTable& n) { return prismatic_joint(pair(n), oblique); }
+};
+struct Cardan : PairCase {
+  static Constraint make(const NodeTable& n) {
+    return universal_joint(pair(n), oblique, any_normal(oblique));
+  }
+};
+struct Welded : PairCase {
+  static Constraint make(const NodeTable& n) { return weld(pair(n)); }
+};
+
+using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded>;
 using Cases = testing::Types<Rigid, Spherical, SphericalWithOffset, SimpleAlongAxis, SimpleOblique,
                              SimpleWithOffset, SimpleMoving, SimpleLocal, Revolute, RevoluteOblique,
                              Planar, PlanarOblique, Turning, TurningLocal, RigidLink>;
@@ -100,4 +134,6 @@ using Cases = testing::Types<Rigid, Spherical, SphericalWithOffset, SimpleAlongA
 namespace culm::kit {
 INSTANTIATE_TYPED_TEST_SUITE_P(Joint, ConstraintContract, joint::Cases);
 INSTANTIATE_TYPED_TEST_SUITE_P(Joint, JointContract, testing::Types<joint::RigidLink>);
+INSTANTIATE_TYPED_TEST_SUITE_P(Pair, ConstraintContract, joint::Joints);
+INSTANTIATE_TYPED_TEST_SUITE_P(Pair, JointContract, joint::Joints);
 }  // namespace culm::kit

@@ -63,7 +63,7 @@ TEST_F(Joints, EveryTypeBuildsFromItsSchema) {
   build("Rotation Local", with("Axis", z));
   build("Rigid Connection", with("Master", std::string("beam/0")));
   EXPECT_THAT(messages(), ElementsAre());
-  ASSERT_EQ(model.constraints().size(), registry.names().size());
+  ASSERT_EQ(model.constraints().size(), 9U);
   std::vector<std::size_t> rows;
   std::vector<std::size_t> fixed;
   for (const model::Constraint& c : model.constraints()) {
@@ -76,6 +76,32 @@ TEST_F(Joints, EveryTypeBuildsFromItsSchema) {
   EXPECT_THAT(rows, ElementsAre(12, 3, 1, 1, 5, 3, 1, 1, 12));
   EXPECT_THAT(fixed, ElementsAre(6, 3, 1, 0, 5, 3, 0, 0, 0));
   EXPECT_NEAR(model.constraints()[2].rows.front().direction.norm(), 1.0, 1e-15);
+}
+
+TEST_F(Joints, EveryPairJointBuildsFromItsSchema) {
+  const kit::GivenValues pair = {{"First", std::string("beam/0")},
+                                 {"Second", std::string("beam/last")}};
+  const auto with = [&](kit::GivenValues more) {
+    more.insert(more.begin(), pair.begin(), pair.end());
+    return more;
+  };
+  const Numbers x = {3.0, 0.0, 0.0};
+  const Numbers z = {0.0, 0.0, 2.0};
+  build("Spherical Joint", pair);
+  build("Revolute Joint", with({{"Axis", z}}));
+  build("Cylindrical Joint", with({{"Axis", z}}));
+  build("Prismatic Joint", with({{"Axis", z}}));
+  build("Universal Joint", with({{"First Axis", x}, {"Second Axis", z}}));
+  build("Weld", pair);
+  EXPECT_THAT(messages(), ElementsAre());
+  EXPECT_EQ(model.constraints().size() + 9U, registry.names().size());
+  std::vector<std::size_t> rows;
+  for (const model::Constraint& c : model.constraints()) {
+    rows.push_back(c.rows.size());
+    EXPECT_TRUE(c.is_internal);
+    EXPECT_THAT(c.nodes, ElementsAre(0, 2));
+  }
+  EXPECT_THAT(rows, ElementsAre(3, 5, 4, 5, 4, 6));
 }
 
 TEST_F(Joints, ASelectionOfNodesMakesOneConstraintEach) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <culm/joint/node_pair.hpp>
+
+namespace culm::joint {
+
+/// Slides along and turns about `axis`, a unit vector in the reference: four rows. @source
+/// formulation 2.2
+model::Constraint cylindrical_joint(const NodePair& pair, const Vec3& axis);
+
+void register_cylindrical_joint(model::BuilderRegistry& registry);
+
+}  // namespace culm::joint

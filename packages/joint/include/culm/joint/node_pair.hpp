@@ -1,0 +1,57 @@
+/// What joints between two nodes share: points and vectors fixed to each, and reading the deck.
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+#include <functional>
+#include <string>
+
+namespace culm::joint {
+
+/// Two nodes and a point in the reference that a joint puts on both.
+class NodePair {
+ public:
+  /// @param point place of the joint in the reference [m]
+  NodePair(const model::NodeTable& nodes, int first, int second, const Vec3& point);
+
+  /// p_1 - p_2 of the joint's point; p_2 - p_1 is its negative.
+  model::SlotSum gap() const;
+  /// Attached copy of a spatial vector on node 0 or 1 of the pair.
+  model::SlotSum vector(int node, const Vec3& v) const;
+  const Eigen::Matrix3Xd& reference() const { return q_; }
+
+  /// A constraint of the two nodes without rows; it keeps the momenta of the model.
+  model::Constraint joint() const;
+  /// Adds p_1 = p_2: three rows.
+  void add_point_rows(model::Constraint& joint) const;
+  /// Adds that `axis` of both nodes stays parallel: two rows.
+  void add_parallel_rows(const Vec3& axis, model::Constraint& joint) const;
+  /// Adds that p_2 - p_1 stays on `axis` of the first node: two rows.
+  void add_line_rows(const Vec3& axis, model::Constraint& joint) const;
+  /// Adds u_1(a) . u_2(b) = a . b: one row.
+  void add_angle_row(const Vec3& a, const Vec3& b, model::Constraint& joint) const;
+
+ private:
+  int first_, second_;
+  Vec3 point_;
+  Eigen::Matrix3Xd q_;
+};
+
+/// Adds a joint type with parameters "First", "Second" and "Position".
+void register_pair_joint(model::BuilderRegistry& registry, const std::string& type,
+                         const std::string& doc, model::Constraint (*make)(const NodePair& pair));
+/// Adds a joint type that has an "Axis" as well, given to `make` as a unit vector.
+void register_axis_joint(model::BuilderRegistry& registry, const std::string& type,
+                         const std::string& doc,
+                         model::Constraint (*make)(const NodePair& pair, const Vec3& axis));
+
+/// Parameters "First", "Second" and "Position".
+Schema pair_schema(const std::string& type, const std::string& doc);
+/// Adds a direction of any length but zero.
+void add_direction(const std::string& name, const std::string& doc, Schema& schema);
+/// Adds the constraint that `make` returns for the pair of the deck; nothing, and issues, if the
+/// deck names no pair.
+void add_joint(const std::string& type, const Options& options, model::BuildContext& context,
+               const std::function<model::Constraint(const NodePair& pair)>& make);
+
+}  // namespace culm::joint

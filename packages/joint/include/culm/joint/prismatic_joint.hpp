@@ -1,0 +1,12 @@
+#pragma once
+
+#include <culm/joint/node_pair.hpp>
+
+namespace culm::joint {
+
+/// Slides along `axis`, a unit vector in the reference: five rows. @source formulation 2.2
+model::Constraint prismatic_joint(const NodePair& pair, const Vec3& axis);
+
+void register_prismatic_joint(model::BuilderRegistry& registry);
+
+}  // namespace culm::joint
