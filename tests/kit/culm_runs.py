@@ -1,0 +1,102 @@
+"""Runs decks with culm and reads their history; for the regression and the verification tests."""
+
+import csv
+import os
+import pathlib
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+INPUTS = ROOT / "inputs"
+TIME_LIMIT = 120  # s
+
+# Open MPI: start as root (containers), more ranks than cores, and do not pin them.
+MPI_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    "OPENBLAS_NUM_THREADS": "1",
+}
+
+
+class RunFailed(Exception):
+    """culm ended with another exit code than 0; the text is what it said."""
+
+
+class History:
+    """Columns of history.csv by name, such as 'tip ux [m]', and the levels of its rows."""
+
+    def __init__(self, path):
+        with open(path, newline="") as file:
+            rows = list(csv.reader(file))
+        self.names = rows[0][1:]
+        self.levels = [float(row[0]) for row in rows[1:]]
+        self.columns = {
+            name: [float(row[i + 1]) for row in rows[1:]] for i, name in enumerate(self.names)
+        }
+
+    def row(self, level):
+        """The number of the row at a level that was met exactly."""
+        for i, one in enumerate(self.levels):
+            if abs(one - level) <= 1e-9 * max(1.0, abs(level)):
+                return i
+        raise KeyError(f"no step ends at level {level}")
+
+    def at(self, level, column):
+        return self.column(column)[self.row(level)]
+
+    def column(self, name):
+        if name not in self.columns:
+            raise KeyError(f"no column '{name}' among: {', '.join(self.names)}")
+        return self.columns[name]
+
+    def vector(self, quantity, level=None):
+        """The values of all columns of a quantity at a level, at the last one if none is given."""
+        row = -1 if level is None else self.row(level)
+        names = [name for name in self.names if name.split(" [")[0].rsplit(" ", 1)[0] == quantity]
+        if not names:
+            raise KeyError(f"no quantity '{quantity}' among: {', '.join(self.names)}")
+        return [self.columns[name][row] for name in names]
+
+
+class Run:
+    """Exit code, what was printed, and the history if one was written."""
+
+    def __init__(self, process, folder):
+        self.exit = process.returncode
+        self.errors = process.stderr
+        history = pathlib.Path(folder) / "history.csv"
+        self.history = History(history) if history.exists() else None
+
+
+class Culm:
+    """The program, to be run in folders that vanish afterwards."""
+
+    def __init__(self, program, mpiexec="mpiexec"):
+        self.program = str(program)
+        self.mpiexec = mpiexec
+
+    def run(self, deck, settings=(), ranks=1):
+        """Runs a deck of inputs/ (or a path) with overrides; any exit code is a result."""
+        command = [self.mpiexec, "-n", str(ranks)] if ranks > 1 else []
+        command += [self.program, "run", str(INPUTS / deck), "--quiet"]
+        for setting in [*settings, "Output/Pictures=false"]:
+            command += ["--set", setting]
+        with tempfile.TemporaryDirectory(prefix="culm") as folder:
+            process = subprocess.run(
+                [*command, "--output", folder],
+                capture_output=True,
+                text=True,
+                timeout=TIME_LIMIT,
+                env={**os.environ, **MPI_ENVIRONMENT},
+            )
+            return Run(process, folder)
+
+    def history(self, deck, settings=(), ranks=1):
+        """As run, but the run must succeed."""
+        run = self.run(deck, settings, ranks)
+        if run.exit != 0:
+            raise RunFailed(f"{deck} {list(settings)}: exit code {run.exit}\n{run.errors}")
+        return run.history

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""Runs a deck on 1, 2 and 3 ranks and compares its history with the expected values.
+
+usage: run_deck.py --culm PROGRAM [--mpiexec PROGRAM] DECK.xml EXPECTED.xml
+
+What an expected file holds, see README.md beside this file. All ranks are compared with the same
+file, and with each other; where the file says so, so are the two forms of the equations.
+"""
+
+import argparse
+import pathlib
+import sys
+import xml.etree.ElementTree as ElementTree
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "kit"))
+from culm_runs import Culm  # noqa: E402
+
+RANKS = (1, 2, 3)
+RANKS_TOLERANCE = 1e-12
+FORMS_TOLERANCE = 1e-9
+
+
+def unit_of(column):
+    return column[column.rindex("[") + 1 : -1]
+
+
+def scales(history, size, force):
+    """What differences are divided by, for each unit: lengths by the size of the model, forces by
+    the largest force, a moment or an energy counting as one at that distance."""
+    for name in history.names:
+        arm = {"N": 1.0, "N m": size, "J": size}.get(unit_of(name))
+        if arm:
+            force = max([force] + [abs(value) / arm for value in history.column(name)])
+    return {"m": size, "rad": 1.0, "N": force, "N m": force * size, "J": force * size}
+
+
+def compare(one, other, scale, tolerance, what):
+    """Complaints about differences between two histories at the levels they share."""
+    shared = 0
+    worst = (0.0, "")
+    for j, level in enumerate(other.levels):
+        try:
+            i = one.row(level)
+        except KeyError:
+            continue
+        shared += level > 0.0
+        for name in one.names:
+            difference = abs(one.column(name)[i] - other.column(name)[j]) / scale[unit_of(name)]
+            worst = max(worst, (difference, f"'{name}' at level {level:g}"))
+    print(f"{what}: largest relative difference {worst[0]:.1e} in {shared} steps")
+    if shared == 0:
+        return [f"{what}: no step in common"]
+    if worst[0] > tolerance:
+        return [f"{what}: {worst[1]} differs by {worst[0]:.2e}, allowed {tolerance:g}"]
+    return []
+
+
+def check_values(history, expected, what):
+    complaints = []
+    for group in expected.findall("Values"):
+        tolerance = float(group.get("tolerance"))
+        for value in group.findall("Value"):
+            column, level = value.get("column"), float(value.get("level", 1.0))
+            found, wanted = history.at(level, column), float(value.get("is"))
+            if not abs(found - wanted) <= tolerance:
+                complaints.append(
+                    f"{what}: '{column}' at level {level:g} is {found:.12g}, expected {wanted:.12g} "
+                    f"within {tolerance:g} ({group.get('source')})"
+                )
+    return complaints
+
+
+def overrides(element):
+    return [one.strip() for one in element.get("set", "").split(";") if one.strip()]
+
+
+def check_failure(culm, deck, failure, ranks):
+    """A variant of the deck that has no solution must say why."""
+    run = culm.run(deck, overrides(failure), ranks)
+    what = f"{ranks} ranks, {failure.get('set')}"
+    complaints = []
+    if run.exit != int(failure.get("exit")):
+        complaints.append(f"{what}: exit code {run.exit}, expected {failure.get('exit')}")
+    if failure.get("says") not in run.errors:
+        complaints.append(f"{what}: does not say '{failure.get('says')}' but\n{run.errors}")
+    return complaints
+
+
+def check_deck(culm, deck, expected):
+    complaints = []
+    histories = {}
+    for ranks in RANKS:
+        run = culm.run(deck, ranks=ranks)
+        if run.exit != 0 or run.errors:
+            return [f"{ranks} ranks: exit code {run.exit}\n{run.errors}"]
+        histories[ranks] = run.history
+        if ranks == 1:
+            size, force = float(expected.get("size")), float(expected.get("force", 1e-300))
+            scale = scales(run.history, size, force)
+        complaints += check_values(run.history, expected, f"{ranks} ranks")
+        if ranks > 1:
+            complaints += compare(
+                histories[1], run.history, scale, RANKS_TOLERANCE, f"1 and {ranks} ranks"
+            )
+    for forms in expected.findall("Forms"):
+        settings = ["Solver/Form=Multipliers", *overrides(forms)]
+        multipliers = culm.run(deck, settings)
+        if multipliers.exit != 0:
+            complaints.append(f"multiplier form: exit code {multipliers.exit}\n{multipliers.errors}")
+            continue
+        complaints += compare(
+            histories[1], multipliers.history, scale, FORMS_TOLERANCE, "null space and multipliers"
+        )
+    for failure in expected.findall("Fails"):
+        complaints += check_failure(culm, deck, failure, ranks=1)
+        complaints += check_failure(culm, deck, failure, ranks=2)
+    return complaints
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True)
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("deck", type=pathlib.Path)
+    parser.add_argument("expected", type=pathlib.Path)
+    arguments = parser.parse_args()
+    if not arguments.expected.exists():
+        sys.exit(f"{arguments.deck} has no expected values: write {arguments.expected}")
+    expected = ElementTree.parse(arguments.expected).getroot()
+    culm = Culm(arguments.culm, arguments.mpiexec)
+    complaints = check_deck(culm, arguments.deck.resolve(), expected)
+    for complaint in complaints:
+        print(complaint)
+    sys.exit(1 if complaints else 0)
+
+
+if __name__ == "__main__":
+    main()
