@@ -95,6 +95,8 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
     full_state.time = state.time;
     full_state.prev = state.prev;
     full_state.next = state.next;
+    full_state.velocity = state.velocity;
+    full_state.acceleration_offset = state.acceleration_offset;
     set_multipliers(reduced, effect, state);
     set_multipliers(full, effect, full_state);
     reduced_system.begin_step(state, stencil);

@@ -156,7 +156,7 @@ class DenseAssembly {
 };
 
 /// A step in the middle of a motion: both ends admissible and far from the reference, all
-/// multipliers at work.
+/// multipliers and inertia at work.
 inline model::State random_state(const model::Model& model, int seed) {
   Random random(seed);
   model::State state = model.initial_state();
@@ -171,6 +171,11 @@ inline model::State random_state(const model::Model& model, int seed) {
     follow_masters(model.nodes(), *q);
   }
   for (double& lambda : state.multipliers) lambda = random.number();
+  Random rates(seed + 100);  // the same in both forms, whatever the number of multipliers
+  for (model::Coordinates* v : {&state.velocity, &state.acceleration_offset}) {
+    v->resize(state.next.size());
+    for (double& component : *v) component = rates.number();
+  }
   return state;
 }
 
