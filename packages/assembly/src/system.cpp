@@ -273,6 +273,8 @@ void System::coast(model::State& state, double time) const {
 }
 
 double System::project_velocity(model::State& state, const Solve& solve_mass) {
+  // velocities given to eliminated nodes are those of their masters
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   const Evaluation found = evaluate(state, Stencil::statics(), Want::mass);
   internal_check(found.verdict == Verdict::ok, "a mass matrix is not finite");
   const model::UnknownTable& unknowns = model_.unknowns();

@@ -1,12 +1,19 @@
+#include <culm/body/register_body.hpp>
 #include <culm/joint/register_joint.hpp>
 #include <culm/load/register_load.hpp>
+#include <culm/model/initial_motion.hpp>
 #include <culm/simulation/catalogue.hpp>
+
+#include <utility>
 
 namespace culm::simulation {
 
 Catalogue::Catalogue() {
   material::register_sections(sections);
   beam::register_structures(structures);
+  body::register_bodies(bodies);
+  body::register_masses(masses);
+  model::register_initial_motions(initial_conditions);
   model::register_amplitudes(functions);
   joint::register_joints(constraints);
   load::register_loads(loads);
@@ -50,13 +57,18 @@ Schema output_schema(const QuantityRegistry& quantities) {
 }  // namespace
 
 Schema Catalogue::deck_schema() const {
+  Variants all_structures = structures.variants();
+  all_structures.merge(bodies.variants());
   return Schema("culm", "An input deck.")
       .add(text("Title", "What the deck shows.").optional(""))
       .list("Sections",
             Schema("Sections", "Cross-sections by name.").entries_by_type(sections.variants()),
             Presence::defaulted)
       .list("Structures", Schema("Structures", "Parts of the model by name.")
-                              .entries_by_type(structures.variants()))
+                              .entries_by_type(std::move(all_structures)))
+      .list("Masses",
+            Schema("Masses", "Masses on nodes by name.").entries_by_type(masses.variants()),
+            Presence::defaulted)
       .list("Node Sets", node_sets_schema(), Presence::defaulted)
       .list("Functions",
             Schema("Functions", "Functions of time by name; 'Ramp' and 'Constant' are there.")
@@ -67,6 +79,10 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(constraints.variants()),
             Presence::defaulted)
       .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(loads.variants()),
+            Presence::defaulted)
+      .list("Initial Conditions",
+            Schema("Initial Conditions", "How the model moves at the start, by name.")
+                .entries_by_type(initial_conditions.variants()),
             Presence::defaulted)
       .list("Solver", solver_schema(), Presence::defaulted)
       .list("Analyses",

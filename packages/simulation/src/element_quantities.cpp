@@ -37,6 +37,11 @@ std::unique_ptr<Quantity> make_stress_resultants(const Options& options,
                                                      ", got " + std::to_string(element));
     return nullptr;
   }
+  if (structure->cells[element].source == nullptr) {
+    context.issues.add(options.where("Structure"),
+                       "structure '" + structure->name + "' is rigid and has no stress resultants");
+    return nullptr;
+  }
   return std::make_unique<StressResultants>(structure->cells[element]);
 }
 

@@ -22,12 +22,28 @@ std::map<std::string, Product> make_all(const Registry<Product>& registry, const
 }
 
 template <class Context>
-void build_all(const Registry<void, Context&>& registry, const Options& list, Context& context) {
+void build_one(const Registry<void, Context&>& registry, const Options& entry, Context& context) {
+  try {
+    registry.make(entry.text("Type"), entry, context);
+  } catch (const InputError& error) {
+    for (const InputIssue& issue : error.issues()) context.issues.add(issue);
+  }
+}
+
+void build_all(const model::BuilderRegistry& registry, const Options& list,
+               model::BuildContext& context) {
+  for (const Options& entry : list.entries()) build_one(registry, entry, context);
+}
+
+// Beams want sections, bodies do not; a deck lists them together and in any order.
+void build_structures(const Catalogue& catalogue, const Options& list,
+                      beam::StructureContext& beams, model::BuildContext& bodies) {
   for (const Options& entry : list.entries()) {
-    try {
-      registry.make(entry.text("Type"), entry, context);
-    } catch (const InputError& error) {
-      for (const InputIssue& issue : error.issues()) context.issues.add(issue);
+    const std::string& type = entry.text("Type");
+    if (catalogue.bodies.contains(type)) {
+      build_one(catalogue.bodies, entry, bodies);
+    } else {
+      build_one(catalogue.structures, entry, beams);
     }
   }
 }
@@ -64,14 +80,16 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   InputIssues issues;
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
-  beam::StructureContext structures{model, sections, issues, log};
-  build_all(catalogue.structures, deck.list("Structures"), structures);
+  beam::StructureContext beams{model, sections, issues, log};
+  model::BuildContext context{model, functions, issues};
+  build_structures(catalogue, deck.list("Structures"), beams, context);
   // what follows refers to structures; without them every reference would be a mistake
   issues.throw_if_any();
-  model::BuildContext context{model, functions, issues};
   add_node_sets(deck.list("Node Sets"), context);
+  build_all(catalogue.masses, deck.list("Masses"), context);
   build_all(catalogue.constraints, deck.list("Constraints"), context);
   build_all(catalogue.loads, deck.list("Loads"), context);
+  build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
   auto watched = make_quantities(catalogue, deck.list("Output").list("History"), context);
   issues.throw_if_any();
   model.freeze(deck.list("Solver").text("Form") == "Null Space" ? model::Form::null_space

@@ -21,17 +21,17 @@ output::StructureMesh mesh_of(const model::Structure& structure,
                               const model::Coordinates& reference) {
   output::StructureMesh mesh;
   mesh.name = structure.name;
-  mesh.type = "Beam";
+  mesh.type = structure.nodes.size() == 1 ? "Body" : "Beam";
   mesh.outlines = structure.outlines;
   read_nodes(structure, reference, mesh.positions, mesh.triads);
   std::unordered_map<int, int> number;  // of a node within the structure
   for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
   for (const model::Cell& cell : structure.cells) {
     output::Cell picture;
-    picture.type = output::CellType::line;
+    picture.type = cell.nodes.size() == 1 ? output::CellType::vertex : output::CellType::line;
     for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
     mesh.cells.push_back(picture);
-    mesh.resultant_names = cell.source->resultant_names();
+    if (cell.source != nullptr) mesh.resultant_names = cell.source->resultant_names();
   }
   return mesh;
 }
@@ -102,7 +102,8 @@ output::Frame ResultFiles::frame(double time, const model::State& state) const {
     read_nodes(structure, state.next, s.positions, s.triads);
     for (const model::Cell& cell : structure.cells) {
       s.resultants.emplace_back();
-      cell.source->resultants(cell.item, state.next, s.resultants.back());
+      if (cell.source != nullptr)
+        cell.source->resultants(cell.item, state.next, s.resultants.back());
     }
     frame.structures.push_back(std::move(s));
   }

@@ -16,6 +16,9 @@ struct Catalogue {
 
   Registry<material::Section> sections;
   beam::StructureRegistry structures;
+  model::BuilderRegistry bodies;  ///< structures, too
+  model::BuilderRegistry masses;
+  model::BuilderRegistry initial_conditions;
   Registry<model::Amplitude> functions;
   model::BuilderRegistry constraints;
   model::BuilderRegistry loads;

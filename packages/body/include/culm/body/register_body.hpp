@@ -1,0 +1,13 @@
+/// What this package offers to the deck.
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+namespace culm::body {
+
+/// Rigid bodies for the deck's list "Structures": by mass and inertia, and by solid shapes.
+void register_bodies(model::BuilderRegistry& registry);
+/// Types of the deck's list "Masses".
+void register_masses(model::BuilderRegistry& registry);
+
+}  // namespace culm::body

@@ -1,0 +1,11 @@
+/// Velocities at the start of a dynamic analysis.
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+namespace culm::model {
+
+/// Types of the deck's list "Initial Conditions".
+void register_initial_motions(BuilderRegistry& registry);
+
+}  // namespace culm::model
