@@ -328,6 +328,7 @@ double System::project_velocity(model::State& state, const Solve& solve_mass) {
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   double largest = 0.0;
   each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
+    if (model_.nodes().is_slave(block.owner)) return;  // its master may be elsewhere
     const auto first = static_cast<std::size_t>(model::NodeTable::offset(block.owner));
     for (std::size_t i = first; i < first + 12; ++i) {
       largest = std::max(largest, std::abs(state.velocity[i] - before[i]));
