@@ -98,11 +98,10 @@ void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
 }
 
 template <class Beam>
-ReferenceState add_all(const std::string& effect, const Chain& chain, const std::vector<int>& nodes,
-                       const SectionTable& sections, model::Model& model,
+ReferenceState add_all(model::ElementBatch<Beam>& batch, const Chain& chain,
+                       const std::vector<int>& nodes, const SectionTable& sections,
                        model::Structure& structure) {
   ReferenceState reference;
-  auto& batch = model.elements<Beam>(effect);
   constexpr std::size_t order = Beam::num_nodes - 1;
   for (std::size_t first = 0; first + order < chain.size(); first += order) {
     const Stretch<Beam> stretch(chain, nodes, first);
@@ -130,13 +129,13 @@ int order_of(ElementKind kind) {
   return 1;
 }
 
-ReferenceState add_elements(ElementKind kind, const Chain& chain, const std::vector<int>& nodes,
-                            const SectionTable& sections, model::Model& model,
-                            model::Structure& structure) {
+ReferenceState add_elements(const ElementChoice& choice, const Chain& chain,
+                            const std::vector<int>& nodes, const SectionTable& sections,
+                            model::Model& model, model::Structure& structure) {
   const auto add = [&]<class Beam>(const std::string& effect) {
-    return add_all<Beam>(effect, chain, nodes, sections, model, structure);
+    return add_all(model.elements<Beam>(effect, choice.damping), chain, nodes, sections, structure);
   };
-  switch (kind) {
+  switch (choice.kind) {
     case ElementKind::director_1:
       return add.template operator()<DirectorBeam<1>>("Beam, director, order 1");
     case ElementKind::director_2:

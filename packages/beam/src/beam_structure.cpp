@@ -83,6 +83,14 @@ Schema beam_schema() {
       .add(integer("Order", "Order of interpolation of director elements: nodes minus one.")
                .between(1, 3)
                .optional(1))
+      .add(number("Dissipation", "1",
+                  "Numerical dissipation of strains in dynamics: 0 keeps the energy, 1 damps most; "
+                  "momenta are kept.")
+               .between(0.0, 1.0)
+               .optional(0.0))
+      .add(number("Damping", "s", "Physical damping: time by which stress runs ahead of strain.")
+               .non_negative()
+               .optional(0.0))
       .list_by_type("Curve", axes().variants())
       .check([](const Options& beam, InputIssues& issues) {
         if (beam.text("Element") == "Helical" && beam.integer("Order") != 1) {
@@ -94,6 +102,7 @@ Schema beam_schema() {
 
 void add_beam(const Options& options, StructureContext& context) {
   const ElementKind kind = read_kind(options);
+  const ElementChoice choice{kind, {options.number("Dissipation"), options.number("Damping")}};
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
   const Axis axis = axes().make(curve.text("Type"), curve, order_of(kind));
@@ -105,7 +114,7 @@ void add_beam(const Options& options, StructureContext& context) {
     const std::vector<int> nodes = add_nodes(chain, sections, context.model, structure);
     if (before >= 0) link_corner(before, nodes.front(), context.model, structure);
     const ReferenceState reference =
-        add_elements(kind, chain, nodes, sections, context.model, structure);
+        add_elements(choice, chain, nodes, sections, context.model, structure);
     largest_turn = std::max(largest_turn, reference.largest_turn);
   }
   structure.sets["first"] = {structure.nodes.front()};

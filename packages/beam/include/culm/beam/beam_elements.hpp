@@ -15,6 +15,12 @@ enum class ElementKind { director_1, director_2, director_3, helical };
 /// Polynomial order: nodes per element minus one.
 int order_of(ElementKind kind);
 
+/// What a beam is made of.
+struct ElementChoice {
+  ElementKind kind = ElementKind::director_1;
+  model::StrainDamping damping;
+};
+
 /// What the elements of a beam look like before it is loaded.
 struct ReferenceState {
   double largest_turn = 0.0;  ///< largest relative rotation of the ends of an element [rad]
@@ -22,8 +28,8 @@ struct ReferenceState {
 
 /// Adds the elements of one chain to the model, their cells and line points to the structure.
 /// @param nodes  numbers of the chain's nodes in the model; order * elements + 1 of them
-ReferenceState add_elements(ElementKind kind, const Chain& chain, const std::vector<int>& nodes,
-                            const SectionTable& sections, model::Model& model,
-                            model::Structure& structure);
+ReferenceState add_elements(const ElementChoice& choice, const Chain& chain,
+                            const std::vector<int>& nodes, const SectionTable& sections,
+                            model::Model& model, model::Structure& structure);
 
 }  // namespace culm::beam

@@ -12,6 +12,18 @@
 
 namespace culm::model {
 
+/// What takes energy out of strains, in dynamics only.
+struct StrainDamping {
+  /// Numerical dissipation chi in [0, 1]: takes 1/2 chi De . C De per step and leaves the momenta;
+  /// first order in the step. @source formulation 4.5
+  double dissipation = 0.0;
+  double viscosity = 0.0;  ///< physical damping eta [s]: stress C eta de/dt on top of C e
+
+  bool operator==(const StrainDamping&) const = default;
+  /// Weight that the new strain gains over the old one in a step of length h.
+  double weight(double h) const { return 0.5 * dissipation + viscosity / h; }
+};
+
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
 /// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
 template <Element E>
@@ -24,8 +36,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   using ItemSlots = Slots<S>;
   using Strain = Vec<M>;
 
-  ElementBatch(std::string effect, const NodeTable& nodes)
-      : effect_(std::move(effect)), nodes_(nodes) {}
+  ElementBatch(std::string effect, const NodeTable& nodes, const StrainDamping& damping = {})
+      : effect_(std::move(effect)), nodes_(nodes), damping_(damping) {}
 
   /// Adds an element. @return item number
   int add(E element, const std::array<int, N>& nodes) {
@@ -39,6 +51,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     return connectivity_[static_cast<std::size_t>(item)];
   }
 
+  const StrainDamping& damping() const { return damping_; }
   const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(elements_.size()); }
   bool has_tangent() const override { return true; }
@@ -70,12 +83,14 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
-    if (form_ == Form::null_space) return assemble_as<NullSpace>(state, stencil, want, target);
-    return assemble_as<FullSpace>(state, stencil, want, target);
+    const Stencil damped = with_damping(stencil);
+    if (form_ == Form::null_space) return assemble_as<NullSpace>(state, damped, want, target);
+    return assemble_as<FullSpace>(state, damped, want, target);
   }
 
   void extrapolate(const State& state, const Stencil& stencil,
                    const Coordinates& increment) override {
+    const Stencil damped = with_damping(stencil);
     Response<M> response;
     Gradient<S, M> B;
     Strain y;
@@ -86,7 +101,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, y);
         element.gradient(p, q, B);
-        element.respond(p, strain_prev_[at(i, p)], y, stencil, response);
+        element.respond(p, strain_prev_[at(i, p)], y, damped, response);
         const Strain dy = B.transpose() * du.template reshaped<Eigen::AutoOrder>();
         predicted_stress_[at(i, p)] = response.stress + response.tangent * dy;
       }
@@ -129,7 +144,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
   StepWork step_work(const State& state, const Stencil& stencil) const override {
-    StepWork work;
+    const Stencil damped = with_damping(stencil);
+    double taken = 0.0;
     Strain y;
     Response<M> response;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -139,12 +155,17 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int p = 0; p < E::num_points; ++p) {
         const Strain& prev = strain_prev_[at(i, p)];
         element(item).strain(p, q, y);
-        element(item).respond(p, prev, y, stencil, response);
+        element(item).respond(p, prev, y, damped, response);
         // what the stress takes beyond the change of the stored energy
-        work.dissipation += response.stress.dot(y - prev) -
-                            (element(item).energy(p, y) - element(item).energy(p, prev));
+        taken += response.stress.dot(y - prev) -
+                 (element(item).energy(p, y) - element(item).energy(p, prev));
       }
     }
+    StepWork work;
+    const double physical = damping_.viscosity / stencil.step;
+    const double share = physical > 0.0 ? physical / damping_.weight(stencil.step) : 0.0;
+    work.damping = share * taken;
+    work.dissipation = taken - work.damping;
     return work;
   }
 
@@ -165,6 +186,10 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
  private:
+  Stencil with_damping(Stencil stencil) const {
+    if (stencil.step > 0.0) stencil.theta_strain += damping_.weight(stencil.step);
+    return stencil;
+  }
   static std::size_t at(std::size_t item, int point) {
     return item * E::num_points + static_cast<std::size_t>(point);
   }
@@ -357,6 +382,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
 
   std::string effect_;
   const NodeTable& nodes_;
+  StrainDamping damping_;
   std::vector<E> elements_;
   std::vector<std::array<int, N>> connectivity_;
   Placement placement_;

@@ -30,14 +30,14 @@ class Model {
 
   /// @return a structure that stays in place while others are added
   Structure& add_structure(std::string name);
-  /// The batch of elements E with this ledger name, made when it is first asked for.
+  /// The batch of elements E with this ledger name and damping, made when it is first asked for.
   template <Element E>
-  ElementBatch<E>& elements(const std::string& effect) {
+  ElementBatch<E>& elements(const std::string& effect, const StrainDamping& damping = {}) {
     for (const auto& batch : element_batches_) {
       auto* same = dynamic_cast<ElementBatch<E>*>(batch.get());
-      if (same != nullptr && same->effect() == effect) return *same;
+      if (same != nullptr && same->effect() == effect && same->damping() == damping) return *same;
     }
-    auto batch = std::make_unique<ElementBatch<E>>(effect, nodes_);
+    auto batch = std::make_unique<ElementBatch<E>>(effect, nodes_, damping);
     ElementBatch<E>& result = *batch;
     element_batches_.push_back(std::move(batch));
     return result;
