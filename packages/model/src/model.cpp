@@ -1,4 +1,5 @@
 #include <culm/model/model.hpp>
+#include <culm/model/redundancy.hpp>
 
 #include <Eigen/Geometry>
 
@@ -68,20 +69,21 @@ bool Model::eliminate(const Constraint& constraint) {
   return true;
 }
 
-void Model::add_equation(const Constraint& constraint, double length) {
-  const auto same = [&](const auto& batch) { return batch->effect() == constraint.type; };
-  auto at = std::find_if(constraint_batches_.begin(), constraint_batches_.end(), same);
-  if (at == constraint_batches_.end()) {
-    constraint_batches_.push_back(
-        std::make_unique<ConstraintBatch>(constraint.type, nodes_, length));
-    at = constraint_batches_.end() - 1;
+void Model::batch_equations(double length) {
+  for (std::size_t number = 0; number < equations_.size(); ++number) {
+    const Constraint& equation = equations_[number];
+    const auto same = [&](const auto& batch) { return batch->effect() == equation.type; };
+    auto at = std::find_if(constraint_batches_.begin(), constraint_batches_.end(), same);
+    if (at == constraint_batches_.end()) {
+      constraint_batches_.push_back(
+          std::make_unique<ConstraintBatch>(equation.type, nodes_, length));
+      at = constraint_batches_.end() - 1;
+    }
+    (*at)->add(equation, static_cast<int>(number));
   }
-  (*at)->add(constraint, static_cast<int>(equations_.size()));
-  equations_.push_back(constraint);
 }
 
-void Model::freeze(Form form) {
-  const double length = this->length();
+std::vector<std::string> Model::freeze(Form form) {
   // links first: whether a support can be eliminated depends on them
   const auto is_link = [](const Constraint& c) { return c.link.has_value(); };
   std::vector<const Constraint*> ordered;
@@ -97,19 +99,23 @@ void Model::freeze(Form form) {
       has_internal[static_cast<std::size_t>(c->replaces_internal)] = false;
     }
     if (form == Form::null_space && eliminate(*c)) continue;
-    add_equation(*c, length);
+    equations_.push_back(*c);
   }
   if (form == Form::multipliers) {
     for (int node = 0; node < nodes_.size(); ++node) {
       if (has_internal[static_cast<std::size_t>(node)]) {
-        add_equation(internal_constraint(nodes_, node), length);
+        equations_.push_back(internal_constraint(nodes_, node));
       }
     }
   }
+  std::vector<std::string> notes;
+  if (form == Form::null_space) notes = remove_redundant_rows(nodes_, equations_);
+  batch_equations(length());
   std::vector<int> multipliers;
   for (const Constraint& c : equations_) multipliers.push_back(static_cast<int>(c.rows.size()));
   unknowns_ = UnknownTable(nodes_, multipliers, form);
   for (const auto& batch : constraint_batches_) batch->number(unknowns_);
+  return notes;
 }
 
 const Structure* Model::find_structure(std::string_view name) const {

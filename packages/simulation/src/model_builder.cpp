@@ -92,8 +92,11 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
   auto watched = make_quantities(catalogue, deck.list("Output").list("History"), context);
   issues.throw_if_any();
-  model.freeze(deck.list("Solver").text("Form") == "Null Space" ? model::Form::null_space
-                                                                : model::Form::multipliers);
+  const bool null_space = deck.list("Solver").text("Form") == "Null Space";
+  for (const std::string& note :
+       model.freeze(null_space ? model::Form::null_space : model::Form::multipliers)) {
+    log.info("note: " + note);
+  }
   return watched;
 }
 

@@ -57,7 +57,8 @@ class Model {
   void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
 
   /// Chooses the form, eliminates what can be eliminated and numbers the unknowns.
-  void freeze(Form form);
+  /// @return notes for the user, on constraints that others make superfluous
+  std::vector<std::string> freeze(Form form);
 
   // --- reading ----------------------------------------------------------------------------------
   const std::deque<Structure>& structures() const { return structures_; }
@@ -94,7 +95,7 @@ class Model {
 
  private:
   bool eliminate(const Constraint& constraint);
-  void add_equation(const Constraint& constraint, double length);
+  void batch_equations(double length);
 
   NodeTable nodes_;
   std::deque<Structure> structures_;

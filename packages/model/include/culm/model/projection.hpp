@@ -8,6 +8,7 @@
 #pragma once
 
 #include <culm/model/node_table.hpp>
+#include <culm/model/unknowns.hpp>
 
 namespace culm::model {
 
