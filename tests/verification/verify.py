@@ -1,0 +1,100 @@
+"""What the verification programs share: runs, comparisons that are printed and counted, plots.
+
+Each program offers verify(culm, report) and may offer plot(culm, path). By hand:
+
+    tests/verification/roll_up.py --culm build/release/src/culm [--plot roll_up.png]
+"""
+
+import argparse
+import math
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "kit"))
+from culm_runs import Culm  # noqa: E402
+
+
+class Report:
+    """Prints every comparison and remembers whether all of them held."""
+
+    def __init__(self):
+        self.failures = 0
+
+    def title(self, text):
+        print(f"\n{text}")
+
+    def check(self, what, found, wanted, tolerance):
+        """|found - wanted| <= tolerance, numbers or lists of numbers (largest difference)."""
+        pairs = list(zip(found, wanted)) if isinstance(found, (list, tuple)) else [(found, wanted)]
+        difference = max(abs(a - b) for a, b in pairs)
+        self.holds(f"{what}: {_text(found)}, reference {_text(wanted)}", difference, tolerance)
+
+    def relative(self, what, found, wanted, tolerance):
+        """|found - wanted| <= tolerance |wanted| in the Euclidean norm of numbers or lists."""
+        a = found if isinstance(found, (list, tuple)) else [found]
+        b = wanted if isinstance(wanted, (list, tuple)) else [wanted]
+        error = math.dist(a, b) / math.hypot(*b)
+        self.holds(f"{what}: {_text(found)}, reference {_text(wanted)}, relative", error, tolerance)
+
+    def holds(self, what, error, tolerance):
+        sound = error <= tolerance  # false for a NaN
+        self.failures += not sound
+        mark = "" if sound else "   <-- VIOLATED"
+        print(f"  {what} error {error:.2e} (allowed {tolerance:.1e}){mark}")
+
+    def note(self, text):
+        print(f"  {text}")
+
+
+def _text(value):
+    if isinstance(value, (list, tuple)):
+        return "(" + ", ".join(f"{v:.8g}" for v in value) + ")"
+    return f"{value:.8g}"
+
+
+def richardson(coarse, fine, order=2, ratio=2):
+    """The limit of quantities whose error falls with the given power of the mesh width."""
+    factor = ratio**order
+    if isinstance(coarse, (list, tuple)):
+        return [richardson(a, b, order, ratio) for a, b in zip(coarse, fine)]
+    return fine + (fine - coarse) / (factor - 1)
+
+
+def romberg(values, orders=(2, 4)):
+    """Repeated Richardson extrapolation of values on meshes that are halved each time."""
+    for order in orders[: len(values) - 1]:
+        values = [richardson(a, b, order) for a, b in zip(values, values[1:])]
+    return values[-1]
+
+
+def main(verify, plot=None):
+    parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True, help="the program")
+    if plot:
+        parser.add_argument("--plot", help="draw the figure of the page into this file instead")
+    arguments = parser.parse_args()
+    culm = Culm(arguments.culm)
+    if plot and arguments.plot:
+        plot(culm, arguments.plot)
+        return
+    report = Report()
+    verify(culm, report)
+    print(f"\n{report.failures} violations" if report.failures else "\nall held")
+    sys.exit(1 if report.failures else 0)
+
+
+def figure(columns=1, height=3.6):
+    """A figure of the pages and its axes; reference as markers, culm as lines."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+
+    style = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.4}
+    pyplot.rcParams.update(style)
+    return pyplot.subplots(1, columns, figsize=(4.4 * columns + 0.4, height), layout="constrained")
+
+
+def save(fig, path):
+    fig.savefig(path, dpi=110)
+    print(path)
