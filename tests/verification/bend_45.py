@@ -4,7 +4,7 @@
 import math
 
 from rod import Rod, stiffness
-from verify import figure, main, romberg, save
+from verify import figure, main, mesh_axis, romberg, save
 
 DECK = "beam/bend_45.xml"
 TIP = (100.0 * math.sin(math.pi / 4), 100.0 * (1.0 - math.cos(math.pi / 4)), 0.0)
@@ -114,7 +114,7 @@ def verify(culm, report):
 
 def plot(culm, path):
     fig, (load_axes, error_axes) = figure(2)
-    history = run(culm)
+    history = run(culm, settings=["Analyses/bending/Steps=40"])
     loads = [600.0 * level for level in history.levels]
     for name, sign, colour in [("x", -1, "C0"), ("y", -1, "C1"), ("z", 1, "C2")]:
         i = "xyz".index(name)
@@ -142,6 +142,7 @@ def plot(culm, path):
     error_axes.axhline(2e-3, color="k", ls=":", label="tolerance at 32 elements")
     error_axes.set(xlabel="elements", ylabel="relative error of the tip, P = 600 N [-]")
     error_axes.set_title("Convergence")
+    mesh_axis(error_axes, (2, 4, 8, 16, 32, 64))
     error_axes.legend(fontsize=7)
     save(fig, path)
 

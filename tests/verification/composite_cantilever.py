@@ -4,7 +4,7 @@
 import math
 
 from rod import Rod
-from verify import figure, main, romberg, save
+from verify import figure, main, mesh_axis, romberg, save
 
 DECK = "beam/composite_cantilever.xml"
 REFERENCE = (-9.02726627566e-2, -6.47488486259e-2, 1.22973648292371)  # kynema-fmb = BeamDyn
@@ -76,7 +76,9 @@ def plot(culm, path):
     axes.axhline(1e-3, color="k", ls=":", label="tolerance for 41 nodes")
     axes.set(xlabel="nodes", ylabel="relative error of the tip displacement [-]")
     axes.set_title("Composite cantilever, 150 N")
-    axes.legend(fontsize=7)
+    mesh_axis(axes, (3, 6, 11, 21, 41, 81))
+    axes.set_ylim(top=30.0)  # room for the legend
+    axes.legend(fontsize=7, loc="upper right")
     save(fig, path)
 
 

@@ -5,7 +5,7 @@ import math
 
 import bend_45
 import composite_cantilever
-from verify import figure, main, romberg, save
+from verify import figure, main, mesh_axis, romberg, save
 
 # kind, order, meshes, expected order in the displacements, how far the measured one may be off
 ELEMENTS = {
@@ -57,6 +57,7 @@ def plot(culm, path):
         axes.plot([], [], "ko", mfc="none", ms=4, label="slopes 2, 2, 4, 4")
         axes.set(xlabel="elements", ylabel="relative error of the tip displacement [-]")
         axes.set_title(problem)
+        mesh_axis(axes, (2, 4, 8, 16, 32, 64))
         axes.legend(fontsize=7)
     save(fig, path)
 

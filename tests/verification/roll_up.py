@@ -4,7 +4,7 @@
 import math
 import re
 
-from verify import figure, main, save
+from verify import figure, main, mesh_axis, save
 
 DECK = "beam/roll_up.xml"
 L, EI = 10.0, 86.9e3
@@ -163,7 +163,7 @@ def plot(culm, path):
         *zip(*INTERMEDIATE.values()), "s", mec="k", mfc="none", label="kynema-fmb, 5 moments"
     )
     path_axes.set(xlabel="tip x [m]", ylabel="tip |z| [m]", title="Path of the tip", aspect="equal")
-    path_axes.legend(fontsize=7, loc="upper right")
+    path_axes.legend(fontsize=7, loc="center")
     for label, order, counts in [("order 1", 1, (16, 32, 64, 128)), ("order 2", 2, (8, 16, 32))]:
         errors = [abs(rotation(run(culm, n, order=order)) / (2 * math.pi) - 1) for n in counts]
         error_axes.loglog(counts, errors, "-", label=f"culm, {label}")
@@ -173,6 +173,7 @@ def plot(culm, path):
     error_axes.loglog([8, 16], [4.75e-3, 3.0e-4], "ks", mfc="none", label="prototype, order 2")
     error_axes.set(xlabel="elements", ylabel="relative error of the tip rotation [-]")
     error_axes.set_title("Full circle")
+    mesh_axis(error_axes, (8, 16, 32, 64, 128))
     error_axes.legend(fontsize=7)
     save(fig, path)
 

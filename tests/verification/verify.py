@@ -95,6 +95,12 @@ def figure(columns=1, height=3.6):
     return pyplot.subplots(1, columns, figsize=(4.4 * columns + 0.4, height), layout="constrained")
 
 
+def mesh_axis(axes, counts):
+    """Plain numbers at the meshes of a logarithmic axis."""
+    axes.set_xticks(counts, [str(n) for n in counts])
+    axes.set_xticks([], minor=True)
+
+
 def save(fig, path):
     fig.savefig(path, dpi=110)
     print(path)
