@@ -103,12 +103,14 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeNewton(Teuchos::ParameterLi
   }
   if (p.singular) return Failed;
   const Ledger::Scope scope(p.ledger, p.solve_effect);
-  p.singular = p.linear.solve(f_.get(), newton_.get()) > 1e-8;
+  const double residual = p.linear.solve(f_.get(), newton_.get());
+  p.not_finite = !std::isfinite(residual);
+  p.singular = residual > 1e-8;
   if (p.singular) return Failed;
   newton_.get().scale(-1.0);
   p.largest_increment = newton_.get().normInf();
   has_newton_ = std::isfinite(p.largest_increment);
-  p.singular = !has_newton_;
+  p.not_finite = !has_newton_;
   return has_newton_ ? Ok : Failed;
 }
 

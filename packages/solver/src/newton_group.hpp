@@ -24,7 +24,8 @@ struct NewtonProblem {
   Ledger::Id solve_effect;
   model::State* state = nullptr;
   Stencil stencil;
-  bool singular = false;  ///< the last factorisation failed
+  bool singular = false;    ///< the last factorisation failed
+  bool not_finite = false;  ///< the last solution is infinite or not a number
   double largest_increment = 0.0;
 };
 

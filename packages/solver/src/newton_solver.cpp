@@ -79,6 +79,7 @@ struct NewtonSolver::Nox {
     if (status == NOX::StatusTest::Converged) return StepEnd::converged;
     if (last.evaluation().verdict == Verdict::not_finite) return StepEnd::not_finite;
     if (last.evaluation().verdict != Verdict::ok) return StepEnd::out_of_range;
+    if (problem->not_finite) return StepEnd::not_finite;
     if (problem->singular) return StepEnd::singular;
     const auto iterations = static_cast<int>(balance->history().size()) - 1;
     if (iterations >= problem->settings.max_iterations) return StepEnd::too_many_iterations;
@@ -129,7 +130,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
   Nox& nox = *nox_;
   nox.problem->state = &state;
   nox.problem->stencil = stencil;
-  nox.problem->singular = false;
+  nox.problem->singular = nox.problem->not_finite = false;
   nox.problem->largest_increment = 0.0;
   nox.balance->reset();
   nox.group->start();
@@ -140,7 +141,11 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
   // NOX throws when the residual fails at the start of a step; that is an outcome, not an error
   if (nox.group->computeF() == NOX::Abstract::Group::Ok) {
     nox.solver->reset(*nox.origin);
-    status = nox.solver->solve();
+    try {
+      status = nox.solver->solve();
+    } catch (const char*) {
+      // how NOX ends when there is no Newton direction; find_end knows the reason
+    }
   }
   StepOutcome outcome;
   outcome.end = nox.find_end(status, *nox.group);

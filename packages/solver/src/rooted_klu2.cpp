@@ -115,7 +115,12 @@ class RootedKlu2 final : public LinearSolver {
       seed = std::fmod(997.0 * seed + 0.1234567, 1.0);
       entry = seed - 0.5;
     }
-    klu->symbolicFactorization().numericFactorization();
+    try {
+      klu->symbolicFactorization().numericFactorization();
+    } catch (const std::exception&) {  // how Amesos2 reports a zero pivot
+      v.putScalar(0.0);
+      return 0.0;
+    }
     for (int i = 0; i < 4; ++i) {
       klu->solve(&v, &b);
       v.scale(1.0 / std::max(largest(values_of(v)), 1e-300));

@@ -6,16 +6,17 @@
 namespace culm::solver {
 namespace {
 
-// A chain whose far end is carried to a place by a constraint.
+// A chain whose far end is carried to a place by a constraint, or by several that say the same.
 class CarriedChain {
  public:
-  CarriedChain(model::Form form, double distance, const NewtonSettings& settings) {
+  CarriedChain(model::Form form, double distance, const NewtonSettings& settings,
+               int carriers = 1) {
     kit::add_chain(model, 6);
     model.add_constraint(kit::clamp(model, 0));
     model::Constraint carried = kit::pin(model, 6);
     carried.fix.reset();
     carried.rows[2].constant += distance;
-    model.add_constraint(carried);
+    for (int i = 0; i < carriers; ++i) model.add_constraint(carried);
     model.freeze(form);
     system = std::make_unique<assembly::System>(model, comm, ledger);
     linear = make_rooted_klu2(system->matrix(), comm);
@@ -98,6 +99,11 @@ TEST(NewtonSolver, FailureIsAValueWithAReason) {
   const StepOutcome outcome = chain.solve();
   EXPECT_EQ(outcome.end, StepEnd::too_many_iterations);
   EXPECT_EQ(outcome.iterations, 2);
+}
+
+TEST(NewtonSolver, RedundantConstraintsEndAStepWithoutAnException) {
+  CarriedChain chain(model::Form::multipliers, 0.1, NewtonSettings{}, 2);
+  EXPECT_EQ(chain.solve().end, StepEnd::singular);
 }
 
 TEST(NewtonSolver, NumbersThatAreNotFiniteStopInTheSameIteration) {

@@ -25,7 +25,8 @@ class LinearSolver {
   /// the maximum norm, the same on all ranks; above 1e-8 the factors are useless
   virtual double solve(const Vector& b, Vector& x) = 0;
   /// Approximates the direction in which A is weakest by inverse iteration on a slightly shifted
-  /// copy. @return |A v| / |A| for the returned v of unit maximum norm
+  /// copy. @return |A v| / |A| for the returned v of unit maximum norm; zero with v = 0 if not even
+  /// the copy has factors, as with numbers that are not finite or differ too much in size
   virtual double weakest_direction(Vector& v) = 0;
 };
 
