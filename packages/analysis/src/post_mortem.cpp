@@ -1,11 +1,14 @@
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace culm::analysis {
@@ -16,6 +19,12 @@ using assembly::Vector;
 
 constexpr std::size_t kept_attempts = 8;
 constexpr double singular_ratio = 2e-15;  // |A v| / |A| of a direction that nothing resists
+constexpr double notable = 0.05;          // share in a direction of unit maximum norm
+constexpr std::size_t shown = 6;          // entries of a direction in a message
+
+constexpr const char* beyond_range =
+    "Likely cause: a load, stiffness or length beyond the range of numbers.\n"
+    "Try: check units and load functions.";
 
 const char* direction_name(int i) {
   constexpr const char* names[] = {"x", "y", "z", "rotation x", "rotation y", "rotation z"};
@@ -38,6 +47,40 @@ void fill_irregular(Vector& v) {
   }
 }
 
+// The entries of at least `least` of all ranks by unknown, on rank 0.
+std::map<int, double> gather_entries(const Vector& v, double least, const parallel::Comm& comm) {
+  const auto values = values_of(v);
+  std::vector<long long> mine;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i]) < least) continue;
+    mine.push_back(v.getMap()->getGlobalElement(static_cast<int>(i)));
+    sizes.push_back(values[i]);
+  }
+  const auto unknowns = comm.gather(std::span<const long long>(mine));
+  const auto all = comm.gather(std::span<const double>(sizes));
+  std::map<int, double> entries;
+  for (std::size_t i = 0; i < all.size(); ++i) entries[static_cast<int>(unknowns[i])] = all[i];
+  return entries;
+}
+
+// Displacement and rotation of a node from increments of its coordinates,
+// theta = 1/2 sum_i d_i x delta d_i
+Vec6 rigid_motion(const model::NodeSlots& q, const model::NodeSlots& dq) {
+  Vec3 turn = Vec3::Zero();
+  for (int i = 1; i < 4; ++i) {
+    const Vec3 d = q.col(i);
+    turn += 0.5 * d.cross(Vec3(dq.col(i)));
+  }
+  Vec6 motion;
+  motion << dq.col(0), turn;
+  return motion;
+}
+
+std::string quoted_name(const model::Constraint& c) {
+  return fmt::format("{} '{}'", c.type, c.name);
+}
+
 }  // namespace
 
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil,
@@ -50,7 +93,7 @@ PostMortem::PostMortem(Context& context, model::State& state, const Stencil& ste
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil)
     : context_(context) {
   context_.system.evaluate(state, stencil, Want::residual_and_tangent);
-  if (!context_.linear.factor()) first_flexibility_ = std::numeric_limits<double>::infinity();
+  is_factored_ = context_.linear.factor();
   refuse_singular(state);
 }
 
@@ -60,9 +103,8 @@ void PostMortem::record(const StepReport& report) {
   if (!report.accepted) worst_ = largest_entries(context_.system.residual(), 5);
 }
 
-std::string PostMortem::name_of(int unknown) const {
-  const model::Model& model = context_.system.model();
-  const auto& blocks = model.unknowns().blocks();
+PostMortem::Place PostMortem::place_of(int unknown) const {
+  const auto& blocks = context_.system.model().unknowns().blocks();
   const auto after = std::upper_bound(blocks.begin(), blocks.end(), unknown,
                                       [](int u, const model::Block& b) { return u < b.first; });
   // blocks without unknowns share the first of their successor, so the last one before is right
@@ -70,9 +112,15 @@ std::string PostMortem::name_of(int unknown) const {
   const int place = unknown - block.first;
   int written = 0;
   while (block.shape.position[static_cast<std::size_t>(written)] != place) ++written;
+  return {block, written};
+}
+
+std::string PostMortem::name_of(int unknown) const {
+  const model::Model& model = context_.system.model();
+  const auto [block, written] = place_of(unknown);
   if (block.kind == model::BlockKind::multipliers) {
     const model::Constraint& c = model.equations()[static_cast<std::size_t>(block.owner)];
-    return fmt::format("{} '{}', equation {}", c.type, c.name, written + 1);
+    return fmt::format("{}, equation {}", quoted_name(c), written + 1);
   }
   const bool null_space = model.unknowns().form() == model::Form::null_space;
   return fmt::format("{}, {}", model.node_name(block.owner),
@@ -105,14 +153,9 @@ std::vector<PostMortem::Entry> PostMortem::largest_entries(const Vector& vector,
   }
   std::sort(sorted.begin(), sorted.end(),
             [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
-  const model::UnknownTable& table = context_.system.model().unknowns();
-  const int first_multiplier = table.num_multipliers() == 0
-                                   ? table.num_unknowns()
-                                   : table.block(table.constraint_block(0)).first;
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < std::min(count, sorted.size()); ++i) {
-    entries.push_back(
-        {name_of(sorted[i].second), sorted[i].first, sorted[i].second >= first_multiplier});
+    entries.push_back({name_of(sorted[i].second), sorted[i].first});
   }
   return entries;
 }
@@ -130,7 +173,8 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
   system.begin_step(state, stencil);
   system.evaluate(state, stencil, Want::residual_and_tangent);
   load.update(1.0 / level_step, system.residual(), -1.0 / level_step);
-  if (!context_.linear.factor()) return infinite;
+  is_factored_ = context_.linear.factor();
+  if (!is_factored_) return infinite;
   Vector response(load.getMap());
   if (context_.linear.solve(load, response) > 1e-8) return infinite;
   return load.dot(response);
@@ -142,32 +186,112 @@ void PostMortem::refuse_singular(const model::State& state) {
   Vector response(system.layout().row_map());
   fill_irregular(probe);
   const double size = system.matrix()->getFrobeniusNorm();
-  const bool sound = std::isfinite(first_flexibility_) &&
-                     context_.linear.solve(probe, response) < 1e-8 &&
-                     response.normInf() * size < 1e13 * probe.normInf();
-  if (sound) return;
+  if (!std::isfinite(size)) {
+    throw NonFiniteError(
+        fmt::format("The stiffness is not finite at {} {:.6g}, before the first step.\n{}",
+                    time_word(), state.time, beyond_range));
+  }
+  const bool solves = is_factored_ && context_.linear.solve(probe, response) < 1e-8;
+  if (solves && response.normInf() * size < 1e13 * probe.normInf()) return;
   Vector direction(system.layout().row_map());
-  if (context_.linear.weakest_direction(direction) > singular_ratio) return;
+  const double ratio = context_.linear.weakest_direction(direction);
+  // without useful factors no step can be solved, whatever the ratio
+  if (solves && ratio > singular_ratio) return;
   throw NumericalError(system.comm().broadcast(
       fmt::format("The equations are singular at {} {:.6g}, before the first step.\n{}",
-                  time_word(), state.time, singular_cause(direction))));
+                  time_word(), state.time, singular_cause(state, direction))));
 }
 
-std::string PostMortem::singular_cause(const Vector& direction) const {
-  const std::vector<Entry> entries = largest_entries(direction, 200);
-  const bool redundant = !entries.empty() && entries.front().is_multiplier;
-  std::string text =
-      redundant ? "Likely cause: redundant constraints. These equations depend on each other:\n"
-                : "Likely cause: a mechanism. Nothing resists this motion:\n";
-  std::set<std::string> shown;
-  for (const Entry& entry : entries) {
-    if (shown.size() >= 6 || std::abs(entry.value) < 0.05) break;
-    if (!shown.insert(entry.name).second) continue;
-    text += fmt::format("  {:<40} {:+.3f}\n", entry.name, entry.value);
+// In a sound model K u + H^T lambda = 0 and H u = 0 hold with H^T lambda = 0 as well, because K has
+// no negative direction: redundant equations and a mechanism may come together, each for itself.
+std::string PostMortem::singular_cause(const model::State& state, const Vector& direction) const {
+  const assembly::System& system = context_.system;
+  Vector multipliers(direction, Teuchos::Copy);
+  Vector motion(direction, Teuchos::Copy);
+  const auto lambda = values_of(multipliers);
+  const auto u = values_of(motion);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const auto unknown = direction.getMap()->getGlobalElement(static_cast<int>(i));
+    const Place place = place_of(static_cast<int>(unknown));
+    (place.block.kind == model::BlockKind::multipliers ? u : lambda)[i] = 0.0;
   }
-  text += redundant ? "Try: remove one of the constraints, or a direction that another one holds."
-                    : "Try: add a support or a joint that holds it, or give the section stiffness.";
+  Vector image(direction.getMap());
+  system.matrix()->apply(multipliers, image);
+  const double share = multipliers.normInf();
+  const bool redundant =
+      share >= notable && image.normInf() <= 1e-9 * share * system.matrix()->getFrobeniusNorm();
+  const bool moves = motion.normInf() >= notable;
+  if (!redundant && !moves) {
+    return "Likely cause: stiffnesses or lengths that differ too much in size for double "
+           "precision.\nTry: check units.";
+  }
+  std::string text;
+  if (redundant) text += redundant_constraints(multipliers);
+  if (redundant && moves) text += '\n';
+  if (moves) text += mechanism(state, motion);
   return text;
+}
+
+std::string PostMortem::redundant_constraints(const Vector& multipliers) const {
+  const model::Model& model = context_.system.model();
+  const auto shares = gather_entries(multipliers, notable, context_.system.comm());
+  std::map<int, std::vector<std::string>> equations;  // their numbers, by constraint
+  for (const auto& [unknown, share] : shares) {
+    const Place place = place_of(unknown);
+    equations[place.block.owner].push_back(std::to_string(place.written + 1));
+  }
+  std::string text = "Likely cause: redundant constraints. These equations depend on each other:\n";
+  std::set<int> held;
+  std::set<std::string> named;
+  for (const auto& [number, rows] : equations) {
+    // those of unit directors come after all others, and nobody can remove them
+    if (static_cast<std::size_t>(number) >= model.constraints().size()) continue;
+    const model::Constraint& c = model.equations()[static_cast<std::size_t>(number)];
+    text += fmt::format("  {}, {} {}\n", quoted_name(c), rows.size() > 1 ? "equations" : "equation",
+                        join(rows, ", "));
+    named.insert(quoted_name(c));
+    for (const int node : c.nodes) held.insert(model.nodes().master(node));
+  }
+  std::set<std::string> as_well;
+  for (const model::Constraint& c : model.constraints()) {
+    const bool meets = std::any_of(c.nodes.begin(), c.nodes.end(), [&](int node) {
+      return held.count(model.nodes().master(node)) > 0;
+    });
+    if (!meets || named.count(quoted_name(c)) > 0 || as_well.size() >= shown) continue;
+    if (!as_well.insert(quoted_name(c)).second) continue;
+    text += fmt::format("  {}, which acts on the same nodes\n", quoted_name(c));
+  }
+  return text + "Try: remove one of the constraints, or a direction that another one holds.";
+}
+
+std::string PostMortem::mechanism(const model::State& state, const Vector& motion) const {
+  const model::Model& model = context_.system.model();
+  const auto entries = gather_entries(motion, 1e-3 * notable, context_.system.comm());
+  std::map<int, model::NodeSlots> increments;  // by node; six motions or twelve coordinates
+  for (const auto& [unknown, value] : entries) {
+    const Place place = place_of(unknown);
+    auto& slots = increments.try_emplace(place.block.owner, model::NodeSlots::Zero()).first->second;
+    slots.data()[place.written] = value;
+  }
+  std::vector<Entry> shares;
+  for (const auto& [node, slots] : increments) {
+    const Vec6 moved = model.unknowns().form() == model::Form::null_space
+                           ? Vec6(Eigen::Map<const Vec6>(slots.data()))
+                           : rigid_motion(model::NodeTable::slots(state.next, node), slots);
+    for (int i = 0; i < 6; ++i) {
+      if (std::abs(moved[i]) < notable) continue;
+      shares.push_back({fmt::format("{}, {}", model.node_name(node), direction_name(i)), moved[i]});
+    }
+  }
+  // by what is shown, so that round-off does not choose the order
+  std::stable_sort(shares.begin(), shares.end(), [](const Entry& a, const Entry& b) {
+    return std::lround(1e3 * std::abs(a.value)) > std::lround(1e3 * std::abs(b.value));
+  });
+  std::string text = "Likely cause: a mechanism. Nothing resists this motion:\n";
+  for (std::size_t i = 0; i < std::min(shown, shares.size()); ++i) {
+    text += fmt::format("  {:<40} {:+.3f}\n", shares[i].name, shares[i].value);
+  }
+  return text + "Try: add a support or a joint that holds it, or give the section stiffness.";
 }
 
 std::string PostMortem::history() const {
@@ -206,8 +330,9 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
         state.time, 100.0 * remaining);
   }
   Vector direction(context_.system.layout().row_map());
-  if (context_.linear.weakest_direction(direction) < singular_ratio) {
-    return singular_cause(direction);
+  const double ratio = context_.linear.weakest_direction(direction);
+  if (ratio < singular_ratio || attempts_.back().outcome.end == solver::StepEnd::singular) {
+    return singular_cause(state, direction);
   }
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
     return "Likely cause: an element turns too far.\nTry: more elements.";
@@ -235,9 +360,7 @@ void PostMortem::give_up(model::State& state, const Stencil& stencil) {
   text += history() + worst_rows();
   const bool not_finite = last.outcome.end == solver::StepEnd::not_finite;
   if (not_finite) {
-    text +=
-        "Likely cause: a load, stiffness or length beyond the range of numbers.\n"
-        "Try: check units and load functions.";
+    text += beyond_range;
   } else {
     text += cause(state, stencil);
   }

@@ -13,7 +13,8 @@ namespace culm::analysis {
 class PostMortem {
  public:
   /// Measures the structure at the start of the analysis, where the system has begun a step.
-  /// Throws NumericalError if its tangent is singular there: a mechanism or redundant constraints.
+  /// Throws NumericalError if its tangent is singular there: a mechanism or redundant constraints;
+  /// NonFiniteError if it is beyond the range of numbers.
   /// @param first_level a level above that of state
   PostMortem(Context& context, model::State& state, const Stencil& stencil, double first_level);
   /// The same in dynamics, where no load can be too large for an equilibrium.
@@ -31,23 +32,31 @@ class PostMortem {
   struct Entry {
     std::string name;
     double value = 0.0;
-    bool is_multiplier = false;
+  };
+  /// Which unknown of its block a number means: of 12 coordinates, 6 motions or the multipliers.
+  struct Place {
+    const model::Block& block;
+    int written = 0;
   };
   std::vector<Entry> largest_entries(const assembly::Vector& vector, std::size_t count) const;
+  Place place_of(int unknown) const;
   std::string name_of(int unknown) const;
   /// d . p for the response K d = p to the load p of a unit level: grows without bound, then
   /// changes sign, where load control ends. Infinite when the tangent is singular.
   double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
-  /// Throws if the tangent that was factored last is singular to working precision.
+  /// Throws if the tangent at `state`, factored or not, is singular to working precision.
   void refuse_singular(const model::State& state);
   const char* time_word() const { return level_step_ == 0.0 ? "time" : "level"; }
   std::string history() const;
   std::string worst_rows() const;
   std::string cause(model::State& state, const Stencil& stencil);
   std::string dynamic_cause() const;
-  std::string singular_cause(const assembly::Vector& direction) const;
+  std::string singular_cause(const model::State& state, const assembly::Vector& direction) const;
+  std::string redundant_constraints(const assembly::Vector& multipliers) const;
+  std::string mechanism(const model::State& state, const assembly::Vector& motion) const;
 
   Context& context_;
+  bool is_factored_ = false;  ///< whether the tangent looked at last has factors
   double first_flexibility_ = 0.0;
   double level_step_ = 0.0;          ///< 0 in dynamics
   std::deque<StepReport> attempts_;  ///< the last ones
