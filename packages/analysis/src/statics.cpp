@@ -2,6 +2,8 @@
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/analysis/statics.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,10 +14,12 @@ void check_levels(const Options& options, InputIssues& issues) {
   const std::vector<double>& levels = options.numbers("Levels");
   const double final_level = options.number("Final Level");
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const bool rises = i == 0 ? levels[i] > 0.0 : levels[i] > levels[i - 1];
-    if (!rises || levels[i] > final_level) {
+    const double before = i == 0 ? 0.0 : levels[i - 1];
+    if (levels[i] <= before || levels[i] > final_level) {
       issues.add(options.where("Levels"),
-                 "levels must rise from above 0 to at most the final level");
+                 fmt::format("levels must rise from above 0 to at most the final level {:g}, got "
+                             "{:g} after {:g}",
+                             final_level, levels[i], before));
       return;
     }
   }

@@ -20,6 +20,12 @@ std::string count_text(int count) {
   return std::to_string(count) + (count == 1 ? " item" : " items");
 }
 
+/// A bound or item; whole numbers in all their digits, however large.
+std::string spelled(Kind kind, double value) {
+  const bool whole = kind == Kind::integer || kind == Kind::integers;
+  return whole ? std::to_string(static_cast<long long>(value)) : format_number(value);
+}
+
 int to_whole(double value, const std::string& name) {
   internal_check(value == std::floor(value) && std::abs(value) <= std::numeric_limits<int>::max(),
                  "the default of '" + name + "' is no integer");
@@ -118,12 +124,12 @@ Field& Field::set_default(Value value) {
 std::string Field::range_text() const {
   const std::string unit = unit_.empty() ? "" : " " + unit_;
   if (lower_ && upper_ && lower_->inclusive && upper_->inclusive) {
-    return "between " + format_number(lower_->value) + " and " + format_number(upper_->value) +
+    return "between " + spelled(kind_, lower_->value) + " and " + spelled(kind_, upper_->value) +
            unit;
   }
   std::vector<std::string> parts;
-  if (lower_) parts.push_back((lower_->inclusive ? ">= " : "> ") + format_number(lower_->value));
-  if (upper_) parts.push_back((upper_->inclusive ? "<= " : "< ") + format_number(upper_->value));
+  if (lower_) parts.push_back((lower_->inclusive ? ">= " : "> ") + spelled(kind_, lower_->value));
+  if (upper_) parts.push_back((upper_->inclusive ? "<= " : "< ") + spelled(kind_, upper_->value));
   return parts.empty() ? "" : join(parts, " and ") + unit;
 }
 
@@ -153,7 +159,7 @@ std::string Field::wrong_size(std::size_t count) const {
 std::string Field::wrong_item(double value) const {
   if (in_range(value)) return {};
   const std::string rule = std::isfinite(value) ? range_text() : "finite";
-  return "must be " + rule + ", got " + format_number(value);
+  return "must be " + rule + ", got " + spelled(kind_, value);
 }
 
 std::string Field::wrong_item(const std::string& value) const {

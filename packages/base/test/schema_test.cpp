@@ -40,6 +40,8 @@ TEST(Field, MessagesNameRuleUnitAndValue) {
   EXPECT_EQ(number("A", "kg", "").positive().mistakes(0.0), Messages{"must be > 0 kg, got 0"});
   EXPECT_EQ(number("A", "1", "").between(0, 0.5).mistakes(0.6),
             Messages{"must be between 0 and 0.5, got 0.6"});
+  EXPECT_EQ(integer("N", "").between(1, 100000).mistakes(2000000000),
+            Messages{"must be between 1 and 100000, got 2000000000"});
   EXPECT_EQ(number("A", "m", "").non_negative().less_than(2).mistakes(2.0),
             Messages{"must be >= 0 and < 2 m, got 2"});
   EXPECT_EQ(integer("A", "").at_least(1).mistakes(0), Messages{"must be >= 1, got 0"});

@@ -47,6 +47,16 @@ std::vector<int> add_nodes(const Chain& chain, const SectionTable& sections, mod
   return numbers;
 }
 
+// Lengths near the ends of the range of numbers lose their squares.
+void check_finite(const Axis& axis, const Options& curve) {
+  for (const Chain& chain : axis.chains) {
+    for (const AxisNode& node : chain) {
+      if (node.position.allFinite() && node.triad.allFinite() && std::isfinite(node.span)) continue;
+      throw InputError(curve.where(), "the length of the axis is beyond the range of numbers");
+    }
+  }
+}
+
 // Joins a chain to the one before it: `slave` is its first node.
 void link_corner(int master, int slave, model::Model& model, model::Structure& structure) {
   auto& corners = structure.sets["corners"];
@@ -106,6 +116,7 @@ void add_beam(const Options& options, StructureContext& context) {
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
   const Axis axis = axes().make(curve.text("Type"), curve, order_of(kind));
+  check_finite(axis, curve);
 
   model::Structure& structure = context.model.add_structure(options.name());
   double largest_turn = 0.0;

@@ -24,6 +24,12 @@ Field direction_field(std::string name, std::string doc) {
   return numbers(std::move(name), "1", std::move(doc)).size(3);
 }
 
+void require_direction(const Options& options, const std::string& name, InputIssues& issues) {
+  if (vector(options, name).norm() == 0.0) {
+    issues.add(options.where(name), "must not be zero");
+  }
+}
+
 // What all curves share: how the sections stand on them.
 Schema curve_schema(std::string type, std::string doc) {
   Schema schema(std::move(type), std::move(doc));
@@ -41,6 +47,7 @@ Schema curve_schema(std::string type, std::string doc) {
                .between(0.0, 1.0)
                .optional())
       .check([](const Options& curve, InputIssues& issues) {
+        if (curve.has("Up")) require_direction(curve, "Up", issues);
         if (curve.has("Pre-Twist") != curve.has("Pre-Twist Positions")) {
           issues.add(curve.where(), "'Pre-Twist' and 'Pre-Twist Positions' need each other");
         } else if (curve.has("Pre-Twist")) {
@@ -50,12 +57,11 @@ Schema curve_schema(std::string type, std::string doc) {
   return schema;
 }
 
-Field elements_field() { return integer("Elements", "Number of elements.").at_least(1); }
+// A number beyond this is a slip, and would fill the memory before anything else shows it.
+constexpr int most_elements = 100'000;
 
-void require_direction(const Options& options, const std::string& name, InputIssues& issues) {
-  if (vector(options, name).norm() == 0.0) {
-    issues.add(options.where(name), "must not be zero");
-  }
+Field elements_field() {
+  return integer("Elements", "Number of elements.").between(1, most_elements);
 }
 
 std::function<double(double)> read_twist(const Options& options) {
@@ -229,7 +235,7 @@ Schema polyline_schema() {
                .size_multiple_of(3)
                .min_size(6))
       .add(integers("Elements", "Number of elements of each segment; one number serves all.")
-               .at_least(1)
+               .between(1, most_elements)
                .min_size(1))
       .check(check_polyline);
   return schema;

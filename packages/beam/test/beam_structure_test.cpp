@@ -175,6 +175,14 @@ TEST_F(BeamStructure, RefusesHelicalElementsTurnedTooFar) {
                InputError);
 }
 
+TEST_F(BeamStructure, RefusesLengthsBeyondTheRangeOfNumbers) {
+  for (const double length : {1e300, 1e-300}) {
+    EXPECT_THROW(add(director_1, "Line",
+                     {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, length}}, {"Elements", 2}}),
+                 InputError);
+  }
+}
+
 TEST_F(BeamStructure, HelicalElementsHaveNoOrder) {
   const Schema schema = beam_schema();
   GivenValues given = helical;
