@@ -96,7 +96,10 @@ bool Hdf5File::recover(const std::filesystem::path& path) {
 
 void Hdf5File::flush() { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "write file"); }
 
-void Hdf5File::close() { check(file_.close(), "close file"); }
+void Hdf5File::close() {
+  flush();  // which reports what could not be written; closing does not
+  check(file_.close(), "close file");
+}
 
 Handle Hdf5File::make_group(hid_t where, const std::string& name) {
   return {check(H5Gcreate2(where, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),

@@ -4,6 +4,8 @@
 #include <exception>
 #include <memory>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 namespace culm::output {
 
@@ -14,6 +16,7 @@ struct DriverFile : H5FD_t {
   explicit DriverFile(const char* name) : H5FD_t{}, file(name) {}
   JournaledFile file;
   haddr_t eoa = 0;
+  std::string failure;  ///< why something could not be written; then nothing more is
 };
 
 DriverFile& self(H5FD_t* file) { return *static_cast<DriverFile*>(file); }
@@ -32,6 +35,20 @@ herr_t guarded(const char* function, Action action) {
   }
 }
 
+// HDF5 cannot close a file whose last bytes it cannot write, and crashes for that at the end of the
+// program. So a failure is kept for the next flush, and the content stays that of the last commit.
+template <class Action>
+herr_t write_once(H5FD_t* file, Action action) {
+  DriverFile& f = self(file);
+  if (!f.failure.empty()) return 0;
+  try {
+    action(f.file);
+  } catch (const std::exception& error) {
+    f.failure = error.what();
+  }
+  return 0;
+}
+
 H5FD_t* open_driver(const char* name, unsigned flags, hid_t, haddr_t) {
   if ((flags & H5F_ACC_CREAT) == 0 && (flags & H5F_ACC_TRUNC) == 0) return nullptr;
   std::unique_ptr<DriverFile> file;
@@ -41,7 +58,7 @@ H5FD_t* open_driver(const char* name, unsigned flags, hid_t, haddr_t) {
 
 herr_t close_driver(H5FD_t* file) {
   const std::unique_ptr<DriverFile> owned(&self(file));
-  return guarded("close_driver", [&] { owned->file.commit(); });
+  return write_once(file, [](JournaledFile& f) { f.commit(); });
 }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
@@ -73,17 +90,20 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void*
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, const void* buffer) {
-  return guarded("write", [&] {
-    self(file).file.write(address, std::span(static_cast<const std::byte*>(buffer), size));
+  return write_once(file, [&](JournaledFile& f) {
+    f.write(address, std::span(static_cast<const std::byte*>(buffer), size));
   });
 }
 
-herr_t flush(H5FD_t* file, hid_t, hbool_t) {
-  return guarded("flush", [&] { self(file).file.commit(); });
+herr_t flush(H5FD_t* file, hid_t, hbool_t closing) {
+  write_once(file, [](JournaledFile& f) { f.commit(); });
+  const std::string& failure = self(file).failure;
+  if (closing || failure.empty()) return 0;
+  return guarded("flush", [&] { throw std::runtime_error(failure); });
 }
 
 herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
-  return guarded("truncate", [&] { self(file).file.resize(self(file).eoa); });
+  return write_once(file, [&](JournaledFile& f) { f.resize(self(file).eoa); });
 }
 
 H5FD_class_t make_driver_class() {
