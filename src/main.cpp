@@ -11,6 +11,8 @@
 
 #include <cstdio>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -45,6 +47,22 @@ void declare_verbs(CLI::App& app, DeckArguments& arguments, std::string& name,
       [&] { action = [&](const Comm& comm) { culm::app::reference(comm, name); }; });
 }
 
+// CLI11 misses a subcommand even where an unknown one is given.
+int report(const CLI::ParseError& error, const CLI::App& app, const culm::parallel::Comm& comm) {
+  const std::vector<std::string> extras = app.remaining();
+  const bool unknown = app.get_subcommands().empty() && !extras.empty();
+  if (error.get_exit_code() != 0 && unknown) {
+    const std::string hint = culm::did_you_mean(extras.front(), {"run", "check", "reference"});
+    if (comm.is_root()) {
+      std::fprintf(stderr, "unknown command '%s'%s\nRun with --help for more information.\n",
+                   extras.front().c_str(), hint.c_str());
+    }
+    return 2;
+  }
+  const int code = comm.is_root() ? app.exit(error) : error.get_exit_code();
+  return code == 0 ? 0 : 2;
+}
+
 // The error is the same on all ranks, so one speaks for them.
 int report(const culm::Error& error, const culm::parallel::Comm& comm) {
   if (comm.is_root()) std::fprintf(stderr, "%s\n", error.what());
@@ -65,8 +83,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     action(comm);
   } catch (const CLI::ParseError& error) {
-    const int code = comm.is_root() ? app.exit(error) : error.get_exit_code();
-    return code == 0 ? 0 : 2;
+    return report(error, app, comm);
   } catch (const culm::Error& error) {
     return report(error, comm);
   } catch (const std::exception& error) {

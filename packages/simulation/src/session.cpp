@@ -3,18 +3,24 @@
 #include <Tpetra_Core.hpp>
 #include <malloc.h>
 
+#include <array>
+
 namespace culm::simulation {
 
 struct Session::Scope {
-  Scope(int& argc, char**& argv) : tpetra(&argc, &argv) {}
+  // Kokkos gets no arguments: it would add its own help to ours, and options nobody documents.
+  explicit Scope(char* program) : arguments{program, nullptr}, tpetra(&count, &values) {}
+  int count = 1;
+  std::array<char*, 2> arguments;
+  char** values = arguments.data();
   Tpetra::ScopeGuard tpetra;
 };
 
-Session::Session(int& argc, char**& argv) {
+Session::Session(int& /*argc*/, char**& argv) {
   // keeps the factors of a direct solver from going back to the system after every iteration
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
-  scope_ = std::make_unique<Scope>(argc, argv);
+  scope_ = std::make_unique<Scope>(argv[0]);
 }
 
 Session::~Session() = default;

@@ -58,7 +58,12 @@ void Simulation::run(const RunSettings& settings) {
       observer.finish_analysis(analysis->run(context, state, observer));
     }
   } catch (const Error& error) {
-    observer.end(state, error.what());
+    try {
+      observer.end(state, error.what());
+    } catch (const FileError& second) {
+      // the first error is the one to report; of two about files the second only repeats it
+      if (dynamic_cast<const FileError*>(&error) == nullptr) p.log.warning(second.what());
+    }
     throw;
   }
   observer.end(state, "done");
