@@ -1,0 +1,180 @@
+"""Sound decks and command lines: what culm prints and leaves behind."""
+
+import re
+
+from driver import BASE, Case
+
+
+def history(folder):
+    """The levels in history.csv."""
+    return [line.split(",")[0] for line in (folder / "history.csv").read_text().splitlines()[1:]]
+
+
+def has_levels(folder, *levels):
+    found = history(folder)
+    return "" if found == list(levels) else f"the history has the levels {found}"
+
+
+def is_version(_, stdout):
+    return "" if re.fullmatch(r"\d+\.\d+\.\d+\n", stdout) else f"'{stdout}' is no version"
+
+
+def is_help_of_culm(_, stdout):
+    # libraries must not add theirs
+    return "" if stdout.startswith("culm: ") else "there is something before the help"
+
+
+def old_results(folder):
+    """A folder from an earlier run that had more steps, and broke off."""
+    out = folder / "out"
+    out.mkdir()
+    for name in ("run.h5", "run.h5.journal", "run.xdmf", "run.pvd"):
+        (out / name).write_text("old")
+    (out / "history.csv").write_text("time,tip x [m]\n" + "0,0\n" * 1000)
+
+
+def tube_of_ten(_, stdout):
+    named = re.findall(r"^- `(.*?)`", stdout, re.MULTILINE)
+    wanted = ["Young Modulus", "Poisson Ratio", "Outer Radius", "Wall Thickness"]
+    lacking = [name for name in wanted if name not in named]
+    return f"not described: {lacking}" if lacking else ""
+
+
+TYPES = ["Stiffness Matrix", "Tube", "Beam", "Polyline", "Rigid Support", "Force", "Static"]
+
+CASES = [
+    Case("version", 0, args="--version", check=is_version, ranks=True),
+    Case(
+        "help",
+        0,
+        args="--help",
+        prints=["\n  run ", "\n  check ", "\n  reference "],
+        check=is_help_of_culm,
+        ranks=True,
+    ),
+    Case(
+        "help of a verb",
+        0,
+        args="run --help",
+        prints=["deck TEXT REQUIRED", "--set TEXT", "--quiet", "--output TEXT"],
+    ),
+    Case(
+        "check counts and leaves nothing",
+        0,
+        args="check deck.xml",
+        prints=[
+            "structure 'beam': 5 nodes, 4 elements\n",
+            "\nmass: 0 kg\n",
+            "\nunknowns: 24 (0 multipliers), matrix entries: ",
+            "\nBeam, director, order 1 ",
+            "\nForce, tip force ",
+            "\nthe deck is sound\n",
+        ],
+        ranks=True,
+    ),
+    Case(
+        "check in the other form",
+        0,
+        args="check deck.xml --set 'Solver/Form=Multipliers'",
+        # twelve of the clamp, six of each other node
+        prints=["\nunknowns: 96 (36 multipliers), matrix entries: "],
+    ),
+    Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),
+    Case(
+        "reference of a type",
+        0,
+        args="reference Tube",
+        prints=["## Tube\n", "In `Sections / <name>`.\n"],
+        check=tube_of_ten,
+        ranks=True,
+    ),
+    Case(
+        "reference of everything",
+        0,
+        args="reference",
+        check=lambda _, stdout: ", ".join(t for t in TYPES if f"# {t}\n" not in stdout),
+    ),
+    Case(
+        "run",
+        0,
+        prints=["bend: 1 of 1, step 2, ", "2 steps accepted, 0 cut back", "\n  out/run.h5\n"],
+        results="out",
+        last_level=1.0,
+        check=lambda folder, _: has_levels(folder / "out", "0", "0.5", "1"),
+        ranks=True,
+    ),
+    Case(
+        "run, quiet",
+        0,
+        args="run --quiet deck.xml --output out",
+        silent=True,
+        results="out",
+        last_level=1.0,
+        ranks=True,
+    ),
+    Case(
+        "--set replaces a value and may be repeated",
+        0,
+        args="run deck.xml --output out --set Analyses/bend/Steps=4 --set L=1+2",
+        results="out",
+        last_level=1.0,
+        check=lambda folder, _: has_levels(folder / "out", "0", "0.25", "0.5", "0.75", "1")
+        or ("" if "\n0,3,0,0\n" in (folder / "out/history.csv").read_text() else "L is not 3"),
+    ),
+    Case(
+        "results go to results/<name of the deck>",
+        0,
+        args="run 'a deck.xml'",
+        files={"a deck.xml": BASE},
+        results="results/a deck",
+        last_level=1.0,
+    ),
+    Case(
+        "a second run replaces the results of the first",
+        0,
+        times=2,
+        results="out",
+        last_level=1.0,
+        check=lambda folder, _: has_levels(folder / "out", "0", "0.5", "1"),
+    ),
+    Case(
+        "a run replaces the remains of another",
+        0,
+        prepare=old_results,
+        results="out",
+        last_level=1.0,
+        check=lambda folder, _: has_levels(folder / "out", "0", "0.5", "1"),
+    ),
+    Case(
+        "a run needs nothing to write but its output folder",
+        0,
+        args="run {folder}/deck.xml --output {folder}/far/away",
+        cwd="/proc",  # where not even root can write
+        results="far/away",
+        last_level=1.0,
+    ),
+    Case(
+        "a warning is no error",
+        0,
+        args="run deck.xml --output out --quiet",
+        change=[
+            (
+                '<Parameter name="Type" value="Line"/>\n'
+                '        <Parameter name="From" value="{0, 0, 0}"/>\n'
+                '        <Parameter name="To" value="{L, 0, 0}"/>\n'
+                '        <Parameter name="Up" value="{0, 0, 1}"/>',
+                '<Parameter name="Type" value="Arc"/>\n'
+                '        <Parameter name="Centre" value="{0, 0, 0}"/>\n'
+                '        <Parameter name="Axis" value="{0, 0, 1}"/>\n'
+                '        <Parameter name="From" value="{L, 0, 0}"/>\n'
+                '        <Parameter name="Angle" value="90" unit="deg"/>',
+            ),
+            ('<ParameterList name="beam">', '@@<ParameterList name="beam">'),
+        ],
+        silent=True,
+        says=["warning: deck.xml:{line}: Structures / beam: the ends of an element are turned by "],
+        results="out",
+        last_level=1.0,
+        ranks=True,
+    ),
+]

@@ -1,0 +1,960 @@
+"""Decks and command lines that are wrong, each with the exit code and the text it must give.
+
+One mistake gives one line that names file, line, deck path, rule and value found. errors= is all
+of stderr, so a follow-up message fails the case as well as a missing one.
+"""
+
+import re
+
+from driver import BASE, Case
+
+# --- pieces of base.xml and their replacements
+
+
+def list_of(name):
+    """The text of a list of base.xml, from its opening to its closing tag."""
+    start = BASE.index(f'<ParameterList name="{name}">')
+    depth = 0
+    for tag in re.finditer(r"<(/?)ParameterList", BASE[start:]):
+        depth += -1 if tag[1] else 1
+        if depth == 0:
+            return BASE[start : start + tag.end() + 1]
+    raise ValueError(name)
+
+
+def parameters(name, *pairs):
+    """A list of parameters, each a pair of name and value."""
+    lines = "".join(f'\n      <Parameter name="{key}" value="{value}"/>' for key, value in pairs)
+    return f'<ParameterList name="{name}">{lines}\n    </ParameterList>'
+
+
+def support(name, kind, *pairs, node="beam/first"):
+    return parameters(name, ("Type", kind), ("Node", node), *pairs)
+
+
+def link(name, master, node):
+    return parameters(name, ("Type", "Rigid Connection"), ("Master", master), ("Node", node))
+
+
+def stiffness(**entries):
+    """The section by 36 values, some off the diagonal: e12 for row 1, column 2."""
+    diagonal = [1e6, 1e6, 2e6, 3e3, 4e3, 2e3]
+    rows = [[diagonal[i] if i == j else 0 for j in range(6)] for i in range(6)]
+    for name, value in entries.items():
+        rows[int(name[1]) - 1][int(name[2]) - 1] = value
+    numbers = ", ".join(f"{value:g}" for row in rows for value in row)
+    return parameters("bar", ("Type", "Stiffness Matrix"), ("@@Stiffness", "{" + numbers + "}"))
+
+
+def two_nodes(first, second, positions="{0, 0, 0, L, 0, 0}"):
+    """The axis by its two end nodes with these triads."""
+    triads = "{" + first + ", " + second + "}"
+    return parameters("Curve", ("Type", "Nodes"), ("Positions", positions), ("@@Directors", triads))
+
+
+TRIAD = "0, 0, 1, 0, -1, 0, 1, 0, 0"  # sound, for an axis along x
+SECTION = '<Parameter name="Section" value="bar"/>'
+POSITIONS = '<Parameter name="Section Positions" value="{%s}"/>'
+SECTIONS = '<Parameter name="Sections" value="{bar, bar}"/>'
+STEPS = '<Parameter name="Steps" value="2"/>'
+CLAMP = list_of("clamp")
+FORCE = '"{0, 0, 100}"'
+WATCH = 'value="Position"/>\n        <Parameter name="Node" value="beam/last"/>'
+WATCH_ELEMENT = (
+    'value="Stress Resultants"/>\n        <Parameter name="%s" value="%s"/>'
+    '\n        <Parameter name="%s" value="%s"/>'
+)
+INCLUDE = '<xi:include href="loads.xml"/>'
+LOADS = list_of("Loads")
+
+# --- kinds of cases
+
+
+def wrong(name, old, new, *errors, **more):
+    """One place of the deck is changed; the messages name its line, or that of the mark @@."""
+    lines = ["deck.xml:{line}: " + error for error in errors]
+    return Case(name, 3, change=[(old, new)], errors=lines, **more)
+
+
+def missing(name, what, place, error):
+    """Something is left out; the message names the line of the list that lacks it."""
+    return Case(
+        name,
+        3,
+        change=[(what, ""), (place, "@@" + place)],
+        errors=["deck.xml:{line}: " + error],
+    )
+
+
+def whole(name, deck, error, **more):
+    """A deck that is nothing like the base."""
+    return Case(name, 3, deck=deck, errors=[error], **more)
+
+
+def included(name, error, old=LOADS, new=INCLUDE, **files):
+    """Part of the deck comes from other files."""
+    texts = {f"{file}.xml": text for file, text in files.items()}
+    return Case(name, 3, change=[(old, new)], files=texts, errors=[error])
+
+
+def unsolvable(name, code, *change, says=(), form=None, last_level=0.0, **more):
+    """A sound deck whose equations are not. What was found until then is in the results."""
+    change = list(change) + ([("Null Space", form)] if form else [])
+    return Case(
+        name,
+        code,
+        change=change,
+        says=list(says),
+        never=["internal error", "NOX", "terminate"],
+        results="out",
+        last_level=last_level,
+        silent=False,
+        **more,
+    )
+
+
+def usage(name, args, *says, **more):
+    return Case(name, 2, args=args, says=list(says), **more)
+
+
+def unwritable(name, reason, args="run deck.xml --output out", **more):
+    more.setdefault("says", [reason])
+    return Case(name, 6, args=args, **more)
+
+
+NAMES = [
+    wrong(
+        "misspelt parameter",
+        '"EI2" value',
+        '"EI_2" value',
+        "Sections / bar: unknown name 'EI_2' – did you mean 'EI2'?",
+        ranks=True,
+    ),
+    wrong(
+        "misspelt list at the top",
+        '<ParameterList name="Loads">',
+        '<ParameterList name="Load">',
+        "culm: unknown list 'Load' – did you mean 'Loads'?",
+    ),
+    wrong(
+        "misspelt required list at the top",
+        '<ParameterList name="Analyses">',
+        '<ParameterList name="Analysis">',
+        "culm: unknown list 'Analysis' – did you mean 'Analyses'?",
+    ),
+    wrong(
+        "misspelt list further down",
+        '<ParameterList name="Curve">',
+        '<ParameterList name="Curv">',
+        "Structures / beam: unknown list 'Curv' – did you mean 'Curve'?",
+    ),
+    wrong(
+        "misspelt root",
+        '<ParameterList name="culm">',
+        '<ParameterList name="clum">',
+        "clum: the root list must be named 'culm', got 'clum'",
+    ),
+    wrong(
+        "misspelt element",
+        '<Parameter name="Elements"',
+        '<Paramter name="Elements"',
+        "Structures / beam / Curve: unknown element <Paramter> – did you mean 'Parameter'?",
+    ),
+    wrong(
+        "misspelt attribute",
+        'name="Elements" value=',
+        'name="Elements" val=',
+        "Structures / beam / Curve / Elements: unknown attribute 'val' of <Parameter> (allowed: "
+        "name, value, type, unit, isDefault)",
+    ),
+    wrong(
+        "misspelt type of a constraint",
+        'value="Rigid Support"',
+        'value="Rigid Suport"',
+        "Constraints / clamp / Type: unknown type 'Rigid Suport' – did you mean 'Rigid Support'?",
+    ),
+    wrong(
+        "misspelt type of a section",
+        'value="Stiffness Values"',
+        'value="Stiffness"',
+        "Sections / bar / Type: unknown type 'Stiffness' (allowed: Box, ...",
+    ),
+    wrong(
+        "misspelt type of an analysis",
+        'value="Static"',
+        'value="Statics"',
+        "Analyses / bend / Type: unknown type 'Statics' – did you mean 'Static'?",
+    ),
+    wrong(
+        "misspelt type of a quantity",
+        'value="Position"',
+        'value="Positions"',
+        "Output / History / tip / Type: unknown type 'Positions' – did you mean 'Position'?",
+    ),
+    wrong(
+        "misspelt choice",
+        'value="Null Space"',
+        'value="Nullspace"',
+        "Solver / Form: unknown choice 'Nullspace' – did you mean 'Null Space'?",
+    ),
+    wrong(
+        "unknown section",
+        'value="bar"',
+        'value="bra"',
+        "Structures / beam / Section: unknown section 'bra' – did you mean 'bar'?",
+    ),
+    wrong(
+        "unknown node",
+        'value="beam/last"/>\n      <Parameter name="Force"',
+        'value="beam/lst"/>\n      <Parameter name="Force"',
+        "Loads / tip force / Node: unknown node 'beam/lst' – did you mean 'beam/last'?",
+        ranks=True,
+    ),
+    wrong(
+        "node number too large",
+        'value="beam/first"',
+        'value="beam/5"',
+        "Constraints / clamp / Node: no node 'beam/5': 'beam' has 5 nodes, numbered from 0",
+    ),
+    wrong(
+        "unknown structure",
+        WATCH,
+        WATCH_ELEMENT % ("@@Structure", "baem", "Element", 0),
+        "Output / History / tip / Structure: unknown structure 'baem' – did you mean 'beam'?",
+    ),
+    wrong(
+        "element number too large",
+        WATCH,
+        WATCH_ELEMENT % ("Structure", "beam", "@@Element", 4),
+        "Output / History / tip / Element: structure 'beam' has elements 0 to 3, got 4",
+    ),
+    wrong(
+        "unknown function",
+        f"{FORCE}/>",
+        f'{FORCE}/>\n      <Parameter name="@@Function" value="Rampe"/>',
+        "Loads / tip force / Function: unknown function 'Rampe' – did you mean 'Ramp'?",
+    ),
+    wrong(
+        "several nodes where one is watched",
+        WATCH,
+        WATCH.replace("beam/last", "@@beam"),
+        "Output / History / tip / Node: names 5 nodes, but one is watched",
+    ),
+    wrong(
+        "node set named as a structure",
+        '<ParameterList name="Loads">',
+        '<ParameterList name="Node Sets">\n    @@<ParameterList name="beam">\n'
+        '      <Parameter name="Nodes" value="{beam/0}"/>\n    </ParameterList>\n'
+        '  </ParameterList>\n  <ParameterList name="Loads">',
+        "Node Sets / beam: there is a structure of this name",
+    ),
+]
+
+EI1 = 'name="EI1" value="3e3"'
+
+
+def wrong_number(name, value, error):
+    return wrong(name, EI1, f'name="EI1" value="{value}"', "Sections / bar / EI1: " + error)
+
+
+def wrong_integer(name, value, error):
+    return wrong(
+        name,
+        'name="Elements" value="4"',
+        f'name="Elements" value="{value}"',
+        "Structures / beam / Curve / Elements: " + error,
+    )
+
+
+def wrong_force(name, value, error):
+    return wrong(name, FORCE, f'"{value}"', "Loads / tip force / Force: " + error)
+
+
+def wrong_steps(name, attributes, error):
+    return wrong(name, 'name="Steps" value="2"', attributes, "Analyses / bend" + error)
+
+
+VALUES = [
+    wrong_number("text for a number", "stiff", "must be a number, got 'stiff'"),
+    wrong_number(
+        "number with a unit in it",
+        "3e3 N",
+        "must be a number, got '3e3 N' – a unit stands in its own attribute: unit=\"N\"",
+    ),
+    wrong_number("decimal comma", "3,5", "must be one number, got '3,5'"),
+    wrong_number("nan", "nan", "must be a finite number, got 'nan'"),
+    wrong_number("inf", "-inf", "must be a finite number, got '-inf'"),
+    wrong_number("division by zero", "1/0", "must be finite, got '1/0'"),
+    wrong_number(
+        "beyond double precision",
+        "1e999",
+        "must be within the range of double precision, got '1e999'",
+    ),
+    wrong_number("negative stiffness", "-3e3", "must be >= 0 N m^2, got -3000"),
+    wrong_integer("4.7 for an integer", "4.7", "must be an integer, got '4.7'"),
+    wrong_integer(
+        "integer beyond its range",
+        "3e9",
+        "must be an integer of at most 2147483647 in size, got '3e9'",
+    ),
+    wrong_integer("too small", "0", "must be between 1 and 100000, got 0"),
+    wrong_integer("too large", "2e9", "must be between 1 and 100000, got 2000000000"),
+    wrong(
+        "yes for a flag",
+        '<ParameterList name="Output">',
+        '<ParameterList name="Output">\n    <Parameter name="@@Pictures" value="yes"/>',
+        "Output / Pictures: must be true or false, got 'yes'",
+    ),
+    wrong(
+        "wrong dimension of a unit",
+        'unit="kN"',
+        'unit="kN m"',
+        "Sections / bar / EA: must be in units of 'N', got 'kN m'",
+    ),
+    wrong(
+        "unknown unit",
+        'unit="kN"',
+        'unit="kn"',
+        "Sections / bar / EA: unknown unit 'kn' – did you mean 'kN'?",
+    ),
+    wrong(
+        "unit of a text",
+        'value="Null Space"',
+        'value="Null Space" unit="m"',
+        "Solver / Form: takes no unit, got 'm'",
+    ),
+    wrong_force(
+        "unknown variable",
+        "{0, 0, 10*F}",
+        "item 3: must be a number, got '10*F': unknown variable 'F' (allowed: L, e, pi)",
+    ),
+    wrong_force(
+        "unknown function in an expression",
+        "{0, 0, sine(1)}",
+        "item 3: must be a number, got 'sine(1)': unknown function 'sine' – did you mean 'sin'?",
+    ),
+    wrong_force("array too short", "{0, 100}", "must have 3 items, got 2"),
+    wrong_force("number for an array", "100", "must be an array such as {1, 2, 3}, got '100'"),
+    wrong_force("one wrong item", "{0, x1, 100}", "item 2: must be a number, got 'x1'"),
+    wrong(
+        "wrong variable",
+        'name="L" value="2"',
+        'name="L" value="two"',
+        "L: must be a number, got 'two'",
+    ),
+    wrong(
+        "variable with a taken name",
+        '<Variable name="L" value="2"/>',
+        '<Variable name="L" value="2"/>\n@@<Variable name="pi" value="3"/>',
+        "pi: the name 'pi' is taken",
+    ),
+    wrong_steps(
+        "wrong type=",
+        'name="Steps" type="double" value="2"',
+        ' / Steps: must have type="int", got type="double"',
+    ),
+    wrong_steps(
+        "unknown type=",
+        'name="Steps" type="integer" value="2"',
+        ' / Steps: unknown type="integer" (allowed: double, int, bool, string, Array(double), '
+        "Array(int), Array(string))",
+    ),
+    wrong_steps("no value", 'name="Steps"', " / Steps: has no attribute 'value'"),
+    wrong_steps("empty value", 'name="Steps" value=""', " / Steps: must be an integer, got ''"),
+    wrong_steps("no name", 'value="2"', ": <Parameter> has no attribute 'name'"),
+]
+
+STRUCTURE = [
+    missing(
+        "missing parameter",
+        '<Parameter name="EI2" value="4e3"/>',
+        '<ParameterList name="bar">',
+        "Sections / bar: missing 'EI2' (number >= 0 N m^2)",
+    ),
+    missing(
+        "missing sections",
+        list_of("Sections"),
+        SECTION,
+        "Structures / beam / Section: unknown section 'bar'",
+    ),
+    missing(
+        "missing structures",
+        list_of("Structures"),
+        '<ParameterList name="culm">',
+        "culm: missing list 'Structures'",
+    ),
+    missing(
+        "missing analyses",
+        list_of("Analyses"),
+        '<ParameterList name="culm">',
+        "culm: missing list 'Analyses'",
+    ),
+    missing(
+        "missing curve",
+        list_of("Curve"),
+        '<ParameterList name="beam">',
+        "Structures / beam: missing list 'Curve'",
+    ),
+    missing(
+        "missing type",
+        '<Parameter name="Type" value="Stiffness Values"/>',
+        '<ParameterList name="bar">',
+        "Sections / bar: missing 'Type' (allowed: Box, ...",
+    ),
+    wrong(
+        "duplicate parameter",
+        '<Parameter name="EI2" value="4e3"/>',
+        '<Parameter name="EI2" value="4e3"/>\n@@<Parameter name="EI2" value="5e3"/>',
+        "Sections / bar / EI2: duplicate name, first used in line 12",
+    ),
+    wrong(
+        "duplicate list",
+        CLAMP,
+        CLAMP + "\n@@" + CLAMP,
+        "Constraints / clamp: duplicate name, first used in line 29",
+    ),
+    wrong(
+        "duplicate variable",
+        '<Variable name="L" value="2"/>',
+        '<Variable name="L" value="2"/>\n@@<Variable name="L" value="3"/>',
+        "L: duplicate name, first used in line 3",
+    ),
+    wrong(
+        "parameter where a list belongs",
+        LOADS,
+        '<Parameter name="Loads" value="1"/>',
+        "Loads: must be a <ParameterList>, found a <Parameter>",
+    ),
+    wrong(
+        "list where a parameter belongs",
+        '<Parameter name="Elements" value="4"/>',
+        '<ParameterList name="Elements"/>',
+        "Structures / beam / Curve / Elements: must be a <Parameter>, found a <ParameterList>",
+    ),
+    wrong(
+        "text between elements",
+        '<ParameterList name="Loads">',
+        '<ParameterList name="Loads">100 N',
+        "Loads: text between elements is not allowed: '100 N'",
+    ),
+    Case(
+        "four mistakes at once, in the order of the file",
+        3,
+        change=[
+            ('unit="kN"', 'unit="kn"'),
+            (f'"Force" value={FORCE}', f'"Forc" value={FORCE}'),
+            (STEPS, '<Parameter name="Steps" value="0"/>'),
+            ('"Position"', '"Positon"'),
+        ],
+        errors=[
+            "deck.xml:7: Sections / bar / EA: unknown unit 'kn' – did you mean 'kN'?",
+            "deck.xml:38: Loads / tip force: unknown name 'Forc' – did you mean 'Force'?",
+            "deck.xml:47: Analyses / bend / Steps: must be >= 1, got 0",
+            "deck.xml:53: Output / History / tip / Type: unknown type 'Positon' – did you mean "
+            "'Position'?",
+        ],
+        ranks=True,
+    ),
+    Case(
+        "a mistake of --set",
+        3,
+        args="run deck.xml --output out --set Analyses/bend/Stepps=3",
+        errors=["command line: Analyses / bend: unknown name 'Stepps' – did you mean 'Steps'?"],
+    ),
+]
+
+CURVE = list_of("Curve")
+BAR = list_of("bar")
+BEAM = "Structures / beam"
+
+MECHANICS = [
+    wrong(
+        "6x6 stiffness not positive definite",
+        BAR,
+        stiffness(e45=5e3, e54=5e3),
+        "Sections / bar / Stiffness: the stiffness is not positive semidefinite: its smallest "
+        "eigenvalue, with the diagonal scaled to one, is -0.443",
+    ),
+    wrong(
+        "6x6 stiffness not symmetric",
+        BAR,
+        stiffness(e45=1e3, e54=1.1e3),
+        "Sections / bar / Stiffness: the stiffness is not symmetric: entry (5, 4) is 1100 but "
+        "(4, 5) is 1000",
+    ),
+    wrong(
+        "6x6 stiffness of 25 values",
+        BAR,
+        parameters(
+            "bar", ("Type", "Stiffness Matrix"), ("@@Stiffness", "{" + "1, " * 24 + "1}")
+        ),
+        "Sections / bar / Stiffness: must have 36 values (rows) or 21 values (upper triangle by "
+        "rows), got 25",
+    ),
+    wrong(
+        "triad not orthonormal",
+        CURVE,
+        two_nodes(TRIAD, "0, 0, 1.01, 0, -1, 0, 1, 0, 0"),
+        BEAM + " / Curve / Directors: node 1: directors are not orthonormal, |D^T D - 1| is 0.02 "
+        "and must be <= 1e-06",
+    ),
+    wrong(
+        "left-handed triad",
+        CURVE,
+        two_nodes(TRIAD, "0, 0, 1, 0, 1, 0, 1, 0, 0"),
+        BEAM + " / Curve / Directors: node 1: directors are left-handed",
+    ),
+    wrong(
+        "triads against the axis",
+        CURVE,
+        two_nodes(TRIAD, TRIAD, "{L, 0, 0, 0, 0, 0}"),
+        BEAM + " / Curve / Directors: between nodes 0 and 1 d3 points against the axis",
+    ),
+    wrong(
+        "Up parallel to the axis",
+        '"{0, 0, 1}"',
+        '"{-1, 0, 0}"',
+        BEAM + " / Curve / Up: must not be parallel to the axis, but is at 0 of its length",
+    ),
+    wrong(
+        "Up of zero length", '"{0, 0, 1}"', '"{0, 0, 0}"', BEAM + " / Curve / Up: must not be zero"
+    ),
+    wrong(
+        "curve of zero length",
+        '"{L, 0, 0}"',
+        '"{0, 0, 0}"',
+        BEAM + " / Curve / To: must differ from 'From'",
+    ),
+    Case(
+        "curve beyond the range of numbers",
+        3,
+        change=[
+            ('name="L" value="2"', 'name="L" value="1e300"'),
+            ('<ParameterList name="Curve">', '@@<ParameterList name="Curve">'),
+        ],
+        errors=[
+            "deck.xml:{line}: Structures / beam / Curve: the length of the axis is beyond the "
+            "range of numbers"
+        ],
+    ),
+    Case(
+        "Section and Sections",
+        3,
+        change=[
+            (SECTION, "\n".join([SECTION, SECTIONS, POSITIONS % "0, 1"])),
+            ('<ParameterList name="beam">', '@@<ParameterList name="beam">'),
+        ],
+        errors=["deck.xml:{line}: Structures / beam: give one of 'Section' and 'Sections'"],
+    ),
+    missing(
+        "neither Section nor Sections",
+        SECTION,
+        '<ParameterList name="beam">',
+        BEAM + ": give one of 'Section' and 'Sections'",
+    ),
+    Case(
+        "Sections without positions",
+        3,
+        change=[
+            (SECTION, SECTIONS),
+            ('<ParameterList name="beam">', '@@<ParameterList name="beam">'),
+        ],
+        errors=[
+            "deck.xml:{line}: Structures / beam: 'Sections' and 'Section Positions' need each other"
+        ],
+    ),
+    wrong(
+        "section positions descend",
+        SECTION,
+        SECTIONS + "\n@@" + POSITIONS % "1, 0",
+        BEAM + " / Section Positions: must not descend",
+    ),
+    wrong(
+        "load levels do not rise",
+        STEPS,
+        '<Parameter name="Levels" value="{0.5, 0.25}"/>',
+        "Analyses / bend / Levels: levels must rise from above 0 to at most the final level 1, "
+        "got 0.25 after 0.5",
+    ),
+    wrong(
+        "load level beyond the last",
+        STEPS,
+        '<Parameter name="Levels" value="{0.5, 1.25}"/>',
+        "Analyses / bend / Levels: levels must rise from above 0 to at most the final level 1, "
+        "got 1.25 after 0.5",
+    ),
+    wrong(
+        "direction of zero length",
+        CLAMP,
+        support("clamp", "Simple Support", ("@@Direction", "{0, 0, 0}")),
+        "Constraints / clamp / Direction: must not be zero",
+    ),
+    wrong(
+        "node that follows itself",
+        CLAMP,
+        link("clamp", "beam/0", "@@beam/first"),
+        "Constraints / clamp / Node: node 'beam/0' cannot follow itself",
+    ),
+]
+
+DOCTYPE = "a DOCTYPE is not allowed in a deck"
+
+FILES = [
+    Case("empty file", 6, deck="", errors=["deck.xml: the file is empty"]),
+    Case("blank file", 6, deck=" \n \n", errors=["deck.xml: the file is empty"]),
+    Case("missing deck", 6, deck=None, errors=["deck.xml: there is no such file"], ranks=True),
+    Case(
+        "folder for a deck",
+        6,
+        args="run . --output out",
+        errors=[".: is a directory"],
+    ),
+    whole(
+        "binary file",
+        bytes(range(256)) * 8,
+        "deck.xml:1: not a text file: there is a zero byte in it",
+    ),
+    whole(
+        "binary file without zero bytes",
+        bytes(range(128, 256)) * 8,
+        "deck.xml:1: not well-formed XML: Start tag expected, '<' not found",
+    ),
+    whole(
+        "truncated file",
+        BASE[: BASE.index(SECTION)],
+        "deck.xml:18: not well-formed XML: Premature end of data in tag ParameterList line 16",
+    ),
+    whole(
+        "no XML",
+        "Title = A beam\n",
+        "deck.xml:1: not well-formed XML: Start tag expected, '<' not found",
+    ),
+    whole(
+        "nesting of 20 000 lists",
+        '<ParameterList name="culm">\n' * 20000 + "</ParameterList>\n" * 20000,
+        "deck.xml:65: lists are nested deeper than 64 levels",
+    ),
+    whole(
+        "DOCTYPE with an external entity",
+        '<?xml version="1.0"?>\n<!DOCTYPE culm [<!ENTITY f SYSTEM "/etc/passwd">]>\n'
+        '<ParameterList name="culm">&f;</ParameterList>\n',
+        "deck.xml:2: " + DOCTYPE,
+    ),
+    whole(
+        "entities that multiply",
+        '<!DOCTYPE culm [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;">]>\n'
+        '<ParameterList name="&b;"/>\n',
+        "deck.xml:1: " + DOCTYPE,
+    ),
+    whole(
+        "unknown entity",
+        '<ParameterList name="culm">\n  <Parameter name="Title" value="&nbsp;"/>\n'
+        "</ParameterList>\n",
+        "deck.xml:2: not well-formed XML: Entity 'nbsp' not defined",
+    ),
+    included(
+        "missing include",
+        "deck.xml:34: cannot read the included file 'loads.xml'",
+    ),
+    included(
+        "missing include that holds something required",
+        "deck.xml:44: cannot read the included file 'analyses.xml'",
+        old=list_of("Analyses"),
+        new='<xi:include href="analyses.xml"/>',
+    ),
+    included(
+        "cyclic include",
+        "again.xml:2: Loads: 'loads.xml' includes itself: deck.xml → loads.xml → again.xml → "
+        "loads.xml",
+        loads='<ParameterList name="Loads">\n  <xi:include href="again.xml"/>\n</ParameterList>',
+        again='<ParameterList name="Loads">\n  <xi:include href="loads.xml"/>\n</ParameterList>',
+    ),
+    included(
+        "mistake in an included file",
+        "loads.xml:4: Loads / tip force / Node: unknown node 'beam/lst' – did you mean "
+        "'beam/last'?",
+        loads=LOADS.replace("beam/last", "beam/lst"),
+    ),
+    included(
+        "truncated include",
+        "loads.xml:2: not well-formed XML: Premature end of data in tag ParameterList line 2",
+        loads='<ParameterList name="Loads">\n  <ParameterList name="tip force">',
+    ),
+]
+
+MECHANISM = "Likely cause: a mechanism. Nothing resists this motion:\n"
+REDUNDANT = "Likely cause: redundant constraints. These equations depend on each other:\n"
+SINGULAR = "The equations are singular at level 0, before the first step.\n"
+AXIS_X = ("Axis", "{1, 0, 0}")
+OFFSET = ("Offset", "{0, 0, 0.1}")
+TWO_MASTERS = CLAMP + link("first", "beam/1", "beam/3") + link("second", "beam/2", "beam/3")
+LOOP = (
+    CLAMP
+    + link("first", "beam/1", "beam/2")
+    + link("second", "beam/2", "beam/3")
+    + link("third", "beam/3", "beam/1")
+)
+# holds y and z of the last node
+ROLLERS = support(
+    "roller y", "Simple Support", ("Direction", "{0, 1, 0}"), node="beam/last"
+) + support("roller z", "Simple Support", ("Direction", "{0, 0, 1}"), node="beam/last")
+TWO_PINS = (
+    support("one", "Spherical Support", OFFSET)
+    + support("two", "Spherical Support", OFFSET)
+    + support("turn", "Rotation", AXIS_X)
+    + ROLLERS
+)
+HINGE_Y = support("hinge", "Revolute Support", ("Axis", "{0, 1, 0}"), OFFSET) + support(
+    "roller", "Simple Support", ("Direction", "{0, 0, 1}"), node="beam/last"
+)
+
+
+def redundant(name, constraints, *says, **more):
+    """Too many constraints, in the form that keeps all their equations."""
+    return unsolvable(
+        name,
+        4,
+        (CLAMP, constraints),
+        says=[SINGULAR + REDUNDANT, "\nTry: remove one of the constraints", *says],
+        form="Multipliers",
+        **more,
+    )
+
+
+def left_out(name, constraints, note):
+    """The null-space form leaves out equations that follow from others, and says so."""
+    return Case(
+        name,
+        0,
+        change=[(CLAMP, constraints)],
+        prints=[f"note: {note} equations follow from other constraints and are left out;"],
+        results="out",
+        last_level=1.0,
+    )
+
+
+EQUATIONS = [
+    redundant(
+        "Rotation and Revolute Support",
+        HINGE_Y + support("turn", "Rotation", AXIS_X),
+        "\n  Revolute Support 'hinge', equation",
+        "\n  Rotation 'turn', equation 1\n",
+        ranks=True,
+    ),
+    left_out(
+        "Rotation and Revolute Support, null space",
+        HINGE_Y + support("turn", "Rotation", AXIS_X),
+        "Rotation 'turn': 1 of 1",
+    ),
+    unsolvable(
+        "driven Rotation and Revolute Support, null space",
+        4,
+        (CLAMP, HINGE_Y + support("turn", "Rotation", AXIS_X, ("Angle", 0.1))),
+        says=[
+            SINGULAR + REDUNDANT,
+            "\n  Revolute Support 'hinge', equation",
+            "\n  Rotation 'turn', equation 1\n",
+        ],
+        ranks=True,
+    ),
+    redundant(
+        "Spherical Support twice",
+        TWO_PINS,
+        "\n  Spherical Support 'one', equation",
+        "\n  Spherical Support 'two', equation",
+    ),
+    left_out("Spherical Support twice, null space", TWO_PINS, "Spherical Support 'two': 3 of 3"),
+    redundant(
+        "Rigid Support and Spherical Support",
+        CLAMP + support("pin", "Spherical Support", OFFSET),
+        "\n  Rigid Support 'clamp', equations 1, 2, 3, 10, 11, 12\n",
+        "\n  Spherical Support 'pin', equations 1, 2, 3\n",
+    ),
+    left_out(
+        "Rigid Support and Spherical Support, null space",
+        CLAMP + support("pin", "Spherical Support", OFFSET),
+        "Spherical Support 'pin': 3 of 3",
+    ),
+    unsolvable(
+        "Rigid Support and a driven support, null space",
+        4,
+        (CLAMP, CLAMP + support("turn", "Rotation", AXIS_X, ("Angle", 0.1))),
+        # the rigid support has no equations there
+        says=[
+            SINGULAR + REDUNDANT + "  Rotation 'turn', equation 1\n"
+            "  Rigid Support 'clamp', which acts on the same nodes\n"
+        ],
+    ),
+    redundant(
+        "loop of rigid links",
+        LOOP,
+        "\n  Rigid Connection 'first', equation",
+        "\n  Rigid Connection 'second', equation",
+        "\n  Rigid Connection 'third', equation",
+    ),
+    left_out("loop of rigid links, null space", LOOP, "Rigid Connection 'third': 12 of 12"),
+    redundant(
+        "node with two masters",
+        TWO_MASTERS,
+        "\n  Rigid Connection 'first', equation",
+        "\n  Rigid Connection 'second', equation",
+    ),
+    left_out(
+        "node with two masters, null space", TWO_MASTERS, "Rigid Connection 'second': 6 of 12"
+    ),
+]
+for form in ("Null Space", "Multipliers"):
+    null_space = form == "Null Space"
+    of_form = {} if null_space else {"form": form}
+    EQUATIONS += [
+        unsolvable(
+            f"no support, {form}",
+            4,
+            (CLAMP, ""),
+            says=[SINGULAR + MECHANISM, "\n  beam/0, z "],
+            ranks=null_space,
+            **of_form,
+        ),
+        unsolvable(
+            f"nothing holds the rotation about the axis, {form}",
+            4,
+            (CLAMP, support("pin", "Spherical Support") + ROLLERS),
+            says=[SINGULAR + MECHANISM]
+            + [f"\n  beam/{node}, rotation x " for node in range(5)]
+            + ["\nTry: add a support"],
+            **of_form,
+        ),
+        unsolvable(
+            f"load of 1e308, {form}",
+            5,
+            (FORCE, '"{0, 0, 1e308}"'),
+            says=[
+                "No equilibrium beyond level 0 of 1: a force became infinite or not a number.\n",
+                "\n  beam/4, z ",
+                "beyond the range of numbers",
+            ],
+            ranks=null_space,
+            **of_form,
+        ),
+        unsolvable(
+            f"stiffness of 1e308, {form}",
+            5,
+            (EI1, 'name="EI1" value="1e308"'),
+            says=[
+                "The stiffness is not finite at level 0, before the first step.\n",
+                "beyond the range of numbers",
+            ],
+            ranks=null_space,
+            **of_form,
+        ),
+    ]
+
+ARCH = parameters(
+    "Curve",
+    ("Type", "Arc Through Points"),
+    ("From", "{0, 0, 0}"),
+    ("Through", "{1, 0, 0.3}"),
+    ("To", "{L, 0, 0}"),
+    ("Elements", 8),
+)
+
+
+def ends_at_limit_point(folder, _):
+    """The history ends with the last level that was reached, shortly below the limit."""
+    last = (folder / "out/history.csv").read_text().splitlines()[-1]
+    level = float(last.split(",")[0])
+    return "" if 0.66 < level < 0.67 else f"the last level is {level}"
+
+
+EQUATIONS.append(
+    unsolvable(
+        "limit point of an arch under a load at its crown",
+        4,
+        (CURVE, ARCH),
+        (CLAMP, CLAMP + support("other end", "Rigid Support", node="beam/last")),
+        (f'beam/last"/>\n      <Parameter name="Force" value={FORCE}', 
+         'beam/middle"/>\n      <Parameter name="Force" value="{0, 0, -2e4}"'),
+        (EI1, 'name="EI1" value="1e3"'),
+        ('name="EI2" value="4e3"', 'name="EI2" value="1e3"'),
+        (STEPS, STEPS.replace('"2"', '"5"')),
+        says=[
+            "No equilibrium beyond level 0.66",
+            "\nLast steps:\n  level 0.66",
+            "\nLargest residuals of the last attempt:\n  beam/",
+            "\nLikely cause: a limit point. At level 0.66",
+            "\nTry: end below this level, or prescribe a displacement instead of the load.\n",
+        ],
+        last_level=None,
+        check=ends_at_limit_point,
+        ranks=True,
+    )
+)
+
+COMMANDS = [
+    usage("no verb", "", "A subcommand is required"),
+    usage("unknown verb", "chekc deck.xml", "unknown command 'chekc' – did you mean 'check'?"),
+    usage("no deck named", "run", "deck is required"),
+    usage("unknown option", "run deck.xml --frob", "--frob"),
+    usage("two decks", "run deck.xml deck2.xml", "deck2.xml"),
+    usage("--output without a folder", "run deck.xml --output", "--output"),
+    usage(
+        "--set without a value",
+        "run deck.xml --output out --set Title",
+        "--set needs 'List/Parameter=value', got 'Title'",
+        ranks=True,
+    ),
+    usage(
+        "--set with an empty name",
+        "run deck.xml --output out --set Analyses//Steps=3",
+        "--set has an empty name in 'Analyses//Steps=3'",
+    ),
+    usage(
+        "reference of an unknown name",
+        "reference Tub",
+        "the input reference has no 'Tub' – did you mean 'Tube'?",
+    ),
+    usage("unknown verb on several processes", "chekc", "unknown command 'chekc'", ranks=True),
+]
+
+
+def keeps_what_it_had(folder, _):
+    """The steps until the disk was full are in the index, and their pictures are there."""
+    steps = re.findall(r'file="(.*?)"', (folder / "out/run.pvd").read_text())
+    lost = [name for name in steps if not (folder / "out" / name).is_file()]
+    if lost or len(steps) < 10:
+        return f"{len(steps)} steps, without picture: {lost}"
+    return "" if (folder / "out/run.h5").stat().st_size > 100_000 else "run.h5 is too small"
+
+
+WRITING = [
+    unwritable(
+        "output folder below a file",
+        "deck.xml/out: Not a directory",
+        "run deck.xml --output deck.xml/out",
+        ranks=True,
+    ),
+    unwritable("output folder is a file", "deck.xml: ", "run deck.xml --output deck.xml"),
+    unwritable(
+        "folder in the place of run.h5",
+        "out/run.h5: cannot replace: Is a directory",
+        prepare=lambda folder: (folder / "out/run.h5").mkdir(parents=True),
+        ranks=True,
+    ),
+    unwritable(
+        "no space at the start",
+        "out/run.h5.part: cannot write file: write: File too large\n",
+        file_size=4096,
+        leaves=["out"],
+    ),
+    unwritable(
+        "no space in the middle",
+        "out/run.h5: cannot write file: write: File too large\n",
+        "run deck.xml --output out --set Analyses/bend/Steps=100 --quiet",
+        file_size=200_000,
+        leaves=["out"],
+        never=["warning", "internal error"],
+        check=keeps_what_it_had,
+    ),
+]
+
+CASES = NAMES + VALUES + STRUCTURE + MECHANICS + FILES + EQUATIONS + COMMANDS + WRITING
