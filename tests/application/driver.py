@@ -231,9 +231,8 @@ def run_case(case, options):
 
 
 def load_cases(path):
-    sys.path.insert(0, str(HERE))  # tables import Case
-    # the table must see this very module
-    sys.modules["driver"] = sys.modules[__name__]
+    sys.dont_write_bytecode = True
+    sys.modules["driver"] = sys.modules[__name__]  # where tables find Case
     spec = importlib.util.spec_from_file_location("table", path)
     table = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(table)

@@ -872,8 +872,10 @@ EQUATIONS.append(
         4,
         (CURVE, ARCH),
         (CLAMP, CLAMP + support("other end", "Rigid Support", node="beam/last")),
-        (f'beam/last"/>\n      <Parameter name="Force" value={FORCE}', 
-         'beam/middle"/>\n      <Parameter name="Force" value="{0, 0, -2e4}"'),
+        (
+            f'beam/last"/>\n      <Parameter name="Force" value={FORCE}',
+            'beam/middle"/>\n      <Parameter name="Force" value="{0, 0, -2e4}"',
+        ),
         (EI1, 'name="EI1" value="1e3"'),
         ('name="EI2" value="4e3"', 'name="EI2" value="1e3"'),
         (STEPS, STEPS.replace('"2"', '"5"')),
