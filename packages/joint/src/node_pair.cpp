@@ -95,8 +95,8 @@ void register_axis_joint(model::BuilderRegistry& registry, const std::string& ty
   });
 }
 
-void add_joint(const std::string& type, const Options& options, model::BuildContext& context,
-               const std::function<model::Constraint(const NodePair& pair)>& make) {
+std::optional<std::array<int, 2>> select_two_nodes(const Options& options,
+                                                   model::BuildContext& context) {
   const auto node_of = [&](const std::string& parameter) {
     const std::vector<int> nodes = model::select_nodes(options, parameter, context);
     if (nodes.size() > 1) {
@@ -107,11 +107,19 @@ void add_joint(const std::string& type, const Options& options, model::BuildCont
   };
   const int first = node_of("First");
   const int second = node_of("Second");
-  if (first < 0 || second < 0) return;
+  if (first < 0 || second < 0) return {};
   if (first == second) {
-    context.issues.add(options.where("Second"), "a joint needs two different nodes");
-    return;
+    context.issues.add(options.where("Second"), "must be another node than First");
+    return {};
   }
+  return {{first, second}};
+}
+
+void add_joint(const std::string& type, const Options& options, model::BuildContext& context,
+               const std::function<model::Constraint(const NodePair& pair)>& make) {
+  const auto pair = select_two_nodes(options, context);
+  if (!pair) return;
+  const auto [first, second] = *pair;
   const model::NodeTable& nodes = context.model.nodes();
   const Vec3 point = options.has("Position")
                          ? model::vector(options, "Position")

@@ -10,6 +10,12 @@ void register_loads(model::BuilderRegistry& registry) {
   register_line_force(registry);
   register_line_moment(registry);
   register_gravity(registry);
+  register_spring(registry);
+  register_directed_spring(registry);
+  register_ground_spring(registry);
+  register_directed_ground_spring(registry);
+  register_plane_ground_spring(registry);
+  register_torsion(registry);
 }
 
 }  // namespace culm::load

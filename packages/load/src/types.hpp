@@ -11,4 +11,12 @@ void register_line_force(model::BuilderRegistry& registry);   // Line Force, Fol
 void register_line_moment(model::BuilderRegistry& registry);  // Line Moment, Follower Line Moment
 void register_gravity(model::BuilderRegistry& registry);      // Gravity
 
+// … Spring and … Damper, all of them
+void register_spring(model::BuilderRegistry& registry);
+void register_directed_spring(model::BuilderRegistry& registry);
+void register_ground_spring(model::BuilderRegistry& registry);
+void register_directed_ground_spring(model::BuilderRegistry& registry);
+void register_plane_ground_spring(model::BuilderRegistry& registry);
+void register_torsion(model::BuilderRegistry& registry);  // and Torsion Drive
+
 }  // namespace culm::load

@@ -67,8 +67,7 @@ class DenseAssembly {
   /// Derivative of the residual by the unknowns of the end of the step, by differences of fourth
   /// order: error h^4 / 30 = 5e-13 times the fifth derivative, round-off epsilon / h = 1e-13.
   Eigen::MatrixXd difference_tangent(const model::State& state, const Stencil& stencil,
-                                     const Batches& batches = {}) {
-    constexpr double h = 2e-3;
+                                     const Batches& batches = {}, double h = 2e-3) {
     Eigen::MatrixXd derivative(size(), size());
     for (int k = 0; k < size(); ++k) {
       const auto at = [&](double step) {

@@ -3,7 +3,9 @@
 
 #include <culm/model/build_context.hpp>
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace culm::joint {
@@ -14,6 +16,8 @@ class NodePair {
   /// @param point place of the joint in the reference [m]
   NodePair(const model::NodeTable& nodes, int first, int second, const Vec3& point);
 
+  int first() const { return first_; }
+  int second() const { return second_; }
   /// p_1 - p_2 of the joint's point; p_2 - p_1 is its negative.
   model::SlotSum gap() const;
   /// Attached copy of a spatial vector on node 0 or 1 of the pair.
@@ -49,6 +53,9 @@ void register_axis_joint(model::BuilderRegistry& registry, const std::string& ty
 Schema pair_schema(const std::string& type, const std::string& doc);
 /// Adds a direction of any length but zero.
 void add_direction(const std::string& name, const std::string& doc, Schema& schema);
+/// The nodes that "First" and "Second" name; nothing, and issues, if the deck names no pair.
+std::optional<std::array<int, 2>> select_two_nodes(const Options& options,
+                                                   model::BuildContext& context);
 /// Adds the constraint that `make` returns for the pair of the deck; nothing, and issues, if the
 /// deck names no pair.
 void add_joint(const std::string& type, const Options& options, model::BuildContext& context,

@@ -1,0 +1,79 @@
+/// Springs, dampers and drives on nodes and between them.
+#pragma once
+
+#include <culm/load/link.hpp>
+#include <culm/load/link_law.hpp>
+#include <culm/model/batch.hpp>
+#include <culm/model/item_motion.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::load {
+
+/// Links that answer to one law. With the forms y(q) of a link and the discrete gradient G of its
+/// coordinate u(y), the force on the slots is
+///   f = B(q_theta)^T G F      B = dy/dq      G . Dy = Du
+/// so that f . Dq = F Du exactly; where F = DW / Du that is the change of the stored energy.
+/// Forms between two nodes do not change under rigid motion, so f keeps the momenta.
+/// @source formulation 0.3, 3.6, 4.4
+class LinkLoad final : public model::Batch {
+ public:
+  LinkLoad(std::string effect, const model::NodeTable& nodes, std::unique_ptr<LinkLaw> law)
+      : effect_(std::move(effect)), nodes_(nodes), law_(std::move(law)) {}
+
+  void add(Link link);
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  bool has_tangent() const override { return true; }
+  void place(model::Placement placement, model::Form form) override;
+  void begin_step(const model::State& state, const Stencil& stencil) override;
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void extrapolate(const model::State& state, const Stencil& stencil,
+                   const model::Coordinates& increment) override;
+  double stored_energy(const model::Coordinates& q) const override;
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+
+ private:
+  using Motion = model::ItemMotion<2>;
+  struct Item {
+    Link link;
+    Vec<2> y_prev = Vec<2>::Zero();  ///< forms at the start of the step
+    double z_prev = 0.0;             ///< and the coordinate, with all full turns
+    Vec<2> predicted_stress = Vec<2>::Zero();
+  };
+  /// S = G F and its derivative by the forms at the end of the step.
+  struct Response {
+    Vec<2> stress;
+    Mat<2, 2> tangent;
+  };
+
+  Response respond(const Item& item, const Motion::Slots& next, const model::State& state,
+                   const Stencil& stencil) const;
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                        bool tangent, model::Target& target) const;
+  template <class Space>
+  void add_tangent(std::size_t i, const Motion& motion, const Response& response, double theta,
+                   model::Target& target) const;
+
+  Item& item(std::size_t i) { return items_[static_cast<std::size_t>(placement_.items[i])]; }
+  const Item& item(std::size_t i) const {
+    return items_[static_cast<std::size_t>(placement_.items[i])];
+  }
+
+  std::string effect_;
+  const model::NodeTable& nodes_;
+  std::unique_ptr<LinkLaw> law_;
+  std::vector<Item> items_;
+  model::Placement placement_;
+  model::Form form_ = model::Form::null_space;
+  bool use_predicted_ = false;
+};
+
+}  // namespace culm::load

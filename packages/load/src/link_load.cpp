@@ -1,0 +1,173 @@
+#include <culm/load/link_load.hpp>
+
+#include "link_forms.hpp"
+#include "measure.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::load {
+void LinkLoad::add(Link link) {
+  Item item;
+  item.link = std::move(link);
+  const Measure kind = item.link.measure;
+  item.y_prev = values_of(item.link, slots_of(item.link, nodes_.reference()));
+  // angles are zero in the reference
+  item.z_prev = kind == Measure::angle ? 0.0 : measure(kind, item.y_prev, 0.0, item.y_prev);
+  items_.push_back(std::move(item));
+}
+
+std::vector<int> LinkLoad::blocks(int item, const model::UnknownTable& unknowns) const {
+  std::vector<int> result;
+  for (int node : items_[static_cast<std::size_t>(item)].link.nodes) {
+    result.push_back(unknowns.node_block(node));
+  }
+  return result;
+}
+
+void LinkLoad::place(model::Placement placement, model::Form form) {
+  placement_ = std::move(placement);
+  form_ = form;
+  use_predicted_ = false;
+}
+
+void LinkLoad::begin_step(const model::State& state, const Stencil&) {
+  use_predicted_ = false;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    Item& item = this->item(i);
+    const Vec<2> y = values_of(item.link, slots_of(item.link, state.prev));
+    item.z_prev = measure(item.link.measure, item.y_prev, item.z_prev, y);
+    item.y_prev = y;
+  }
+}
+
+LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
+                                     const model::State& state, const Stencil& stencil) const {
+  const MeasureStep step = measure_step(item.link.measure, item.y_prev, item.z_prev,
+                                        values_of(item.link, next), stencil.theta);
+  const auto [force, derivative] =
+      law_->answer(item.z_prev - item.link.rest, step.next - item.link.rest, state, stencil);
+  return {force * step.gradient,
+          force * step.derivative + derivative * step.gradient * step.slope.transpose()};
+}
+
+Verdict LinkLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
+                           model::Target& target) {
+  if (want == Want::mass) return Verdict::ok;
+  const bool tangent = want == Want::residual_and_tangent;
+  Verdict verdict = Verdict::ok;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    verdict =
+        worse(verdict, form_ == model::Form::null_space
+                           ? assemble_item<model::NullSpace>(i, state, stencil, tangent, target)
+                           : assemble_item<model::FullSpace>(i, state, stencil, tangent, target));
+  }
+  return verdict;
+}
+
+template <class Space>
+Verdict LinkLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                                bool tangent, model::Target& target) const {
+  const Item& item = this->item(i);
+  const Motion motion(nodes_, item.link.nodes, state, stencil.theta);
+  const Response response = respond(item, motion.next, state, stencil);
+  const LinkGradient B = gradient_of(item.link, motion.mid);
+  for (int a = 0; a < static_cast<int>(item.link.nodes.size()); ++a) {
+    const Vec<12> force = B.middleRows<12>(12 * a) * response.stress;
+    Vec<Space::width> residual;
+    Space::reduce_rows(force, motion.arms_mid.template middleCols<4>(4 * a), residual);
+    if (!std::isfinite(residual.sum())) return Verdict::not_finite;
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    placement_.scatter.add_residual(i, a, residual.data(), target);
+  }
+  if (tangent) add_tangent<Space>(i, motion, response, stencil.theta, target);
+  return Verdict::ok;
+}
+
+// R_theta D R_next^T + theta sum_k S_k A_k + the turning of P_theta, with R = P^T B
+template <class Space>
+void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& response,
+                           double theta, model::Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = this->item(i);
+  const int n = static_cast<int>(item.link.nodes.size());
+  const LinkGradient B_mid = gradient_of(item.link, motion.mid);
+  const LinkGradient B_next = gradient_of(item.link, motion.next);
+  const Vec<2>& stress = use_predicted_ ? item.predicted_stress : response.stress;
+  const LinkScalars A = theta * curvature_of(item.link, stress);
+  const auto reduced = [](const LinkGradient& B, const LinkSlots& arms, int a) {
+    Eigen::Matrix<double, W, 2> R;
+    Space::reduce_rows(B.middleRows<12>(12 * a), arms.template middleCols<4>(4 * a), R);
+    return R;
+  };
+  for (int a = 0; a < n; ++a) {
+    const Eigen::Matrix<double, W, 2> RD = reduced(B_mid, motion.arms_mid, a) * response.tangent;
+    for (int b = 0; b < n; ++b) {
+      RowMat<W, W> block = RD * reduced(B_next, motion.arms_next, b).transpose();
+      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
+                       motion.arms_mid.template middleCols<4>(4 * a),
+                       motion.arms_next.template middleCols<4>(4 * b), block);
+      if (a == b) {
+        const Vec<12> force = B_mid.middleRows<12>(12 * a) * stress;
+        Space::add_turning(force.template reshaped<Eigen::ColMajor>(3, 4),
+                           motion.arms_next.template middleCols<4>(4 * a), theta, block);
+      }
+      placement_.scatter.add_tangent(i, a, b, block, target);
+    }
+  }
+}
+
+void LinkLoad::extrapolate(const model::State& state, const Stencil& stencil,
+                           const model::Coordinates& increment) {
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    Item& item = this->item(i);
+    const LinkSlots q = slots_of(item.link, state.next);
+    const LinkSlots du = slots_of(item.link, increment);
+    const Response response = respond(item, q, state, stencil);
+    const LinkGradient B = gradient_of(item.link, q);
+    Vec<2> dy = Vec<2>::Zero();
+    for (Eigen::Index s = 0; s < q.cols(); ++s) {
+      dy += B.middleRows<3>(3 * s).transpose() * du.col(s);
+    }
+    item.predicted_stress = response.stress + response.tangent * dy;
+  }
+  use_predicted_ = true;
+}
+
+double LinkLoad::stored_energy(const model::Coordinates& q) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = this->item(i);
+    const double z = measure(item.link.measure, item.y_prev, item.z_prev,
+                             values_of(item.link, slots_of(item.link, q)));
+    energy += law_->energy(z - item.link.rest);
+  }
+  return energy;
+}
+
+model::StepWork LinkLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = this->item(i);
+    const Motion motion(nodes_, item.link.nodes, state, stencil.theta);
+    const double z =
+        measure(item.link.measure, item.y_prev, item.z_prev, values_of(item.link, motion.next));
+    const double prev = item.z_prev - item.link.rest;
+    const double next = z - item.link.rest;
+    law_->add_work(law_->answer(prev, next, state, stencil).force, prev, next, work);
+    const Vec<2> stress = respond(item, motion.next, state, stencil).stress;
+    const LinkGradient B = gradient_of(item.link, motion.mid);
+    for (Eigen::Index s = 0; s < motion.mid.cols(); ++s) {
+      const Vec3 force = -B.middleRows<3>(3 * s) * stress;
+      if (s % 4 == 0) work.force += force;
+      work.moment += Vec3(motion.mid.col(s)).cross(force);
+    }
+  }
+  return work;
+}
+
+}  // namespace culm::load
