@@ -64,8 +64,8 @@ def check_values(history, expected, what):
             found, wanted = history.at(level, column), float(value.get("is"))
             if not abs(found - wanted) <= tolerance:
                 complaints.append(
-                    f"{what}: '{column}' at level {level:g} is {found:.12g}, expected {wanted:.12g} "
-                    f"within {tolerance:g} ({group.get('source')})"
+                    f"{what}: '{column}' at level {level:g} is {found:.12g}, expected "
+                    f"{wanted:.12g} within {tolerance:g} ({group.get('source')})"
                 )
     return complaints
 
@@ -106,7 +106,8 @@ def check_deck(culm, deck, expected):
         settings = ["Solver/Form=Multipliers", *overrides(forms)]
         multipliers = culm.run(deck, settings)
         if multipliers.exit != 0:
-            complaints.append(f"multiplier form: exit code {multipliers.exit}\n{multipliers.errors}")
+            what = f"multiplier form: exit code {multipliers.exit}"
+            complaints.append(f"{what}\n{multipliers.errors}")
             continue
         complaints += compare(
             histories[1], multipliers.history, scale, FORMS_TOLERANCE, "null space and multipliers"

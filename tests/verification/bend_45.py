@@ -62,7 +62,7 @@ def verify_loads(culm, report):
         found = romberg([mesh.vector("tip", level) for mesh in meshes])
         report.relative(f"P = {load}, collection", found, EXACT[load], 1e-5)
     report.relative("P = 600, rod.py", found, integrate(600.0), 1e-5)
-    report.title("Simo and Vu-Quoc (1986), 8 elements: their spread, no tolerance of ours is tighter")
+    report.title("Simo and Vu-Quoc (1986), 8 elements; the literature scatters by 0.5 %")
     history = run(culm)
     for load, level in LEVELS.items():
         position = [a + b for a, b in zip(TIP, history.vector("tip", level))]
@@ -127,7 +127,8 @@ def plot(culm, path):
         load_axes.plot(simo, list(SIMO_VU_QUOC), "x", color=colour)
     load_axes.plot([], [], "ko", mfc="none", label="exact arc, rod integration")
     load_axes.plot([], [], "kx", label="Simo, Vu-Quoc (1986)")
-    load_axes.set(xlabel="tip displacement [m]", ylabel="load P [N]", title="32 elements of order 1")
+    load_axes.set(xlabel="tip displacement [m]", ylabel="load P [N]")
+    load_axes.set_title("32 elements of order 1")
     load_axes.legend(fontsize=7)
     exact = integrate(600.0)
     for label, kind, order, counts in [

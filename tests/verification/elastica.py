@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""SB-2: elastica under a dead tip load, and its thick companion. Page: doc/verification/elastica.md."""
+"""SB-2: elastica, dead tip load, slender and thick. Page: doc/verification/elastica.md."""
 
 from verify import figure, main, richardson, romberg, save
 

@@ -61,7 +61,10 @@ def verify_objectivity(culm, report):
     report.title("Objectivity: the whole model turned and moved, displacements turn with it")
     here = (lambda point, size: text(point), text)
     there = (moved, turned)
-    for deck, structure, settings in [("composite_cantilever", "beam", composite), ("bend_45", "bend", bend)]:
+    for deck, structure, settings in [
+        ("composite_cantilever", "beam", composite),
+        ("bend_45", "bend", bend),
+    ]:
         for label, kind, order in KINDS:
             elements = kind_settings(structure, kind, order)
             one = culm.history(f"beam/{deck}.xml", [*settings(here), *elements])

@@ -107,7 +107,7 @@ class Rod:
         return self._place([(turn @ x, turn @ r, turn @ n, turn @ m) for x, r, n, m in states])
 
     def solve(self, force=(0, 0, 0), moment=(0, 0, 0), load=None, levels=8):
-        """Dead tip force and moment, and dead line loads load(s, triad), grown in `levels` steps."""
+        """Dead tip force and moment, and dead line loads load(s, triad), in `levels` steps."""
         load = load or (lambda s, r: (np.zeros(3), np.zeros(3)))
         force, moment = np.array(force, dtype=float), np.array(moment, dtype=float)
         unloaded = self._integrate(np.eye(3), np.zeros(3), np.zeros(3), lambda s, r: (0.0, 0.0))
@@ -120,7 +120,8 @@ class Rod:
                 return part * np.asarray(f), part * np.asarray(l)
 
             def miss(turn, tip=tip, scaled=scaled, part=part):
-                states = self._integrate(exp_rotation(turn) @ tip, part * force, part * moment, scaled)
+                start = exp_rotation(turn) @ tip
+                states = self._integrate(start, part * force, part * moment, scaled)
                 return log_rotation(states[0][1] @ self.root.T), states
 
             tip, states = self._newton(miss, tip)
