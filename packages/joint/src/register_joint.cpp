@@ -1,4 +1,6 @@
+#include <culm/joint/angular_velocity.hpp>
 #include <culm/joint/cylindrical_joint.hpp>
+#include <culm/joint/joint_angle.hpp>
 #include <culm/joint/planar_support.hpp>
 #include <culm/joint/prismatic_joint.hpp>
 #include <culm/joint/register_joint.hpp>
@@ -24,6 +26,7 @@ void register_joints(model::BuilderRegistry& registry) {
   register_revolute_support(registry);
   register_planar_support(registry);
   register_rotation(registry);
+  register_angular_velocity(registry);
   register_rigid_connection(registry);
   register_spherical_joint(registry);
   register_revolute_joint(registry);
@@ -31,6 +34,7 @@ void register_joints(model::BuilderRegistry& registry) {
   register_prismatic_joint(registry);
   register_universal_joint(registry);
   register_weld(registry);
+  register_joint_angle(registry);
 }
 
 }  // namespace culm::joint

@@ -1,4 +1,5 @@
 #include <culm/joint/cylindrical_joint.hpp>
+#include <culm/joint/joint_angle.hpp>
 #include <culm/joint/planar_support.hpp>
 #include <culm/joint/prismatic_joint.hpp>
 #include <culm/joint/revolute_joint.hpp>
@@ -122,8 +123,13 @@ struct Cardan : PairCase {
 struct Welded : PairCase {
   static Constraint make(const NodeTable& n) { return weld(pair(n)); }
 };
+struct Angle : PairCase {
+  static Constraint make(const NodeTable& n) {
+    return joint_angle(pair(n), oblique, quadratic(2.0));
+  }
+};
 
-using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded>;
+using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded, Angle>;
 using Cases = testing::Types<Rigid, Spherical, SphericalWithOffset, SimpleAlongAxis, SimpleOblique,
                              SimpleWithOffset, SimpleMoving, SimpleLocal, Revolute, RevoluteOblique,
                              Planar, PlanarOblique, Turning, TurningLocal, RigidLink>;

@@ -93,15 +93,34 @@ TEST_F(Joints, EveryPairJointBuildsFromItsSchema) {
   build("Prismatic Joint", with({{"Axis", z}}));
   build("Universal Joint", with({{"First Axis", x}, {"Second Axis", z}}));
   build("Weld", pair);
+  build("Joint Angle", with({{"Axis", z}, {"Angle", 0.5}}));
   EXPECT_THAT(messages(), ElementsAre());
-  EXPECT_EQ(model.constraints().size() + 9U, registry.names().size());
+  // the supports above, and angular velocities
+  EXPECT_EQ(model.constraints().size() + 11U, registry.names().size());
   std::vector<std::size_t> rows;
   for (const model::Constraint& c : model.constraints()) {
     rows.push_back(c.rows.size());
     EXPECT_TRUE(c.is_internal);
     EXPECT_THAT(c.nodes, ElementsAre(0, 2));
   }
-  EXPECT_THAT(rows, ElementsAre(3, 5, 4, 5, 4, 6));
+  EXPECT_THAT(rows, ElementsAre(3, 5, 4, 5, 4, 6, 1));
+}
+
+TEST_F(Joints, AngularVelocitiesHaveOneMultiplierPerNode) {
+  build(
+      "Angular Velocity",
+      {{"Node", std::string("beam")}, {"Axis", Numbers{0.0, 0.0, 2.0}}, {"Angular Velocity", 3.0}});
+  build("Angular Velocity Local", {{"Node", std::string("beam/0")},
+                                   {"Axis", Numbers{0.0, 2.0, 0.0}},
+                                   {"Angular Velocity", 3.0}});
+  EXPECT_THAT(messages(), ElementsAre());
+  ASSERT_EQ(model.loads().size(), 2U);
+  EXPECT_EQ(model.loads()[0]->size(), 3);
+  EXPECT_EQ(model.loads()[0]->effect(), "Angular Velocity, clamp");
+  EXPECT_THAT(model.freeze(model::Form::null_space), ElementsAre());
+  EXPECT_EQ(model.unknowns().num_multipliers(), 4);
+  const kit::DenseAssembly dense(model);
+  EXPECT_EQ(dense.size(), 3 * 6 + 4);
 }
 
 TEST_F(Joints, ASelectionOfNodesMakesOneConstraintEach) {

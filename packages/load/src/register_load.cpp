@@ -16,6 +16,7 @@ void register_loads(model::BuilderRegistry& registry) {
   register_directed_ground_spring(registry);
   register_plane_ground_spring(registry);
   register_torsion(registry);
+  register_rotation_damper(registry);
 }
 
 }  // namespace culm::load

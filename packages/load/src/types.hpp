@@ -17,6 +17,7 @@ void register_directed_spring(model::BuilderRegistry& registry);
 void register_ground_spring(model::BuilderRegistry& registry);
 void register_directed_ground_spring(model::BuilderRegistry& registry);
 void register_plane_ground_spring(model::BuilderRegistry& registry);
-void register_torsion(model::BuilderRegistry& registry);  // and Torsion Drive
+void register_torsion(model::BuilderRegistry& registry);          // and Torsion Drive
+void register_rotation_damper(model::BuilderRegistry& registry);  // and Rotation Damper Local
 
 }  // namespace culm::load

@@ -1,0 +1,72 @@
+/// Prescribed angular velocities.
+#pragma once
+
+#include <culm/joint/axis_turn.hpp>
+#include <culm/joint/prescribed.hpp>
+#include <culm/model/batch.hpp>
+#include <culm/model/build_context.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::joint {
+
+/// Turns nodes about an axis with the angular velocity Omega(t). Nonholonomic: the row holds for
+/// the turn of a step,
+///   n . tau - 2 tan( dt Omega(t_1/2) / 2 ) = 0,     force: moment lambda n,
+/// so the angle after any number of steps is the sum of dt Omega(t_1/2) exactly, and the drive does
+/// the work -lambda n . tau. Statics knows no velocity: the row is lambda = 0 there.
+/// @source formulation 2.4
+class AngularVelocity final : public model::Batch {
+ public:
+  /// @param model gives each item its multiplier, by the constraint that `add` puts there
+  AngularVelocity(std::string effect, const model::Model& model)
+      : effect_(std::move(effect)), model_(model) {}
+
+  /// The constraint of one multiplier that an item lives on; its own row says nothing.
+  static model::Constraint placeholder(std::string name, const std::string& type, int node);
+  /// @param constraint  name of the placeholder, which is added to the model
+  void add(int node, const TurnAxis& axis, const Prescribed& velocity, std::string constraint) {
+    items_.push_back({node, axis, velocity, std::move(constraint), 0});
+  }
+
+  const std::string& effect() const override { return effect_; }
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  bool has_tangent() const override { return true; }
+  void place(model::Placement placement, model::Form form) override;
+  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
+  double stored_energy(const model::Coordinates&) const override { return 0.0; }
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+
+ private:
+  struct Item {
+    int node = -1;
+    TurnAxis axis;
+    Prescribed velocity;  ///< Omega [rad/s]
+    std::string constraint;
+    std::size_t multiplier = 0;
+  };
+
+  int equation_of(const Item& item) const;
+  void assemble_rest(std::size_t i, const model::State& state, Want want,
+                     model::Target& target) const;
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
+                        model::Target& target) const;
+
+  std::string effect_;
+  const model::Model& model_;
+  std::vector<Item> items_;
+  model::Placement placement_;
+  model::Form form_ = model::Form::null_space;
+};
+
+/// Angular Velocity, Angular Velocity Local
+void register_angular_velocity(model::BuilderRegistry& registry);
+
+}  // namespace culm::joint

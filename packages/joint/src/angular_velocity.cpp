@@ -1,0 +1,157 @@
+#include <culm/base/error.hpp>
+#include <culm/joint/angular_velocity.hpp>
+#include <culm/math/rotation.hpp>
+
+#include "supports.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace culm::joint {
+namespace {
+
+Mat3 directors(const model::Coordinates& q, int node) {
+  return model::NodeTable::slots(q, node).rightCols<3>();
+}
+
+}  // namespace
+
+model::Constraint AngularVelocity::placeholder(std::string name, const std::string& type,
+                                               int node) {
+  model::Constraint constraint = support_of(node);
+  constraint.name = std::move(name);
+  constraint.type = type;
+  model::ConstraintRow nothing;
+  nothing.alpha.assign(4, 0.0);
+  constraint.rows = {nothing};
+  // driven rows are not searched for redundancy
+  constraint.drive = [](double, std::vector<model::ConstraintRow>&) {};
+  return constraint;
+}
+
+int AngularVelocity::equation_of(const Item& item) const {
+  const auto& equations = model_.equations();
+  const auto at =
+      std::find_if(equations.begin(), equations.end(), [&item](const model::Constraint& equation) {
+        return equation.name == item.constraint && equation.nodes == std::vector{item.node};
+      });
+  internal_check(at != equations.end(), "an angular velocity has no multiplier");
+  return static_cast<int>(at - equations.begin());
+}
+
+std::vector<int> AngularVelocity::blocks(int item, const model::UnknownTable& unknowns) const {
+  const Item& it = items_[static_cast<std::size_t>(item)];
+  return {unknowns.node_block(it.node), unknowns.constraint_block(equation_of(it))};
+}
+
+void AngularVelocity::place(model::Placement placement, model::Form form) {
+  placement_ = std::move(placement);
+  form_ = form;
+  const model::UnknownTable& unknowns = model_.unknowns();
+  for (Item& item : items_) {
+    const model::Block& block = unknowns.block(unknowns.constraint_block(equation_of(item)));
+    item.multiplier = static_cast<std::size_t>(block.first_multiplier);
+  }
+}
+
+Verdict AngularVelocity::assemble(const model::State& state, const Stencil& stencil, Want want,
+                                  model::Target& target) {
+  Verdict verdict = Verdict::ok;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (want == Want::mass || stencil.step == 0.0) {
+      assemble_rest(i, state, want, target);
+    } else if (form_ == model::Form::null_space) {
+      verdict = worse(verdict, assemble_item<model::NullSpace>(i, state, stencil, want, target));
+    } else {
+      verdict = worse(verdict, assemble_item<model::FullSpace>(i, state, stencil, want, target));
+    }
+  }
+  return verdict;
+}
+
+// lambda = 0
+void AngularVelocity::assemble_rest(std::size_t i, const model::State& state, Want want,
+                                    model::Target& target) const {
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const double lambda = state.multipliers[item.multiplier];
+  placement_.scatter.add_residual(i, 1, &lambda, target);
+  if (want == Want::residual) return;
+  placement_.scatter.add_tangent(i, 1, 1, Mat<1, 1>(target.multiplier_scale), target);
+}
+
+template <class Space>
+Verdict AngularVelocity::assemble_item(std::size_t i, const model::State& state,
+                                       const Stencil& stencil, Want want,
+                                       model::Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const AxisTurn<Space> turn(item.axis, directors(state.prev, item.node),
+                             directors(state.next, item.node), stencil.theta);
+  const double lambda = state.multipliers[item.multiplier];
+  const double middle = 0.5 * (state.time_prev + state.time);
+  const double h = turn.turn - 2.0 * std::tan(0.5 * stencil.step * item.velocity.at(middle));
+  const Vec<W> force = lambda * turn.moment;
+  if (!std::isfinite(h + force.sum())) return Verdict::not_finite;
+  target.force_scale = std::max(target.force_scale, force.template lpNorm<Eigen::Infinity>());
+  target.constraint_violation = std::max(target.constraint_violation, std::abs(h));
+  const double scale = target.multiplier_scale;
+  const double row = scale * h;
+  placement_.scatter.add_residual(i, 0, force.data(), target);
+  placement_.scatter.add_residual(i, 1, &row, target);
+  if (want == Want::residual) return Verdict::ok;
+  placement_.scatter.add_tangent(i, 0, 0, RowMat<W, W>(lambda * turn.derivative), target);
+  placement_.scatter.add_tangent(i, 0, 1, Vec<W>(scale * turn.moment), target);
+  const Mat<1, W> gradient = scale * turn.gradient.transpose();
+  placement_.scatter.add_tangent(i, 1, 0, gradient, target);
+  return Verdict::ok;
+}
+
+model::StepWork AngularVelocity::step_work(const model::State& state,
+                                           const Stencil& stencil) const {
+  model::StepWork work;
+  if (stencil.step == 0.0) return work;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const AxisTurn<model::NullSpace> turn(item.axis, directors(state.prev, item.node),
+                                          directors(state.next, item.node), stencil.theta);
+    work.drives -= state.multipliers[item.multiplier] * turn.turn;
+  }
+  return work;
+}
+
+namespace {
+
+void register_type(model::BuilderRegistry& registry, const std::string& type,
+                   const std::string& doc, bool follows) {
+  Schema schema = directed_schema(type, doc, "Axis", "Axis in the reference, of any length.");
+  add_motion("Angular Velocity", "rad/s", "Angular velocity at function value 1.", schema);
+  registry.add(type, schema, [=](const Options& options, model::BuildContext& context) {
+    const auto velocity = read_motion(options, "Angular Velocity", context);
+    if (!velocity) return;
+    model::Model& model = context.model;
+    const std::vector<int> nodes = model::select_nodes(options, "Node", context);
+    auto batch = std::make_unique<AngularVelocity>(type + ", " + options.name(), model);
+    for (int node : nodes) {
+      model.add_constraint(AngularVelocity::placeholder(options.name(), type, node));
+      Vec3 axis = read_direction(options, "Axis");
+      if (follows) axis = directors(model.nodes().reference(), node).transpose() * axis;
+      batch->add(node, {axis, follows}, *velocity, options.name());
+    }
+    model.add_load(std::move(batch));
+  });
+}
+
+}  // namespace
+
+void register_angular_velocity(model::BuilderRegistry& registry) {
+  register_type(registry, "Angular Velocity",
+                "Prescribes the angular velocity about an axis fixed in space; not in statics.",
+                false);
+  register_type(registry, "Angular Velocity Local",
+                "Prescribes the angular velocity about an axis fixed in the node; not in statics.",
+                true);
+}
+
+}  // namespace culm::joint

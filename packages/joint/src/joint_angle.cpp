@@ -1,0 +1,41 @@
+#include <culm/joint/joint_angle.hpp>
+#include <culm/math/rotation.hpp>
+
+#include "supports.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace culm::joint {
+
+model::Constraint joint_angle(const NodePair& pair, const Vec3& axis, const Prescribed& motion) {
+  const Vec3 n1 = any_normal(axis);
+  const Vec3 n2 = axis.cross(n1);
+  model::Constraint joint = pair.joint();
+  pair.add_angle_row(n2, n1, joint);
+  if (motion.moves()) {
+    joint.drive = [=](double time, std::vector<model::ConstraintRow>& rows) {
+      const double alpha = motion.at(time);
+      rows.front().alpha = pair.vector(0, -std::sin(alpha) * n1 + std::cos(alpha) * n2);
+    };
+  }
+  return joint;
+}
+
+void register_joint_angle(model::BuilderRegistry& registry) {
+  const std::string type = "Joint Angle";
+  Schema schema = pair_schema(
+      type, "Prescribes the angle of a revolute joint, by which the second node turns.");
+  add_direction("Axis", "Axis of the joint in the reference, of any length.", schema);
+  add_motion("Angle", "rad", "Angle at function value 1.", schema);
+  registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
+    const auto motion = read_motion(options, "Angle", context);
+    if (!motion) return;
+    add_joint(type, options, context, [&](const NodePair& pair) {
+      return joint_angle(pair, model::vector(options, "Axis").normalized(), *motion);
+    });
+  });
+}
+
+}  // namespace culm::joint
