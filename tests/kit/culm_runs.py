@@ -64,9 +64,15 @@ class History:
 class Run:
     """Exit code, what was printed, and the history if one was written."""
 
+    def drift(self, what):
+        """A number of the certificate, such as 'energy balance'; the run must not be quiet."""
+        line = next(line for line in self.output.splitlines() if line.strip().startswith(what))
+        return float(line.split(what)[1].split()[0])
+
     def __init__(self, process, folder):
         self.exit = process.returncode
         self.errors = process.stderr
+        self.output = process.stdout
         history = pathlib.Path(folder) / "history.csv"
         self.history = History(history) if history.exists() else None
 
@@ -78,10 +84,10 @@ class Culm:
         self.program = str(program)
         self.mpiexec = mpiexec
 
-    def run(self, deck, settings=(), ranks=1):
+    def run(self, deck, settings=(), ranks=1, quiet=True):
         """Runs a deck of inputs/ (or a path) with overrides; any exit code is a result."""
         command = [self.mpiexec, "-n", str(ranks)] if ranks > 1 else []
-        command += [self.program, "run", str(INPUTS / deck), "--quiet"]
+        command += [self.program, "run", str(INPUTS / deck), *(["--quiet"] if quiet else [])]
         for setting in [*settings, "Output/Pictures=false"]:
             command += ["--set", setting]
         with tempfile.TemporaryDirectory(prefix="culm") as folder:

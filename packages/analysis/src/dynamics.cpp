@@ -48,9 +48,11 @@ std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
 void Dynamics::prepare(Context& context, model::State& state) {
   state.time = state.time_prev = 0.0;
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
-  context.system.begin_step(state, Stencil::statics());
-  const double change =
-      context.system.project_velocity(state, [&](const assembly::Vector& b, assembly::Vector& x) {
+  // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
+  if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
+  state.at_rest = false;
+  const double change = context.system.project_velocity(
+      state, 1e-4 * settings_.step, [&](const assembly::Vector& b, assembly::Vector& x) {
         if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
           throw NumericalError(
               "The mass matrix is singular: some node moves without mass.\n"

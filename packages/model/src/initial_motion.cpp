@@ -11,8 +11,8 @@ void build_velocity(const Options& options, BuildContext& context) {
           ? vector(options, "About")
           : Vec3(NodeTable::slots(context.model.nodes().reference(), nodes.front()).col(0));
   for (int node : nodes) {
-    context.model.add_initial_velocity(node, vector(options, "Velocity"),
-                                       vector(options, "Angular Velocity"), about);
+    context.model.add_initial_velocity(
+        {node, vector(options, "Velocity"), vector(options, "Angular Velocity"), about});
   }
 }
 

@@ -25,13 +25,13 @@ MassBatch& Model::masses(const std::string& effect) {
   return result;
 }
 
-void Model::add_initial_velocity(int node, const Vec3& velocity, const Vec3& omega,
-                                 const Vec3& about) {
-  initial_velocity_.resize(nodes_.reference().size(), 0.0);
-  const auto q = NodeTable::slots(nodes_.reference(), node);
-  auto v = NodeTable::slots(initial_velocity_, node);
-  v.col(0) += velocity + omega.cross(Vec3(q.col(0) - about));
-  for (int i = 1; i < 4; ++i) v.col(i) += omega.cross(Vec3(q.col(i)));
+void Model::add_initial_velocities(const Coordinates& q, Coordinates& velocity) const {
+  for (const InitialVelocity& initial : initial_velocities_) {
+    const auto slots = NodeTable::slots(q, initial.node);
+    auto v = NodeTable::slots(velocity, initial.node);
+    v.col(0) += initial.velocity + initial.omega.cross(Vec3(slots.col(0) - initial.about));
+    for (int i = 1; i < 4; ++i) v.col(i) += initial.omega.cross(Vec3(slots.col(i)));
+  }
 }
 
 void Model::add_rigid_link(std::string name, int slave, int master) {
@@ -206,8 +206,7 @@ double Model::length() const {
 State Model::initial_state() const {
   State state;
   state.prev = state.next = nodes_.reference();
-  state.velocity = initial_velocity_;
-  state.velocity.resize(state.prev.size(), 0.0);
+  state.velocity.assign(state.prev.size(), 0.0);
   state.multipliers.assign(static_cast<std::size_t>(unknowns_.num_multipliers()), 0.0);
   state.multipliers_prev = state.multipliers;
   return state;

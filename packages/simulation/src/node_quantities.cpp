@@ -11,23 +11,34 @@ namespace {
 using model::NodeTable;
 using output::HistoryColumn;
 
+// What is watched: a node, or a point fixed to it.
+struct Place {
+  int node = -1;
+  Vec3 offset = Vec3::Zero();  // in the directors of the node
+
+  Vec3 position(const model::Coordinates& q) const {
+    const auto slots = NodeTable::slots(q, node);
+    return slots.col(0) + slots.rightCols<3>() * offset;
+  }
+};
+
 // A quantity that is a function of one node.
 class NodeQuantity final : public Quantity {
  public:
-  using Evaluate =
-      std::function<void(const assembly::System&, const model::State&, int, std::vector<double>&)>;
+  using Evaluate = std::function<void(const assembly::System&, const model::State&, const Place&,
+                                      std::vector<double>&)>;
 
-  NodeQuantity(int node, std::vector<HistoryColumn> columns, Evaluate evaluate)
-      : node_(node), columns_(std::move(columns)), evaluate_(std::move(evaluate)) {}
+  NodeQuantity(const Place& place, std::vector<HistoryColumn> columns, Evaluate evaluate)
+      : place_(place), columns_(std::move(columns)), evaluate_(std::move(evaluate)) {}
 
   std::vector<HistoryColumn> columns() const override { return columns_; }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
-    evaluate_(system, state, node_, numbers);
+    evaluate_(system, state, place_, numbers);
   }
 
  private:
-  int node_;
+  Place place_;
   std::vector<HistoryColumn> columns_;
   Evaluate evaluate_;
 };
@@ -36,37 +47,38 @@ void append(const Vec3& v, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), v.data(), v.data() + 3);
 }
 
-void position(const assembly::System&, const model::State& state, int node,
+void position(const assembly::System&, const model::State& state, const Place& place,
               std::vector<double>& numbers) {
-  append(NodeTable::slots(state.next, node).col(0), numbers);
+  append(place.position(state.next), numbers);
 }
 
-void displacement(const assembly::System& system, const model::State& state, int node,
+void displacement(const assembly::System& system, const model::State& state, const Place& place,
                   std::vector<double>& numbers) {
-  const auto& reference = system.model().nodes().reference();
-  append(NodeTable::slots(state.next, node).col(0) - NodeTable::slots(reference, node).col(0),
-         numbers);
+  append(place.position(state.next) - place.position(system.model().nodes().reference()), numbers);
 }
 
-void rotation(const assembly::System& system, const model::State& state, int node,
+void rotation(const assembly::System& system, const model::State& state, const Place& place,
               std::vector<double>& numbers) {
   const auto& reference = system.model().nodes().reference();
-  const Mat3 D = NodeTable::slots(state.next, node).rightCols<3>();
-  const Mat3 D0 = NodeTable::slots(reference, node).rightCols<3>();
+  const Mat3 D = NodeTable::slots(state.next, place.node).rightCols<3>();
+  const Mat3 D0 = NodeTable::slots(reference, place.node).rightCols<3>();
   append(log_rotation(D * D0.transpose()), numbers);
 }
 
-void reaction(const assembly::System& system, const model::State& state, int node,
+void reaction(const assembly::System& system, const model::State& state, const Place& place,
               std::vector<double>& numbers) {
-  const Vec6 r = system.reaction(node, state);
+  const Vec6 r = system.reaction(place.node, state);
   numbers.insert(numbers.end(), r.data(), r.data() + 6);
 }
 
-void add(QuantityRegistry& registry, const std::string& type, const std::string& doc,
-         std::vector<HistoryColumn> columns, NodeQuantity::Evaluate evaluate) {
+void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> columns,
+         NodeQuantity::Evaluate evaluate) {
+  const std::string type = schema.name();
+  const bool has_offset = schema.find_field("Offset") != nullptr;
+  schema.add(model::node_field("Node", "The node, such as 'structure/last'."));
   registry.add(
-      type, Schema(type, doc).add(model::node_field("Node", "The node, such as 'structure/last'.")),
-      [columns = std::move(columns), evaluate = std::move(evaluate)](
+      type, std::move(schema),
+      [columns = std::move(columns), evaluate = std::move(evaluate), has_offset](
           const Options& options, model::BuildContext& context) -> std::unique_ptr<Quantity> {
         const std::vector<int> nodes = model::select_nodes(options, "Node", context);
         if (nodes.empty()) return nullptr;
@@ -75,20 +87,34 @@ void add(QuantityRegistry& registry, const std::string& type, const std::string&
                                                         " nodes, but one is watched");
           return nullptr;
         }
-        return std::make_unique<NodeQuantity>(nodes.front(), columns, evaluate);
+        Place place{nodes.front(), Vec3::Zero()};
+        if (has_offset) place.offset = model::vector(options, "Offset");
+        return std::make_unique<NodeQuantity>(place, columns, evaluate);
       });
+}
+
+Field offset_field() {
+  return model::vector_field("Offset", "m", "From the node to the watched point, in its directors.")
+      .optional({0.0, 0.0, 0.0});
 }
 
 }  // namespace
 
 void register_node_quantities(QuantityRegistry& registry) {
-  add(registry, "Position", "Position of a node.", {{"x", "m"}, {"y", "m"}, {"z", "m"}}, position);
-  add(registry, "Displacement", "Displacement of a node from the reference.",
+  add(registry,
+      Schema("Position", "Position of a node or a point fixed to it.").add(offset_field()),
+      {{"x", "m"}, {"y", "m"}, {"z", "m"}}, position);
+  add(registry,
+      Schema("Displacement", "Displacement of a node, or a point fixed to it, from the reference.")
+          .add(offset_field()),
       {{"ux", "m"}, {"uy", "m"}, {"uz", "m"}}, displacement);
-  add(registry, "Rotation", "Rotation vector of the directors of a node from the reference.",
+  add(registry,
+      Schema("Rotation", "Rotation vector of the directors of a node from the reference."),
       {{"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}}, rotation);
-  add(registry, "Reaction",
-      "Force, and moment about the node, by which supports and joints act on the structure there.",
+  add(registry,
+      Schema("Reaction",
+             "Force, and moment about the node, by which supports and joints act on the structure "
+             "there."),
       {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"Mx", "N m"}, {"My", "N m"}, {"Mz", "N m"}},
       reaction);
 }

@@ -51,11 +51,12 @@ class System {
   /// of a step.
   void coast(model::State& state, double time) const;
   /// Makes the velocity follow from supports, links and constraints: the nearest one in the metric
-  /// of the mass. `solve_mass` solves with the matrix as it stands when it is called.
+  /// of the mass, H v = dg/dt. The speed of prescribed motions is found by differences over times
+  /// up to `probe` [s]. `solve_mass` solves with the matrix as it stands when it is called.
   /// @source formulation 4.7
   /// @return largest change of a velocity [m/s, 1/s]
   using Solve = std::function<void(const Vector& b, Vector& x)>;
-  double project_velocity(model::State& state, const Solve& solve_mass);
+  double project_velocity(model::State& state, double probe, const Solve& solve_mass);
 
   /// Strain energy of all elements [J].
   double strain_energy(const model::Coordinates& q) const;
@@ -78,6 +79,7 @@ class System {
 
  private:
   double largest_diagonal() const;
+  std::vector<double> drive_speed(model::State& state, double probe);
   const Vector& import(const Vector& increment);
 
   model::Model& model_;

@@ -16,6 +16,14 @@
 
 namespace culm::model {
 
+/// A node starts to move as part of a rigid motion.
+struct InitialVelocity {
+  int node = -1;
+  Vec3 velocity = Vec3::Zero();  ///< of the point `about` [m/s]
+  Vec3 omega = Vec3::Zero();     ///< [rad/s]
+  Vec3 about = Vec3::Zero();     ///< [m]
+};
+
 /// Filled by the builders of structures, constraints and loads, then frozen: numbering and batches
 /// are fixed from there on.
 class Model {
@@ -46,7 +54,7 @@ class Model {
   MassBatch& masses(const std::string& effect);
   /// Sets the velocity that a node has at the start of a dynamic analysis, v + omega x (p - about)
   /// for every point p of the node; constraints are imposed later.
-  void add_initial_velocity(int node, const Vec3& velocity, const Vec3& omega, const Vec3& about);
+  void add_initial_velocity(InitialVelocity velocity) { initial_velocities_.push_back(velocity); }
   /// Nodes under one name, for select_nodes.
   void add_node_set(std::string name, std::vector<int> nodes) {
     node_sets_[std::move(name)] = std::move(nodes);
@@ -90,8 +98,10 @@ class Model {
   double mass() const;
   /// Diagonal of the box around all nodes [m]; 1 for a single point.
   double length() const;
-  /// The reference configuration with zero multipliers and the initial velocity.
+  /// The reference configuration with zero multipliers, at rest.
   State initial_state() const;
+  /// Adds the initial velocities that the deck gives, at a configuration.
+  void add_initial_velocities(const Coordinates& q, Coordinates& velocity) const;
 
  private:
   bool eliminate(const Constraint& constraint);
@@ -105,7 +115,7 @@ class Model {
   std::vector<Constraint> equations_;
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
-  Coordinates initial_velocity_;
+  std::vector<InitialVelocity> initial_velocities_;
   UnknownTable unknowns_;
 };
 

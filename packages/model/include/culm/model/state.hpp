@@ -16,6 +16,7 @@ struct State {
   double time = 0.0;       ///< end of the step
   Coordinates prev;        ///< accepted configuration at the start of the step
   Coordinates next;        ///< trial configuration at the end of the step
+  bool at_rest = true;     ///< nothing has moved in time yet
   Coordinates velocity;    ///< at the start of the step [m/s, 1/s]; empty in statics
   /// Acceleration in the equations while q_next = q_prev [m/s^2, 1/s^2]; empty in statics.
   Coordinates acceleration_offset;
