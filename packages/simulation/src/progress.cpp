@@ -22,9 +22,9 @@ std::string Progress::line(const analysis::StepReport& report) const {
   const auto& history = report.outcome.history;
   const double residual = history.empty() ? 0.0 : history.back().force;
   return fmt::format(
-      "{}: {:.4g} of {:.4g}, step {}, {} iterations, residual {:.1e}, {:.0f} s left{}",
-      analysis_, report.time, report.final_time, report.step, report.outcome.iterations, residual,
-      left, report.accepted ? "" : ", cut back");
+      "{}: {:.4g} of {:.4g}, step {}, {} iterations, residual {:.1e}, {:.0f} s left{}", analysis_,
+      report.time, report.final_time, report.step, report.outcome.iterations, residual, left,
+      report.accepted ? "" : ", cut back");
 }
 
 void Progress::show(const analysis::StepReport& report) {

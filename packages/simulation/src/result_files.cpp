@@ -144,9 +144,12 @@ void ResultFiles::finish(const std::string& report,
 }
 
 std::vector<std::filesystem::path> ResultFiles::paths() const {
-  std::vector<std::filesystem::path> paths = {
-      settings_.folder / "run.h5", settings_.folder / "run.xdmf", settings_.folder / "history.csv"};
-  if (settings_.pictures) paths.push_back(settings_.folder / "run.pvd");
+  std::vector<std::filesystem::path> paths;
+  for (const char* name : {"run.h5", "run.xdmf", "history.csv", "run.pvd", "run_skin.pvd"}) {
+    const std::filesystem::path path = settings_.folder / name;
+    // pictures are written on demand, and skins only where there are outlines
+    if (system_.comm().is_root() && std::filesystem::exists(path)) paths.push_back(path);
+  }
   return paths;
 }
 

@@ -9,10 +9,11 @@
 
 namespace culm::model {
 
-/// Removes rows that depend on others in the reference, where all rows hold, so that the removal
-/// changes no motion that starts there: closed loops of plane mechanisms, two hinges on one axis,
-/// joints between nodes that supports hold. Constraints that lose all rows are removed.
-/// Null-space form only: rows are judged by what they do to the unknowns, H P.
+/// Removes rows that depend on others in the reference, where all rows hold: in closed loops of
+/// plane mechanisms, two hinges on one axis, joints between nodes that supports hold. Constraints
+/// that lose all rows are removed. Null-space form only: rows are judged by what they do to the
+/// unknowns, H P. Rows that depend on others in this position alone, as in a stretched four-bar
+/// loop, are not told apart: start such a model in another position.
 /// @return a sentence for each constraint that lost rows
 /// @source formulation 2.8
 std::vector<std::string> remove_redundant_rows(const NodeTable& nodes,
