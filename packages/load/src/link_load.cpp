@@ -143,7 +143,7 @@ double LinkLoad::stored_energy(const model::Coordinates& q) const {
     const Item& item = this->item(i);
     const double z = measure(item.link.measure, item.y_prev, item.z_prev,
                              values_of(item.link, slots_of(item.link, q)));
-    energy += law_->energy(z - item.link.rest);
+    energy += law_->energy((z == no_length ? 0.0 : z) - item.link.rest);
   }
   return energy;
 }

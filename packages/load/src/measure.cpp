@@ -6,10 +6,6 @@
 namespace culm::load {
 namespace {
 
-// Lengths are not taken below this one [m], so that a spring of no length has the stiffness
-// lim F(z) / z. Its square still is a normal number.
-constexpr double no_length = 1e-100;
-
 double length(double square) { return std::max(std::sqrt(square), no_length); }
 
 // G = 1 / (z_a + z_b): Dz / D(z^2). The start moves with (2 theta - 1) of the end.

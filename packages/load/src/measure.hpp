@@ -6,6 +6,10 @@
 
 namespace culm::load {
 
+/// Lengths are not taken below this one [m], so that a spring of no length has the stiffness
+/// lim F(z) / z. Its square still is a normal number.
+constexpr double no_length = 1e-100;
+
 /// A step of a coordinate z from the forms a to the forms b.
 struct MeasureStep {
   double next = 0.0;                         ///< z at the end
