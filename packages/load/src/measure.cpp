@@ -8,26 +8,22 @@ namespace {
 
 double length(double square) { return std::max(std::sqrt(square), no_length); }
 
-// G = 1 / (z_a + z_b): Dz / D(z^2). The start moves with (2 theta - 1) of the end.
-void step_distance(double a, double b, double moves, MeasureStep& step) {
-  const double za = length(a);
+// G = 1 / (2 z_theta) with the length z_theta between the ends: Dz / D(z^2) at theta = 1/2.
+void step_distance(double a, double b, double theta, MeasureStep& step) {
   const double zb = length(b);
-  const double sum = za + zb;
+  const double z = (1.0 - theta) * length(a) + theta * zb;
   step.slope[0] = 0.5 / zb;
-  step.gradient[0] = 1.0 / sum;
-  step.derivative(0, 0) = -(0.5 / zb + moves * 0.5 / za) / sum / sum;
+  step.gradient[0] = 0.5 / z;
+  step.derivative(0, 0) = -0.25 * theta / zb / z / z;
 }
 
-// G = (a + b) / (z_a + z_b)
-void step_radius(const Vec<2>& a, const Vec<2>& b, double moves, MeasureStep& step) {
-  const double za = length(a.squaredNorm());
+// G = y_theta / z_theta
+void step_radius(const Vec<2>& a, const Vec<2>& b, double theta, MeasureStep& step) {
   const double zb = length(b.squaredNorm());
-  const double sum = za + zb;
+  const double z = (1.0 - theta) * length(a.squaredNorm()) + theta * zb;
   step.slope = b / zb;
-  step.gradient = (a + b) / sum;
-  step.derivative = ((1.0 + moves) * Mat<2, 2>::Identity() -
-                     step.gradient * (step.slope + moves * a / za).transpose()) /
-                    sum;
+  step.gradient = ((1.0 - theta) * a + theta * b) / z;
+  step.derivative = theta * (Mat<2, 2>::Identity() - step.gradient * step.slope.transpose()) / z;
 }
 
 Vec<2> quarter_turn(const Vec<2>& v) { return {-v[1], v[0]}; }
@@ -36,9 +32,12 @@ double angle_between(const Vec<2>& a, const Vec<2>& b) {
   return std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
 }
 
-// With m = (a + b) / 2, d = b - a: G = g + (Dz - g . d) d / |d|^2, g = J m / |m|^2.
-void step_angle(const Vec<2>& a, const Vec<2>& b, double moves, MeasureStep& step) {
-  const double theta = 0.5 * (1.0 + moves);
+// From the start a = (1 - moves) y_prev + moves y_next, which makes theta the middle of the way to
+// the end b; with m = (a + b) / 2, d = b - a:
+// G = g + (Dz - g . d) d / |d|^2, g = J m / |m|^2.
+void step_angle(const Vec<2>& y_prev, const Vec<2>& b, double theta, MeasureStep& step) {
+  const double moves = 2.0 * theta - 1.0;
+  const Vec<2> a = (1.0 - moves) * y_prev + moves * b;
   const Vec<2> m = 0.5 * (a + b);
   const Vec<2> d = b - a;
   const double m2 = m.squaredNorm();
@@ -81,20 +80,18 @@ MeasureStep measure_step(Measure measure, const Vec<2>& y_prev, double z_prev, c
                          double theta) {
   MeasureStep step;
   step.next = load::measure(measure, y_prev, z_prev, y_next);
-  const double moves = 2.0 * theta - 1.0;
-  const Vec<2> start = (1.0 - moves) * y_prev + moves * y_next;
   switch (measure) {
     case Measure::component:
       step.slope[0] = step.gradient[0] = 1.0;
       break;
     case Measure::distance:
-      step_distance(start[0], y_next[0], moves, step);
+      step_distance(y_prev[0], y_next[0], theta, step);
       break;
     case Measure::radius:
-      step_radius(start, y_next, moves, step);
+      step_radius(y_prev, y_next, theta, step);
       break;
     case Measure::angle:
-      step_angle(start, y_next, moves, step);
+      step_angle(y_prev, y_next, theta, step);
       break;
   }
   return step;

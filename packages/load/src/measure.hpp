@@ -14,14 +14,14 @@ constexpr double no_length = 1e-100;
 struct MeasureStep {
   double next = 0.0;                         ///< z at the end
   Vec<2> slope = Vec<2>::Zero();             ///< dz/dy at the end
-  Vec<2> gradient = Vec<2>::Zero();          ///< G with G . (b - a) = Dz; dz/dy where a = b
+  Vec<2> gradient = Vec<2>::Zero();          ///< G, dz/dy where a = b
   Mat<2, 2> derivative = Mat<2, 2>::Zero();  ///< of G by the forms at the end
 };
 
 /// z at forms y that a motion of less than half a turn leads to from forms y_prev with z_prev.
 double measure(Measure measure, const Vec<2>& y_prev, double z_prev, const Vec<2>& y);
 
-/// For theta other than 1/2, G is that of the part of the step around q_theta which ends at y_next.
+/// G . Dy = Dz at theta = 1/2; dz/dy of the end at theta = 1.
 /// @source formulation 1.3.5, eq. (1.12); 3.6
 MeasureStep measure_step(Measure measure, const Vec<2>& y_prev, double z_prev, const Vec<2>& y_next,
                          double theta);
