@@ -2,15 +2,20 @@
 
 namespace culm::load {
 
-const model::Structure* select_line(const Options& options, model::BuildContext& context) {
-  const model::Structure* structure = model::select_structure(options, context);
-  if (structure != nullptr && structure->line_points.empty()) {
-    context.issues.add(options.where("Structure"), "structure '" + structure->name +
+Field line_field() {
+  return text("Structure", "Name of the structure, or of the element set, that it acts on.");
+}
+
+std::vector<model::LinePoint> line_points(const Options& options, model::BuildContext& context) {
+  const std::string& name = options.text("Structure");
+  std::vector<model::LinePoint> points = context.model.line_points(name);
+  // select_structure reports a name that is neither a set nor a structure
+  if (points.empty() && model::select_structure(options, context) != nullptr) {
+    context.issues.add(options.where("Structure"), "structure '" + name +
                                                        "' is not a line: it has no length to "
                                                        "load");
-    return nullptr;
   }
-  return structure;
+  return points;
 }
 
 }  // namespace culm::load

@@ -10,9 +10,9 @@ namespace culm::load {
 namespace {
 
 // int N_a ds of each node: virtual rotations are interpolated as positions are
-std::map<int, double> lengths_of_nodes(const model::Structure& structure) {
+std::map<int, double> lengths_of_nodes(const std::vector<model::LinePoint>& points) {
   std::map<int, double> lengths;
-  for (const auto& [marker, length] : structure.line_points) {
+  for (const auto& [marker, length] : points) {
     for (std::size_t a = 0; a < marker.nodes.size(); ++a) {
       lengths[marker.nodes[a]] += length * marker.weights[a];
     }
@@ -21,11 +21,11 @@ std::map<int, double> lengths_of_nodes(const model::Structure& structure) {
 }
 
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
-  const model::Structure* line = select_line(request.options, request.context);
-  if (line == nullptr) return nullptr;
+  const auto points = line_points(request.options, request.context);
+  if (points.empty()) return nullptr;
   auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
                                            request.frame);
-  for (const auto& [node, length] : lengths_of_nodes(*line)) {
+  for (const auto& [node, length] : lengths_of_nodes(points)) {
     load->add_moment(node, length * request.vector("Moment"));
   }
   return load;
@@ -36,7 +36,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
 void register_line_moment(model::BuilderRegistry& registry) {
   register_both_frames(registry,
                        {"Line Moment", "Moment per reference length of a line", "Moment", "N m/m"},
-                       Schema("").add(model::structure_field()), make);
+                       Schema("").add(line_field()), make);
 }
 
 }  // namespace culm::load

@@ -125,6 +125,27 @@ const Structure* Model::find_structure(std::string_view name) const {
   return nullptr;
 }
 
+void Model::add_element_set(std::string name, const Structure& structure,
+                            const std::vector<int>& elements) {
+  std::vector<LinePoint>& points = element_sets_[std::move(name)];
+  if (structure.line_points.empty()) return;
+  // all elements of a structure are of one kind, hence have as many points
+  const std::size_t per_element = structure.line_points.size() / structure.cells.size();
+  for (int element : elements) {
+    const auto first =
+        structure.line_points.begin() + static_cast<std::ptrdiff_t>(per_element) * element;
+    points.insert(points.end(), first, first + static_cast<std::ptrdiff_t>(per_element));
+  }
+}
+
+std::vector<LinePoint> Model::line_points(std::string_view name) const {
+  if (const auto set = element_sets_.find(std::string(name)); set != element_sets_.end()) {
+    return set->second;
+  }
+  const Structure* structure = find_structure(name);
+  return structure == nullptr ? std::vector<LinePoint>{} : structure->line_points;
+}
+
 std::vector<int> Model::select_nodes(std::string_view name) const {
   if (const auto set = node_sets_.find(std::string(name)); set != node_sets_.end()) {
     return set->second;

@@ -44,6 +44,28 @@ Schema node_sets_schema() {
       .entries(std::move(set));
 }
 
+Schema element_sets_schema() {
+  Schema set("Element Set", "Elements of one structure under one name.");
+  set.add(model::structure_field())
+      .add(integers("Elements", "Numbers of the elements in the structure, from 0.")
+               .at_least(0)
+               .min_size(1)
+               .optional())
+      .add(integers("Range", "First and last element of a run of elements, instead.")
+               .at_least(0)
+               .size(2)
+               .optional())
+      .check([](const Options& options, InputIssues& issues) {
+        if (options.has("Elements") == options.has("Range")) {
+          issues.add(options.where(), "needs either 'Elements' or 'Range'");
+        }
+      });
+  return Schema("Element Sets",
+                "Element sets by name; where loads per length ask for a structure, the name stands "
+                "for its elements.")
+      .entries(std::move(set));
+}
+
 Schema output_schema(const QuantityRegistry& quantities) {
   return Schema("Output", "What is written.")
       .add(integer("Every", "Steps from one recorded state to the next.").at_least(1).optional(1))
@@ -70,6 +92,7 @@ Schema Catalogue::deck_schema() const {
             Schema("Masses", "Masses on nodes by name.").entries_by_type(masses.variants()),
             Presence::defaulted)
       .list("Node Sets", node_sets_schema(), Presence::defaulted)
+      .list("Element Sets", element_sets_schema(), Presence::defaulted)
       .list("Functions",
             Schema("Functions", "Functions of time by name; 'Ramp' and 'Constant' are there.")
                 .entries_by_type(functions.variants()),

@@ -1,5 +1,6 @@
 #include "model_builder.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -63,6 +64,36 @@ void add_node_sets(const Options& list, model::BuildContext& context) {
   }
 }
 
+std::vector<int> read_elements(const Options& options) {
+  if (options.has("Elements")) return options.integers("Elements");
+  std::vector<int> elements;
+  const std::vector<int>& range = options.integers("Range");
+  for (int element = range[0]; element <= range[1]; ++element) elements.push_back(element);
+  return elements;
+}
+
+void add_element_sets(const Options& list, model::BuildContext& context) {
+  for (const Options& entry : list.entries()) {
+    const model::Structure* structure = model::select_structure(entry, context);
+    if (structure == nullptr) continue;
+    if (context.model.find_structure(entry.name()) != nullptr) {
+      context.issues.add(entry.where(), "there is a structure of this name");
+      continue;
+    }
+    const std::vector<int> elements = read_elements(entry);
+    const auto count = static_cast<int>(structure->cells.size());
+    const auto outside = std::find_if(elements.begin(), elements.end(),
+                                      [count](int element) { return element >= count; });
+    if (elements.empty() || outside != elements.end()) {
+      context.issues.add(
+          entry.where(entry.has("Range") ? "Range" : "Elements"),
+          "structure '" + structure->name + "' has elements 0 to " + std::to_string(count - 1));
+      continue;
+    }
+    context.model.add_element_set(entry.name(), *structure, elements);
+  }
+}
+
 std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const Options& list,
                                              model::BuildContext& context) {
   std::vector<WatchedQuantity> watched;
@@ -86,6 +117,7 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   // what follows refers to structures; without them every reference would be a mistake
   issues.throw_if_any();
   add_node_sets(deck.list("Node Sets"), context);
+  add_element_sets(deck.list("Element Sets"), context);
   build_all(catalogue.masses, deck.list("Masses"), context);
   build_all(catalogue.constraints, deck.list("Constraints"), context);
   build_all(catalogue.loads, deck.list("Loads"), context);

@@ -59,6 +59,9 @@ class Model {
   void add_node_set(std::string name, std::vector<int> nodes) {
     node_sets_[std::move(name)] = std::move(nodes);
   }
+  /// Elements of a structure under one name, by their numbers in it.
+  void add_element_set(std::string name, const Structure& structure,
+                       const std::vector<int>& elements);
   void add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
   /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
   void add_rigid_link(std::string name, int slave, int master);
@@ -71,6 +74,8 @@ class Model {
   // --- reading ----------------------------------------------------------------------------------
   const std::deque<Structure>& structures() const { return structures_; }
   const Structure* find_structure(std::string_view name) const;
+  /// Points for loads per length of a structure or an element set; empty when it is no line.
+  std::vector<LinePoint> line_points(std::string_view name) const;
   /// Nodes named by "structure/number", "structure/set", "structure" or the name of a node set;
   /// empty when there are none.
   std::vector<int> select_nodes(std::string_view name) const;
@@ -110,6 +115,7 @@ class Model {
   NodeTable nodes_;
   std::deque<Structure> structures_;
   std::map<std::string, std::vector<int>> node_sets_;
+  std::map<std::string, std::vector<LinePoint>> element_sets_;
   std::vector<std::unique_ptr<Batch>> element_batches_;
   std::vector<Constraint> constraints_;
   std::vector<Constraint> equations_;
