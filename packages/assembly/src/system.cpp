@@ -99,6 +99,15 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
 }
 
 void System::begin_step(const model::State& state, const Stencil& stencil) {
+  // coordinates are rounded to epsilon times their size, which grows as a model flies off
+  size_ = length_;
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (block.kind != model::BlockKind::node) continue;
+    const auto slots = model::NodeTable::slots(state.prev, block.owner);
+    size_ = std::max(size_, slots.col(0).lpNorm<Eigen::Infinity>());
+  }
+  size_ = comm_.max(size_);
   for (model::Batch* batch : batches_) batch->begin_step(state, stencil);
 }
 
@@ -124,8 +133,7 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
     if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
   }
-  // coordinates are rounded to epsilon times the size of the model
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * length_;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * size_;
   const double stiffness = want == Want::residual_and_tangent ? largest_diagonal() : 0.0;
   double found[5] = {static_cast<double>(verdict), largest, target.force_scale,
                      target.constraint_violation, rounding * stiffness};

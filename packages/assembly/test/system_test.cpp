@@ -106,6 +106,25 @@ TEST_P(SystemTest, EnergyCountsEachElementOnce) {
   EXPECT_NEAR(system.strain_energy(state.next), expected, 1e-12 * expected);
 }
 
+TEST_P(SystemTest, RoundOffGrowsWithTheDistanceFromTheOrigin) {
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  model::State state = model.initial_state();
+  const auto round_off = [&] {
+    system.begin_step(state, Stencil::statics());
+    return system.evaluate(state, Stencil::statics(), Want::residual_and_tangent).round_off_force;
+  };
+  const double near = round_off();
+  for (int node = 0; node < model.nodes().size(); ++node) {
+    for (model::Coordinates* q : {&state.prev, &state.next}) {
+      model::NodeTable::slots(*q, node)(0, 0) += 1e4 * model.length();
+    }
+  }
+  EXPECT_NEAR(round_off() / near, 1e4, 2.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Forms, SystemTest, ::testing::Values(Form::null_space, Form::multipliers),
                          [](const auto& form) {
                            return form.param == Form::null_space ? "NullSpace" : "Multipliers";

@@ -102,7 +102,8 @@ class System {
   std::vector<bool> is_force_row_;
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
-  double length_ = 1.0;
+  double length_ = 1.0;  ///< of the model in the reference [m]
+  double size_ = 1.0;    ///< largest coordinate of the nodes here, or the length [m]
 };
 
 }  // namespace culm::assembly
