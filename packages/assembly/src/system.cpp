@@ -36,6 +36,28 @@ long long multipliers_of(const model::Batch& batch, const model::UnknownTable& u
   return count;
 }
 
+// Unknowns of a block as kernels write them, zero where supports took them away.
+std::array<double, 12> unknowns_of(const model::BlockShape& shape, int first_column,
+                                   std::span<const double> values, double factor) {
+  std::array<double, 12> u{};
+  for (int i = 0; i < shape.width; ++i) {
+    const int at = shape.position[index(i)];
+    if (at >= 0) u[index(i)] = factor * values[index(first_column + at)];
+  }
+  return u;
+}
+
+// P u: how the slots of a node move with its unknowns, to first order.
+model::NodeSlots slot_motion(const std::array<double, 12>& u, const model::NodeSlots& q,
+                             bool null_space) {
+  if (!null_space) return Eigen::Map<const model::NodeSlots>(u.data());
+  model::NodeSlots motion;
+  const Vec3 turn(u[3], u[4], u[5]);
+  motion.col(0) = Vec3(u[0], u[1], u[2]);
+  for (int i = 1; i < 4; ++i) motion.col(i) = turn.cross(Vec3(q.col(i)));
+  return motion;
+}
+
 // (v, omega) of a node at the start of the step, omega = 1/2 sum_i d_i x w_i. @source
 // formulation 1.1
 Vec6 velocity_of(const model::State& state, int node) {
@@ -163,11 +185,7 @@ void System::move(model::State& state, const Vector& increment, double factor) {
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);
     if (block.shape.active == 0) continue;
-    std::array<double, 12> u{};
-    for (int i = 0; i < block.shape.width; ++i) {
-      const int at = block.shape.position[index(i)];
-      if (at >= 0) u[index(i)] = factor * dx[index(local.first_column + at)];
-    }
+    const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
     if (block.kind == model::BlockKind::multipliers) {
       for (int i = 0; i < block.shape.width; ++i) {
         state.multipliers[index(block.first_multiplier + i)] += multiplier_scale_ * u[index(i)];
@@ -191,20 +209,9 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);
     if (block.kind != model::BlockKind::node) continue;
-    auto du = model::NodeTable::slots(linear_increment_, block.owner);
-    std::array<double, 12> u{};
-    for (int i = 0; i < block.shape.width; ++i) {
-      const int at = block.shape.position[index(i)];
-      if (at >= 0) u[index(i)] = factor * dx[index(local.first_column + at)];
-    }
-    if (!null_space) {
-      du = Eigen::Map<const model::NodeSlots>(u.data());
-      continue;
-    }
-    const auto q = model::NodeTable::slots(state.next, block.owner);
-    const Vec3 turn(u[3], u[4], u[5]);
-    du.col(0) = Vec3(u[0], u[1], u[2]);
-    for (int i = 1; i < 4; ++i) du.col(i) = turn.cross(q.col(i));
+    const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
+    model::NodeTable::slots(linear_increment_, block.owner) =
+        slot_motion(u, model::NodeTable::slots(state.next, block.owner), null_space);
   }
   // an eliminated node is linear in its master, so its increment follows in the same way
   for (int slave : slaves_) model_.nodes().follow_master(slave, linear_increment_);
@@ -340,20 +347,9 @@ double System::project_velocity(model::State& state, double probe, const Solve& 
   const std::span<const double> all = values_of(import(velocity));
   std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
-    std::array<double, 12> w{};
-    for (int i = 0; i < block.shape.width; ++i) {
-      const int at = block.shape.position[index(i)];
-      if (at >= 0) w[index(i)] = all[index(local.first_column + at)];
-    }
-    auto v = model::NodeTable::slots(state.velocity, block.owner);
-    if (!null_space) {
-      v = Eigen::Map<const model::NodeSlots>(w.data());
-      return;
-    }
-    const auto q = model::NodeTable::slots(state.next, block.owner);
-    const Vec3 turn(w[3], w[4], w[5]);
-    v.col(0) = Vec3(w[0], w[1], w[2]);
-    for (int i = 1; i < 4; ++i) v.col(i) = turn.cross(q.col(i));
+    const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);
+    model::NodeTable::slots(state.velocity, block.owner) =
+        slot_motion(w, model::NodeTable::slots(state.next, block.owner), null_space);
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   double largest = 0.0;
