@@ -1,0 +1,43 @@
+/// The wall of a shell: layers, one upon the other.
+#pragma once
+
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
+#include <culm/material/material.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace culm::material {
+
+/// One ply.
+struct Layer {
+  Material material;
+  double thickness = 0.0;  ///< [m]
+  double angle = 0.0;      ///< of the material axes about the normal, from the reference axis [rad]
+};
+
+/// Layers from the bottom (ζ = -t/2) upward. All have the same dissipation and damping, which act
+/// on the element as a whole.
+struct Layup {
+  std::vector<Layer> layers;
+
+  double thickness() const;  ///< [m]
+  /// ζ at the bottom of a layer; at the top of the wall for layer = number of layers [m]
+  double bottom(int layer) const;
+  /// Whether all materials answer in proportion to the strain.
+  bool is_linear() const;
+};
+
+/// One layer all through.
+Layup single_layer(Material material, double thickness);
+
+/// Fields that state a layup: `Material` or `Materials`, `Thickness` or `Thicknesses`, `Angles`,
+/// `Repeat`, `Symmetric`, and the rules between them.
+Schema layup_schema();
+/// The layup that the fields describe. Throws InputError for names that are not among `materials`
+/// and for layers that do not go together.
+Layup read_layup(const Options& options, const std::map<std::string, Material>& materials);
+
+}  // namespace culm::material

@@ -1,0 +1,34 @@
+/// What solids are made of.
+#pragma once
+
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
+#include <culm/material/neo_hooke.hpp>
+#include <culm/material/st_venant_kirchhoff.hpp>
+
+#include <variant>
+
+namespace culm::material {
+
+/// A law with the density and the losses of the solid. Laws answer in the axes of the material.
+struct Material {
+  using Law = std::variant<StVenantKirchhoff, NeoHooke>;
+
+  Law law;
+  double density = 0.0;      ///< [kg/m^3]
+  double dissipation = 0.0;  ///< numerical dissipation χ, formulation 4.5 [-]
+  double damping = 0.0;      ///< time by which stress runs ahead of strain [s]
+
+  /// Whether stress is proportional to strain.
+  bool is_linear() const { return std::holds_alternative<StVenantKirchhoff>(law); }
+};
+
+/// Stiffness at small strains of any law [N/m^2]
+const Mat6& small_strain_stiffness(const Material::Law& law);
+
+/// `Density`, `Dissipation` and `Damping`, which every type of material has.
+Schema common_material_schema();
+/// A material of a law with those three.
+Material make_material(Material::Law law, const Options& options);
+
+}  // namespace culm::material
