@@ -1,0 +1,67 @@
+/// Layered shell with stresses proportional to strains.
+#pragma once
+
+#include <culm/material/layup.hpp>
+#include <culm/shell/shell_geometry.hpp>
+
+#include <array>
+#include <memory>
+
+namespace culm::shell {
+
+/// Four-node solid-degenerate shell of St. Venant-Kirchhoff layers: Green-Lagrange strains with all
+/// powers of ζ, assumed transverse shear and thickness strains, enhanced membrane and thickness
+/// strains. Enhanced parameters are linear in the forms, hence condensed once and for all: what
+/// remains is a constant matrix between the forms, whatever the number of layers.
+/// @source formulation 1.4; Dvorkin, Bathe (1984), Betsch, Stein (1995), Simo, Rifai (1990),
+///   Büchter, Ramm, Roehl (1994), Bischoff, Ramm (1997)
+class ElasticShell : public ShellForms {
+ public:
+  static constexpr int num_resultants = 8;
+
+  /// @param reference  nodes, stress-free, with directors of length one
+  /// @pre layup.is_linear(), shell_mistakes(...) is empty
+  ElasticShell(const Nodes& reference, std::shared_ptr<const material::Layup> layup,
+               const ShellOptions& options = {});
+
+  /// S = C ((1 - ϑ) y_prev + ϑ y_next); never fails
+  Verdict respond(int point, const Strain& prev, const Strain& next, const Stencil& stencil,
+                  Response<num_strains>& response) const noexcept;
+  double energy(int point, const Strain& y) const noexcept;
+  const SlotMatrix<num_slots>& mass() const noexcept { return mass_; }
+  /// The constant C of the law: symmetric, stress = C y at rest.
+  const Stiffness& stiffness(int point) const noexcept;
+
+  /// Membrane forces [N/m], moments [N] and shear forces [N/m] at the centre, integrals over ζ of
+  /// the second Piola-Kirchhoff stress and ζ times it. Axes of the reference: 3 the normal, 1 the
+  /// reference axis projected (ShellOptions).
+  Vec<num_resultants> resultants(int point, const Strain& y) const noexcept;
+  static constexpr std::array<const char*, num_resultants> resultant_names() {
+    return {"N11", "N22", "N12", "M11", "M22", "M12", "Q1", "Q2"};
+  }
+
+  /// Green-Lagrange strain and second Piola-Kirchhoff stress, in the axes of a layer.
+  struct LayerState {
+    Vec6 strain;
+    Vec6 stress;  ///< [N/m^2]
+  };
+  /// At the centre of the element, at `height` within a layer: -1 bottom, 0 middle, 1 top.
+  LayerState layer_state(int layer, double height, const Strain& y) const;
+  const material::Layup& layup() const { return *layup_; }
+
+ private:
+  Vec6 strain_at_centre(double zeta, double angle, const Strain& y) const;
+
+  ShellGeometry geometry_;
+  std::shared_ptr<const material::Layup> layup_;
+  Stiffness stiffness_;
+  SlotMatrix<num_slots> mass_;
+  // All enhanced modes vanish at the centre, but for the one linear in ζ alone: its parameter is
+  // this row times y.
+  Strain thickness_parameter_;
+};
+
+static_assert(Element<ElasticShell>);
+static_assert(HasResultants<ElasticShell>);
+
+}  // namespace culm::shell

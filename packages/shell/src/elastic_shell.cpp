@@ -1,0 +1,110 @@
+#include <culm/base/error.hpp>
+#include <culm/shell/elastic_shell.hpp>
+#include <culm/shell/layer_quadrature.hpp>
+#include <culm/shell/shell_mass.hpp>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+namespace culm::shell {
+
+namespace {
+
+const Mat6& modulus(const material::Layer& layer) {
+  return std::get<material::StVenantKirchhoff>(layer.material.law).C;
+}
+
+}  // namespace
+
+// W = min over α of 1/2 int (L y + M α) . C (L y + M α), eq. (1.21)
+ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const material::Layup> layup,
+                           const ShellOptions& options)
+    : ShellForms(reference),
+      geometry_(reference, layup->thickness(), options),
+      layup_(std::move(layup)),
+      stiffness_(Stiffness::Zero()),
+      mass_(shell_mass(geometry_, *layup_)),
+      thickness_parameter_(Strain::Zero()) {
+  internal_check(layup_->is_linear(), "ElasticShell wants a linear layup");
+  const int enhanced = options.enhancement.size();
+  Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(enhanced, num_strains);
+  Eigen::MatrixXd enhanced_stiffness = Eigen::MatrixXd::Zero(enhanced, enhanced);
+  visit_volume(
+      *layup_, 2,
+      [&](const material::Layer& layer, double xi, double eta, double zeta, double weight) {
+        const ShellGeometry::Point point = geometry_.at(xi, eta, zeta, layer.angle);
+        const Mat6 C = weight * point.J * modulus(layer);
+        const ShellGeometry::StrainMap CL = C * point.strain;
+        stiffness_.noalias() += point.strain.transpose() * CL;
+        coupling.noalias() += point.enhanced.transpose() * CL;
+        enhanced_stiffness.noalias() += point.enhanced.transpose() * C * point.enhanced;
+      });
+  if (enhanced > 0) {
+    // Cholesky does not mind that thickness modes are far stiffer than others.
+    const Eigen::LLT<Eigen::MatrixXd> factor(enhanced_stiffness);
+    const Eigen::MatrixXd parameters = -factor.solve(coupling);
+    stiffness_.noalias() += coupling.transpose() * parameters;
+    if (options.enhancement.thickness > 0) {
+      thickness_parameter_ = parameters.row(options.enhancement.membrane);
+    }
+  }
+  stiffness_ = 0.5 * (stiffness_ + stiffness_.transpose()).eval();
+}
+
+Verdict ElasticShell::respond(int, const Strain& prev, const Strain& next, const Stencil& stencil,
+                              Response<num_strains>& response) const noexcept {
+  const double weight = stencil.theta_strain;
+  const Strain y = (1.0 - weight) * prev + weight * next;
+  response.stress.noalias() = stiffness_ * y;
+  response.tangent = weight * stiffness_;
+  return Verdict::ok;
+}
+
+double ElasticShell::energy(int, const Strain& y) const noexcept {
+  Strain stress;
+  stress.noalias() = stiffness_ * y;
+  return 0.5 * y.dot(stress);
+}
+
+const ShellForms::Stiffness& ElasticShell::stiffness(int) const noexcept { return stiffness_; }
+
+Vec6 ElasticShell::strain_at_centre(double zeta, double angle, const Strain& y) const {
+  const ShellGeometry::Point point = geometry_.at(0.0, 0.0, zeta, angle);
+  Vec6 E = point.strain * y;
+  const Enhancement& enhancement = geometry_.options().enhancement;
+  if (enhancement.thickness > 0) {
+    E += thickness_parameter_.dot(y) * point.enhanced.col(enhancement.membrane);
+  }
+  return E;
+}
+
+Vec<ElasticShell::num_resultants> ElasticShell::resultants(int, const Strain& y) const noexcept {
+  Vec<num_resultants> sum = Vec<num_resultants>::Zero();
+  visit_thickness(*layup_, 2, [&](const material::Layer& layer, double zeta, double weight) {
+    const Vec6 S = modulus(layer) * strain_at_centre(zeta, layer.angle, y);
+    const double c = std::cos(layer.angle);
+    const double s = std::sin(layer.angle);
+    const Vec3 in_plane(c * c * S[0] + s * s * S[1] - 2.0 * s * c * S[5],
+                        s * s * S[0] + c * c * S[1] + 2.0 * s * c * S[5],
+                        s * c * (S[0] - S[1]) + (c * c - s * s) * S[5]);
+    sum.segment<3>(0) += weight * in_plane;
+    sum.segment<3>(3) += weight * zeta * in_plane;
+    sum.segment<2>(6) += weight * Vec<2>(c * S[4] - s * S[3], s * S[4] + c * S[3]);
+  });
+  return sum;
+}
+
+ElasticShell::LayerState ElasticShell::layer_state(int layer, double height,
+                                                   const Strain& y) const {
+  const material::Layer& ply = layup_->layers[static_cast<std::size_t>(layer)];
+  const double zeta = layup_->bottom(layer) + 0.5 * (1.0 + height) * ply.thickness;
+  LayerState state;
+  state.strain = strain_at_centre(zeta, ply.angle, y);
+  state.stress = modulus(ply) * state.strain;
+  return state;
+}
+
+}  // namespace culm::shell
