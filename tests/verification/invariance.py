@@ -140,7 +140,8 @@ def verify_balance(culm, report):
     tip = np.array([2, 0, 0]) + history.vector("tip")
     load = (tip, triad @ [8, 12, -6], triad @ [4, -6, 5])
     balance(report, "follower_loads", [reaction(history, "root", origin), load], 2)
-    history = culm.history("beam/lee_frame.xml")
+    # the tolerance is one of section forces, which near the limit point exceed the load by far
+    history = culm.history("beam/lee_frame.xml", [TIGHT.replace("bending", "loading")])
     feet = [
         reaction(history, "foot", origin),
         reaction(history, "end", np.array([120, 120, 0])),

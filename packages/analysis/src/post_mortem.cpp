@@ -64,19 +64,6 @@ std::map<int, double> gather_entries(const Vector& v, double least, const parall
   return entries;
 }
 
-// Displacement and rotation of a node from increments of its coordinates,
-// theta = 1/2 sum_i d_i x delta d_i
-Vec6 rigid_motion(const model::NodeSlots& q, const model::NodeSlots& dq) {
-  Vec3 turn = Vec3::Zero();
-  for (int i = 1; i < 4; ++i) {
-    const Vec3 d = q.col(i);
-    turn += 0.5 * d.cross(Vec3(dq.col(i)));
-  }
-  Vec6 motion;
-  motion << dq.col(0), turn;
-  return motion;
-}
-
 std::string quoted_name(const model::Constraint& c) {
   return fmt::format("{} '{}'", c.type, c.name);
 }
@@ -277,7 +264,7 @@ std::string PostMortem::mechanism(const model::State& state, const Vector& motio
   for (const auto& [node, slots] : increments) {
     const Vec6 moved = model.unknowns().form() == model::Form::null_space
                            ? Vec6(Eigen::Map<const Vec6>(slots.data()))
-                           : rigid_motion(model::NodeTable::slots(state.next, node), slots);
+                           : model.nodes().unknown_motion(node, slots, state.next);
     for (int i = 0; i < 6; ++i) {
       if (std::abs(moved[i]) < notable) continue;
       shares.push_back({fmt::format("{}, {}", model.node_name(node), direction_name(i)), moved[i]});

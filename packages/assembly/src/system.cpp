@@ -47,27 +47,18 @@ std::array<double, 12> unknowns_of(const model::BlockShape& shape, int first_col
   return u;
 }
 
-// P u: how the slots of a node move with its unknowns, to first order.
-model::NodeSlots slot_motion(const std::array<double, 12>& u, const model::NodeSlots& q,
-                             bool null_space) {
-  if (!null_space) return Eigen::Map<const model::NodeSlots>(u.data());
-  model::NodeSlots motion;
-  const Vec3 turn(u[3], u[4], u[5]);
-  motion.col(0) = Vec3(u[0], u[1], u[2]);
-  for (int i = 1; i < 4; ++i) motion.col(i) = turn.cross(Vec3(q.col(i)));
-  return motion;
+// P u: how the slots of the node of a block move with its unknowns, to first order.
+model::NodeSlots slot_motion(const model::Model& model, int node, const std::array<double, 12>& u,
+                             const model::Coordinates& q) {
+  if (model.unknowns().form() == model::Form::multipliers) {
+    return Eigen::Map<const model::NodeSlots>(u.data());
+  }
+  return model.nodes().slot_motion(node, Eigen::Map<const Vec6>(u.data()), q);
 }
 
-// (v, omega) of a node at the start of the step, omega = 1/2 sum_i d_i x w_i. @source
-// formulation 1.1
-Vec6 velocity_of(const model::State& state, int node) {
-  const auto q = model::NodeTable::slots(state.prev, node);
-  const auto v = model::NodeTable::slots(state.velocity, node);
-  Vec6 u;
-  u.head<3>() = v.col(0);
-  u.tail<3>().setZero();
-  for (int i = 1; i < 4; ++i) u.tail<3>() += 0.5 * Vec3(q.col(i)).cross(Vec3(v.col(i)));
-  return u;
+// Rates of the six unknowns of a node at the start of the step.
+Vec6 velocity_of(const model::NodeTable& nodes, const model::State& state, int node) {
+  return nodes.unknown_motion(node, model::NodeTable::slots(state.velocity, node), state.prev);
 }
 
 }  // namespace
@@ -191,8 +182,7 @@ void System::move(model::State& state, const Vector& increment, double factor) {
         state.multipliers[index(block.first_multiplier + i)] += multiplier_scale_ * u[index(i)];
       }
     } else if (unknowns.form() == model::Form::null_space) {
-      model::move_node(Eigen::Map<const Vec6>(u.data()),
-                       model::NodeTable::slots(state.next, block.owner));
+      model_.nodes().move(block.owner, Eigen::Map<const Vec6>(u.data()), state.next);
     } else {
       model::NodeTable::slots(state.next, block.owner) +=
           Eigen::Map<const model::NodeSlots>(u.data());
@@ -205,13 +195,12 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
                          double factor) {
   const std::span<const double> dx = values_of(import(increment));
   const model::UnknownTable& unknowns = model_.unknowns();
-  const bool null_space = unknowns.form() == model::Form::null_space;
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);
     if (block.kind != model::BlockKind::node) continue;
     const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
     model::NodeTable::slots(linear_increment_, block.owner) =
-        slot_motion(u, model::NodeTable::slots(state.next, block.owner), null_space);
+        slot_motion(model_, block.owner, u, state.next);
   }
   // an eliminated node is linear in its master, so its increment follows in the same way
   for (int slave : slaves_) model_.nodes().follow_master(slave, linear_increment_);
@@ -278,11 +267,11 @@ void System::coast(model::State& state, double time) const {
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);
     if (block.kind != model::BlockKind::node || block.shape.active == 0) continue;
-    Vec6 u = time * velocity_of(state, block.owner);
+    Vec6 u = time * velocity_of(model_.nodes(), state, block.owner);
     for (int i = 0; i < 6 && block.shape.width == 6; ++i) {
       if (block.shape.position[index(i)] < 0) u[i] = 0.0;
     }
-    model::move_node(u, model::NodeTable::slots(state.next, block.owner));
+    model_.nodes().move(block.owner, u, state.next);
   }
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
 }
@@ -326,7 +315,7 @@ double System::project_velocity(model::State& state, double probe, const Solve& 
   };
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
     if (!local.owned) return;
-    const Vec6 rigid = velocity_of(state, block.owner);
+    const Vec6 rigid = velocity_of(model_.nodes(), state, block.owner);
     const auto slots = model::NodeTable::slots(state.velocity, block.owner);
     for (int i = 0; i < block.shape.width; ++i) {
       const int at = block.shape.position[index(i)];
@@ -349,7 +338,7 @@ double System::project_velocity(model::State& state, double probe, const Solve& 
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
     const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);
     model::NodeTable::slots(state.velocity, block.owner) =
-        slot_motion(w, model::NodeTable::slots(state.next, block.owner), null_space);
+        slot_motion(model_, block.owner, w, state.next);
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   double largest = 0.0;

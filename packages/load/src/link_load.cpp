@@ -77,7 +77,7 @@ Verdict LinkLoad::assemble_item(std::size_t i, const model::State& state, const 
   for (int a = 0; a < static_cast<int>(item.link.nodes.size()); ++a) {
     const Vec<12> force = B.middleRows<12>(12 * a) * response.stress;
     Vec<Space::width> residual;
-    Space::reduce_rows(force, motion.arms_mid.template middleCols<4>(4 * a), residual);
+    Space::reduce_rows(force, motion.arms_mid[static_cast<std::size_t>(a)], residual);
     if (!std::isfinite(residual.sum())) return Verdict::not_finite;
     target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
     placement_.scatter.add_residual(i, a, residual.data(), target);
@@ -97,9 +97,9 @@ void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& 
   const LinkGradient B_next = gradient_of(item.link, motion.next);
   const Vec<2>& stress = use_predicted_ ? item.predicted_stress : response.stress;
   const LinkScalars A = theta * curvature_of(item.link, stress);
-  const auto reduced = [](const LinkGradient& B, const LinkSlots& arms, int a) {
+  const auto reduced = [](const LinkGradient& B, const Motion::NodeArms& arms, int a) {
     Eigen::Matrix<double, W, 2> R;
-    Space::reduce_rows(B.middleRows<12>(12 * a), arms.template middleCols<4>(4 * a), R);
+    Space::reduce_rows(B.middleRows<12>(12 * a), arms[static_cast<std::size_t>(a)], R);
     return R;
   };
   for (int a = 0; a < n; ++a) {
@@ -107,12 +107,12 @@ void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& 
     for (int b = 0; b < n; ++b) {
       RowMat<W, W> block = RD * reduced(B_next, motion.arms_next, b).transpose();
       Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
-                       motion.arms_mid.template middleCols<4>(4 * a),
-                       motion.arms_next.template middleCols<4>(4 * b), block);
+                       motion.arms_mid[static_cast<std::size_t>(a)],
+                       motion.arms_next[static_cast<std::size_t>(b)], block);
       if (a == b) {
         const Vec<12> force = B_mid.middleRows<12>(12 * a) * stress;
         Space::add_turning(force.template reshaped<Eigen::ColMajor>(3, 4),
-                           motion.arms_next.template middleCols<4>(4 * a), theta, block);
+                           motion.arms_next[static_cast<std::size_t>(a)], theta, block);
       }
       placement_.scatter.add_tangent(i, a, b, block, target);
     }

@@ -108,7 +108,7 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
   const int n = static_cast<int>(item.nodes.size());
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
-  const auto& [mid, arms_mid, next, arms_next] = motion;
+  const auto& [mid, next, arms_mid, arms_next] = motion;
 
   // r_s = -a (f0_s + sum_t L[s,t] q_t)
   ItemSlots r = -factor * item.constant;
@@ -117,7 +117,7 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
   for (int a = 0; a < n; ++a) {
     const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
     Vec<W> residual;
-    Space::reduce_rows(slot_residual, arms_mid.template middleCols<4>(4 * a), residual);
+    Space::reduce_rows(slot_residual, arms_mid[static_cast<std::size_t>(a)], residual);
     target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
     placement_.scatter.add_residual(i, a, residual.data(), target);
   }
@@ -129,10 +129,10 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
       RowMat<W, W> block = RowMat<W, W>::Zero();
       const SlotMatrix<4> pairs =
           -factor * stencil.theta * item.linear.template block<4, 4>(4 * a, 4 * b);
-      Space::add_pairs(pairs, arms_mid.template middleCols<4>(4 * a),
-                       arms_next.template middleCols<4>(4 * b), block);
+      Space::add_pairs(pairs, arms_mid[static_cast<std::size_t>(a)],
+                       arms_next[static_cast<std::size_t>(b)], block);
       if (a == b) {
-        Space::add_turning(r.template middleCols<4>(4 * a), arms_next.template middleCols<4>(4 * a),
+        Space::add_turning(r.template middleCols<4>(4 * a), arms_next[static_cast<std::size_t>(a)],
                            stencil.theta, block);
       }
       placement_.scatter.add_tangent(i, a, b, block, target);

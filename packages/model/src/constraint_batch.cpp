@@ -68,11 +68,11 @@ Scalars curvature(const std::vector<ConstraintRow>& rows, const double* lambda, 
 }
 
 template <class Space>
-Rows reduce(const Rows& H, const ItemSlots& arms) {
-  const int nodes = static_cast<int>(arms.cols()) / 4;
+Rows reduce(const Rows& H, const ItemMotion<ConstraintBatch::max_nodes>::NodeArms& arms) {
+  const int nodes = static_cast<int>(H.rows()) / 12;
   Rows R(Space::width * nodes, H.cols());
   for (int a = 0; a < nodes; ++a) {
-    Space::reduce_rows(H.middleRows<12>(12 * a), arms.middleCols<4>(4 * a),
+    Space::reduce_rows(H.middleRows<12>(12 * a), arms[static_cast<std::size_t>(a)],
                        R.middleRows<Space::width>(Space::width * a));
   }
   return R;
@@ -211,12 +211,11 @@ void ConstraintBatch::add_curvature(std::size_t i, const Motion& motion, const J
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
       RowMat<W, W> block = RowMat<W, W>::Zero();
+      const auto& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
       Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
-                       motion.arms_mid.template middleCols<4>(4 * a),
-                       motion.arms_next.template middleCols<4>(4 * b), block);
+                       motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
       if (a == b) {
-        Space::add_turning(slot_forces.template middleCols<4>(4 * a),
-                           motion.arms_next.template middleCols<4>(4 * a), theta, block);
+        Space::add_turning(slot_forces.template middleCols<4>(4 * a), arms_next, theta, block);
       }
       placement_.scatter.add_tangent(i, a, b, block, target);
     }
@@ -264,8 +263,8 @@ Vec6 ConstraintBatch::reaction(int node, const State& state) const {
           state.multipliers.data() + item.first_multiplier, H.cols());
       const int at = static_cast<int>(a);
       const Eigen::VectorXd force = H.middleRows<12>(12 * at) * lambda;
-      NodeSlots arms = motion.next.middleCols<4>(4 * at);
-      arms.col(0).setZero();  // the moment is taken about the node
+      Arms<4> arms = motion.arms_next[a];
+      arms.slots.col(0).setZero();  // the moment is taken about the node
       RowMat<6, 1> reduced;
       NullSpace::reduce_rows(force, arms, reduced);
       total -= reduced;

@@ -34,7 +34,7 @@ Verdict MassBatch::assemble_item(std::size_t i, const State& state, const Stenci
                                  Want want, Target& target) const {
   constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const NodeSlots arms_next = arms_of(nodes_, item.node, state.next);
+  const Arms<4> arms_next = arms_of(nodes_, item.node, state.next);
   RowMat<W, W> block = RowMat<W, W>::Zero();
   if (want == Want::mass) {
     Space::add_pairs(item.mass, arms_next, arms_next, block);
@@ -42,8 +42,7 @@ Verdict MassBatch::assemble_item(std::size_t i, const State& state, const Stenci
     return Verdict::ok;
   }
   const double theta = stencil.theta;
-  const NodeSlots arms_mid =
-      (1.0 - theta) * arms_of(nodes_, item.node, state.prev) + theta * arms_next;
+  const Arms<4> arms_mid = at_theta(theta, arms_of(nodes_, item.node, state.prev), arms_next);
   const NodeSlots moved =
       NodeTable::slots(state.next, item.node) - NodeTable::slots(state.prev, item.node);
   const NodeSlots force = inertia_force<4>(
@@ -75,8 +74,8 @@ void MassBatch::add_momentum(const Coordinates& q, const Coordinates& velocity,
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-    add_item_momentum<4>(item.mass, NodeTable::slots(q, item.node),
-                         NodeTable::slots(velocity, item.node), momentum);
+    add_item_momentum<4, 4>(item.mass, NodeTable::slots(q, item.node),
+                            NodeTable::slots(velocity, item.node), momentum);
   }
 }
 

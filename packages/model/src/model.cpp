@@ -103,7 +103,8 @@ std::vector<std::string> Model::freeze(Form form) {
   }
   if (form == Form::multipliers) {
     for (int node = 0; node < nodes_.size(); ++node) {
-      if (has_internal[static_cast<std::size_t>(node)]) {
+      const bool has_triad = nodes_.kind(node) == NodeKind::node12;
+      if (has_triad && has_internal[static_cast<std::size_t>(node)]) {
         equations_.push_back(internal_constraint(nodes_, node));
       }
     }

@@ -1,10 +1,13 @@
 #include <culm/math/rotation.hpp>
 #include <culm/model/node_table.hpp>
 
+#include <Eigen/Geometry>
+
 namespace culm::model {
 
-int NodeTable::add(const NodeSlots& slots) {
+int NodeTable::add(const NodeSlots& slots, NodeKind kind) {
   reference_.insert(reference_.end(), slots.data(), slots.data() + slots.size());
+  kinds_.push_back(kind);
   fixed_.emplace_back();
   links_.emplace_back();
   return size() - 1;
@@ -16,6 +19,10 @@ RigidLink NodeTable::make_link(int slave, int master) const {
   const Mat3 triad = m.rightCols<3>();
   RigidLink link;
   link.master = master;
+  if (kind(master) == NodeKind::node6) {
+    link.turn = Vec3::UnitX().asDiagonal();
+    return link;
+  }
   link.lever = triad.transpose() * (s.col(0) - m.col(0));
   link.turn = s.rightCols<3>().transpose() * triad;
   return link;
@@ -24,6 +31,8 @@ RigidLink NodeTable::make_link(int slave, int master) const {
 bool NodeTable::link(int slave, int master) {
   const int root = this->master(master);
   if (is_slave(slave) || root == slave) return false;
+  // a triad cannot follow a director
+  if (kind(slave) == NodeKind::node12 && kind(root) == NodeKind::node6) return false;
   links_[index(slave)] = make_link(slave, root);
   for (int node = 0; node < size(); ++node) {
     if (links_[index(node)].master == slave) links_[index(node)] = make_link(node, root);
@@ -39,10 +48,41 @@ void NodeTable::follow_master(int slave, Coordinates& q) const {
   s.rightCols<3>() = m.rightCols<3>() * link.turn.transpose();
 }
 
-void move_node(const Vec6& increment, Eigen::Map<NodeSlots> slots) {
-  slots.col(0) += increment.head<3>();
-  const Mat3 turned = exp_rotation(increment.tail<3>()) * slots.rightCols<3>();
-  slots.rightCols<3>() = polar_correction(turned);
+void NodeTable::move(int node, const Vec6& increment, Coordinates& q) const {
+  auto s = slots(q, node);
+  s.col(0) += increment.head<3>();
+  if (kind(node) == NodeKind::node6) {
+    s.col(1) += increment.tail<3>();
+    return;
+  }
+  const Mat3 turned = exp_rotation(increment.tail<3>()) * s.rightCols<3>();
+  s.rightCols<3>() = polar_correction(turned);
+}
+
+NodeSlots NodeTable::slot_motion(int node, const Vec6& u, const Coordinates& q) const {
+  NodeSlots motion = NodeSlots::Zero();
+  motion.col(0) = u.head<3>();
+  if (kind(node) == NodeKind::node6) {
+    motion.col(1) = u.tail<3>();
+    return motion;
+  }
+  const auto s = slots(q, node);
+  const Vec3 turn = u.tail<3>();
+  for (int i = 1; i < 4; ++i) motion.col(i) = turn.cross(Vec3(s.col(i)));
+  return motion;
+}
+
+Vec6 NodeTable::unknown_motion(int node, const NodeSlots& v, const Coordinates& q) const {
+  Vec6 u;
+  u.head<3>() = v.col(0);
+  if (kind(node) == NodeKind::node6) {
+    u.tail<3>() = v.col(1);
+    return u;
+  }
+  const auto s = slots(q, node);
+  u.tail<3>().setZero();
+  for (int i = 1; i < 4; ++i) u.tail<3>() += 0.5 * Vec3(s.col(i)).cross(Vec3(v.col(i)));
+  return u;
 }
 
 }  // namespace culm::model

@@ -23,7 +23,7 @@ UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multi
     Block block;
     block.owner = node;
     if (form == Form::multipliers) {
-      block.shape = shape_without(12, {});
+      block.shape = shape_without(coordinates_of(nodes.kind(node)), {});
     } else {
       const auto fixed = nodes.is_slave(node) ? std::bitset<6>("111111") : nodes.fixed(node);
       block.shape = shape_without(6, fixed);

@@ -141,10 +141,10 @@ class DenseAssembly {
         state.multipliers[static_cast<std::size_t>(block.first_multiplier + i)] += u[i];
       }
     } else if (model_.unknowns().form() == model::Form::multipliers) {
-      model::NodeTable::slots(state.next, block.owner) +=
-          Eigen::Map<const model::NodeSlots>(u.data());
+      Eigen::Map<Eigen::VectorXd>(model::NodeTable::slots(state.next, block.owner).data(),
+                                  u.size()) += u;
     } else if (block.shape.active > 0) {
-      model::move_node(u, model::NodeTable::slots(state.next, block.owner));
+      model_.nodes().move(block.owner, u, state.next);
     }
   }
 

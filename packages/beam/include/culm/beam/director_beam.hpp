@@ -42,6 +42,8 @@ class DirectorBeam {
   /// S = w C e_alg, eq. (1.7); never fails
   Verdict respond(int point, const Strain& prev, const Strain& next, const Stencil& stencil,
                   Response<num_strains>& response) const noexcept;
+  /// w C of a point
+  const Mat6& stiffness(int point) const noexcept { return at(point).weighted_stiffness; }
   double energy(int point, const Strain& e) const noexcept;
   /// Consistent mass, eq. (1.10); the slots d3 carry none
   SlotMatrix<num_slots> mass() const noexcept;
@@ -82,6 +84,6 @@ extern template class DirectorBeam<2>;
 extern template class DirectorBeam<3>;
 
 static_assert(Element<DirectorBeam<1>> && Element<DirectorBeam<2>> && Element<DirectorBeam<3>>);
-static_assert(HasResultants<DirectorBeam<1>>);
+static_assert(HasStiffness<DirectorBeam<1>> && HasResultants<DirectorBeam<1>>);
 
 }  // namespace culm::beam

@@ -57,6 +57,14 @@ concept Element = requires(const E& e, int point, const Slots<E::num_slots>& q,
   noexcept->std::convertible_to<SlotMatrix<E::num_slots>>;
 };
 
+/// An element whose law is linear: stress = C y with a constant, symmetric C of each point, weight
+/// included. Stating it saves the copies that respond() makes.
+template <class E>
+concept HasStiffness = requires(const E& e, int point) {
+  { e.stiffness(point) }
+  noexcept->std::same_as<const Mat<E::num_strains, E::num_strains>&>;
+};
+
 /// An element that can show stress resultants, in the order of `E::resultant_names()`.
 template <class E>
 concept HasResultants = requires(const E& e, int point, const Vec<E::num_strains>& y) {

@@ -1,6 +1,7 @@
 /// All elements of one type: the mechanics every element shares, written once.
 #pragma once
 
+#include <culm/math/small_product.hpp>
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/inertia.hpp>
@@ -32,7 +33,6 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   static constexpr int N = E::num_nodes;
   static constexpr int S = E::num_slots;
   static constexpr int M = E::num_strains;
-  static_assert(E::node_kind == NodeKind::node12, "projection is written for triad nodes");
   using ItemSlots = Slots<S>;
   using Strain = Vec<M>;
 
@@ -84,8 +84,11 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
 
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
     const Stencil damped = with_damping(stencil);
-    if (form_ == Form::null_space) return assemble_as<NullSpace>(state, damped, want, target);
-    return assemble_as<FullSpace>(state, damped, want, target);
+    // shell nodes have the same six unknowns in both forms
+    if constexpr (E::node_kind == NodeKind::node12) {
+      if (form_ == Form::multipliers) return assemble_as<FullSpace>(state, damped, want, target);
+    }
+    return assemble_as<NullSpace>(state, damped, want, target);
   }
 
   void extrapolate(const State& state, const Stencil& stencil,
@@ -101,9 +104,10 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, y);
         element.gradient(p, q, B);
-        element.respond(p, strain_prev_[at(i, p)], y, damped, response);
-        const Strain dy = B.transpose() * du.template reshaped<Eigen::AutoOrder>();
-        predicted_stress_[at(i, p)] = response.stress + response.tangent * dy;
+        const Strain dy =
+            B.transpose().lazyProduct(du.template reshaped<Eigen::AutoOrder>().matrix());
+        respond(i, p, y, damped, response, &dy);
+        predicted_stress_[at(i, p)] = response.stress;
       }
     }
     use_predicted_ = true;
@@ -128,8 +132,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     for (int item = 0; item < size(); ++item) {
       const ItemSlots f = gather(item, acceleration) * element(item).mass();  // mass is symmetric
       for (int a = 0; a < N; ++a) {
-        NodeTable::slots(force, nodes(item)[static_cast<std::size_t>(a)]) +=
-            f.template middleCols<4>(4 * a);
+        NodeTable::slots(force, nodes(item)[static_cast<std::size_t>(a)]).template leftCols<K>() +=
+            f.template middleCols<K>(K * a);
       }
     }
   }
@@ -139,7 +143,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
       const int item = placement_.items[i];
-      add_item_momentum<S>(element(item).mass(), gather(item, q), gather(item, velocity), momentum);
+      add_item_momentum<K, S>(element(item).mass(), gather(item, q), gather(item, velocity),
+                              momentum);
     }
   }
 
@@ -155,7 +160,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int p = 0; p < E::num_points; ++p) {
         const Strain& prev = strain_prev_[at(i, p)];
         element(item).strain(p, q, y);
-        element(item).respond(p, prev, y, damped, response);
+        respond(i, p, y, damped, response);
         // what the stress takes beyond the change of the stored energy
         taken += response.stress.dot(y - prev) -
                  (element(item).energy(p, y) - element(item).energy(p, prev));
@@ -186,6 +191,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
  private:
+  static constexpr int K = slots_of(E::node_kind);  // slots per node
+
   Stencil with_damping(Stencil stencil) const {
     if (stencil.step > 0.0) stencil.theta_strain += damping_.weight(stencil.step);
     return stencil;
@@ -197,19 +204,27 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   ItemSlots gather(int item, const Coordinates& q) const {
     ItemSlots slots;
     for (int a = 0; a < N; ++a) {
-      slots.template middleCols<4>(4 * a) =
-          NodeTable::slots(q, nodes(item)[static_cast<std::size_t>(a)]);
+      slots.template middleCols<K>(K * a) =
+          NodeTable::slots(q, nodes(item)[static_cast<std::size_t>(a)]).template leftCols<K>();
     }
     return slots;
   }
 
-  ItemSlots gather_arms(int item, const ItemSlots& slots, const Coordinates& q) const {
-    ItemSlots arms = slots;
+  using ItemArms = std::array<Arms<K>, N>;
+
+  // arms_of, of slots that are at hand
+  ItemArms arms_of_item(int item, const ItemSlots& slots, const Coordinates& q) const {
+    ItemArms arms;
     for (int a = 0; a < N; ++a) {
       const int node = nodes(item)[static_cast<std::size_t>(a)];
-      arms.col(4 * a).setZero();
+      Arms<K>& arm = arms[static_cast<std::size_t>(a)];
+      arm.slots = slots.template middleCols<K>(K * a);
+      arm.turns =
+          E::node_kind == NodeKind::node12 || (form_ == Form::null_space && nodes_.turns(node));
       if (nodes_.is_slave(node)) {
-        arms.col(4 * a) = slots.col(4 * a) - NodeTable::slots(q, nodes_.master(node)).col(0);
+        arm.slots.col(0) -= NodeTable::slots(q, nodes_.master(node)).col(0);
+      } else {
+        arm.slots.col(0).setZero();
       }
     }
     return arms;
@@ -226,22 +241,26 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     return verdict;
   }
 
-  // Slots and arms of an item where forces act, and at the end of the step.
+  // Slots of an item at both ends of the step and where forces act, and the arms there.
   struct Motion {
-    ItemSlots next, arms_next, mid, arms_mid;
+    ItemSlots prev, next, mid;
+    ItemArms arms_next, arms_mid;
   };
 
   Motion gather_motion(int item, const State& state, double theta) const {
     Motion m;
     m.next = gather(item, state.next);
-    m.arms_next = gather_arms(item, m.next, state.next);
+    m.arms_next = arms_of_item(item, m.next, state.next);
     if (theta == 1.0) {
       m.mid = m.next;
       m.arms_mid = m.arms_next;
-    } else {
-      const ItemSlots prev = gather(item, state.prev);
-      m.mid = (1.0 - theta) * prev + theta * m.next;
-      m.arms_mid = (1.0 - theta) * gather_arms(item, prev, state.prev) + theta * m.arms_next;
+      return m;
+    }
+    m.prev = gather(item, state.prev);
+    m.mid = (1.0 - theta) * m.prev + theta * m.next;
+    const ItemArms arms_prev = arms_of_item(item, m.prev, state.prev);
+    for (std::size_t a = 0; a < N; ++a) {
+      m.arms_mid[a] = at_theta(theta, arms_prev[a], m.arms_next[a]);
     }
     return m;
   }
@@ -277,39 +296,61 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     return verdict;
   }
 
+  // The stress of a point at the strain y, moved on by dy where that is given: to first order.
+  Verdict respond(std::size_t i, int p, const Strain& y, const Stencil& stencil,
+                  Response<M>& response, const Strain* dy = nullptr) const {
+    const E& element = this->element(placement_.items[i]);
+    const Strain& prev = strain_prev_[at(i, p)];
+    const double weight = stencil.theta_strain;
+    if constexpr (HasStiffness<E>) {
+      Strain e = (1.0 - weight) * prev + weight * y;
+      if (dy != nullptr) e += weight * *dy;
+      response.stress.noalias() = element.stiffness(p) * e;
+      return Verdict::ok;
+    } else {
+      const Verdict verdict = element.respond(p, prev, y, stencil, response);
+      if (dy != nullptr) response.stress += response.tangent * *dy;
+      return verdict;
+    }
+  }
+
   // B(q_theta)^T S and its derivative
   template <class Space>
   Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil,
                      Contribution<Space>& c) {
+    constexpr int W = Space::width * N;
     const E& element = this->element(placement_.items[i]);
     Verdict verdict = Verdict::ok;
     Strain y;
     Response<M> response;
-    Gradient<S, M> B_mid;
-    RowMat<Space::width * N, M> R_mid;
+    Gradient<S, M> B;
+    RowMat<W, M> R;
     for (int p = 0; p < E::num_points; ++p) {
       element.strain(p, motion.next, y);
-      element.gradient(p, motion.mid, B_mid);
-      verdict = worse(verdict, element.respond(p, strain_prev_[at(i, p)], y, stencil, response));
-      reduce<Space>(B_mid, motion.arms_mid, R_mid);
-      c.residual.noalias() += R_mid * response.stress;
+      element.gradient(p, motion.mid, B);
+      verdict = worse(verdict, respond(i, p, y, stencil, response));
+      reduce<Space>(B, motion.arms_mid, R);
+      c.residual.noalias() += R.lazyProduct(response.stress);
       if (!c.with_tangent) continue;
 
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
-      c.slot_force.noalias() += B_mid * stress;
+      c.slot_force.noalias() += B.lazyProduct(stress);
       SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
       element.add_curvature(p, stress, curvature);
       c.scalars += stencil.theta * curvature;
-      const RowMat<Space::width * N, M> RD = R_mid * response.tangent;
-      if (stencil.theta == 1.0) {
-        c.tangent.noalias() += RD * R_mid.transpose();
+      RowMat<W, M> RD;
+      if constexpr (HasStiffness<E>) {
+        multiply(R, element.stiffness(p), RD);
+        RD *= stencil.theta_strain;
       } else {
-        Gradient<S, M> B_next;
-        RowMat<Space::width * N, M> R_next;
-        element.gradient(p, motion.next, B_next);
-        reduce<Space>(B_next, motion.arms_next, R_next);
-        c.tangent.noalias() += RD * R_next.transpose();
+        multiply(R, response.tangent, RD);
       }
+      if (stencil.theta != 1.0) {
+        element.gradient(p, motion.next, B);
+        reduce<Space>(B, motion.arms_next, R);
+      }
+      const RowMat<M, W> R_next = R.transpose();
+      multiply_add(RD, R_next, c.tangent);
     }
     return verdict;
   }
@@ -320,14 +361,15 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
                    Contribution<Space>& c) {
     const int item = placement_.items[i];
     const SlotMatrix<S>& mass = masses_[i];
-    const ItemSlots force =
-        inertia_force<S>(mass, stencil.inertia * (motion.next - gather(item, state.prev)) +
-                                   gather(item, state.acceleration_offset));
+    ItemSlots force = gather(item, state.acceleration_offset);
+    force += stencil.inertia *
+             (motion.next - (stencil.theta == 1.0 ? gather(item, state.prev) : motion.prev));
+    force = inertia_force<S>(mass, force);
     for (int a = 0; a < N; ++a) {
-      const Vec<12> slots =
-          force.template middleCols<4>(4 * a).template reshaped<Eigen::AutoOrder>();
-      RowMat<Space::width, 1> reduced;
-      Space::reduce_rows(slots, motion.arms_mid.template middleCols<4>(4 * a), reduced);
+      const Vec<3 * K> slots =
+          force.template middleCols<K>(K * a).template reshaped<Eigen::AutoOrder>();
+      Vec<Space::width> reduced;
+      Space::reduce_rows(slots, motion.arms_mid[static_cast<std::size_t>(a)], reduced);
       c.residual.template segment<Space::width>(Space::width * a) += reduced;
     }
     if (!c.with_tangent) return;
@@ -349,12 +391,11 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     for (int a = 0; a < N; ++a) {
       for (int b = 0; b < N; ++b) {
         auto block = c.tangent.template block<W, W>(W * a, W * b);
-        Space::add_pairs(c.scalars.template block<4, 4>(4 * a, 4 * b),
-                         motion.arms_mid.template middleCols<4>(4 * a),
-                         motion.arms_next.template middleCols<4>(4 * b), block);
+        const Arms<K>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
+        Space::add_pairs(c.scalars.template block<K, K>(K * a, K * b),
+                         motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
         if (a == b) {
-          Space::add_turning(slot_forces.template middleCols<4>(4 * a),
-                             motion.arms_next.template middleCols<4>(4 * a), theta, block);
+          Space::add_turning(slot_forces.template middleCols<K>(K * a), arms_next, theta, block);
         }
         placement_.scatter.add_tangent(i, a, b, block, target);
       }
@@ -372,10 +413,10 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
   template <class Space>
-  static void reduce(const Gradient<S, M>& B, const ItemSlots& arms,
+  static void reduce(const Gradient<S, M>& B, const ItemArms& arms,
                      RowMat<Space::width * N, M>& R) {
     for (int a = 0; a < N; ++a) {
-      Space::reduce_rows(B.template middleRows<12>(12 * a), arms.template middleCols<4>(4 * a),
+      Space::reduce_rows(B.template middleRows<3 * K>(3 * K * a), arms[static_cast<std::size_t>(a)],
                          R.template middleRows<Space::width>(Space::width * a));
     }
   }

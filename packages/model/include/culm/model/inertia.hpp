@@ -17,14 +17,14 @@ Slots<S> inertia_force(const SlotMatrix<S>& mass, const Slots<S>& acceleration) 
 }
 
 /// Adds p = M v of an item: T = 1/2 v . p, L = sum of p over positions, J = sum_s q_s x p_s.
-/// Position slots are every fourth. @source formulation 1.2, 4.6
-template <int S>
+/// @tparam K slots per node, the first of which is the position. @source formulation 1.2, 4.6
+template <int K, int S>
 void add_item_momentum(const SlotMatrix<S>& mass, const Slots<S>& q, const Slots<S>& velocity,
                        Momentum& momentum) {
   const Slots<S> p = inertia_force(mass, velocity);
   momentum.kinetic_energy += 0.5 * p.cwiseProduct(velocity).sum();
   for (int s = 0; s < S; ++s) {
-    if (s % 4 == 0) momentum.linear += p.col(s);
+    if (s % K == 0) momentum.linear += p.col(s);
     const Vec3 slot = q.col(s);
     momentum.angular += slot.cross(Vec3(p.col(s)));
   }

@@ -3,6 +3,7 @@
 
 #include <culm/model/projection.hpp>
 
+#include <array>
 #include <vector>
 
 namespace culm::model {
@@ -16,24 +17,25 @@ using BoundedSlots = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3
 template <int MaxNodes>
 struct ItemMotion {
   using Slots = BoundedSlots<MaxNodes>;
+  using NodeArms = std::array<Arms<4>, MaxNodes>;
 
   ItemMotion(const NodeTable& table, const std::vector<int>& nodes, const State& state,
              double theta)
-      : mid(3, 4 * static_cast<int>(nodes.size())), arms_mid(mid), next(mid), arms_next(mid) {
-    int at = 0;
-    for (int node : nodes) {
+      : mid(3, 4 * static_cast<int>(nodes.size())), next(mid) {
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const int node = nodes[a];
+      const int at = 4 * static_cast<int>(a);
       next.template middleCols<4>(at) = NodeTable::slots(state.next, node);
-      arms_next.template middleCols<4>(at) = arms_of(table, node, state.next);
       mid.template middleCols<4>(at) = (1.0 - theta) * NodeTable::slots(state.prev, node) +
                                        theta * next.template middleCols<4>(at);
-      arms_mid.template middleCols<4>(at) = (1.0 - theta) * arms_of(table, node, state.prev) +
-                                            theta * arms_next.template middleCols<4>(at);
-      at += 4;
+      arms_next[a] = arms_of(table, node, state.next);
+      arms_mid[a] = at_theta(theta, arms_of(table, node, state.prev), arms_next[a]);
     }
   }
 
-  Slots mid, arms_mid;  ///< (1 - theta) prev + theta next
-  Slots next, arms_next;
+  Slots mid;  ///< (1 - theta) prev + theta next
+  Slots next;
+  NodeArms arms_mid, arms_next;  ///< one entry per node of the item
 };
 
 }  // namespace culm::model

@@ -14,19 +14,21 @@ namespace culm::model {
 using NodeSlots = Slots<4>;
 
 /// How the coordinates of an eliminated node follow from its master:
-/// x = x_m + sum_k lever_k d_k,m and d_i = sum_k turn_ik d_k,m. @source formulation 6.4
+/// x = x_m + sum_k lever_k d_k,m and d_i = sum_k turn_ik d_k,m. A shell node that follows another
+/// shell node has its position and its director. @source formulation 6.4, 6.5
 struct RigidLink {
   int master = -1;
   Vec3 lever = Vec3::Zero();     ///< components in the master's triad [m]
   Mat3 turn = Mat3::Identity();  ///< turn(i, k) = d_i . d_k,m in the reference
 };
 
-/// Nodes in the order they were added.
+/// Nodes in the order they were added. All have four slots in memory; of a shell node, x and d, the
+/// last two are zero and belong to no unknown, so that whatever acts on slots acts on both kinds.
 class NodeTable {
  public:
-  /// Adds a node. @param slots reference slots, shape (3, 4): x, d1, d2, d3
+  /// Adds a node. @param slots reference slots, shape (3, 4): x, d1, d2, d3, or x, d, 0, 0
   /// @return node number
-  int add(const NodeSlots& slots);
+  int add(const NodeSlots& slots, NodeKind kind = NodeKind::node12);
 
   int size() const { return static_cast<int>(fixed_.size()); }
   /// First coordinate of a node in Coordinates.
@@ -41,7 +43,12 @@ class NodeTable {
     return Eigen::Map<NodeSlots>(q.data() + offset(node));
   }
 
-  /// Takes away some of the six unknowns (translations 0-2, rotations 3-5) of a node.
+  NodeKind kind(int node) const { return kinds_[index(node)]; }
+  /// Whether the slots of a node turn with a triad: its own or that of its master.
+  bool turns(int node) const { return kind(master(node)) == NodeKind::node12; }
+
+  /// Takes away some of the six unknowns of a node: translations 0-2, rotations 3-5, of a shell
+  /// node the components of its director 3-5.
   void fix(int node, std::bitset<6> unknowns) { fixed_[index(node)] |= unknowns; }
   std::bitset<6> fixed(int node) const { return fixed_[index(node)]; }
 
@@ -56,18 +63,24 @@ class NodeTable {
 
   /// Recomputes an eliminated node from its master.
   void follow_master(int slave, Coordinates& q) const;
+  /// Applies the increment of a Newton step to the six unknowns of a node. A triad turns, d_i <-
+  /// Exp(dtheta) d_i, with one polar correction, so no rotation parameter is ever stored; a shell
+  /// director changes by its increment. @source formulation 6.3
+  void move(int node, const Vec6& increment, Coordinates& q) const;
+  /// How the slots of a node move with its six unknowns at `q`, to first order: P u, shape (3, 4).
+  NodeSlots slot_motion(int node, const Vec6& u, const Coordinates& q) const;
+  /// The rates of the six unknowns that belong to slot rates `v` at `q`, for a triad v and
+  /// omega = 1/2 sum_i d_i x w_i. @source formulation 1.1
+  Vec6 unknown_motion(int node, const NodeSlots& v, const Coordinates& q) const;
 
  private:
   static std::size_t index(int node) { return static_cast<std::size_t>(node); }
   RigidLink make_link(int slave, int master) const;
 
   Coordinates reference_;
+  std::vector<NodeKind> kinds_;
   std::vector<std::bitset<6>> fixed_;
   std::vector<RigidLink> links_;
 };
-
-/// Applies the increments (dx, dtheta) of a Newton step to a node: x += dx, d_i <- Exp(dtheta) d_i,
-/// then one polar correction, so no rotation parameter is ever stored. @source formulation 6.3
-void move_node(const Vec6& increment, Eigen::Map<NodeSlots> slots);
 
 }  // namespace culm::model

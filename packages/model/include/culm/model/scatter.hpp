@@ -38,7 +38,7 @@ class Scatter {
     first_pair_.push_back(offsets_.size());
   }
 
-  /// Adds the residual of block a of an item; `values` has the width of the block.
+  /// Adds the residual of block a of an item; `values` has at least the width of the block.
   void add_residual(std::size_t item, int a, const double* values, Target& target) const {
     const Rows& rows = rows_[first_block_[item] + static_cast<std::size_t>(a)];
     if (rows.first < 0) return;
@@ -54,7 +54,8 @@ class Scatter {
     }
   }
 
-  /// Adds the tangent of blocks (a, b) of an item; shape (width of a, width of b).
+  /// Adds the tangent of blocks (a, b) of an item; shape at least (width of a, width of b), what is
+  /// beyond is left out.
   template <class Derived>
   void add_tangent(std::size_t item, int a, int b, const Eigen::MatrixBase<Derived>& K,
                    Target& target) const {
@@ -71,9 +72,9 @@ class Scatter {
       double* out = target.values.data() +
                     target.row_begin[static_cast<std::size_t>(rows.first + row)] + offset;
       if (column_shape.full()) {
-        for (int j = 0; j < K.cols(); ++j) out[j] += K(i, j);
+        for (int j = 0; j < column_shape.width; ++j) out[j] += K(i, j);
       } else {
-        for (int j = 0; j < K.cols(); ++j) {
+        for (int j = 0; j < column_shape.width; ++j) {
           const int column = column_shape.position[static_cast<std::size_t>(j)];
           if (column >= 0) out[column] += K(i, j);
         }
