@@ -28,7 +28,7 @@ EXTERNAL = [
     (r"metis\.h$", {"parallel"}, False),
     (r"(hdf5|H5).*", {"output", "simulation"}, False),
     (r"libxml/.*", {"deck"}, False),
-    (r"muParser.*", {"deck"}, False),
+    (r"muParser.*", {"deck", "model"}, False),
 ]
 # Packages whose public headers may show Trilinos types.
 SHOWS_TRILINOS = {"assembly"}

@@ -362,6 +362,16 @@ VALUES = [
     wrong_steps("no value", 'name="Steps"', " / Steps: has no attribute 'value'"),
     wrong_steps("empty value", 'name="Steps" value=""', " / Steps: must be an integer, got ''"),
     wrong_steps("no name", 'value="2"', ": <Parameter> has no attribute 'name'"),
+    wrong(
+        "unknown variable in a function",
+        LOADS,
+        '<Variable name="omega" value="3"/>\n<ParameterList name="Functions">'
+        + parameters("swing", ("Type", "Expression"), ("@@Expression", "omega + omga*t"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Functions / swing / Expression: must be a formula in t, got '(3) + omga*t': mistake at "
+        "character 7, 'omga' (Unexpected token \"omga\" found at position 6.)",
+    ),
 ]
 
 STRUCTURE = [

@@ -108,6 +108,12 @@ Field& Field::one_of(std::vector<std::string> choices) {
   return *this;
 }
 
+Field& Field::formula_in(std::string variable) {
+  internal_check(kind_ == Kind::text, "'" + name_ + "' is a formula but no text");
+  formula_variable_ = std::move(variable);
+  return *this;
+}
+
 Field& Field::optional() {
   required_ = false;
   return *this;

@@ -205,6 +205,9 @@ Conversion convert(const RawParameter& raw, const Field& field, const Scope& sco
   if (!result.mistakes.empty()) return result;
   Converter converter(scope, factor);
   result.value = parse(converter, field.kind(), *raw.value);
+  if (!field.formula_variable().empty()) {
+    result.value = scope.substitute(*raw.value, field.formula_variable());
+  }
   result.mistakes = converter.take_mistakes();
   if (!result.value || !result.mistakes.empty()) return result;
   for (const std::string& mistake : field.mistakes(*result.value)) {

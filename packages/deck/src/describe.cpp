@@ -13,6 +13,7 @@ std::string describe(const Field& field) {
     words += " in " + field.unit();
   }
   if (!field.size_text().empty()) words += ", " + field.size_text();
+  if (!field.formula_variable().empty()) words += ", formula in " + field.formula_variable();
   if (!field.choices().empty()) words += ": " + join(field.choices(), ", ");
   return words;
 }

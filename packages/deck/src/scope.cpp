@@ -118,6 +118,21 @@ Evaluation Scope::evaluate(const std::string& text) const {
   }
 }
 
+std::string Scope::substitute(std::string_view formula, std::string_view own) const {
+  std::string result;
+  while (!formula.empty()) {
+    // A word may begin with a digit: the e of 2e3 is no name.
+    const auto word_end = std::ranges::find_if_not(formula, is_identifier_part);
+    const auto length = std::max<std::ptrdiff_t>(word_end - formula.begin(), 1);
+    const std::string word(formula.begin(), formula.begin() + length);
+    formula.remove_prefix(static_cast<std::size_t>(length));
+    const auto variable = variables_.find(word);
+    const bool stays = word == own || variable == variables_.end() || is_called(formula, 0);
+    result += stays ? word : "(" + format_number(variable->second) + ")";
+  }
+  return result;
+}
+
 Scope::Parser& Scope::parser() const {
   if (!parser_) {
     parser_ = std::make_unique<Parser>();

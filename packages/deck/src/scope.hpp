@@ -37,6 +37,9 @@ class Scope {
   /// Evaluates a number or an expression.
   Evaluation evaluate(const std::string& text) const;
 
+  /// A formula in which all variables stand as numbers, except its own.
+  std::string substitute(std::string_view formula, std::string_view own) const;
+
  private:
   struct Parser;
   Parser& parser() const;

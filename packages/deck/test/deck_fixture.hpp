@@ -24,6 +24,7 @@ inline Schema world() {
                           .add(integer("Elements", "Number of elements.").at_least(1).optional(4))
                           .add(choice("Strains", {"full", "reduced"}, "Which.").optional("full"))
                           .add(number("Damping", "1/s", "Absent: none.").non_negative().optional())
+                          .add(text("Motion", "Of the root.").formula_in("t").optional())
                           .add(texts("Tags", "Any words.").optional(std::vector<std::string>{}))
                           .add(integers("Nodes", "Numbers of nodes.").optional(std::vector<int>{}))
                           .list_by_type("Section", {{"Tube", tube}, {"Box", box}})

@@ -115,5 +115,19 @@ TEST(UnitAttribute, ADimensionThatDoesNotFitIsRefused) {
             "deck.xml:3: Structures / beam / Elements: takes no unit, got 'm'");
 }
 
+TEST(Formula, HasTheVariablesOfTheDeckAsNumbersAndItsOwnAsAName) {
+  const auto formula = [](const std::string& text) {
+    const std::string motion = "<Parameter name=\"Motion\" value=\"" + text + "\"/>";
+    const std::string variables =
+        "<Variable name=\"a\" value=\"-2\"/><Variable name=\"t\" value=\"7\"/>";
+    return read(deck_around(beam(variables + length("1") + motion)))
+        .list("Structures")
+        .list("beam")
+        .text("Motion");
+  };
+  EXPECT_EQ(formula("a^2*t + b"), "(-2)^2*t + b");
+  EXPECT_EQ(formula("2e3*a + 1e-3 + ab + a(t) + 3a"), "2e3*(-2) + 1e-3 + ab + a(t) + 3a");
+}
+
 }  // namespace
 }  // namespace culm::deck

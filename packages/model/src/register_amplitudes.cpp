@@ -1,5 +1,8 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
 #include <culm/model/amplitude.hpp>
 
+#include "time_formula.hpp"
 #include "time_table.hpp"
 
 #include <bit>
@@ -56,6 +59,28 @@ void add_constant(Registry<Amplitude>& registry) {
   registry.add(
       "Constant", with_intensity("Constant", "The same at all times (legacy: constant)."),
       [](const Options& options) { return Amplitude::constant(options.number("Intensity")); });
+}
+
+void add_expression(Registry<Amplitude>& registry) {
+  registry.add(
+      "Expression",
+      with_intensity("Expression", "A formula in the time t [s], such as t < 1 ? t^2 : 1.")
+          .add(text("Expression", "Formula; may use variables of the deck.").formula_in("t"))
+          .check([](const Options& options, InputIssues& issues) {
+            const auto wrong = TimeFormula::mistake(options.text("Expression"));
+            if (!wrong.empty()) issues.add(options.where("Expression"), wrong);
+          }),
+      [](const Options& options) {
+        const double a = options.number("Intensity");
+        const Where where = options.where("Expression");
+        const TimeFormula formula(options.text("Expression"));
+        return Amplitude::of_time([=](double t) {
+          const double value = formula.value(t);
+          if (std::isfinite(value)) return a * value;
+          throw InputError(where, "must be finite at all times, is " + format_number(value) +
+                                      " at t = " + format_number(t) + " s");
+        });
+      });
 }
 
 // 1 / dt in the one step with start <= t0 < end, so that the impulse does not depend on the step
@@ -134,6 +159,7 @@ void add_tables(Registry<Amplitude>& registry) {
 void register_amplitudes(Registry<Amplitude>& registry) {
   add_constant(registry);
   add_shapes(registry);
+  add_expression(registry);
   add_delta(registry);
   add_random(registry);
   add_tables(registry);

@@ -139,6 +139,35 @@ TEST_F(Functions, TablesHaveIncreasingTimesAndAsManyValues) {
               ElementsAre("must increase, got 2.5 before 2.5"));
 }
 
+TEST_F(Functions, ExpressionsAreFormulasInTime) {
+  EXPECT_THAT(values("Expression",
+                     {{"Expression", std::string("t < 1 ? t^2 : 2*t - 1")}, {"Intensity", 2.0}},
+                     {-1.0, 0.5, 1.0, 3.0}),
+              ElementsAre(2.0, 0.5, 2.0, 10.0));
+  EXPECT_THAT(values("Expression", {{"Expression", std::string("cos(pi*t) + e^0")}}, {1.0, 2.0}),
+              ElementsAre(0.0, 2.0));
+}
+
+TEST_F(Functions, MistakesInExpressionsAreNamedWithTheirPlace) {
+  const Schema schema = registry.variants().at("Expression");
+  const auto mistake = [&](const std::string& text) {
+    return kit::mistakes_in(schema, kit::deck_list(schema, {{"Expression", text}}));
+  };
+  EXPECT_THAT(mistake("3 + omega*t"),
+              ElementsAre(testing::StartsWith("must be a formula in t, got '3 + omega*t': mistake "
+                                              "at character 5, 'omega' (")));
+  EXPECT_THAT(mistake("3*(t + 1"), ElementsAre(testing::HasSubstr("mistake at character 10")));
+  EXPECT_THAT(mistake("t, 2"), ElementsAre("must be one formula in t, got 't, 2'"));
+  EXPECT_THAT(mistake(" "), ElementsAre("must be a formula in t, got ''"));
+  EXPECT_THAT(mistake("sin(t)"), ElementsAre());
+}
+
+TEST_F(Functions, AnExpressionThatIsNotFiniteIsAMistakeOfTheDeck) {
+  const Amplitude pole = make("Expression", {{"Expression", std::string("1/t")}});
+  EXPECT_EQ(pole.at(2.0), 0.5);
+  EXPECT_THROW(pole.at(0.0), InputError);
+}
+
 class FunctionFile : public Functions {
  protected:
   const std::filesystem::path folder =

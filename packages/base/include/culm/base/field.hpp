@@ -46,6 +46,8 @@ class Field {
 
   /// Texts: the allowed names.
   Field& one_of(std::vector<std::string> choices);
+  /// Texts: a formula in this variable. The deck puts in its own variables as numbers.
+  Field& formula_in(std::string variable);
 
   /// May be absent, and has no value then.
   Field& optional();
@@ -75,6 +77,8 @@ class Field {
   const std::optional<Bound>& lower() const { return lower_; }
   const std::optional<Bound>& upper() const { return upper_; }
   const std::vector<std::string>& choices() const { return choices_; }
+  /// The variable of a formula; empty for any other text.
+  const std::string& formula_variable() const { return formula_variable_; }
 
   /// The rule of the range in words with unit, such as "> 0 kg"; empty if there is none.
   std::string range_text() const;
@@ -106,6 +110,7 @@ class Field {
   std::optional<int> multiple_;
   std::optional<int> min_size_;
   std::vector<std::string> choices_;
+  std::string formula_variable_;
 };
 
 /// A finite number; `unit` is SI, "1" or empty for none.
