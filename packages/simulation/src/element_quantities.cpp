@@ -54,6 +54,19 @@ class StrainEnergy final : public Quantity {
   }
 };
 
+class Energy final : public Quantity {
+ public:
+  std::vector<output::HistoryColumn> columns() const override {
+    return {{"kinetic", "J"}, {"strain", "J"}, {"potential", "J"}, {"total", "J"}};
+  }
+  void evaluate(const assembly::System& system, const model::State& state,
+                std::vector<double>& numbers) const override {
+    const model::Momentum momentum = system.momentum(state.next, state.velocity);
+    const assembly::Energies e = system.energies(state.next, momentum);
+    numbers.insert(numbers.end(), {e.kinetic, e.strain, e.potential, e.total()});
+  }
+};
+
 }  // namespace
 
 void register_element_quantities(QuantityRegistry& registry) {
@@ -68,6 +81,12 @@ void register_element_quantities(QuantityRegistry& registry) {
                [](const Options&, model::BuildContext&) -> std::unique_ptr<Quantity> {
                  return std::make_unique<StrainEnergy>();
                });
+  registry.add(
+      "Energy",
+      Schema("Energy", "Kinetic, strain and potential energy of the whole model and their sum."),
+      [](const Options&, model::BuildContext&) -> std::unique_ptr<Quantity> {
+        return std::make_unique<Energy>();
+      });
 }
 
 }  // namespace culm::simulation
