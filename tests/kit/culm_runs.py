@@ -3,6 +3,7 @@
 import csv
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 
@@ -68,6 +69,19 @@ class Run:
         """A number of the certificate, such as 'energy balance'; the run must not be quiet."""
         line = next(line for line in self.output.splitlines() if line.strip().startswith(what))
         return float(line.split(what)[1].split()[0])
+
+    def _steps(self, pattern):
+        """A number of the closing words, such as '500 steps accepted, 0 cut back; …'."""
+        return int(re.search(pattern, self.output).group(1))
+
+    def cut_back(self):
+        return self._steps(r"steps accepted, (\d+) cut back")
+
+    def iterations(self):
+        return self._steps(r"cut back; (\d+) iterations")
+
+    def most_iterations(self):
+        return self._steps(r"per step, at most (\d+)")
 
     def __init__(self, process, folder):
         self.exit = process.returncode
