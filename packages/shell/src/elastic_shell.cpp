@@ -5,7 +5,6 @@
 
 #include <Eigen/Cholesky>
 
-#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -71,40 +70,19 @@ double ElasticShell::energy(int, const Strain& y) const noexcept {
 
 const ShellForms::Stiffness& ElasticShell::stiffness(int) const noexcept { return stiffness_; }
 
-Vec6 ElasticShell::strain_at_centre(double zeta, double angle, const Strain& y) const {
-  const ShellGeometry::Point point = geometry_.at(0.0, 0.0, zeta, angle);
-  Vec6 E = point.strain * y;
+EnhancedParameters ElasticShell::enhanced_at_centre(const Strain& y) const noexcept {
   const Enhancement& enhancement = geometry_.options().enhancement;
-  if (enhancement.thickness > 0) {
-    E += thickness_parameter_.dot(y) * point.enhanced.col(enhancement.membrane);
-  }
-  return E;
+  EnhancedParameters parameters = EnhancedParameters::Zero(enhancement.size());
+  if (enhancement.thickness > 0) parameters[enhancement.membrane] = thickness_parameter_.dot(y);
+  return parameters;
 }
 
-Vec<ElasticShell::num_resultants> ElasticShell::resultants(int, const Strain& y) const noexcept {
-  Vec<num_resultants> sum = Vec<num_resultants>::Zero();
-  visit_thickness(*layup_, 2, [&](const material::Layer& layer, double zeta, double weight) {
-    const Vec6 S = modulus(layer) * strain_at_centre(zeta, layer.angle, y);
-    const double c = std::cos(layer.angle);
-    const double s = std::sin(layer.angle);
-    const Vec3 in_plane(c * c * S[0] + s * s * S[1] - 2.0 * s * c * S[5],
-                        s * s * S[0] + c * c * S[1] + 2.0 * s * c * S[5],
-                        s * c * (S[0] - S[1]) + (c * c - s * s) * S[5]);
-    sum.segment<3>(0) += weight * in_plane;
-    sum.segment<3>(3) += weight * zeta * in_plane;
-    sum.segment<2>(6) += weight * Vec<2>(c * S[4] - s * S[3], s * S[4] + c * S[3]);
-  });
-  return sum;
+ShellResultants ElasticShell::resultants(int, const Strain& y) const noexcept {
+  return DeformedShell{geometry_, *layup_, y, enhanced_at_centre(y)}.resultants();
 }
 
-ElasticShell::LayerState ElasticShell::layer_state(int layer, double height,
-                                                   const Strain& y) const {
-  const material::Layer& ply = layup_->layers[static_cast<std::size_t>(layer)];
-  const double zeta = layup_->bottom(layer) + 0.5 * (1.0 + height) * ply.thickness;
-  LayerState state;
-  state.strain = strain_at_centre(zeta, ply.angle, y);
-  state.stress = modulus(ply) * state.strain;
-  return state;
+LayerState ElasticShell::layer_state(int layer, double height, const Strain& y) const {
+  return DeformedShell{geometry_, *layup_, y, enhanced_at_centre(y)}.layer_state(layer, height);
 }
 
 }  // namespace culm::shell

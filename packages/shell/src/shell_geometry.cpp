@@ -170,10 +170,10 @@ ShellGeometry::Point ShellGeometry::at(double xi, double eta, double zeta, doubl
 
 std::vector<std::string> shell_mistakes(const ShellForms::Nodes& reference, double thickness,
                                         const ShellOptions& options) {
-  // Unchecked parts of the geometry are not used, so an impossible element may be looked at.
+  // Volumes and axes of an impossible element may be looked at; strains would be infinite.
   const ShellGeometry geometry(reference, thickness, options);
   for (int a = 0; a < 4; ++a) {
-    for (const double zeta : {-0.5 * thickness, 0.0, 0.5 * thickness}) {
+    for (const double zeta : {0.0, -0.5 * thickness, 0.5 * thickness}) {
       const double J = geometry.jacobian(corner_xi[a], corner_eta[a], zeta);
       if (!(J > 0.0)) {
         return {

@@ -3,8 +3,8 @@
 
 #include <culm/material/layup.hpp>
 #include <culm/shell/shell_geometry.hpp>
+#include <culm/shell/shell_results.hpp>
 
-#include <array>
 #include <memory>
 
 namespace culm::shell {
@@ -32,25 +32,14 @@ class ElasticShell : public ShellForms {
   /// The constant C of the law: symmetric, stress = C y at rest.
   const Stiffness& stiffness(int point) const noexcept;
 
-  /// Membrane forces [N/m], moments [N] and shear forces [N/m] at the centre, integrals over ζ of
-  /// the second Piola-Kirchhoff stress and ζ times it. Axes of the reference: 3 the normal, 1 the
-  /// reference axis projected (ShellOptions).
-  Vec<num_resultants> resultants(int point, const Strain& y) const noexcept;
-  static constexpr std::array<const char*, num_resultants> resultant_names() {
-    return {"N11", "N22", "N12", "M11", "M22", "M12", "Q1", "Q2"};
-  }
-
-  /// Green-Lagrange strain and second Piola-Kirchhoff stress, in the axes of a layer.
-  struct LayerState {
-    Vec6 strain;
-    Vec6 stress;  ///< [N/m^2]
-  };
+  ShellResultants resultants(int point, const Strain& y) const noexcept;
+  static constexpr const auto& resultant_names() { return shell_resultant_names; }
   /// At the centre of the element, at `height` within a layer: -1 bottom, 0 middle, 1 top.
   LayerState layer_state(int layer, double height, const Strain& y) const;
   const material::Layup& layup() const { return *layup_; }
 
  private:
-  Vec6 strain_at_centre(double zeta, double angle, const Strain& y) const;
+  EnhancedParameters enhanced_at_centre(const Strain& y) const noexcept;
 
   ShellGeometry geometry_;
   std::shared_ptr<const material::Layup> layup_;

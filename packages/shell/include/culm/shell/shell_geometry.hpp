@@ -18,6 +18,9 @@ struct Enhancement {
   bool operator==(const Enhancement&) const = default;
 };
 
+/// Values of the enhanced parameters; as many as `Enhancement::size`.
+using EnhancedParameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Enhancement::most, 1>;
+
 /// What may be chosen about the element. The defaults are free of locking; without assumed strains
 /// the element locks, which is good for showing just that.
 struct ShellOptions {
