@@ -3,6 +3,7 @@
 
 #include <culm/beam/director_beam.hpp>
 #include <culm/load/slot_load.hpp>
+#include <culm/model/element_batch.hpp>
 #include <culm/model/model.hpp>
 #include <culm/solver/newton_solver.hpp>
 
@@ -41,7 +42,7 @@ class Cantilever {
   Cantilever(int elements, Form form) {
     const double h = 10.0 / elements;
     for (int i = 0; i <= elements; ++i) model.nodes().add(node_at(i * h));
-    auto& batch = model.elements<Beam>("Beam, director, order 1");
+    auto& batch = model::elements<Beam>(model, "Beam, director, order 1");
     for (int i = 0; i < elements; ++i) {
       batch.add(make_beam(node_at(i * h), node_at((i + 1) * h)), {i, i + 1});
     }

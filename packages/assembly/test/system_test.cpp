@@ -1,4 +1,5 @@
 #include <culm/assembly/system.hpp>
+#include <culm/model/element_batch.hpp>
 
 #include <culm_kit/chain_model.hpp>
 #include <culm_kit/dense_assembly.hpp>
@@ -95,7 +96,7 @@ TEST_P(SystemTest, EnergyCountsEachElementOnce) {
   System system(model, parallel::Comm(), ledger);
   const model::State state = kit::random_state(model, 5);
   double expected = 0.0;
-  const auto& batch = model.elements<kit::SpringLink>("Spring link");
+  const auto& batch = model::elements<kit::SpringLink>(model, "Spring link");
   for (int item = 0; item < batch.size(); ++item) {
     Slots<8> q;
     q << model::NodeTable::slots(state.next, item), model::NodeTable::slots(state.next, item + 1);

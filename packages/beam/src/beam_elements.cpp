@@ -4,6 +4,7 @@
 #include <culm/math/lagrange.hpp>
 #include <culm/math/quadrature.hpp>
 #include <culm/math/rotation.hpp>
+#include <culm/model/element_batch.hpp>
 
 #include <algorithm>
 #include <string>
@@ -133,7 +134,8 @@ ReferenceState add_elements(const ElementChoice& choice, const Chain& chain,
                             const std::vector<int>& nodes, const SectionTable& sections,
                             model::Model& model, model::Structure& structure) {
   const auto add = [&]<class Beam>(const std::string& effect) {
-    return add_all(model.elements<Beam>(effect, choice.damping), chain, nodes, sections, structure);
+    return add_all(model::elements<Beam>(model, effect, choice.damping), chain, nodes, sections,
+                   structure);
   };
   switch (choice.kind) {
     case ElementKind::director_1:

@@ -2,6 +2,7 @@
 #include <culm/beam/beam_structure.hpp>
 #include <culm/beam/director_beam.hpp>
 #include <culm/beam/helical_beam.hpp>
+#include <culm/model/element_batch.hpp>
 
 #include <Eigen/Geometry>
 #include <culm_kit/deck_list.hpp>
@@ -77,7 +78,7 @@ TEST_F(BeamStructure, HasNodesCellsSetsAndOutlines) {
 
 TEST_F(BeamStructure, ElementsOfOneKindShareABatch) {
   add_line(director_1);
-  EXPECT_EQ(model.elements<DirectorBeam<1>>("Beam, director, order 1").size(), 4);
+  EXPECT_EQ(model::elements<DirectorBeam<1>>(model, "Beam, director, order 1").size(), 4);
   EXPECT_EQ(model.element_batches().size(), 1U);
 }
 
@@ -130,7 +131,7 @@ TEST_F(BeamStructure, IsFreeOfStressHoweverItIsCurved) {
        {"Elements", 6},
        {"Pre-Twist", Numbers{0.0, 0.8}},
        {"Pre-Twist Positions", Numbers{0.0, 1.0}}});
-  auto& batch = model.elements<DirectorBeam<2>>("Beam, director, order 2");
+  auto& batch = model::elements<DirectorBeam<2>>(model, "Beam, director, order 2");
   std::vector<double> resultants;
   for (int item = 0; item < batch.size(); ++item) {
     batch.resultants(item, model.nodes().reference(), resultants);
@@ -146,7 +147,7 @@ TEST_F(BeamStructure, TapersBetweenItsSections) {
   add_line({{"Sections", std::vector<std::string>{"root", "tube"}},
             {"Section Positions", Numbers{0.0, 1.0}}},
            2);
-  const auto& batch = model.elements<DirectorBeam<1>>("Beam, director, order 1");
+  const auto& batch = model::elements<DirectorBeam<1>>(model, "Beam, director, order 1");
   const Vec6 e = Vec6::Unit(3);
   // the Gauss point of the first element lies at a quarter of the span
   EXPECT_LT((batch.element(0).resultants(0, e) - 2.5 * section().stiffness.col(3)).norm(), 1e-14);

@@ -1,3 +1,5 @@
+#include <culm/model/element_batch.hpp>
+
 #include "beam_case.hpp"
 
 #include <culm_kit/batch_laws.hpp>
@@ -18,7 +20,7 @@ void fill(model::Model& model, bool with_slave) {
   for (int a = 0; a < E::num_nodes; ++a) {
     nodes[static_cast<std::size_t>(a)] = model.nodes().add(reference.template middleCols<4>(4 * a));
   }
-  model.elements<E>(effect).add(Case::make(), nodes);
+  model::elements<E>(model, effect).add(Case::make(), nodes);
   if (with_slave) {
     model.add_rigid_link("link", nodes.back(), model.nodes().add(kit::random_node(20)));
   }

@@ -1,4 +1,5 @@
 #include <culm/load/register_load.hpp>
+#include <culm/model/element_batch.hpp>
 
 #include <culm_kit/deck_list.hpp>
 #include <culm_kit/load_contract.hpp>
@@ -197,7 +198,7 @@ TEST_F(Loads, EachSelectedNodeCarriesTheWholeForce) {
 TEST_F(Loads, GravityActsAtTheCentreOfMass) {
   // 1/2 (v + w_k xi_k)^2 dm of a mass of 3 kg at a point, and one of 2 kg at a node
   const Eigen::Vector4d point(1.0, 0.2, 0.1, -0.4);
-  auto& lumps = model.elements<Lump>("Lumps");
+  auto& lumps = model::elements<Lump>(model, "Lumps");
   lumps.add({3.0 * point * point.transpose()}, {1});
   Mat<4, 4> central = Mat<4, 4>::Zero();
   central(0, 0) = 2.0;

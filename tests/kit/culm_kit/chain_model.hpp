@@ -3,6 +3,7 @@
 #pragma once
 
 #include <culm/mechanics/linear_law.hpp>
+#include <culm/model/element_batch.hpp>
 #include <culm/model/model.hpp>
 
 #include <cmath>
@@ -82,7 +83,7 @@ static_assert(Element<SpringLink>);
 /// Fills a model with `links` springs in a row along a gentle helix, held at its first node.
 inline void add_chain(model::Model& model, int links, double stiffness = 100.0) {
   model::Structure& structure = model.add_structure("chain");
-  auto& batch = model.elements<SpringLink>("Spring link");
+  auto& batch = model::elements<SpringLink>(model, "Spring link");
   for (int i = 0; i <= links; ++i) {
     model::NodeSlots slots = model::NodeSlots::Zero();
     slots.col(0) = Vec3(i, std::sin(0.3 * i), 0.1 * i);

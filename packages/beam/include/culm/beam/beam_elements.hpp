@@ -4,6 +4,7 @@
 #include <culm/beam/axis.hpp>
 #include <culm/beam/section_table.hpp>
 #include <culm/model/model.hpp>
+#include <culm/model/strain_damping.hpp>
 
 #include <vector>
 

@@ -43,7 +43,7 @@ class DirectorBeam {
   Verdict respond(int point, const Strain& prev, const Strain& next, const Stencil& stencil,
                   Response<num_strains>& response) const noexcept;
   /// w C of a point
-  const Mat6& stiffness(int point) const noexcept { return at(point).weighted_stiffness; }
+  const RowMat<6, 6>& stiffness(int point) const noexcept { return at(point).weighted_stiffness; }
   double energy(int point, const Strain& e) const noexcept;
   /// Consistent mass, eq. (1.10); the slots d3 carry none
   SlotMatrix<num_slots> mass() const noexcept;
@@ -65,7 +65,7 @@ class DirectorBeam {
     Vec<num_nodes> dN;  // their derivatives by arc length, N' [1/m]
     double length;      // w_g J [m]
     Strain reference;
-    Mat6 weighted_stiffness;  // w_g J C
+    RowMat<6, 6> weighted_stiffness;  // w_g J C
   };
   struct MassPoint {
     Vec<num_nodes> N;

@@ -8,10 +8,8 @@ namespace culm {
 /// C += A B for row-major C, shape (R, K) x (K, C). Eigen hands products of this size to its
 /// blocked kernel for large matrices, which costs several times as much. Each row of C is summed in
 /// registers, in runs of columns short enough to fit.
-template <int R, int K, int C, int BOptions>
-void multiply_add(const RowMat<R, K>& A, const Eigen::Matrix<double, K, C, BOptions>& B,
-                  RowMat<R, C>& product) {
-  static_assert((BOptions & Eigen::RowMajor) != 0 || K == C, "pass B row-major or symmetric");
+template <int R, int K, int C>
+void multiply_add(const RowMat<R, K>& A, const RowMat<K, C>& B, RowMat<R, C>& product) {
   constexpr int run = C % 24 == 0 ? 24 : C % 14 == 0 ? 14 : C % 12 == 0 ? 12 : C;
   static_assert(run <= 24, "a run of columns has to fit into registers");
   for (int first = 0; first < C; first += run) {
@@ -29,9 +27,8 @@ void multiply_add(const RowMat<R, K>& A, const Eigen::Matrix<double, K, C, BOpti
 }
 
 /// C = A B, as multiply_add.
-template <int R, int K, int C, int BOptions>
-void multiply(const RowMat<R, K>& A, const Eigen::Matrix<double, K, C, BOptions>& B,
-              RowMat<R, C>& product) {
+template <int R, int K, int C>
+void multiply(const RowMat<R, K>& A, const RowMat<K, C>& B, RowMat<R, C>& product) {
   product.setZero();
   multiply_add(A, B, product);
 }

@@ -62,7 +62,19 @@ concept Element = requires(const E& e, int point, const Slots<E::num_slots>& q,
 template <class E>
 concept HasStiffness = requires(const E& e, int point) {
   { e.stiffness(point) }
-  noexcept->std::same_as<const Mat<E::num_strains, E::num_strains>&>;
+  noexcept->std::same_as<const RowMat<E::num_strains, E::num_strains>&>;
+};
+
+/// An element that multiplies by its gradient faster than by the matrix that gradient() writes.
+template <class E>
+concept ActsOnSlots = requires(const Slots<E::num_slots>& q, const Vec<E::num_strains>& y,
+                               const RowMat<E::num_strains, E::num_strains>& C,
+                               Slots<E::num_slots>& f,
+                               RowMat<3 * E::num_slots, 3 * E::num_slots>& K) {
+  { E::add_force(q, y, f) }
+  noexcept->std::same_as<void>;  // f += B(q) y
+  { E::add_stiffness(q, q, C, 1.0, K) }
+  noexcept->std::same_as<void>;  // K += factor B(mid) C B(next)^T
 };
 
 /// An element that can show stress resultants, in the order of `E::resultant_names()`.

@@ -5,25 +5,15 @@
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/inertia.hpp>
+#include <culm/model/model.hpp>
 #include <culm/model/projection.hpp>
+#include <culm/model/strain_damping.hpp>
 
 #include <cmath>
 #include <memory>
 #include <utility>
 
 namespace culm::model {
-
-/// What takes energy out of strains, in dynamics only.
-struct StrainDamping {
-  /// Numerical dissipation chi in [0, 1]: takes 1/2 chi De . C De per step and leaves the momenta;
-  /// first order in the step. @source formulation 4.5
-  double dissipation = 0.0;
-  double viscosity = 0.0;  ///< physical damping eta [s]: stress C eta de/dt on top of C e
-
-  bool operator==(const StrainDamping&) const = default;
-  /// Weight that the new strain gains over the old one in a step of length h.
-  double weight(double h) const { return 0.5 * dissipation + viscosity / h; }
-};
 
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
 /// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
@@ -95,17 +85,17 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
                    const Coordinates& increment) override {
     const Stencil damped = with_damping(stencil);
     Response<M> response;
-    Gradient<S, M> B;
-    Strain y;
+    Strain y, ahead, behind;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.next);
       const ItemSlots du = gather(placement_.items[i], increment);
       const E& element = this->element(placement_.items[i]);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, y);
-        element.gradient(p, q, B);
-        const Strain dy =
-            B.transpose().lazyProduct(du.template reshaped<Eigen::AutoOrder>().matrix());
+        // central differences of a quadratic form are its derivative, B^T du
+        element.strain(p, q + du, ahead);
+        element.strain(p, q - du, behind);
+        const Strain dy = 0.5 * (ahead - behind);
         respond(i, p, y, damped, response, &dy);
         predicted_stress_[at(i, p)] = response.stress;
       }
@@ -289,7 +279,12 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
                         Target& target) {
     const Motion motion = gather_motion(placement_.items[i], state, stencil.theta);
     Contribution<Space> c(want == Want::residual_and_tangent);
-    const Verdict verdict = add_stress(i, motion, stencil, c);
+    Verdict verdict = Verdict::ok;
+    if constexpr (ActsOnSlots<E>) {
+      verdict = add_stress_to_slots(i, motion, stencil, c);
+    } else {
+      verdict = add_stress(i, motion, stencil, c);
+    }
     if (stencil.inertia != 0.0) add_inertia(i, motion, state, stencil, c);
     if (!std::isfinite(c.residual.sum())) return Verdict::not_finite;
     scatter(i, motion, stencil.theta, c, target);
@@ -355,6 +350,70 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     return verdict;
   }
 
+  // The same by products that the element knows how to do faster.
+  template <class Space>
+  Verdict add_stress_to_slots(std::size_t i, const Motion& motion, const Stencil& stencil,
+                              Contribution<Space>& c) {
+    static_assert(E::node_kind == NodeKind::node6, "slots are unknowns where nodes are free");
+    const E& element = this->element(placement_.items[i]);
+    Verdict verdict = Verdict::ok;
+    Strain y;
+    Response<M> response;
+    ItemSlots force = ItemSlots::Zero();
+    for (int p = 0; p < E::num_points; ++p) {
+      element.strain(p, motion.next, y);
+      verdict = worse(verdict, respond(i, p, y, stencil, response));
+      E::add_force(motion.mid, response.stress, force);
+      if (!c.with_tangent) continue;
+      const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
+      Eigen::Map<ItemSlots> slot_forces(c.slot_force.data());
+      ItemSlots predicted = ItemSlots::Zero();
+      E::add_force(motion.mid, stress, predicted);
+      slot_forces += predicted;
+      SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
+      element.add_curvature(p, stress, curvature);
+      c.scalars += stencil.theta * curvature;
+      if constexpr (HasStiffness<E>) {
+        E::add_stiffness(motion.mid, motion.next, element.stiffness(p), stencil.theta_strain,
+                         c.tangent);
+      } else {
+        E::add_stiffness(motion.mid, motion.next, response.tangent, 1.0, c.tangent);
+      }
+    }
+    add_slot_force(force, motion, c);
+    if (c.with_tangent) turn_tangent(motion, c);
+    return verdict;
+  }
+
+  // P_theta^T f
+  template <class Space>
+  static void add_slot_force(const ItemSlots& force, const Motion& motion, Contribution<Space>& c) {
+    for (int a = 0; a < N; ++a) {
+      const Vec<3 * K> slots =
+          force.template middleCols<K>(K * a).template reshaped<Eigen::AutoOrder>();
+      Vec<Space::width> reduced;
+      Space::reduce_rows(slots, motion.arms_mid[static_cast<std::size_t>(a)], reduced);
+      c.residual.template segment<Space::width>(Space::width * a) += reduced;
+    }
+  }
+
+  // From slots to the unknowns of the masters that some nodes turn with.
+  template <class Space>
+  static void turn_tangent(const Motion& motion, Contribution<Space>& c) {
+    constexpr int W = Space::width;
+    RowMat<W, W * N> reduced;
+    for (int a = 0; a < N; ++a) {
+      const auto at = static_cast<std::size_t>(a);
+      if (!motion.arms_next[at].turns) continue;
+      const RowMat<W, W* N> rows = c.tangent.template middleRows<W>(W * a);
+      Space::reduce_rows(rows, motion.arms_mid[at], reduced);
+      c.tangent.template middleRows<W>(W * a) = reduced;
+      const RowMat<W, W* N> columns = c.tangent.template middleCols<W>(W * a).transpose();
+      Space::reduce_rows(columns, motion.arms_next[at], reduced);
+      c.tangent.template middleCols<W>(W * a) = reduced.transpose();
+    }
+  }
+
   // M a with a = inertia (q_next - q_prev) + offset
   template <class Space>
   void add_inertia(std::size_t i, const Motion& motion, const State& state, const Stencil& stencil,
@@ -365,13 +424,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     force += stencil.inertia *
              (motion.next - (stencil.theta == 1.0 ? gather(item, state.prev) : motion.prev));
     force = inertia_force<S>(mass, force);
-    for (int a = 0; a < N; ++a) {
-      const Vec<3 * K> slots =
-          force.template middleCols<K>(K * a).template reshaped<Eigen::AutoOrder>();
-      Vec<Space::width> reduced;
-      Space::reduce_rows(slots, motion.arms_mid[static_cast<std::size_t>(a)], reduced);
-      c.residual.template segment<Space::width>(Space::width * a) += reduced;
-    }
+    add_slot_force(force, motion, c);
     if (!c.with_tangent) return;
     c.slot_force += force.template reshaped<Eigen::AutoOrder>();
     c.scalars += stencil.inertia * mass;
@@ -433,5 +486,20 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
 };
+
+/// The batch of elements E of a model with this ledger name and damping, made when it is first
+/// asked for.
+template <Element E>
+ElementBatch<E>& elements(Model& model, const std::string& effect,
+                          const StrainDamping& damping = {}) {
+  for (const auto& batch : model.element_batches()) {
+    auto* same = dynamic_cast<ElementBatch<E>*>(batch.get());
+    if (same != nullptr && same->effect() == effect && same->damping() == damping) return *same;
+  }
+  auto batch = std::make_unique<ElementBatch<E>>(effect, model.nodes(), damping);
+  ElementBatch<E>& result = *batch;
+  model.add_element_batch(std::move(batch));
+  return result;
+}
 
 }  // namespace culm::model

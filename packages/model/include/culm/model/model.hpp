@@ -4,7 +4,6 @@
 #include <culm/model/batch.hpp>
 #include <culm/model/constraint.hpp>
 #include <culm/model/constraint_batch.hpp>
-#include <culm/model/element_batch.hpp>
 #include <culm/model/mass_batch.hpp>
 #include <culm/model/structure.hpp>
 
@@ -38,17 +37,9 @@ class Model {
 
   /// @return a structure that stays in place while others are added
   Structure& add_structure(std::string name);
-  /// The batch of elements E with this ledger name and damping, made when it is first asked for.
-  template <Element E>
-  ElementBatch<E>& elements(const std::string& effect, const StrainDamping& damping = {}) {
-    for (const auto& batch : element_batches_) {
-      auto* same = dynamic_cast<ElementBatch<E>*>(batch.get());
-      if (same != nullptr && same->effect() == effect && same->damping() == damping) return *same;
-    }
-    auto batch = std::make_unique<ElementBatch<E>>(effect, nodes_, damping);
-    ElementBatch<E>& result = *batch;
+  /// @see elements, in element_batch.hpp
+  void add_element_batch(std::unique_ptr<Batch> batch) {
     element_batches_.push_back(std::move(batch));
-    return result;
   }
   /// The batch of masses with this ledger name, made when it is first asked for.
   MassBatch& masses(const std::string& effect);
