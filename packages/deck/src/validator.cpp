@@ -30,13 +30,24 @@ Where where_of(const RawParameter& raw, const std::string& list_path) {
   return {raw.file, raw.line, join_path(list_path, raw.name)};
 }
 
+/// What an unknown name may stand for: a name that is not there yet, before one that is.
+template <class Item>
+std::vector<std::string> candidates(const std::string& name, const std::vector<std::string>& known,
+                                    const std::vector<Item>& items) {
+  std::vector<std::string> absent;
+  for (const std::string& candidate : known) {
+    if (!find(items, candidate)) absent.push_back(candidate);
+  }
+  return nearest_name(name, absent).empty() ? known : absent;
+}
+
 /// Whether one of the items has an unknown name that was meant to be this one.
 template <class Item>
 bool is_misspelt(const std::string& name, const std::vector<Item>& items,
                  const std::vector<std::string>& known) {
   return std::ranges::any_of(items, [&](const Item& item) {
     return std::ranges::find(known, item.name) == known.end() &&
-           nearest_name(item.name, known) == name;
+           nearest_name(item.name, candidates(item.name, known, items)) == name;
   });
 }
 
@@ -187,7 +198,9 @@ void Validator::report_unknown(const Place& place, const Schema& schema, bool ha
     if (std::ranges::find(lists, raw.name) != lists.end()) {
       report(raw, place.path, "must be a <ParameterList>, found a <Parameter>");
     } else {
-      issues_.add(where, "unknown name '" + raw.name + "'" + did_you_mean(raw.name, fields));
+      issues_.add(where,
+                  "unknown name '" + raw.name + "'" +
+                      did_you_mean(raw.name, candidates(raw.name, fields, place.raw.parameters)));
     }
   }
   if (schema.entries()) return;
@@ -197,7 +210,8 @@ void Validator::report_unknown(const Place& place, const Schema& schema, bool ha
       continue;
     }
     issues_.add({raw.file, raw.line, where_of(place.raw, place.path).path},
-                "unknown list '" + raw.name + "'" + did_you_mean(raw.name, lists));
+                "unknown list '" + raw.name + "'" +
+                    did_you_mean(raw.name, candidates(raw.name, lists, place.raw.lists)));
   }
 }
 

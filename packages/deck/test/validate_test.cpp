@@ -175,6 +175,21 @@ TEST(Validate, AMisspeltNameIsNotMissingAsWell) {
             "deck.xml:2: culm: unknown list 'Structure' – did you mean 'Structures'?");
 }
 
+TEST(Validate, AMisspeltNameStandsForOneThatIsMissing) {
+  Schema schema("culm", "");
+  schema.add(number("EI1", "N m^2", "")).add(number("EI2", "N m^2", ""));
+  try {
+    Deck::parse_text(
+        "<ParameterList name=\"culm\">\n<Parameter name=\"EI1\" value=\"1\"/>"
+        "<Parameter name=\"EI3\" value=\"1\"/></ParameterList>",
+        "deck.xml", {})
+        .validate(schema);
+    FAIL() << "the mistake passed";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "deck.xml:2: culm: unknown name 'EI3' – did you mean 'EI2'?");
+  }
+}
+
 TEST(Validate, TheRootHasTheNameOfTheSchema) {
   EXPECT_THAT(mistakes("<ParameterList name=\"colm\"><ParameterList name=\"Structures\"/>"
                        "</ParameterList>"),
