@@ -44,26 +44,47 @@ std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
   return std::make_unique<Dynamics>(std::move(settings), std::move(scheme));
 }
 
+namespace {
+
+double largest(const std::vector<double>& v) {
+  double result = 0.0;
+  for (double entry : v) result = std::max(result, std::abs(entry));
+  return result;
+}
+
+// The deck may displace bodies out of their joints.
+void close_joints(Context& context, model::State& state, const assembly::System::Solve& solve) {
+  const double change = context.system.project_position(state, solve);
+  if (std::isinf(change)) {
+    throw NumericalError(
+        "No position fits the constraints near the initial displacements.\n"
+        "Try: displace the bodies of a closed loop so that its joints nearly meet.");
+  }
+  if (change > 1e-9 * context.system.model().length()) {
+    context.log.info(fmt::format(
+        "note: initial displacements were made to fit the constraints; largest change {:.3g}",
+        change));
+  }
+}
+
+}  // namespace
+
 // Velocities that constraints do not allow would never decay, so they are removed.
 void Dynamics::prepare(Context& context, model::State& state) {
   state.time = state.time_prev = 0.0;
+  const assembly::System::Solve solve_mass = [&](const assembly::Vector& b, assembly::Vector& x) {
+    if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
+      PostMortem::refuse_massless(context, state);
+    }
+  };
+  if (state.at_rest && context.system.model().has_initial_displacements()) {
+    close_joints(context, state, solve_mass);
+  }
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const double change = context.system.project_velocity(
-      state, 1e-4 * settings_.step, [&](const assembly::Vector& b, assembly::Vector& x) {
-        if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
-          throw NumericalError(
-              "The mass matrix is singular: some node moves without mass.\n"
-              "Try: give every structure a density or mass, and rotary inertia to its nodes.");
-        }
-      });
-  const auto largest = [](const std::vector<double>& v) {
-    double result = 0.0;
-    for (double entry : v) result = std::max(result, std::abs(entry));
-    return result;
-  };
+  const double change = context.system.project_velocity(state, 1e-4 * settings_.step, solve_mass);
   if (change > 1e-9 * std::max(1.0, largest(state.velocity))) {
     context.log.warning(fmt::format(
         "initial velocities were made to fit the constraints; largest change {:.3g}", change));

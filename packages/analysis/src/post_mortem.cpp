@@ -68,6 +68,26 @@ std::string quoted_name(const model::Constraint& c) {
   return fmt::format("{} '{}'", c.type, c.name);
 }
 
+// A vector of directions, with round-off as zero.
+std::string vector_name(const Vec3& v) {
+  const double size = std::max(v.lpNorm<Eigen::Infinity>(), 1e-300);
+  const auto shown_as = [size](double x) { return std::abs(x) < 1e-3 * size ? 0.0 : x; };
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", shown_as(v[0]), shown_as(v[1]), shown_as(v[2]));
+}
+
+// The motion v0 + turn x (x - x0) in words.
+std::string rigid_motion_name(const Vec3& x0, const Vec3& v0, const Vec3& turn) {
+  if (turn.norm() < notable) return "moves along " + vector_name(v0.normalized());
+  Vec3 n = turn.normalized();
+  const Vec3 centre = x0 + n.cross(v0) / turn.norm();
+  int largest = 0;
+  n.cwiseAbs().maxCoeff(&largest);
+  if (n[largest] < 0.0) n = -n;  // an axis has no sense
+  const bool slides = std::abs(n.dot(v0)) > notable;
+  return fmt::format("turns about the axis {} through {}{}", vector_name(n), vector_name(centre),
+                     slides ? " and moves along it" : "");
+}
+
 }  // namespace
 
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil,
@@ -251,7 +271,7 @@ std::string PostMortem::redundant_constraints(const Vector& multipliers) const {
   return text + "Try: remove one of the constraints, or a direction that another one holds.";
 }
 
-std::string PostMortem::mechanism(const model::State& state, const Vector& motion) const {
+std::map<int, Vec6> PostMortem::moved_nodes(const model::State& state, const Vector& motion) const {
   const model::Model& model = context_.system.model();
   const auto entries = gather_entries(motion, 1e-3 * notable, context_.system.comm());
   std::map<int, model::NodeSlots> increments;  // by node; six motions or twelve coordinates
@@ -260,25 +280,100 @@ std::string PostMortem::mechanism(const model::State& state, const Vector& motio
     auto& slots = increments.try_emplace(place.block.owner, model::NodeSlots::Zero()).first->second;
     slots.data()[place.written] = value;
   }
-  std::vector<Entry> shares;
+  std::map<int, Vec6> moved;
   for (const auto& [node, slots] : increments) {
-    const Vec6 moved = model.unknowns().form() == model::Form::null_space
-                           ? Vec6(Eigen::Map<const Vec6>(slots.data()))
-                           : model.nodes().unknown_motion(node, slots, state.next);
+    moved[node] = model.unknowns().form() == model::Form::null_space
+                      ? Vec6(Eigen::Map<const Vec6>(slots.data()))
+                      : model.nodes().unknown_motion(node, slots, state.next);
+  }
+  return moved;
+}
+
+std::string PostMortem::largest_motions(const std::map<int, Vec6>& moved) const {
+  std::vector<Entry> shares;
+  for (const auto& [node, motion] : moved) {
     for (int i = 0; i < 6; ++i) {
-      if (std::abs(moved[i]) < notable) continue;
-      shares.push_back({fmt::format("{}, {}", model.node_name(node), direction_name(i)), moved[i]});
+      if (std::abs(motion[i]) < notable) continue;
+      const std::string name = context_.system.model().node_name(node);
+      shares.push_back({fmt::format("{}, {}", name, direction_name(i)), motion[i]});
     }
   }
   // by what is shown, so that round-off does not choose the order
   std::stable_sort(shares.begin(), shares.end(), [](const Entry& a, const Entry& b) {
     return std::lround(1e3 * std::abs(a.value)) > std::lround(1e3 * std::abs(b.value));
   });
-  std::string text = "Likely cause: a mechanism. Nothing resists this motion:\n";
+  std::string text;
   for (std::size_t i = 0; i < std::min(shown, shares.size()); ++i) {
     text += fmt::format("  {:<40} {:+.3f}\n", shares[i].name, shares[i].value);
   }
-  return text + "Try: add a support or a joint that holds it, or give the section stiffness.";
+  return text;
+}
+
+std::string PostMortem::rigid_motions(const model::State& state,
+                                      const std::map<int, Vec6>& moved) const {
+  const model::Model& model = context_.system.model();
+  std::string text;
+  for (const model::Structure& structure : model.structures()) {
+    const auto first = moved.find(model.nodes().master(structure.nodes.front()));
+    if (first == moved.end()) continue;
+    const Vec3 x0 = model::NodeTable::slots(state.next, first->first).col(0);
+    const Vec3 v0 = first->second.head<3>();
+    const Vec3 turn = first->second.tail<3>();
+    const bool is_rigid =
+        std::all_of(structure.nodes.begin(), structure.nodes.end(), [&](int node) {
+          if (model.nodes().kind(node) != NodeKind::node12) return false;  // it has no rotation
+          const int master = model.nodes().master(node);
+          const auto at = moved.find(master);
+          const Vec6 motion = at == moved.end() ? Vec6(Vec6::Zero()) : at->second;
+          const Vec3 arm = Vec3(model::NodeTable::slots(state.next, master).col(0)) - x0;
+          Vec6 rigid;
+          rigid << v0 + turn.cross(arm), turn;
+          return (motion - rigid).lpNorm<Eigen::Infinity>() < notable;
+        });
+    if (!is_rigid) continue;
+    std::vector<std::string> holders;
+    for (const model::Constraint& c : model.constraints()) {
+      const bool holds = std::any_of(c.nodes.begin(), c.nodes.end(), [&](int node) {
+        return model.structure_of(node) == &structure;
+      });
+      const std::string name = quoted_name(c);
+      if (holds && std::find(holders.begin(), holders.end(), name) == holders.end()) {
+        holders.push_back(name);
+      }
+    }
+    text += fmt::format("'{}' {}; {}\n", structure.name, rigid_motion_name(x0, v0, turn),
+                        holders.empty() ? "nothing holds it" : "held by " + join(holders, ", "));
+  }
+  return text;
+}
+
+std::string PostMortem::mechanism(const model::State& state, const Vector& motion) const {
+  const std::map<int, Vec6> moved = moved_nodes(state, motion);
+  return "Likely cause: a mechanism. Nothing resists this motion:\n" + largest_motions(moved) +
+         rigid_motions(state, moved) +
+         "Try: add a support or a joint that holds it, or give the section stiffness.";
+}
+
+std::string PostMortem::massless(const model::State& state, const Vector& motion) const {
+  const std::string motions = largest_motions(moved_nodes(state, motion));
+  return (motions.empty()
+              ? "The mass matrix is singular: nothing has mass.\n"
+              : "The mass matrix is singular: this motion has no inertia.\n" + motions) +
+         "Try: give every structure a density or mass, and rotary inertia to its nodes.";
+}
+
+void PostMortem::refuse_massless(Context& context, const model::State& state) {
+  const PostMortem diagnosis(context);
+  Vector direction(context.system.layout().row_map());
+  context.linear.weakest_direction(direction);
+  // multipliers have no nodes
+  const auto values = values_of(direction);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto unknown = direction.getMap()->getGlobalElement(static_cast<int>(i));
+    const Place place = diagnosis.place_of(static_cast<int>(unknown));
+    if (place.block.kind == model::BlockKind::multipliers) values[i] = 0.0;
+  }
+  throw NumericalError(context.system.comm().broadcast(diagnosis.massless(state, direction)));
 }
 
 std::string PostMortem::history() const {

@@ -79,6 +79,11 @@ double Statics::next_level(double level, double increment) const {
 
 AnalysisReport Statics::run(Context& context, model::State& state, Observer& observer) {
   const Stencil stencil = Stencil::statics();
+  for (const model::Constraint& c : context.system.model().equations()) {
+    if (c.velocity_rows.empty()) continue;
+    context.log.warning(
+        fmt::format("{} '{}' acts in dynamics only; statics knows no velocity", c.type, c.name));
+  }
   // levels start at zero for each analysis
   state.time = state.time_prev = 0.0;
   double increment = settings_.increment;

@@ -1,5 +1,6 @@
 #include <culm/assembly/system.hpp>
 #include <culm/base/error.hpp>
+#include <culm/model/reaction_source.hpp>
 
 #include <Eigen/Geometry>
 
@@ -256,10 +257,62 @@ Vec6 System::reaction(int node, const model::State& state) const {
       if (at < 0) reaction[i] = gathered_reactions_[index(shape.first_reaction - 1 - at)];
     }
   }
+  return reaction + equation_reaction("", node, state);
+}
+
+Vec6 System::reaction_of(const std::string& constraint, int node, const model::State& state) const {
+  return equation_reaction(constraint, node, state);
+}
+
+Vec6 System::equation_reaction(const std::string& constraint, int node,
+                               const model::State& state) const {
+  Vec6 reaction = Vec6::Zero();
   for (const auto& batch : model_.constraint_batches()) {
-    reaction += batch->reaction(node, state);
+    reaction += batch->reaction(node, state, constraint);
+  }
+  for (const auto& load : model_.loads()) {
+    if (const auto* source = dynamic_cast<const model::ReactionSource*>(load.get())) {
+      reaction += source->reaction(node, state, constraint);
+    }
   }
   return reaction;
+}
+
+double System::project_position(model::State& state, const Solve& solve_mass) {
+  const model::Coordinates start = state.next;
+  const Stencil stencil = Stencil::statics();
+  begin_step(state, stencil);
+  constexpr int most_iterations = 50;
+  for (int iteration = 0;; ++iteration) {
+    const Evaluation found = evaluate(state, stencil, Want::residual);
+    if (found.constraint_violation <= 1e-14) break;
+    if (iteration == most_iterations || !std::isfinite(found.constraint_violation)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    Vector rhs(*residual_, Teuchos::Copy);
+    evaluate(state, stencil, Want::mass);
+    const auto b = values_of(rhs);
+    for (std::size_t row = 0; row < b.size(); ++row) b[row] = is_force_row_[row] ? 0.0 : -b[row];
+    Vector change(layout_.row_map());
+    solve_mass(rhs, change);
+    const auto u = values_of(change);
+    for (std::size_t row = 0; row < u.size(); ++row) {
+      if (!is_force_row_[row]) u[row] = 0.0;  // its multipliers are no forces
+    }
+    const bool stalls = comm_.max(change.normInf()) < 1e-15 * size_;
+    move(state, change, 1.0);
+    if (stalls) break;  // at round-off
+  }
+  double largest = 0.0;
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (block.kind != model::BlockKind::node) continue;
+    const auto change = model::NodeTable::slots(state.next, block.owner) -
+                        model::NodeTable::slots(start, block.owner);
+    largest = std::max(largest, change.cwiseAbs().maxCoeff());
+  }
+  state.prev = state.next;
+  return comm_.max(largest);
 }
 
 void System::coast(model::State& state, double time) const {

@@ -1,5 +1,6 @@
 #include <culm/base/error.hpp>
 #include <culm/joint/angular_velocity.hpp>
+#include <culm/joint/rotation.hpp>
 #include <culm/math/rotation.hpp>
 
 #include "supports.hpp"
@@ -18,15 +19,15 @@ Mat3 directors(const model::Coordinates& q, int node) {
 }  // namespace
 
 model::Constraint AngularVelocity::placeholder(std::string name, const std::string& type,
-                                               int node) {
-  model::Constraint constraint = support_of(node);
+                                               const model::NodeTable& nodes, int node,
+                                               const Vec3& axis) {
+  model::Constraint constraint = support_of(Anchor(nodes, node));
   constraint.name = std::move(name);
   constraint.type = type;
   model::ConstraintRow nothing;
   nothing.alpha.assign(4, 0.0);
   constraint.rows = {nothing};
-  // driven rows are not searched for redundancy
-  constraint.drive = [](double, std::vector<model::ConstraintRow>&) {};
+  constraint.velocity_rows = rotation(Anchor(nodes, node), axis, {}).rows;
   return constraint;
 }
 
@@ -121,11 +122,24 @@ model::StepWork AngularVelocity::step_work(const model::State& state,
   return work;
 }
 
+Vec6 AngularVelocity::reaction(int node, const model::State& state,
+                               const std::string& constraint) const {
+  Vec6 total = Vec6::Zero();
+  for (const Item& item : items_) {
+    if (item.node != node || (!constraint.empty() && item.constraint != constraint)) continue;
+    const Vec3 n = item.axis.follows ? Vec3(directors(state.next, node) * item.axis.components)
+                                     : item.axis.components;
+    total.tail<3>() -= state.multipliers[item.multiplier] * n;
+  }
+  return total;
+}
+
 namespace {
 
 void register_type(model::BuilderRegistry& registry, const std::string& type,
                    const std::string& doc, bool follows) {
-  Schema schema = directed_schema(type, doc, "Axis", "Axis in the reference, of any length.");
+  Schema schema = directed_schema(type, doc, "Axis", "Axis in the reference, of any length.",
+                                  model::node_field());
   add_motion("Angular Velocity", "rad/s", "Angular velocity at function value 1.", schema);
   registry.add(type, schema, [=](const Options& options, model::BuildContext& context) {
     const auto velocity = read_motion(options, "Angular Velocity", context);
@@ -134,8 +148,11 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
     const std::vector<int> nodes = model::select_nodes(options, "Node", context);
     auto batch = std::make_unique<AngularVelocity>(type + ", " + options.name(), model);
     for (int node : nodes) {
-      model.add_constraint(AngularVelocity::placeholder(options.name(), type, node));
       Vec3 axis = read_direction(options, "Axis");
+      model::Constraint constraint =
+          AngularVelocity::placeholder(options.name(), type, model.nodes(), node, axis);
+      constraint.where = options.where();
+      model.add_constraint(std::move(constraint));
       if (follows) axis = directors(model.nodes().reference(), node).transpose() * axis;
       batch->add(node, {axis, follows}, *velocity, options.name());
     }

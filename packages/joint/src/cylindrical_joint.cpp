@@ -2,7 +2,7 @@
 
 namespace culm::joint {
 
-model::Constraint cylindrical_joint(const NodePair& pair, const Vec3& axis) {
+model::Constraint cylindrical_joint(const MarkerPair& pair, const Vec3& axis) {
   model::Constraint joint = pair.joint();
   pair.add_line_rows(axis, joint);
   pair.add_parallel_rows(axis, joint);

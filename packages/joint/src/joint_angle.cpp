@@ -9,7 +9,7 @@
 
 namespace culm::joint {
 
-model::Constraint joint_angle(const NodePair& pair, const Vec3& axis, const Prescribed& motion) {
+model::Constraint joint_angle(const MarkerPair& pair, const Vec3& axis, const Prescribed& motion) {
   const Vec3 n1 = any_normal(axis);
   const Vec3 n2 = axis.cross(n1);
   model::Constraint joint = pair.joint();
@@ -32,7 +32,7 @@ void register_joint_angle(model::BuilderRegistry& registry) {
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
     const auto motion = read_motion(options, "Angle", context);
     if (!motion) return;
-    add_joint(type, options, context, [&](const NodePair& pair) {
+    add_joint(type, options, context, [&](const MarkerPair& pair) {
       return joint_angle(pair, model::vector(options, "Axis").normalized(), *motion);
     });
   });

@@ -4,13 +4,12 @@
 
 namespace culm::joint {
 
-model::Constraint planar_support(const model::NodeTable& nodes, int node, const Vec3& normal) {
-  model::Constraint support = support_of(node);
-  const Eigen::Matrix3Xd q = model::NodeTable::slots(nodes.reference(), node);
-  support.rows = {model::linear_row(normal, model::attached_point(0, 1, Vec3::Zero()), q)};
-  add_axis_rows(normal, q, support);
-  if (const auto axis = coordinate_axis(normal)) {
-    support.fix = {node, rotations_across(*axis).set(*axis)};
+model::Constraint planar_support(const Anchor& anchor, const Vec3& normal) {
+  model::Constraint support = support_of(anchor);
+  support.rows = {model::linear_row(normal, anchor.point(), anchor.reference())};
+  add_axis_rows(normal, anchor, support);
+  if (const auto axis = coordinate_axis(normal); axis && is_node(anchor, Vec3::Zero())) {
+    support.fix = {anchor.node(), rotations_across(*axis).set(*axis)};
   }
   return support;
 }
@@ -21,9 +20,8 @@ void register_planar_support(model::BuilderRegistry& registry) {
                directed_schema(type, "Leaves motion in a plane and rotation about its normal.",
                                "Normal", "Normal of the plane, of any length."),
                [type](const Options& options, model::BuildContext& context) {
-                 add_per_node(type, options, context, [&](int node) {
-                   return planar_support(context.model.nodes(), node,
-                                         read_direction(options, "Normal"));
+                 add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+                   return planar_support(anchor, read_direction(options, "Normal"));
                  });
                });
 }

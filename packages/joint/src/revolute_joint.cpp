@@ -2,7 +2,7 @@
 
 namespace culm::joint {
 
-model::Constraint revolute_joint(const NodePair& pair, const Vec3& axis) {
+model::Constraint revolute_joint(const MarkerPair& pair, const Vec3& axis) {
   model::Constraint joint = pair.joint();
   pair.add_point_rows(joint);
   pair.add_parallel_rows(axis, joint);

@@ -4,14 +4,12 @@
 
 namespace culm::joint {
 
-model::Constraint revolute_support(const model::NodeTable& nodes, int node, const Vec3& axis,
-                                   const Vec3& offset) {
-  model::Constraint support = support_of(node);
-  const Eigen::Matrix3Xd q = model::NodeTable::slots(nodes.reference(), node);
-  add_vector_rows(model::attached_point(0, 1, offset), q, support);
-  add_axis_rows(axis, q, support);
-  if (const auto i = coordinate_axis(axis); i && offset.isZero(0.0)) {
-    support.fix = {node, rotations_across(*i) | std::bitset<6>(0b000111)};
+model::Constraint revolute_support(const Anchor& anchor, const Vec3& axis, const Vec3& offset) {
+  model::Constraint support = support_of(anchor);
+  add_vector_rows(anchor.point(offset), anchor, support);
+  add_axis_rows(axis, anchor, support);
+  if (const auto i = coordinate_axis(axis); i && is_node(anchor, offset)) {
+    support.fix = {anchor.node(), rotations_across(*i) | std::bitset<6>(0b000111)};
   }
   return support;
 }
@@ -22,8 +20,8 @@ void register_revolute_support(model::BuilderRegistry& registry) {
                                   "Axis", "Axis that stays free, of any length.");
   schema.add(offset_field());
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
-    add_per_node(type, options, context, [&](int node) {
-      return revolute_support(context.model.nodes(), node, read_direction(options, "Axis"),
+    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+      return revolute_support(anchor, read_direction(options, "Axis"),
                               model::vector(options, "Offset"));
     });
   });

@@ -1,30 +1,76 @@
 #include <culm/joint/rigid_support.hpp>
+#include <culm/math/rotation.hpp>
 
 #include "supports.hpp"
 
-namespace culm::joint {
+#include <utility>
 
-model::Constraint rigid_support(const model::NodeTable& nodes, int node) {
-  model::Constraint support = support_of(node);
-  const Eigen::Matrix3Xd q = model::NodeTable::slots(nodes.reference(), node);
-  // x - x0 and d_i - d_i0
+namespace culm::joint {
+namespace {
+
+// x - x0 and d_i - d_i0
+void hold_node(const Anchor& anchor, model::Constraint& support) {
   for (std::size_t slot = 0; slot < 4; ++slot) {
     model::SlotSum alpha(4, 0.0);
     alpha[slot] = 1.0;
-    add_vector_rows(alpha, q, support);
+    add_vector_rows(alpha, anchor, support);
   }
-  support.fix = {node, {0b111111}};
-  support.replaces_internal = node;
+  support.fix = {anchor.node(), {0b111111}};
+  support.replaces_internal = anchor.node();
+}
+
+void hold_point(const Anchor& anchor, const SupportMotion& motion, model::Constraint& support) {
+  add_vector_rows(anchor.point(), anchor, support);
+  for (int i = 0; i < 3; ++i) {
+    support.rows.push_back(model::linear_row(Vec3::Unit(i), anchor.vector(Vec3::Unit((i + 1) % 3)),
+                                             anchor.reference()));
+  }
+  if (!motion.moves()) return;
+  drive_constants(motion.translation, support);
+  support.drive = [motion, translate = std::move(support.drive)](
+                      double time, std::vector<model::ConstraintRow>& rows) {
+    translate(time, rows);
+    const Mat3 turn = exp_rotation(motion.angle.at(time) * motion.axis);
+    for (int i = 0; i < 3; ++i) rows[static_cast<std::size_t>(3 + i)].direction = turn.col(i);
+  };
+}
+
+}  // namespace
+
+model::Constraint rigid_support(const Anchor& anchor, const SupportMotion& motion) {
+  model::Constraint support = support_of(anchor);
+  if (motion.moves() || anchor.node() < 0) {
+    hold_point(anchor, motion, support);
+  } else {
+    hold_node(anchor, support);
+  }
   return support;
 }
 
 void register_rigid_support(model::BuilderRegistry& registry) {
   const std::string type = "Rigid Support";
-  registry.add(type, Schema(type, "Holds position and directors.").add(model::node_field()),
-               [type](const Options& options, model::BuildContext& context) {
-                 add_per_node(type, options, context,
-                              [&](int node) { return rigid_support(context.model.nodes(), node); });
-               });
+  Schema schema(type, "Holds position and directors, or moves them as prescribed.");
+  schema.add(anchor_field());
+  add_translation(schema);
+  schema
+      .add(model::vector_field("Axis", "1", "Axis of a rotation about the point, of any length.")
+               .optional({0.0, 0.0, 1.0}))
+      .add(number("Angle", "rad", "Angle of rotation at function value 1.").optional(0.0))
+      .add(model::function_field("Ramp", "Angle Function"))
+      .check([](const Options& options, InputIssues& issues) {
+        if (model::vector(options, "Axis").isZero(0.0)) {
+          issues.add(options.where("Axis"), "must not be zero");
+        }
+      });
+  registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
+    auto translation = read_translation(options, context);
+    auto angle = read_motion(options, "Angle", context, "Angle Function");
+    if (!translation || !angle) return;
+    const SupportMotion motion{*std::move(translation), read_direction(options, "Axis"),
+                               *std::move(angle)};
+    add_per_anchor(type, options, context,
+                   [&](const Anchor& anchor) { return rigid_support(anchor, motion); });
+  });
 }
 
 }  // namespace culm::joint

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <utility>
 
 namespace culm::joint {
 namespace {
@@ -17,10 +18,10 @@ Vec3 normal_of_body(const Mat3& triad, const Vec3& n) {
   return projections.col(longest).normalized();
 }
 
-model::ConstraintRow row_of(const Vec3& direction, const Vec3& attached) {
+model::ConstraintRow row_of(const Vec3& direction, model::SlotSum attached) {
   model::ConstraintRow row;
   row.direction = direction;
-  row.alpha = model::attached_vector(0, 1, attached);
+  row.alpha = std::move(attached);
   return row;
 }
 
@@ -31,21 +32,19 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
   registry.add(type, schema, [type, make](const Options& options, model::BuildContext& context) {
     const auto motion = read_motion(options, "Angle", context);
     if (!motion) return;
-    add_per_node(type, options, context, [&](int node) {
-      return make(context.model.nodes(), node, read_direction(options, "Axis"), *motion);
+    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+      return make(anchor, read_direction(options, "Axis"), *motion);
     });
   });
 }
 
 }  // namespace
 
-model::Constraint rotation(const model::NodeTable& nodes, int node, const Vec3& axis,
-                           const Prescribed& motion) {
-  const Mat3 triad = model::NodeTable::slots(nodes.reference(), node).rightCols<3>();
-  const Vec3 c0 = normal_of_body(triad, axis);
+model::Constraint rotation(const Anchor& anchor, const Vec3& axis, const Prescribed& motion) {
+  const Vec3 c0 = normal_of_body(anchor.directors(), axis);
   const Vec3 across = axis.cross(c0);
-  model::Constraint support = support_of(node);
-  support.rows = {row_of(across, triad.transpose() * c0)};
+  model::Constraint support = support_of(anchor);
+  support.rows = {row_of(across, anchor.vector(c0))};
   if (motion.moves()) {
     support.drive = [=](double time, std::vector<model::ConstraintRow>& rows) {
       const double alpha = motion.at(time);
@@ -55,18 +54,15 @@ model::Constraint rotation(const model::NodeTable& nodes, int node, const Vec3& 
   return support;
 }
 
-model::Constraint rotation_local(const model::NodeTable& nodes, int node, const Vec3& axis,
-                                 const Prescribed& motion) {
-  const Mat3 triad = model::NodeTable::slots(nodes.reference(), node).rightCols<3>();
-  const Vec3 c0 = normal_of_body(triad, axis);
+model::Constraint rotation_local(const Anchor& anchor, const Vec3& axis, const Prescribed& motion) {
+  const Vec3 c0 = normal_of_body(anchor.directors(), axis);
   const Vec3 across = axis.cross(c0);
-  model::Constraint support = support_of(node);
-  support.rows = {row_of(c0, triad.transpose() * across)};
+  model::Constraint support = support_of(anchor);
+  support.rows = {row_of(c0, anchor.vector(across))};
   if (motion.moves()) {
     support.drive = [=](double time, std::vector<model::ConstraintRow>& rows) {
       const double alpha = motion.at(time);
-      const Vec3 e = std::sin(alpha) * c0 + std::cos(alpha) * across;
-      rows.front().alpha = model::attached_vector(0, 1, triad.transpose() * e);
+      rows.front().alpha = anchor.vector(std::sin(alpha) * c0 + std::cos(alpha) * across);
     };
   }
   return support;

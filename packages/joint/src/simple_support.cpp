@@ -4,15 +4,14 @@
 
 namespace culm::joint {
 
-model::Constraint simple_support(const model::NodeTable& nodes, int node, const Vec3& n,
-                                 const Vec3& offset, const Prescribed& motion) {
-  model::Constraint support = support_of(node);
-  const Eigen::Matrix3Xd q = model::NodeTable::slots(nodes.reference(), node);
-  support.rows = {model::linear_row(n, model::attached_point(0, 1, offset), q)};
+model::Constraint simple_support(const Anchor& anchor, const Vec3& n, const Vec3& offset,
+                                 const Prescribed& motion) {
+  model::Constraint support = support_of(anchor);
+  support.rows = {model::linear_row(n, anchor.point(offset), anchor.reference())};
   if (motion.moves()) {
     drive_constant(motion, support);
-  } else if (const auto axis = coordinate_axis(n); axis && offset.isZero(0.0)) {
-    support.fix = {node, std::bitset<6>().set(*axis)};
+  } else if (const auto axis = coordinate_axis(n); axis && is_node(anchor, offset)) {
+    support.fix = {anchor.node(), std::bitset<6>().set(*axis)};
   }
   return support;
 }
@@ -26,8 +25,8 @@ void register_simple_support(model::BuilderRegistry& registry) {
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
     const auto motion = read_motion(options, "Translation", context);
     if (!motion) return;
-    add_per_node(type, options, context, [&](int node) {
-      return simple_support(context.model.nodes(), node, read_direction(options, "Direction"),
+    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+      return simple_support(anchor, read_direction(options, "Direction"),
                             model::vector(options, "Offset"), *motion);
     });
   });

@@ -4,13 +4,11 @@
 
 namespace culm::joint {
 
-model::Constraint simple_support_local(const model::NodeTable& nodes, int node, const Vec3& n,
+model::Constraint simple_support_local(const Anchor& anchor, const Vec3& n,
                                        const Prescribed& motion) {
-  model::Constraint support = support_of(node);
-  const Eigen::Matrix3Xd q = model::NodeTable::slots(nodes.reference(), node);
-  const Vec3 nu = q.rightCols<3>().transpose() * n;
-  support.rows = {model::product_row(model::attached_vector(0, 1, nu),
-                                     model::attached_point(0, 1, Vec3::Zero()), q, q.col(0))};
+  model::Constraint support = support_of(anchor);
+  support.rows = {
+      model::product_row(anchor.vector(n), anchor.point(), anchor.reference(), anchor.position())};
   if (motion.moves()) drive_constant(motion, support);
   return support;
 }
@@ -23,9 +21,8 @@ void register_simple_support_local(model::BuilderRegistry& registry) {
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
     const auto motion = read_motion(options, "Translation", context);
     if (!motion) return;
-    add_per_node(type, options, context, [&](int node) {
-      return simple_support_local(context.model.nodes(), node, read_direction(options, "Direction"),
-                                  *motion);
+    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+      return simple_support_local(anchor, read_direction(options, "Direction"), *motion);
     });
   });
 }

@@ -2,7 +2,7 @@
 
 namespace culm::joint {
 
-model::Constraint spherical_joint(const NodePair& pair) {
+model::Constraint spherical_joint(const MarkerPair& pair) {
   model::Constraint joint = pair.joint();
   pair.add_point_rows(joint);
   return joint;

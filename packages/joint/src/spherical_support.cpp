@@ -4,26 +4,30 @@
 
 namespace culm::joint {
 
-model::Constraint spherical_support(const model::NodeTable& nodes, int node, const Vec3& offset) {
-  model::Constraint support = support_of(node);
-  const Eigen::Matrix3Xd q = model::NodeTable::slots(nodes.reference(), node);
-  add_vector_rows(model::attached_point(0, 1, offset), q, support);
-  if (offset.isZero(0.0)) support.fix = {node, {0b000111}};
+model::Constraint spherical_support(const Anchor& anchor, const Vec3& offset,
+                                    const Translation& motion) {
+  model::Constraint support = support_of(anchor);
+  add_vector_rows(anchor.point(offset), anchor, support);
+  if (motion.moves()) {
+    drive_constants(motion, support);
+  } else if (is_node(anchor, offset)) {
+    support.fix = {anchor.node(), {0b000111}};
+  }
   return support;
 }
 
 void register_spherical_support(model::BuilderRegistry& registry) {
   const std::string type = "Spherical Support";
-  registry.add(type,
-               Schema(type, "Holds a point and leaves all rotations free.")
-                   .add(model::node_field())
-                   .add(offset_field()),
-               [type](const Options& options, model::BuildContext& context) {
-                 add_per_node(type, options, context, [&](int node) {
-                   return spherical_support(context.model.nodes(), node,
-                                            model::vector(options, "Offset"));
-                 });
-               });
+  Schema schema(type, "Holds a point, or moves it as prescribed, and leaves all rotations free.");
+  schema.add(anchor_field()).add(offset_field());
+  add_translation(schema);
+  registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
+    const auto motion = read_translation(options, context);
+    if (!motion) return;
+    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+      return spherical_support(anchor, model::vector(options, "Offset"), *motion);
+    });
+  });
 }
 
 }  // namespace culm::joint

@@ -8,24 +8,23 @@
 
 namespace culm::joint {
 
-model::Constraint support_of(int node) {
+model::Constraint support_of(const Anchor& anchor) {
   model::Constraint support;
-  support.nodes = {node};
+  support.nodes = anchor.nodes();
   return support;
 }
 
-void add_vector_rows(const model::SlotSum& alpha, const Eigen::Matrix3Xd& q,
+void add_vector_rows(const model::SlotSum& alpha, const Anchor& anchor,
                      model::Constraint& constraint) {
   for (int axis = 0; axis < 3; ++axis) {
-    constraint.rows.push_back(model::linear_row(Vec3::Unit(axis), alpha, q));
+    constraint.rows.push_back(model::linear_row(Vec3::Unit(axis), alpha, anchor.reference()));
   }
 }
 
-void add_axis_rows(const Vec3& axis, const Eigen::Matrix3Xd& q, model::Constraint& constraint) {
-  const Vec3 components = q.rightCols<3>().transpose() * axis;
+void add_axis_rows(const Vec3& axis, const Anchor& anchor, model::Constraint& constraint) {
   const Vec3 across = any_normal(axis);
   for (const Vec3& e : {across, Vec3(axis.cross(across))}) {
-    constraint.rows.push_back(model::linear_row(e, model::attached_vector(0, 1, components), q));
+    constraint.rows.push_back(model::linear_row(e, anchor.vector(axis), anchor.reference()));
   }
 }
 
@@ -33,6 +32,15 @@ void drive_constant(const Prescribed& motion, model::Constraint& constraint) {
   const double at_rest = constraint.rows.front().constant;
   constraint.drive = [motion, at_rest](double time, std::vector<model::ConstraintRow>& rows) {
     rows.front().constant = at_rest + motion.at(time);
+  };
+}
+
+void drive_constants(const Translation& motion, model::Constraint& constraint) {
+  Vec3 at_rest;
+  for (std::size_t i = 0; i < 3; ++i) at_rest[static_cast<int>(i)] = constraint.rows[i].constant;
+  constraint.drive = [motion, at_rest](double time, std::vector<model::ConstraintRow>& rows) {
+    const Vec3 now = at_rest + motion.at(time);
+    for (std::size_t i = 0; i < 3; ++i) rows[i].constant = now[static_cast<int>(i)];
   };
 }
 
@@ -46,27 +54,48 @@ std::optional<std::size_t> coordinate_axis(const Vec3& n) {
   return static_cast<std::size_t>(largest);
 }
 
+bool is_node(const Anchor& anchor, const Vec3& offset) {
+  return anchor.node() >= 0 && offset.isZero(0.0);
+}
+
 std::bitset<6> rotations_across(std::size_t axis) {
   std::bitset<6> fixed(0b111000);
   return fixed.reset(3 + axis);
 }
 
-void add_per_node(const std::string& type, const Options& options, model::BuildContext& context,
-                  const std::function<model::Constraint(int node)>& make) {
-  const std::vector<int> nodes = model::select_nodes(options, "Node", context);
-  for (int node : nodes) {
-    model::Constraint constraint = make(node);
+Field anchor_field() {
+  return model::node_field("Node",
+                           "Nodes it acts on, each by itself: 'structure/set', 'structure/number' "
+                           "or 'structure'; or a point of a line at a fraction of its length, as "
+                           "'beam@0.35'.");
+}
+
+void add_per_anchor(const std::string& type, const Options& options, model::BuildContext& context,
+                    const std::function<model::Constraint(const Anchor& anchor)>& make) {
+  std::vector<model::Marker> markers;
+  if (options.text("Node").find('@') != std::string::npos) {
+    if (auto marker = model::select_point(options, "Node", context)) markers = {*marker};
+  } else {
+    for (int node : model::select_nodes(options, "Node", context)) {
+      markers.push_back(model::marker_at(node));
+    }
+  }
+  for (const model::Marker& marker : markers) {
+    model::Constraint constraint = make(Anchor(context.model.nodes(), marker));
     constraint.type = type;
     constraint.name = options.name();
-    if (nodes.size() > 1) constraint.name += " at " + context.model.node_name(node);
+    constraint.where = options.where();
+    if (markers.size() > 1) {
+      constraint.name += " at " + context.model.node_name(marker.nodes.front());
+    }
     context.model.add_constraint(std::move(constraint));
   }
 }
 
 Schema directed_schema(const std::string& type, const std::string& doc,
-                       const std::string& direction, const std::string& direction_doc) {
+                       const std::string& direction, const std::string& direction_doc, Field node) {
   return Schema(type, doc)
-      .add(model::node_field())
+      .add(std::move(node))
       .add(model::vector_field(direction, "1", direction_doc))
       .check([direction](const Options& options, InputIssues& issues) {
         if (model::vector(options, direction).isZero(0.0)) {
@@ -89,17 +118,38 @@ void add_motion(const std::string& amount, const std::string& unit, const std::s
   schema.add(number(amount, unit, doc).optional(0.0)).add(model::function_field("Ramp"));
 }
 
+namespace {
+
+std::optional<model::Amplitude> read_function(const Options& options, const std::string& parameter,
+                                              model::BuildContext& context) {
+  auto function = model::find_function(options, context, parameter);
+  if (!function || function->is_function_of_time()) return function;
+  context.issues.add(options.where(parameter),
+                     "function '" + options.text(parameter) +
+                         "' has one value per step and cannot prescribe a motion");
+  return {};
+}
+
+}  // namespace
+
 std::optional<Prescribed> read_motion(const Options& options, const std::string& amount,
-                                      model::BuildContext& context) {
-  auto function = model::find_function(options, context);
+                                      model::BuildContext& context, const std::string& function) {
+  auto found = read_function(options, function, context);
+  if (!found) return {};
+  return Prescribed{options.number(amount), *std::move(found)};
+}
+
+void add_translation(Schema& schema) {
+  schema
+      .add(model::vector_field("Translation", "m", "Motion in space at function value 1.")
+               .optional({0.0, 0.0, 0.0}))
+      .add(model::function_field("Ramp"));
+}
+
+std::optional<Translation> read_translation(const Options& options, model::BuildContext& context) {
+  auto function = read_function(options, "Function", context);
   if (!function) return {};
-  if (!function->is_function_of_time()) {
-    context.issues.add(options.where("Function"),
-                       "function '" + options.text("Function") +
-                           "' has one value per step and cannot prescribe a motion");
-    return {};
-  }
-  return Prescribed{options.number(amount), *std::move(function)};
+  return Translation{model::vector(options, "Translation"), *std::move(function)};
 }
 
 }  // namespace culm::joint

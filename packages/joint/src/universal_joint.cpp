@@ -4,7 +4,7 @@
 
 namespace culm::joint {
 
-model::Constraint universal_joint(const NodePair& pair, const Vec3& first_axis,
+model::Constraint universal_joint(const MarkerPair& pair, const Vec3& first_axis,
                                   const Vec3& second_axis) {
   model::Constraint joint = pair.joint();
   pair.add_point_rows(joint);
@@ -25,7 +25,7 @@ void register_universal_joint(model::BuilderRegistry& registry) {
     }
   });
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
-    add_joint(type, options, context, [&](const NodePair& pair) {
+    add_joint(type, options, context, [&](const MarkerPair& pair) {
       return universal_joint(pair, model::vector(options, "First Axis").normalized(),
                              model::vector(options, "Second Axis").normalized());
     });

@@ -2,7 +2,7 @@
 
 namespace culm::joint {
 
-model::Constraint weld(const NodePair& pair) {
+model::Constraint weld(const MarkerPair& pair) {
   model::Constraint joint = pair.joint();
   pair.add_point_rows(joint);
   // the cyclic choice keeps the three gradients independent

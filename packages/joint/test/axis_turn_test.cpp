@@ -25,7 +25,8 @@ class AxisTurns : public testing::TestWithParam<bool> {
 
   static void fill(model::Model& model, bool with_slave) {
     model.nodes().add(kit::random_node(10));
-    model.add_constraint(AngularVelocity::placeholder(effect, "placeholder", 0));
+    model.add_constraint(
+        AngularVelocity::placeholder(effect, "placeholder", model.nodes(), 0, axis));
     auto batch = std::make_unique<AngularVelocity>(effect, model);
     const Prescribed velocity{1.5, model::Amplitude::of_time([](double t) { return t * t; })};
     batch->add(0, turn_axis(), velocity, effect);
@@ -141,7 +142,7 @@ TEST(JointAngle, HoldsAfterTheExactRotation) {
   nodes.add(kit::random_node(1));
   nodes.add(kit::random_node(2));
   const Prescribed motion{2.0, model::Amplitude::of_time([](double t) { return t; })};
-  model::Constraint joint = joint_angle(NodePair(nodes, 0, 1, Vec3::Zero()), axis, motion);
+  model::Constraint joint = joint_angle(MarkerPair(nodes, 0, 1, Vec3::Zero()), axis, motion);
   for (const double time : {0.0, 0.4, 1.3, -2.0}) {
     joint.drive(time, joint.rows);
     const Mat3 R = exp_rotation(Vec3(0.3, 0.9, -0.4));

@@ -25,9 +25,9 @@ using model::NodeTable;
 const Vec3 oblique = Vec3(0.6, -0.3, 0.8).normalized();
 const Vec3 offset(0.2, -0.5, 0.3);
 
-Prescribed quadratic(double amount) {
-  return {amount, model::Amplitude::of_time([](double t) { return t * t; })};
-}
+const model::Amplitude square = model::Amplitude::of_time([](double t) { return t * t; });
+
+Prescribed quadratic(double amount) { return {amount, square}; }
 
 template <bool Eliminated>
 struct SupportCase {
@@ -36,55 +36,69 @@ struct SupportCase {
 };
 
 struct Rigid : SupportCase<true> {
-  static Constraint make(const NodeTable& nodes) { return rigid_support(nodes, 0); }
+  static Constraint make(const NodeTable& nodes) { return rigid_support({nodes, 0}); }
 };
 struct Spherical : SupportCase<true> {
-  static Constraint make(const NodeTable& n) { return spherical_support(n, 0, Vec3::Zero()); }
+  static Constraint make(const NodeTable& n) { return spherical_support({n, 0}, Vec3::Zero()); }
+};
+struct SphericalMoving : SupportCase<false> {
+  static Constraint make(const NodeTable& n) {
+    return spherical_support({n, 0}, offset, {Vec3(0.3, -0.4, 0.2), square});
+  }
+};
+struct RigidMoving : SupportCase<false> {
+  static Constraint make(const NodeTable& n) {
+    return rigid_support({n, 0}, {{Vec3(0.3, -0.4, 0.2), square}, oblique, quadratic(2.0)});
+  }
 };
 struct SphericalWithOffset : SupportCase<false> {
-  static Constraint make(const NodeTable& n) { return spherical_support(n, 0, offset); }
+  static Constraint make(const NodeTable& n) { return spherical_support({n, 0}, offset); }
 };
 struct SimpleAlongAxis : SupportCase<true> {
   static Constraint make(const NodeTable& n) {
-    return simple_support(n, 0, -Vec3::UnitY(), Vec3::Zero());
+    return simple_support({n, 0}, -Vec3::UnitY(), Vec3::Zero());
   }
 };
 struct SimpleOblique : SupportCase<false> {
-  static Constraint make(const NodeTable& n) { return simple_support(n, 0, oblique, Vec3::Zero()); }
+  static Constraint make(const NodeTable& n) {
+    return simple_support({n, 0}, oblique, Vec3::Zero());
+  }
 };
 struct SimpleWithOffset : SupportCase<false> {
-  static Constraint make(const NodeTable& n) { return simple_support(n, 0, Vec3::UnitY(), offset); }
+  static Constraint make(const NodeTable& n) {
+    return simple_support({n, 0}, Vec3::UnitY(), offset);
+  }
 };
 struct SimpleMoving : SupportCase<false> {
   static Constraint make(const NodeTable& n) {
-    return simple_support(n, 0, Vec3::UnitY(), Vec3::Zero(), quadratic(0.8));
+    return simple_support({n, 0}, Vec3::UnitY(), Vec3::Zero(), quadratic(0.8));
   }
 };
 struct SimpleLocal : SupportCase<false> {
   static Constraint make(const NodeTable& n) {
-    return simple_support_local(n, 0, oblique, quadratic(0.8));
+    return simple_support_local({n, 0}, oblique, quadratic(0.8));
   }
 };
 struct Revolute : SupportCase<true> {
   static Constraint make(const NodeTable& n) {
-    return revolute_support(n, 0, Vec3::UnitZ(), Vec3::Zero());
+    return revolute_support({n, 0}, Vec3::UnitZ(), Vec3::Zero());
   }
 };
 struct RevoluteOblique : SupportCase<false> {
-  static Constraint make(const NodeTable& n) { return revolute_support(n, 0, oblique, offset); }
+  static Constraint make(const NodeTable& n) { return revolute_support({n, 0}, oblique, offset); }
 };
 struct Planar : SupportCase<true> {
-  static Constraint make(const NodeTable& n) { return planar_support(n, 0, Vec3::UnitX()); }
+  static Constraint make(const NodeTable& n) { return planar_support({n, 0}, Vec3::UnitX()); }
 };
 struct PlanarOblique : SupportCase<false> {
-  static Constraint make(const NodeTable& n) { return planar_support(n, 0, oblique); }
+  static Constraint make(const NodeTable& n) { return planar_support({n, 0}, oblique); }
 };
 struct Turning : SupportCase<false> {
-  static Constraint make(const NodeTable& n) { return rotation(n, 0, oblique, quadratic(2.0)); }
+  static Constraint make(const NodeTable& n) { return rotation({n, 0}, oblique, quadratic(2.0)); }
 };
 struct TurningLocal : SupportCase<false> {
   static Constraint make(const NodeTable& n) {
-    return rotation_local(n, 0, oblique, quadratic(2.0));
+    return rotation_local({n, 0}, oblique, quadratic(2.0));
   }
 };
 struct RigidLink {
@@ -101,7 +115,7 @@ struct RigidLink {
 struct PairCase {
   static constexpr int num_nodes = 2;
   static constexpr bool eliminated = false;
-  static NodePair pair(const NodeTable& nodes) { return {nodes, 0, 1, offset}; }
+  static MarkerPair pair(const NodeTable& nodes) { return {nodes, 0, 1, offset}; }
 };
 struct Ball : PairCase {
   static Constraint make(const NodeTable& n) { return spherical_joint(pair(n)); }
@@ -129,10 +143,70 @@ struct Angle : PairCase {
   }
 };
 
-using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded, Angle>;
+// Between nodes, where positions and directors are interpolated.
+Anchor between(const NodeTable& nodes, int first, int second) {
+  return {nodes, model::Marker{{first, second}, {0.3, 0.7}, Vec3::Zero()}};
+}
+
+struct BetweenNodes {
+  static constexpr int num_nodes = 2;
+  static constexpr bool eliminated = false;
+};
+struct RigidBetween : BetweenNodes {
+  static Constraint make(const NodeTable& n) { return rigid_support(between(n, 0, 1)); }
+};
+struct SphericalBetween : BetweenNodes {
+  static Constraint make(const NodeTable& n) { return spherical_support(between(n, 0, 1), offset); }
+};
+struct SimpleLocalBetween : BetweenNodes {
+  static Constraint make(const NodeTable& n) {
+    return simple_support_local(between(n, 0, 1), oblique, quadratic(0.8));
+  }
+};
+struct RevoluteBetween : BetweenNodes {
+  static Constraint make(const NodeTable& n) {
+    return revolute_support(between(n, 0, 1), Vec3::UnitZ(), Vec3::Zero());
+  }
+};
+struct PlanarBetween : BetweenNodes {
+  static Constraint make(const NodeTable& n) {
+    return planar_support(between(n, 0, 1), Vec3::UnitX());
+  }
+};
+struct TurningBetween : BetweenNodes {
+  static Constraint make(const NodeTable& n) {
+    return rotation_local(between(n, 0, 1), oblique, quadratic(2.0));
+  }
+};
+
+// One side between nodes 0 and 2, the other between 1 and 3.
+struct PairBetween {
+  static constexpr int num_nodes = 4;
+  static constexpr bool eliminated = false;
+  static MarkerPair pair(const NodeTable& nodes) {
+    return {between(nodes, 0, 2), between(nodes, 1, 3), offset};
+  }
+};
+struct BallBetween : PairBetween {
+  static Constraint make(const NodeTable& n) { return spherical_joint(pair(n)); }
+};
+struct HingeBetween : PairBetween {
+  static Constraint make(const NodeTable& n) { return revolute_joint(pair(n), oblique); }
+};
+struct SliderBetween : PairBetween {
+  static Constraint make(const NodeTable& n) { return prismatic_joint(pair(n), oblique); }
+};
+struct WeldedBetween : PairBetween {
+  static Constraint make(const NodeTable& n) { return weld(pair(n)); }
+};
+
+using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded, Angle, BallBetween,
+                              HingeBetween, SliderBetween, WeldedBetween>;
 using Cases = testing::Types<Rigid, Spherical, SphericalWithOffset, SimpleAlongAxis, SimpleOblique,
                              SimpleWithOffset, SimpleMoving, SimpleLocal, Revolute, RevoluteOblique,
-                             Planar, PlanarOblique, Turning, TurningLocal, RigidLink>;
+                             Planar, PlanarOblique, Turning, TurningLocal, RigidLink,
+                             SphericalMoving, RigidMoving, RigidBetween, SphericalBetween,
+                             SimpleLocalBetween, RevoluteBetween, PlanarBetween, TurningBetween>;
 
 }  // namespace
 }  // namespace culm::joint

@@ -1,3 +1,4 @@
+#include <culm/joint/rigid_support.hpp>
 #include <culm/joint/rotation.hpp>
 #include <culm/joint/simple_support.hpp>
 #include <culm/joint/simple_support_local.hpp>
@@ -44,8 +45,9 @@ constexpr double round_off = 1e-15;
 TEST_F(DrivenSupport, RotationRowsVanishAfterTheExactRotation) {
   for (double time : {0.0, 0.4, 1.0, 2.5, -1.3}) {
     const model::NodeSlots q = turned(2.0 * time * axis);
-    EXPECT_LT(std::abs(row(rotation(nodes, 0, axis, proportional(2.0)), time, q)), round_off);
-    EXPECT_LT(std::abs(row(rotation_local(nodes, 0, axis, proportional(2.0)), time, q)), round_off);
+    EXPECT_LT(std::abs(row(rotation({nodes, 0}, axis, proportional(2.0)), time, q)), round_off);
+    EXPECT_LT(std::abs(row(rotation_local({nodes, 0}, axis, proportional(2.0)), time, q)),
+              round_off);
   }
 }
 
@@ -53,9 +55,9 @@ TEST_F(DrivenSupport, RotationRowsMeasureTheAngleThatIsMissing) {
   const model::NodeSlots q = turned(0.9 * axis);
   const double missing = 0.3;
   // a body vector of length one, in the plane of rotation
-  EXPECT_NEAR(row(rotation(nodes, 0, axis, proportional(0.9 - missing)), 1.0, q), std::sin(missing),
-              round_off);
-  EXPECT_NEAR(row(rotation_local(nodes, 0, axis, proportional(0.9 - missing)), 1.0, q),
+  EXPECT_NEAR(row(rotation({nodes, 0}, axis, proportional(0.9 - missing)), 1.0, q),
+              std::sin(missing), round_off);
+  EXPECT_NEAR(row(rotation_local({nodes, 0}, axis, proportional(0.9 - missing)), 1.0, q),
               -std::sin(missing), round_off);
 }
 
@@ -66,7 +68,7 @@ TEST_F(DrivenSupport, RotationLeavesRotationsAcrossTheDrivenVectorFree) {
   model::NodeSlots q = model::NodeSlots::Zero();
   q.rightCols<3>() << axis, c0, axis.cross(c0);
   aligned.add(q);
-  const model::Constraint support = rotation(aligned, 0, axis, proportional(0.0));
+  const model::Constraint support = rotation({aligned, 0}, axis, proportional(0.0));
   const Mat3 triad = q.rightCols<3>();
   for (const Vec3& free : {c0, Vec3(axis.cross(c0))}) {
     q.rightCols<3>() = exp_rotation(0.7 * free) * triad;
@@ -79,9 +81,27 @@ TEST_F(DrivenSupport, RotationLeavesRotationsAcrossTheDrivenVectorFree) {
 TEST_F(DrivenSupport, SimpleSupportsFollowTheirTranslation) {
   model::NodeSlots q = reference;
   q.col(0) += 0.75 * axis + 2.0 * any_normal(axis);
-  EXPECT_NEAR(row(simple_support(nodes, 0, axis, Vec3::Zero(), proportional(0.5)), 1.5, q), 0.0,
+  EXPECT_NEAR(row(simple_support({nodes, 0}, axis, Vec3::Zero(), proportional(0.5)), 1.5, q), 0.0,
               round_off);
-  EXPECT_NEAR(row(simple_support_local(nodes, 0, axis, proportional(0.5)), 1.5, q), 0.0, round_off);
+  EXPECT_NEAR(row(simple_support_local({nodes, 0}, axis, proportional(0.5)), 1.5, q), 0.0,
+              round_off);
+}
+
+TEST_F(DrivenSupport, RigidSupportsFollowTheirMotion) {
+  const Translation translation{Vec3(0.3, -0.2, 0.5),
+                                model::Amplitude::of_time([](double t) { return t * t; })};
+  const SupportMotion motion{translation, axis, proportional(0.4)};
+  const double time = 1.5;
+  model::NodeSlots q = turned(0.6 * axis);
+  q.col(0) += 2.25 * translation.amount;
+  model::Constraint support = rigid_support({nodes, 0}, motion);
+  support.drive(time, support.rows);
+  ASSERT_EQ(support.rows.size(), 6U);
+  for (const model::ConstraintRow& r : support.rows) {
+    EXPECT_NEAR(model::row_value(r, q), 0.0, round_off);
+  }
+  EXPECT_FALSE(support.fix);
+  EXPECT_TRUE(rigid_support({nodes, 0}).fix);  // at rest it is eliminated
 }
 
 TEST_F(DrivenSupport, OnlyTheLocalDirectionTurnsWithTheNode) {
@@ -89,8 +109,9 @@ TEST_F(DrivenSupport, OnlyTheLocalDirectionTurnsWithTheNode) {
   model::NodeSlots q = turned(turn);
   const Vec3 away(0.2, 0.5, -0.7);
   q.col(0) += away;
-  EXPECT_NEAR(row(simple_support(nodes, 0, axis, Vec3::Zero()), 0.0, q), axis.dot(away), round_off);
-  EXPECT_NEAR(row(simple_support_local(nodes, 0, axis), 0.0, q),
+  EXPECT_NEAR(row(simple_support({nodes, 0}, axis, Vec3::Zero()), 0.0, q), axis.dot(away),
+              round_off);
+  EXPECT_NEAR(row(simple_support_local({nodes, 0}, axis), 0.0, q),
               (exp_rotation(turn) * axis).dot(away), round_off);
 }
 

@@ -143,6 +143,40 @@ TEST_F(Joints, MotionFollowsTheFunctionAndIsNotEliminated) {
   EXPECT_NEAR(support.rows.front().constant - at_rest, 3.0, 1e-15);
 }
 
+TEST_F(Joints, PointsBetweenNodesAreHeldAndJoined) {
+  model::Structure& line = model.add_structure("line");
+  line.nodes = {0, 1, 2};
+  line.cells = {{{0, 1}, nullptr, 0}, {{1, 2}, nullptr, 1}};
+  line.line_points = {{{}, 1.0}, {{}, 1.0}};
+  build("Spherical Support", {{"Node", std::string("line@0.25")}});
+  build("Rigid Support", {{"Node", std::string("line@0.25")}});
+  build("Rigid Support", {{"Node", std::string("line@0.5")}});  // a node
+  build("Weld", {{"First", std::string("line@0.25")}, {"Second", std::string("beam/last")}});
+  EXPECT_THAT(messages(), ElementsAre());
+  const auto& made = model.constraints();
+  ASSERT_EQ(made.size(), 4U);
+  EXPECT_THAT(made[0].nodes, ElementsAre(0, 1));
+  EXPECT_FALSE(made[0].fix);
+  EXPECT_EQ(made[1].rows.size(), 6U);
+  EXPECT_THAT(made[2].nodes, ElementsAre(1));
+  EXPECT_TRUE(made[2].fix);
+  EXPECT_THAT(made[3].nodes, ElementsAre(0, 1, 2));
+  for (const model::Constraint& c : made) {
+    const auto q = model::slots_of(c, model.nodes().reference());
+    for (const model::ConstraintRow& row : c.rows) EXPECT_LT(std::abs(row_value(row, q)), 1e-14);
+  }
+}
+
+TEST_F(Joints, MistakesInPointsAreNamed) {
+  build("Spherical Support", {{"Node", std::string("baem@0.25")}});
+  build("Spherical Support", {{"Node", std::string("beam@1.25")}});
+  build("Spherical Support", {{"Node", std::string("beam@0.5")}});
+  EXPECT_THAT(messages(),
+              ElementsAre("unknown structure in 'baem@0.25' – did you mean 'beam'?",
+                          "needs a fraction between 0 and 1 behind '@', got 'beam@1.25'",
+                          "structure 'beam' is no line, got 'beam@0.5'"));
+}
+
 TEST_F(Joints, MistakesAreNamedWithTheNearestName) {
   build("Rigid Support", {{"Node", std::string("beam/lst")}});
   build("Rigid Support", {{"Node", std::string("beam/7")}});

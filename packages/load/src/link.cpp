@@ -88,8 +88,8 @@ Link plane_ground_link(const NodeTable& nodes, const LinkPoint& point, const Vec
   return link;
 }
 
-Link angle_link(const joint::NodePair& pair, const Vec3& axis) {
-  Link link = link_between(pair.first(), pair.second(), Measure::angle);
+Link angle_link(const joint::MarkerPair& pair, const Vec3& axis) {
+  Link link = link_between(pair.nodes().front(), pair.nodes().back(), Measure::angle);
   const Vec3 n1 = any_normal(axis);
   const SlotSum of_second = pair.vector(1, n1);
   for (const Vec3& e : {n1, Vec3(axis.cross(n1))}) {

@@ -7,7 +7,7 @@ namespace {
 std::vector<Link> make(const Options& options, model::BuildContext& context) {
   const auto nodes = joint::select_two_nodes(options, context);
   if (!nodes) return {};
-  const joint::NodePair pair(context.model.nodes(), (*nodes)[0], (*nodes)[1], Vec3::Zero());
+  const joint::MarkerPair pair(context.model.nodes(), (*nodes)[0], (*nodes)[1], Vec3::Zero());
   return {angle_link(pair, model::vector(options, "Axis").normalized())};
 }
 

@@ -47,7 +47,7 @@ const LinkCase cases[] = {
     {"PlaneGround", 1, false,
      [](const NodeTable& n) { return plane_ground_link(n, first, oblique); }},
     {"Angle", 2, true, [](const NodeTable& n) {
-       return angle_link(joint::NodePair(n, 0, 1, Vec3::Zero()), oblique);
+       return angle_link(joint::MarkerPair(n, 0, 1, Vec3::Zero()), oblique);
      }}};
 
 // F(0) = 0.4, softer beyond 5, and damping that is not odd
@@ -249,7 +249,7 @@ TEST(AngleLink, CountsFullTurns) {
   one.model.nodes().add(node_at(Vec3::Zero()));
   one.model.nodes().add(node_at(Vec3::UnitX()));
   one.add(std::make_unique<SpringLaw>(PiecewiseLinear::proportional(2.0)), [](const NodeTable& n) {
-    return angle_link(joint::NodePair(n, 0, 1, Vec3::Zero()), oblique);
+    return angle_link(joint::MarkerPair(n, 0, 1, Vec3::Zero()), oblique);
   });
   double angle = 0.0;
   for (int step = 0; step < 11; ++step) {

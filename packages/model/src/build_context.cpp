@@ -2,6 +2,7 @@
 #include <culm/model/build_context.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 namespace culm::model {
@@ -37,6 +38,46 @@ std::vector<int> find_nodes(const std::string& name, const Where& where, BuildCo
   return nodes;
 }
 
+Field point_field(std::string name, std::string doc) {
+  return text(std::move(name), std::move(doc) +
+                                   " A node, or a point of a line at a fraction of its length, as "
+                                   "'beam@0.35'.");
+}
+
+std::optional<Marker> select_point(const Options& options, const std::string& parameter,
+                                   BuildContext& context) {
+  const std::string& name = options.text(parameter);
+  const auto at = name.find('@');
+  if (at == std::string::npos) {
+    const std::vector<int> nodes = select_nodes(options, parameter, context);
+    if (nodes.size() == 1) return marker_at(nodes.front());
+    if (nodes.size() > 1) {
+      context.issues.add(options.where(parameter),
+                         "must name one node, got " + std::to_string(nodes.size()));
+    }
+    return {};
+  }
+  const Structure* structure = context.model.find_structure(name.substr(0, at));
+  double fraction = -1.0;
+  const auto [end, error] =
+      std::from_chars(name.data() + at + 1, name.data() + name.size(), fraction);
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  std::optional<Marker> marker;
+  if (structure == nullptr) {
+    std::vector<std::string> names;
+    for (const Structure& one : context.model.structures()) names.push_back(one.name);
+    context.issues.add(options.where(parameter), "unknown structure in '" + name + "'" +
+                                                     did_you_mean(name.substr(0, at), names));
+  } else if (!is_number || !(fraction >= 0.0 && fraction <= 1.0)) {
+    context.issues.add(options.where(parameter),
+                       "needs a fraction between 0 and 1 behind '@', got '" + name + "'");
+  } else if (marker = marker_at_fraction(*structure, fraction); !marker) {
+    context.issues.add(options.where(parameter),
+                       "structure '" + structure->name + "' is no line, got '" + name + "'");
+  }
+  return marker;
+}
+
 Field structure_field() { return text("Structure", "Name of the structure it acts on."); }
 
 const Structure* select_structure(const Options& options, BuildContext& context) {
@@ -59,15 +100,16 @@ Vec3 vector(const Options& options, const std::string& parameter) {
   return Eigen::Map<const Vec3>(options.numbers(parameter).data());
 }
 
-Field function_field(std::string fallback) {
-  return text("Function",
+Field function_field(std::string fallback, std::string name) {
+  return text(std::move(name),
               "Function of time, from the list Functions; 'Ramp' is time held between 0 and 1, "
               "'Constant' is 1.")
       .optional(std::move(fallback));
 }
 
-std::optional<Amplitude> find_function(const Options& options, BuildContext& context) {
-  const std::string& name = options.text("Function");
+std::optional<Amplitude> find_function(const Options& options, BuildContext& context,
+                                       const std::string& parameter) {
+  const std::string& name = options.text(parameter);
   if (const auto found = context.functions.find(name); found != context.functions.end()) {
     return found->second;
   }
@@ -75,7 +117,7 @@ std::optional<Amplitude> find_function(const Options& options, BuildContext& con
   if (name == "Constant") return Amplitude::constant();
   std::vector<std::string> names = {"Ramp", "Constant"};
   for (const auto& [known, function] : context.functions) names.push_back(known);
-  context.issues.add(options.where("Function"),
+  context.issues.add(options.where(parameter),
                      "unknown function '" + name + "'" + did_you_mean(name, names));
   return {};
 }

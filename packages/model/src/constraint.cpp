@@ -41,6 +41,21 @@ SlotSum attached_vector(int a, int n, const Vec3& nu) {
   return factors;
 }
 
+double row_value(const ConstraintRow& row, const Eigen::Matrix3Xd& q) {
+  const Vec3 second = row.linear() ? row.direction : Vec3(row.direction + sum(row.beta, q));
+  return sum(row.alpha, q).dot(second) - row.constant;
+}
+
+Eigen::Matrix3Xd slots_of(const Constraint& constraint, const Coordinates& q) {
+  Eigen::Matrix3Xd slots(3, 4 * static_cast<int>(constraint.nodes.size()));
+  int at = 0;
+  for (int node : constraint.nodes) {
+    slots.middleCols<4>(at) = NodeTable::slots(q, node);
+    at += 4;
+  }
+  return slots;
+}
+
 Constraint internal_constraint(const NodeTable& nodes, int node) {
   Constraint constraint;
   constraint.name = "directors of node " + std::to_string(node);

@@ -251,9 +251,10 @@ StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) 
   return work;
 }
 
-Vec6 ConstraintBatch::reaction(int node, const State& state) const {
+Vec6 ConstraintBatch::reaction(int node, const State& state, const std::string& constraint) const {
   Vec6 total = Vec6::Zero();
   for (const Item& item : items_) {
+    if (!constraint.empty() && item.constraint.name != constraint) continue;
     const std::vector<int>& nodes = item.constraint.nodes;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (nodes[a] != node) continue;

@@ -1,18 +1,33 @@
+#include <culm/math/rotation.hpp>
 #include <culm/model/initial_motion.hpp>
 
 namespace culm::model {
 namespace {
 
+// Parameter "About", or the first of the nodes.
+Vec3 centre_of(const Options& options, const std::vector<int>& nodes, const Model& model) {
+  if (options.has("About")) return vector(options, "About");
+  return NodeTable::slots(model.nodes().reference(), nodes.front()).col(0);
+}
+
 void build_velocity(const Options& options, BuildContext& context) {
   const std::vector<int> nodes = select_nodes(options, "Node", context);
   if (nodes.empty()) return;
-  const Vec3 about =
-      options.has("About")
-          ? vector(options, "About")
-          : Vec3(NodeTable::slots(context.model.nodes().reference(), nodes.front()).col(0));
+  const Vec3 about = centre_of(options, nodes, context.model);
   for (int node : nodes) {
     context.model.add_initial_velocity(
         {node, vector(options, "Velocity"), vector(options, "Angular Velocity"), about});
+  }
+}
+
+void build_displacement(const Options& options, BuildContext& context) {
+  const std::vector<int> nodes = select_nodes(options, "Node", context);
+  if (nodes.empty()) return;
+  const Vec3 about = centre_of(options, nodes, context.model);
+  const Vec3 rotation = options.number("Angle") * vector(options, "Axis").normalized();
+  for (int node : nodes) {
+    context.model.add_initial_displacement(
+        {options.where(), node, vector(options, "Translation"), rotation, about});
   }
 }
 
@@ -29,6 +44,27 @@ void register_initial_motions(BuilderRegistry& registry) {
                             "Point that only translates; the first of the nodes if absent.")
                    .optional()),
       build_velocity);
+  registry.add(
+      "Displacement",
+      Schema("Displacement",
+             "Nodes start displaced by one rigid motion: a rotation about a point, then a "
+             "translation. What it strains or takes out of joints is seen as it is: joints are "
+             "closed again with the least motion of mass, supports are not left.")
+          .add(node_field("Node", "Nodes that start so: a structure, a set or a node."))
+          .add(vector_field("Translation", "m", "Translation.").optional({0.0, 0.0, 0.0}))
+          .add(vector_field("Axis", "1", "Axis of the rotation, of any length.")
+                   .optional({0.0, 0.0, 1.0}))
+          .add(number("Angle", "rad", "Angle of the rotation.").optional(0.0))
+          .add(
+              vector_field("About", "m",
+                           "Point on the axis, in the reference; the first of the nodes if absent.")
+                  .optional())
+          .check([](const Options& options, InputIssues& issues) {
+            if (vector(options, "Axis").isZero(0.0)) {
+              issues.add(options.where("Axis"), "must not be zero");
+            }
+          }),
+      build_displacement);
 }
 
 }  // namespace culm::model

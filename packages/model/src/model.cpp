@@ -1,7 +1,11 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
+#include <culm/math/rotation.hpp>
 #include <culm/model/model.hpp>
 #include <culm/model/redundancy.hpp>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -83,6 +87,126 @@ void Model::batch_equations(double length) {
   }
 }
 
+void Model::refuse_displaced_supports(double length) const {
+  const Coordinates q = initial_configuration();
+  InputIssues issues;
+  for (const InitialDisplacement& displacement : initial_displacements_) {
+    for (const Constraint& c : constraints_) {
+      if (!c.fix && !c.link) continue;  // equations can be fulfilled by others
+      if (std::find(c.nodes.begin(), c.nodes.end(), displacement.node) == c.nodes.end()) continue;
+      double violation = 0.0;
+      for (const ConstraintRow& row : c.rows) {
+        violation = std::max(violation, std::abs(row_value(row, slots_of(c, q))));
+      }
+      if (violation <= 1e-9 * length) continue;
+      issues.add(displacement.where, "takes '" + node_name(displacement.node) + "' out of " +
+                                         c.type + " '" + c.name + "' by " +
+                                         fmt::format("{:.3g}", violation));
+    }
+  }
+  issues.throw_if_any();
+}
+
+namespace {
+
+std::string quoted_name(const Constraint& c) { return c.type + " '" + c.name + "'"; }
+
+// "a, b and c", without repetitions
+std::string enumerate(const std::vector<std::string>& names) {
+  std::vector<std::string> once;
+  for (const std::string& name : names) {
+    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+  }
+  if (once.size() < 2) return join(once, "");
+  const std::string last = once.back();
+  once.pop_back();
+  return join(once, ", ") + " and " + last;
+}
+
+// Whether a constraint takes away unknowns of a node that another one holds as well.
+bool removes_unknowns(const NodeTable& nodes, const Constraint& constraint, const Constraint& other,
+                      int master) {
+  if (constraint.fix) return nodes.master(constraint.fix->node) == master;
+  // links matter where another one closes a loop with them
+  return constraint.link && other.link && nodes.master(constraint.link->slave) == master;
+}
+
+// A drive finds the rows by their place among all.
+void leave_out(const std::vector<bool>& rows, Constraint& constraint) {
+  if (std::find(rows.begin(), rows.end(), true) == rows.end()) return;
+  const auto keep = [rows](const std::vector<ConstraintRow>& all,
+                           std::vector<ConstraintRow>& kept) {
+    kept.clear();
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (!rows[r]) kept.push_back(all[r]);
+    }
+  };
+  std::vector<ConstraintRow> all = constraint.rows;
+  keep(all, constraint.rows);
+  if (!constraint.drive) return;
+  constraint.drive = [keep, all, drive = constraint.drive](
+                         double time, std::vector<ConstraintRow>& kept) mutable {
+    drive(time, all);
+    keep(all, kept);
+  };
+}
+
+}  // namespace
+
+std::vector<std::string> Model::remove_redundant_equations(Form form) {
+  const auto sets = find_redundant_rows(nodes_, equations_, form, initial_configuration());
+  std::vector<std::string> notes;
+  InputIssues issues;
+  std::vector<std::vector<bool>> is_left_out;  // by equation and row
+  for (const Constraint& c : equations_) is_left_out.emplace_back(c.rows.size(), false);
+  for (const RedundantSet& set : sets) {
+    std::vector<std::string> names;
+    std::vector<std::string> bodies;
+    std::vector<std::string> supports;  // that take the unknowns of these nodes away
+    const Constraint* named = &equations_[static_cast<std::size_t>(set.members.front())];
+    for (int member : set.members) {
+      const Constraint& c = equations_[static_cast<std::size_t>(member)];
+      names.push_back(quoted_name(c));
+      if (c.drive || !c.velocity_rows.empty()) named = &c;
+      for (int node : c.nodes) {
+        const Structure* structure = structure_of(node);
+        bodies.push_back(structure == nullptr ? node_name(node) : "'" + structure->name + "'");
+        for (const Constraint& other : constraints_) {
+          if (form == Form::null_space && removes_unknowns(nodes_, other, c, nodes_.master(node))) {
+            supports.push_back(quoted_name(other));
+          }
+        }
+      }
+    }
+    names.insert(names.end(), supports.begin(), supports.end());
+    if (set.kind == RedundantSet::Kind::structural) {
+      std::string left_out;
+      for (const RedundantSet::Row& row : set.dependent) {
+        is_left_out[static_cast<std::size_t>(row.equation)][static_cast<std::size_t>(row.row)] =
+            true;
+      }
+      notes.push_back(enumerate(names) + " hold motions of " + enumerate(bodies) +
+                      " more than once: " + std::to_string(set.dependent.size()) +
+                      (set.dependent.size() == 1 ? " equation follows" : " equations follow") +
+                      " from the others and " + (set.dependent.size() == 1 ? "is" : "are") +
+                      " left out; the reactions of these constraints are not unique");
+    } else if (set.kind == RedundantSet::Kind::contradictory) {
+      std::erase(names, quoted_name(*named));
+      issues.add(named->where, "prescribes a motion of " + enumerate(bodies) +
+                                   " that is held already" +
+                                   (names.empty() ? "" : ", by " + enumerate(names)));
+    } else {
+      issues.add(named->where, "starts in a singular position of " + enumerate(bodies) +
+                                   ": here, and only here, the equations of " + enumerate(names) +
+                                   " depend on each other; start in another position");
+    }
+  }
+  issues.throw_if_any();
+  for (std::size_t e = 0; e < equations_.size(); ++e) leave_out(is_left_out[e], equations_[e]);
+  std::erase_if(equations_, [](const Constraint& c) { return c.rows.empty(); });
+  return notes;
+}
+
 std::vector<std::string> Model::freeze(Form form) {
   // links first: whether a support can be eliminated depends on them
   const auto is_link = [](const Constraint& c) { return c.link.has_value(); };
@@ -94,13 +218,19 @@ std::vector<std::string> Model::freeze(Form form) {
     if (!is_link(c)) ordered.push_back(&c);
   }
   std::vector<bool> has_internal(static_cast<std::size_t>(nodes_.size()), true);
+  NodeTable linked = nodes_;
   for (const Constraint* c : ordered) {
-    if (c->replaces_internal >= 0) {
-      has_internal[static_cast<std::size_t>(c->replaces_internal)] = false;
-    }
     if (form == Form::null_space && eliminate(*c)) continue;
     equations_.push_back(*c);
+    // in a loop of links somebody has to keep the directors
+    const bool closes_loop = c->link && !linked.link(c->link->slave, c->link->master);
+    if (closes_loop) equations_.back().replaces_internal = -1;
+    const int replaced = equations_.back().replaces_internal;
+    if (replaced >= 0) has_internal[static_cast<std::size_t>(replaced)] = false;
   }
+  refuse_displaced_supports(length());
+  std::vector<std::string> notes;
+  if (!keeps_redundant_rows_) notes = remove_redundant_equations(form);
   if (form == Form::multipliers) {
     for (int node = 0; node < nodes_.size(); ++node) {
       const bool has_triad = nodes_.kind(node) == NodeKind::node12;
@@ -109,8 +239,6 @@ std::vector<std::string> Model::freeze(Form form) {
       }
     }
   }
-  std::vector<std::string> notes;
-  if (form == Form::null_space) notes = remove_redundant_rows(nodes_, equations_);
   batch_equations(length());
   std::vector<int> multipliers;
   for (const Constraint& c : equations_) multipliers.push_back(static_cast<int>(c.rows.size()));
@@ -186,6 +314,15 @@ std::string Model::node_name(int node) const {
   return "node " + std::to_string(node);
 }
 
+const Structure* Model::structure_of(int node) const {
+  for (const Structure& structure : structures_) {
+    if (std::find(structure.nodes.begin(), structure.nodes.end(), node) != structure.nodes.end()) {
+      return &structure;
+    }
+  }
+  return nullptr;
+}
+
 std::vector<Batch*> Model::batches() const {
   std::vector<Batch*> result;
   for (const auto& batch : element_batches_) result.push_back(batch.get());
@@ -225,9 +362,20 @@ double Model::length() const {
   return diagonal > 0.0 ? diagonal : 1.0;
 }
 
+Coordinates Model::initial_configuration() const {
+  Coordinates q = nodes_.reference();
+  for (const InitialDisplacement& d : initial_displacements_) {
+    auto slots = NodeTable::slots(q, d.node);
+    const Mat3 turn = exp_rotation(d.rotation);
+    slots.col(0) = d.about + turn * (slots.col(0) - d.about) + d.translation;
+    slots.rightCols<3>() = (turn * slots.rightCols<3>()).eval();
+  }
+  return q;
+}
+
 State Model::initial_state() const {
   State state;
-  state.prev = state.next = nodes_.reference();
+  state.prev = state.next = initial_configuration();
   state.velocity.assign(state.prev.size(), 0.0);
   state.multipliers.assign(static_cast<std::size_t>(unknowns_.num_multipliers()), 0.0);
   state.multipliers_prev = state.multipliers;

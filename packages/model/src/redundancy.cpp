@@ -6,103 +6,335 @@
 #include <Eigen/SparseQR>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 
 namespace culm::model {
 namespace {
 
+constexpr double negligible = 1e-8;  // factor of a row of unit length in a combination
+
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// dh/dq of a row for the slots of one node, shape (12)
-Vec<12> slot_gradient(const ConstraintRow& row, std::size_t node, const Vec3& P, const Vec3& Q) {
-  Vec<12> gradient;
-  for (std::size_t s = 0; s < 4; ++s) {
-    Vec3 g = row.alpha[4 * node + s] * Q;
-    if (!row.linear()) g += row.beta[4 * node + s] * P;
-    gradient.segment<3>(3 * static_cast<int>(s)) = g;
-  }
-  return gradient;
-}
-
-Vec3 sum(const SlotSum& factors, const std::vector<int>& nodes, const NodeTable& table) {
-  Vec3 result = Vec3::Zero();
-  for (std::size_t s = 0; s < factors.size(); ++s) {
-    result += factors[s] * NodeTable::slots(table.reference(), nodes[s / 4]).col(s % 4);
-  }
-  return result;
-}
-
-// (H P)^T in the reference: one column per row of the constraints, scaled to unit length.
-Sparse reduced_gradients(const NodeTable& table, const std::vector<Constraint>& equations) {
-  std::vector<Eigen::Triplet<double>> entries;
-  int column = 0;
-  for (const Constraint& c : equations) {
-    for (const ConstraintRow& row : c.rows) {
-      const Vec3 P = sum(row.alpha, c.nodes, table);
-      const Vec3 Q =
-          row.linear() ? row.direction : Vec3(row.direction + sum(row.beta, c.nodes, table));
-      for (std::size_t a = 0; a < c.nodes.size(); ++a) {
-        const int master = table.master(c.nodes[a]);
-        RowMat<6, 1> reduced;
-        NullSpace::reduce_rows(slot_gradient(row, a, P, Q),
-                               arms_of(table, c.nodes[a], table.reference()), reduced);
-        for (int i = 0; i < 6; ++i) {
-          if (reduced[i] != 0.0 && !table.fixed(master)[static_cast<std::size_t>(i)]) {
-            entries.emplace_back(6 * master + i, column, reduced[i]);
-          }
-        }
+// All rows of all constraints, and the unknowns by which they are judged: six per node, or its
+// twelve coordinates where the rows themselves hold its directors.
+class RowTable {
+ public:
+  RowTable(const NodeTable& nodes, const std::vector<Constraint>& equations, Form form)
+      : nodes_(nodes), equations_(equations) {
+    std::vector<bool> is_replaced(static_cast<std::size_t>(nodes.size()), false);
+    for (int e = 0; e < static_cast<int>(equations.size()); ++e) {
+      const Constraint& c = equation(e);
+      rows_.push_back(c.velocity_rows.empty() ? c.rows : c.velocity_rows);
+      if (c.drive && c.velocity_rows.empty()) c.drive(0.0, rows_.back());
+      for (int r = 0; r < static_cast<int>(rows_.back().size()); ++r) places_.push_back({e, r});
+      if (form == Form::multipliers && c.replaces_internal >= 0) {
+        is_replaced[static_cast<std::size_t>(c.replaces_internal)] = true;
       }
-      ++column;
+    }
+    for (bool replaced : is_replaced) {
+      first_.push_back(size_);
+      width_.push_back(replaced ? 12 : 6);
+      size_ += width_.back();
     }
   }
-  Sparse gradients(6 * table.size(), column);
-  gradients.setFromTriplets(entries.begin(), entries.end());
-  for (int k = 0; k < column; ++k) {
-    const double length = gradients.col(k).norm();
-    if (length > 0.0) gradients.col(k) /= length;
+
+  const std::vector<RedundantSet::Row>& places() const { return places_; }
+  const Constraint& equation(int e) const { return equations_[static_cast<std::size_t>(e)]; }
+
+  // h of all rows, each over the length of its gradient
+  Eigen::VectorXd values(const Coordinates& q) const {
+    Eigen::VectorXd h(static_cast<Eigen::Index>(places_.size()));
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const Constraint& c = equation(places_[k].equation);
+      // equations on velocities hold in any position
+      h[static_cast<Eigen::Index>(k)] =
+          c.velocity_rows.empty() ? row_value(row(k), slots_of(c, q)) / scale_[k] : 0.0;
+    }
+    return h;
   }
-  return gradients;
+
+  // (H P)^T: one column per row, of unit length unless it is zero. Sets the scales of values().
+  Sparse gradients(const Coordinates& q) {
+    std::vector<Eigen::Triplet<double>> entries;
+    scale_.assign(places_.size(), 1.0);
+    Eigen::VectorXd sizes(static_cast<Eigen::Index>(places_.size()));
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      sizes[static_cast<Eigen::Index>(k)] = add_gradient(k, q, entries);
+    }
+    Sparse result(size_, static_cast<int>(places_.size()));
+    result.setFromTriplets(entries.begin(), entries.end());
+    for (int k = 0; k < result.cols(); ++k) {
+      const double length = result.col(k).norm();
+      // between nodes that are held nothing but round-off is left of a row
+      if (length <= 1e-12 * sizes[k]) {
+        result.col(k) *= 0.0;
+        continue;
+      }
+      result.col(k) /= length;
+      scale_[static_cast<std::size_t>(k)] = length;
+    }
+    return result;
+  }
+
+  // By how much the prescribed motion of a row has changed h since time zero.
+  double motion(std::size_t k, double time, const Coordinates& q) const {
+    const Constraint& c = equation(places_[k].equation);
+    if (!c.drive) return 0.0;
+    std::vector<ConstraintRow> rows = c.rows;
+    c.drive(time, rows);
+    const Eigen::Matrix3Xd slots = slots_of(c, q);
+    const ConstraintRow& moved = rows[static_cast<std::size_t>(places_[k].row)];
+    return (row_value(moved, slots) - row_value(row(k), slots)) / scale_[k];
+  }
+
+  void move(const Eigen::VectorXd& u, Coordinates& q) const {
+    for (int node = 0; node < nodes_.size(); ++node) {
+      if (nodes_.is_slave(node)) continue;
+      const auto at = static_cast<std::size_t>(node);
+      if (width_[at] == 12) {
+        NodeTable::slots(q, node).reshaped() += u.segment<12>(first_[at]);
+      } else {
+        nodes_.move(node, u.segment<6>(first_[at]), q);
+      }
+    }
+    for (int node = 0; node < nodes_.size(); ++node) {
+      if (nodes_.is_slave(node)) nodes_.follow_master(node, q);
+    }
+  }
+
+  // Rotations of a few degrees without any symmetry, where nothing is fixed.
+  Eigen::VectorXd perturbation() const {
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(size_);
+    for (int node = 0; node < nodes_.size(); ++node) {
+      const auto at = static_cast<std::size_t>(node);
+      if (width_[at] == 12 || nodes_.is_slave(node)) continue;
+      if (nodes_.kind(node) != NodeKind::node12) continue;
+      for (int i = 3; i < 6; ++i) {
+        if (nodes_.fixed(node)[static_cast<std::size_t>(i)]) continue;
+        u[first_[at] + i] = 0.2 * (std::fmod(0.6180339887498949 * (6 * node + i + 1), 1.0) - 0.5);
+      }
+    }
+    return u;
+  }
+
+ private:
+  const ConstraintRow& row(std::size_t k) const {
+    return rows_[static_cast<std::size_t>(places_[k].equation)]
+                [static_cast<std::size_t>(places_[k].row)];
+  }
+
+  // Returns the size of the numbers that the entries are differences of.
+  double add_gradient(std::size_t k, const Coordinates& q,
+                      std::vector<Eigen::Triplet<double>>& entries) const {
+    double size = 0.0;
+    const Constraint& c = equation(places_[k].equation);
+    const ConstraintRow& row = this->row(k);
+    const Eigen::Matrix3Xd slots = slots_of(c, q);
+    const Vec3 P = slots * Eigen::Map<const Eigen::VectorXd>(row.alpha.data(), slots.cols());
+    Vec3 Q = row.direction;
+    if (!row.linear()) {
+      Q += slots * Eigen::Map<const Eigen::VectorXd>(row.beta.data(), slots.cols());
+    }
+    for (std::size_t a = 0; a < c.nodes.size(); ++a) {
+      Vec<12> gradient;
+      for (std::size_t s = 0; s < 4; ++s) {
+        Vec3 g = row.alpha[4 * a + s] * Q;
+        if (!row.linear()) g += row.beta[4 * a + s] * P;
+        gradient.segment<3>(3 * static_cast<int>(s)) = g;
+      }
+      const Arms<4> arms = arms_of(nodes_, c.nodes[a], q);
+      size += gradient.norm() * std::max(1.0, arms.slots.norm());
+      const int master = nodes_.master(c.nodes[a]);
+      const auto at = static_cast<std::size_t>(master);
+      const int column = static_cast<int>(k);
+      if (width_[at] == 12) {
+        for (int i = 0; i < 12; ++i) entries.emplace_back(first_[at] + i, column, gradient[i]);
+        continue;
+      }
+      Vec6 reduced;
+      NullSpace::reduce_rows(gradient, arms, reduced);
+      for (int i = 0; i < 6; ++i) {
+        if (nodes_.fixed(master)[static_cast<std::size_t>(i)]) continue;
+        if (reduced[i] != 0.0) entries.emplace_back(first_[at] + i, column, reduced[i]);
+      }
+    }
+    return size;
+  }
+
+  const NodeTable& nodes_;
+  const std::vector<Constraint>& equations_;
+  std::vector<std::vector<ConstraintRow>> rows_;  // by constraint, as they are at time zero
+  std::vector<RedundantSet::Row> places_;
+  std::vector<int> first_, width_;  // unknowns of each node
+  int size_ = 0;
+  std::vector<double> scale_;
+};
+
+// Rank-revealing factors G P = Q R of gradients.
+class Factors {
+ public:
+  explicit Factors(Sparse gradients) {
+    gradients.makeCompressed();
+    qr_.setPivotThreshold(1e-10);
+    qr_.compute(gradients);
+    const auto rank = qr_.rank();
+    independent_ = Sparse(qr_.matrixR()).topLeftCorner(rank, rank);
+  }
+
+  int rank() const { return static_cast<int>(qr_.rank()); }
+  int cols() const { return static_cast<int>(qr_.cols()); }
+  // Number of the column at a place; those from the rank on depend on the ones before.
+  int column(int place) const { return qr_.colsPermutation().indices()[place]; }
+
+  // A dependent column as a combination of the independent ones, by place.
+  Eigen::VectorXd combination(int place) const {
+    Eigen::VectorXd x = Sparse(qr_.matrixR()).col(place).head(rank());
+    independent_.triangularView<Eigen::Upper>().solveInPlace(x);
+    return x;
+  }
+
+  // The smallest u with G^T u = b in the independent columns.
+  Eigen::VectorXd smallest_solution(const Eigen::VectorXd& b) const {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(qr_.rows());
+    for (int place = 0; place < rank(); ++place) y[place] = b[column(place)];
+    Eigen::VectorXd head = y.head(rank());
+    independent_.transpose().triangularView<Eigen::Lower>().solveInPlace(head);
+    y.head(rank()) = head;
+    return qr_.matrixQ() * y;
+  }
+
+ private:
+  Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr_;
+  Sparse independent_;  // the square part of R
+};
+
+// A configuration near q where all rows hold; nothing if none is found.
+std::optional<Coordinates> admissible(RowTable& table, Coordinates q) {
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    const Sparse gradients = table.gradients(q);
+    const Eigen::VectorXd h = table.values(q);
+    if (h.lpNorm<Eigen::Infinity>() < 1e-12) return q;
+    const Eigen::VectorXd u = Factors(gradients).smallest_solution(-h);
+    if (!u.allFinite()) return {};
+    table.move(u, q);
+  }
+  return {};
 }
 
-// Numbers of the columns that others span.
-std::vector<int> dependent_columns(Sparse gradients) {
-  gradients.makeCompressed();
-  Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr;
-  qr.setPivotThreshold(1e-10);
-  qr.compute(gradients);
-  std::vector<int> dependent;
-  const auto order = qr.colsPermutation().indices();
-  for (int k = static_cast<int>(qr.rank()); k < gradients.cols(); ++k)
-    dependent.push_back(order[k]);
-  return dependent;
+// Whether the dependent row at a place and the combination x that implies it are driven alike.
+bool is_consistent(const RowTable& table, const Factors& factors, int place,
+                   const Eigen::VectorXd& x, const Coordinates& q) {
+  for (double time : {0.013, 0.11, 0.37, 1.0, 3.1, 17.0}) {
+    const auto motion = [&](int at) {
+      return table.motion(static_cast<std::size_t>(factors.column(at)), time, q);
+    };
+    double difference = -motion(place);
+    double size = std::abs(difference);
+    for (int at = 0; at < x.size(); ++at) {
+      if (std::abs(x[at]) <= negligible) continue;
+      difference += x[at] * motion(at);
+      size = std::max(size, std::abs(x[at] * motion(at)));
+    }
+    if (std::abs(difference) > 1e-9 * size) return false;
+  }
+  return true;
+}
+
+// The dependent rows with all rows that imply them, joined where they share a constraint.
+std::vector<RedundantSet> dependent_sets(const RowTable& table, const Factors& factors,
+                                         const Coordinates& q) {
+  std::vector<RedundantSet> sets;
+  for (int place = factors.rank(); place < factors.cols(); ++place) {
+    const auto row_of = [&](int at) {
+      return table.places()[static_cast<std::size_t>(factors.column(at))];
+    };
+    RedundantSet set;
+    set.dependent = {row_of(place)};
+    set.members = {row_of(place).equation};
+    const Eigen::VectorXd x = factors.combination(place);
+    for (int at = 0; at < x.size(); ++at) {
+      if (std::abs(x[at]) > negligible) set.members.push_back(row_of(at).equation);
+    }
+    const bool of_velocity = std::ranges::any_of(
+        set.members, [&](int e) { return !table.equation(e).velocity_rows.empty(); });
+    if (of_velocity || !is_consistent(table, factors, place, x, q)) {
+      set.kind = RedundantSet::Kind::contradictory;
+    }
+    const auto shares = [&](const RedundantSet& other) {
+      return std::ranges::find_first_of(set.members, other.members) != set.members.end();
+    };
+    for (auto other = sets.begin(); other != sets.end();) {
+      if (!shares(*other)) {
+        ++other;
+        continue;
+      }
+      set.members.insert(set.members.end(), other->members.begin(), other->members.end());
+      set.dependent.insert(set.dependent.end(), other->dependent.begin(), other->dependent.end());
+      if (other->kind == RedundantSet::Kind::contradictory) set.kind = other->kind;
+      other = sets.erase(other);
+    }
+    std::ranges::sort(set.members);
+    set.members.erase(std::ranges::unique(set.members).begin(), set.members.end());
+    sets.push_back(std::move(set));
+  }
+  std::ranges::sort(sets, {}, [](const RedundantSet& set) { return set.members.front(); });
+  return sets;
+}
+
+// Whether the rows of a set that were independent before no longer imply the others.
+bool gains_rank(const RowTable& table, const Sparse& gradients, const Factors& reference,
+                const RedundantSet& set) {
+  std::vector<int> columns;
+  for (int place = 0; place < reference.rank(); ++place) columns.push_back(reference.column(place));
+  const auto rank = [&] {
+    Sparse some(gradients.rows(), static_cast<int>(columns.size()));
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      for (Sparse::InnerIterator it(gradients, columns[k]); it; ++it) {
+        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(k), it.value());
+      }
+    }
+    some.setFromTriplets(entries.begin(), entries.end());
+    return Factors(std::move(some)).rank();
+  };
+  const int without = rank();
+  for (int place = reference.rank(); place < reference.cols(); ++place) {
+    const int column = reference.column(place);
+    const RedundantSet::Row row = table.places()[static_cast<std::size_t>(column)];
+    const bool belongs = std::ranges::any_of(set.dependent, [&](const RedundantSet::Row& one) {
+      return one.equation == row.equation && one.row == row.row;
+    });
+    if (belongs) columns.push_back(column);
+  }
+  return rank() > without;
 }
 
 }  // namespace
 
-std::vector<std::string> remove_redundant_rows(const NodeTable& nodes,
-                                               std::vector<Constraint>& equations) {
-  if (equations.empty()) return {};
-  const std::vector<int> dependent = dependent_columns(reduced_gradients(nodes, equations));
-  std::vector<std::string> notes;
-  int column = 0;
-  for (Constraint& c : equations) {
-    std::vector<ConstraintRow> kept;
-    const std::size_t all = c.rows.size();
-    // a driven constraint finds its rows by their place; redundant ones are left to the diagnosis
-    for (ConstraintRow& row : c.rows) {
-      const bool is_dependent =
-          !c.drive && std::find(dependent.begin(), dependent.end(), column) != dependent.end();
-      ++column;
-      if (!is_dependent) kept.push_back(std::move(row));
+std::vector<RedundantSet> find_redundant_rows(const NodeTable& nodes,
+                                              const std::vector<Constraint>& equations, Form form,
+                                              const Coordinates& start) {
+  RowTable table(nodes, equations, form);
+  if (table.places().empty()) return {};
+  const Coordinates q = admissible(table, start).value_or(start);
+  const Factors factors(table.gradients(q));
+  if (factors.rank() == factors.cols()) return {};
+  std::vector<RedundantSet> sets = dependent_sets(table, factors, q);
+  // where no other position is found there is none, or it is out of reach
+  Coordinates moved = q;
+  table.move(table.perturbation(), moved);
+  if (const auto nearby = admissible(table, std::move(moved))) {
+    const Sparse gradients = table.gradients(*nearby);
+    for (RedundantSet& set : sets) {
+      if (set.kind == RedundantSet::Kind::structural &&
+          gains_rank(table, gradients, factors, set)) {
+        set.kind = RedundantSet::Kind::position;
+      }
     }
-    c.rows = std::move(kept);
-    if (c.rows.size() == all) continue;
-    notes.push_back(c.type + " '" + c.name + "': " + std::to_string(all - c.rows.size()) + " of " +
-                    std::to_string(all) +
-                    " equations follow from other constraints and are left out; its reactions are "
-                    "not unique");
   }
-  std::erase_if(equations, [](const Constraint& c) { return c.rows.empty(); });
-  return notes;
+  return sets;
 }
 
 }  // namespace culm::model

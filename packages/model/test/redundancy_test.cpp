@@ -7,7 +7,8 @@
 namespace culm::model {
 namespace {
 
-using testing::HasSubstr;
+using testing::ElementsAre;
+using Kind = RedundantSet::Kind;
 
 int add_node(NodeTable& nodes, const Vec3& position) {
   NodeSlots slots;
@@ -34,10 +35,23 @@ Constraint hinge(const NodeTable& nodes, int a, int b, const Vec3& point) {
   return c;
 }
 
-std::size_t count_rows(const std::vector<Constraint>& equations) {
-  std::size_t rows = 0;
-  for (const Constraint& c : equations) rows += c.rows.size();
-  return rows;
+std::vector<RedundantSet> find(const NodeTable& nodes, const std::vector<Constraint>& equations,
+                               Form form = Form::null_space) {
+  return find_redundant_rows(nodes, equations, form, nodes.reference());
+}
+
+// A plane loop of four hinges about z; the ground is held.
+std::vector<Constraint> four_bar(NodeTable& nodes, const std::array<Vec3, 4>& hinges) {
+  std::vector<Constraint> loop;
+  for (int i = 0; i < 4; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    add_node(nodes, 0.5 * (hinges[at] + hinges[(at + 3) % 4]));
+  }
+  nodes.fix(0, std::bitset<6>("111111"));
+  for (int i = 0; i < 4; ++i) {
+    loop.push_back(hinge(nodes, i, (i + 1) % 4, hinges[static_cast<std::size_t>(i)]));
+  }
+  return loop;
 }
 
 TEST(Redundancy, SoundJointsLoseNothing) {
@@ -45,35 +59,44 @@ TEST(Redundancy, SoundJointsLoseNothing) {
   for (int i = 0; i < 4; ++i) add_node(nodes, Vec3(i, 0.3 * i * i, 0.0));
   std::vector<Constraint> chain;
   for (int i = 0; i < 3; ++i) chain.push_back(hinge(nodes, i, i + 1, Vec3(i + 0.5, 0.0, 0.2)));
-  EXPECT_TRUE(remove_redundant_rows(nodes, chain).empty());
-  EXPECT_EQ(count_rows(chain), 15U);
+  EXPECT_TRUE(find(nodes, chain).empty());
+  EXPECT_TRUE(find(nodes, chain, Form::multipliers).empty());
 }
 
 TEST(Redundancy, TwoHingesOnOneAxisAreOneHinge) {
-  NodeTable nodes;
-  for (int i = 0; i < 2; ++i) add_node(nodes, Vec3(i, 0.0, 0.0));
-  std::vector<Constraint> hinges = {hinge(nodes, 0, 1, Vec3(0.5, 0.0, 0.0)),
-                                    hinge(nodes, 0, 1, Vec3(0.5, 0.0, 2.0))};
-  const auto notes = remove_redundant_rows(nodes, hinges);
-  EXPECT_EQ(count_rows(hinges), 5U);
-  EXPECT_FALSE(notes.empty());
+  for (const Form form : {Form::null_space, Form::multipliers}) {
+    NodeTable nodes;
+    for (int i = 0; i < 3; ++i) add_node(nodes, Vec3(i, 0.0, 0.0));
+    const std::vector<Constraint> hinges = {hinge(nodes, 1, 2, Vec3(1.5, 0.3, 0.0)),
+                                            hinge(nodes, 0, 1, Vec3(0.5, 0.0, 0.0)),
+                                            hinge(nodes, 0, 1, Vec3(0.5, 0.0, 2.0))};
+    const auto sets = find(nodes, hinges, form);
+    ASSERT_EQ(sets.size(), 1U);
+    EXPECT_EQ(sets[0].kind, Kind::structural);
+    EXPECT_EQ(sets[0].dependent.size(), 5U);
+    EXPECT_THAT(sets[0].members, ElementsAre(1, 2));  // the first joint is not in it
+  }
 }
 
 TEST(Redundancy, PlaneFourBarLoopHasThreeRowsTooMany) {
   NodeTable nodes;
-  const int ground = add_node(nodes, Vec3::Zero());
-  nodes.fix(ground, std::bitset<6>("111111"));
-  const int left = add_node(nodes, Vec3(0.0, 0.5, 0.0));
-  const int top = add_node(nodes, Vec3(0.5, 1.0, 0.0));
-  const int right = add_node(nodes, Vec3(1.0, 0.5, 0.0));
-  std::vector<Constraint> loop = {hinge(nodes, ground, left, Vec3(0.0, 0.0, 0.0)),
-                                  hinge(nodes, left, top, Vec3(0.0, 1.0, 0.0)),
-                                  hinge(nodes, top, right, Vec3(1.0, 1.0, 0.0)),
-                                  hinge(nodes, right, ground, Vec3(1.0, 0.0, 0.0))};
-  const auto notes = remove_redundant_rows(nodes, loop);
-  EXPECT_EQ(count_rows(loop), 17U);  // 18 unknowns, one degree of freedom
-  ASSERT_FALSE(notes.empty());
-  EXPECT_THAT(notes.front(), HasSubstr("equations follow from other constraints"));
+  const auto loop = four_bar(
+      nodes, {Vec3(0.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0), Vec3(1.0, 1.2, 0.0), Vec3(1.0, 0.0, 0.0)});
+  const auto sets = find(nodes, loop);
+  ASSERT_EQ(sets.size(), 1U);
+  EXPECT_EQ(sets[0].kind, Kind::structural);
+  EXPECT_EQ(sets[0].dependent.size(), 3U);  // 20 rows, 18 unknowns, one degree of freedom
+  EXPECT_THAT(sets[0].members, ElementsAre(0, 1, 2, 3));
+}
+
+TEST(Redundancy, AStretchedLoopDependsInThisPositionOnly) {
+  NodeTable nodes;  // lengths 3, 1, 1.2, 3.2 - 2: a change point of the linkage
+  const auto loop = four_bar(
+      nodes, {Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(2.2, 0.0, 0.0), Vec3(0.8, 0.0, 0.0)});
+  const auto sets = find(nodes, loop);
+  ASSERT_EQ(sets.size(), 1U);
+  EXPECT_EQ(sets[0].dependent.size(), 4U);
+  EXPECT_EQ(sets[0].kind, Kind::position);
 }
 
 TEST(Redundancy, JointsBetweenHeldNodesVanish) {
@@ -82,9 +105,36 @@ TEST(Redundancy, JointsBetweenHeldNodesVanish) {
     add_node(nodes, Vec3(i, 0.0, 0.0));
     nodes.fix(i, std::bitset<6>("111111"));
   }
-  std::vector<Constraint> joint = {hinge(nodes, 0, 1, Vec3(0.5, 0.0, 0.0))};
-  EXPECT_EQ(remove_redundant_rows(nodes, joint).size(), 1U);
-  EXPECT_TRUE(joint.empty());
+  const auto sets = find(nodes, {hinge(nodes, 0, 1, Vec3(0.5, 0.0, 0.0))});
+  ASSERT_EQ(sets.size(), 5U - 4U);  // rows of one constraint are one set
+  EXPECT_EQ(sets[0].dependent.size(), 5U);
+  EXPECT_EQ(sets[0].kind, Kind::structural);
+}
+
+// x of a node is `amount` t
+Constraint push(const NodeTable& nodes, int node, double amount) {
+  Constraint c;
+  c.nodes = {node};
+  c.rows = {linear_row(Vec3::UnitX(), attached_point(0, 1, Vec3::Zero()),
+                       NodeTable::slots(nodes.reference(), node))};
+  const double start = c.rows[0].constant;
+  c.drive = [=](double time, std::vector<ConstraintRow>& rows) {
+    rows[0].constant = start + amount * time;
+  };
+  return c;
+}
+
+TEST(Redundancy, DrivesAreConsistentWhereTheyAskForTheSameMotion) {
+  NodeTable nodes;
+  add_node(nodes, Vec3(1.0, 2.0, 3.0));
+  const auto same = find(nodes, {push(nodes, 0, 0.3), push(nodes, 0, 0.3)});
+  ASSERT_EQ(same.size(), 1U);
+  EXPECT_EQ(same[0].kind, Kind::structural);
+  const auto other = find(nodes, {push(nodes, 0, 0.3), push(nodes, 0, 0.4)});
+  ASSERT_EQ(other.size(), 1U);
+  EXPECT_EQ(other[0].kind, Kind::contradictory);
+  nodes.fix(0, std::bitset<6>("000001"));
+  EXPECT_EQ(find(nodes, {push(nodes, 0, 0.3)}).at(0).kind, Kind::contradictory);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ class CarriedChain {
     carried.fix.reset();
     carried.rows[2].constant += distance;
     for (int i = 0; i < carriers; ++i) model.add_constraint(carried);
+    model.keep_redundant_rows();  // they make the matrix singular
     model.freeze(form);
     system = std::make_unique<assembly::System>(model, comm, ledger);
     linear = make_rooted_klu2(system->matrix(), comm);

@@ -54,8 +54,7 @@ class ConstraintContract : public testing::Test {
     constraint.name = constraint.type = name;
     constraint.fix.reset();
     constraint.link.reset();
-    // driven rows are not searched for those that follow from others
-    if (!constraint.drive) constraint.drive = [](double, std::vector<model::ConstraintRow>&) {};
+    model.keep_redundant_rows();
     model.add_constraint(std::move(constraint));
     if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(random_node(20)));
   }

@@ -4,6 +4,7 @@
 #include <culm/analysis/analysis.hpp>
 
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ class PostMortem {
   /// The same in dynamics, where no load can be too large for an equilibrium.
   PostMortem(Context& context, model::State& state, const Stencil& stencil);
 
+  /// Throws NumericalError where the mass matrix, bordered by constraints, has no useful factors.
+  [[noreturn]] static void refuse_massless(Context& context, const model::State& state);
+
   /// Adds an attempt to the history.
   void record(const StepReport& report);
 
@@ -28,6 +32,9 @@ class PostMortem {
   [[noreturn]] void give_up(model::State& state, const Stencil& stencil);
 
  private:
+  /// Measures nothing.
+  explicit PostMortem(Context& context) : context_(context) {}
+
   /// One unknown with its share in a residual or in a direction.
   struct Entry {
     std::string name;
@@ -54,6 +61,12 @@ class PostMortem {
   std::string singular_cause(const model::State& state, const assembly::Vector& direction) const;
   std::string redundant_constraints(const assembly::Vector& multipliers) const;
   std::string mechanism(const model::State& state, const assembly::Vector& motion) const;
+  std::string massless(const model::State& state, const assembly::Vector& motion) const;
+  /// Displacement and rotation of the nodes that a direction moves.
+  std::map<int, Vec6> moved_nodes(const model::State& state, const assembly::Vector& motion) const;
+  std::string largest_motions(const std::map<int, Vec6>& moved) const;
+  /// How each structure moves that moves as a rigid body, and what holds it.
+  std::string rigid_motions(const model::State& state, const std::map<int, Vec6>& moved) const;
 
   Context& context_;
   bool is_factored_ = false;  ///< whether the tangent looked at last has factors

@@ -70,6 +70,13 @@ class System {
   /// there: of the last evaluation where they take unknowns away, of the state's multipliers where
   /// they are equations. Call synchronise first; the same on all ranks.
   Vec6 reaction(int node, const model::State& state) const;
+  /// The share of one constraint that is kept as equations, by its name.
+  Vec6 reaction_of(const std::string& constraint, int node, const model::State& state) const;
+
+  /// Moves state.next to where all constraints hold at state.time, from there on as the nearest
+  /// configuration in the metric of the mass. `solve_mass` as in project_velocity.
+  /// @return largest change of a coordinate [m, 1]; infinite if they cannot be made to hold
+  double project_position(model::State& state, const Solve& solve_mass);
 
   const Vector& residual() const { return *residual_; }
   const Teuchos::RCP<const CrsMatrix>& matrix() const { return matrix_view_; }
@@ -78,6 +85,7 @@ class System {
   const parallel::Comm& comm() const { return comm_; }
 
  private:
+  Vec6 equation_reaction(const std::string& constraint, int node, const model::State& state) const;
   double largest_diagonal() const;
   std::vector<double> drive_speed(model::State& state, double probe);
   const Vector& import(const Vector& increment);

@@ -5,6 +5,7 @@
 #include <culm/joint/prescribed.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/model/reaction_source.hpp>
 
 #include <string>
 #include <utility>
@@ -18,14 +19,16 @@ namespace culm::joint {
 /// so the angle after any number of steps is the sum of dt Omega(t_1/2) exactly, and the drive does
 /// the work -lambda n . tau. Statics knows no velocity: the row is lambda = 0 there.
 /// @source formulation 2.4
-class AngularVelocity final : public model::Batch {
+class AngularVelocity final : public model::Batch, public model::ReactionSource {
  public:
   /// @param model gives each item its multiplier, by the constraint that `add` puts there
   AngularVelocity(std::string effect, const model::Model& model)
       : effect_(std::move(effect)), model_(model) {}
 
   /// The constraint of one multiplier that an item lives on; its own row says nothing.
-  static model::Constraint placeholder(std::string name, const std::string& type, int node);
+  /// @param axis in the reference, unit length
+  static model::Constraint placeholder(std::string name, const std::string& type,
+                                       const model::NodeTable& nodes, int node, const Vec3& axis);
   /// @param constraint  name of the placeholder, which is added to the model
   void add(int node, const TurnAxis& axis, const Prescribed& velocity, std::string constraint) {
     items_.push_back({node, axis, velocity, std::move(constraint), 0});
@@ -42,6 +45,8 @@ class AngularVelocity final : public model::Batch {
   void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
   double stored_energy(const model::Coordinates&) const override { return 0.0; }
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+  /// The moment -lambda n of the drive, with the axis at the end of the step.
+  Vec6 reaction(int node, const model::State& state, const std::string& constraint) const override;
 
  private:
   struct Item {

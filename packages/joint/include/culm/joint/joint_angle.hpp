@@ -1,6 +1,6 @@
 #pragma once
 
-#include <culm/joint/node_pair.hpp>
+#include <culm/joint/marker_pair.hpp>
 #include <culm/joint/prescribed.hpp>
 
 namespace culm::joint {
@@ -10,7 +10,7 @@ namespace culm::joint {
 ///   u_1(e) . u_2(n1) = 0      e = -sin(alpha) n1 + cos(alpha) n2.
 /// @param motion alpha [rad]
 /// @source formulation 2.2, 2.7
-model::Constraint joint_angle(const NodePair& pair, const Vec3& axis, const Prescribed& motion);
+model::Constraint joint_angle(const MarkerPair& pair, const Vec3& axis, const Prescribed& motion);
 
 void register_joint_angle(model::BuilderRegistry& registry);
 

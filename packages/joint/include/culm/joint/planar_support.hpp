@@ -1,5 +1,6 @@
 #pragma once
 
+#include <culm/joint/anchor.hpp>
 #include <culm/model/build_context.hpp>
 
 namespace culm::joint {
@@ -7,7 +8,7 @@ namespace culm::joint {
 /// Keeps a node in a plane: n . (x - x0) and u(n) . e for two directions e in the plane, three
 /// linear rows. Eliminated when n is a coordinate axis.
 /// @param normal  n, unit length
-model::Constraint planar_support(const model::NodeTable& nodes, int node, const Vec3& normal);
+model::Constraint planar_support(const Anchor& anchor, const Vec3& normal);
 
 void register_planar_support(model::BuilderRegistry& registry);
 

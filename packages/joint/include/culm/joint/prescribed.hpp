@@ -1,6 +1,7 @@
 /// Motion that a support imposes.
 #pragma once
 
+#include <culm/math/types.hpp>
 #include <culm/model/amplitude.hpp>
 
 namespace culm::joint {
@@ -13,6 +14,15 @@ struct Prescribed {
   /// Whether anything moves; a support that stands still may be eliminated.
   bool moves() const { return amount != 0.0; }
   double at(double time) const { return amount * function.at(time); }
+};
+
+/// A translation in space as a function of time.
+struct Translation {
+  Vec3 amount = Vec3::Zero();  ///< at function value 1 [m]
+  model::Amplitude function = model::Amplitude::constant();
+
+  bool moves() const { return !amount.isZero(0.0); }
+  Vec3 at(double time) const { return amount * function.at(time); }
 };
 
 }  // namespace culm::joint

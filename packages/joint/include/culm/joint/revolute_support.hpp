@@ -1,5 +1,6 @@
 #pragma once
 
+#include <culm/joint/anchor.hpp>
 #include <culm/model/build_context.hpp>
 
 namespace culm::joint {
@@ -8,9 +9,8 @@ namespace culm::joint {
 /// two directions e normal to the axis, five linear rows. Eliminated when the axis is a coordinate
 /// axis and the point is the node.
 /// @param axis    n, unit length
-/// @param offset  phi, in the directors of the node [m]
-model::Constraint revolute_support(const model::NodeTable& nodes, int node, const Vec3& axis,
-                                   const Vec3& offset);
+/// @param offset  phi, in the directors of the point [m]
+model::Constraint revolute_support(const Anchor& anchor, const Vec3& axis, const Vec3& offset);
 
 void register_revolute_support(model::BuilderRegistry& registry);
 

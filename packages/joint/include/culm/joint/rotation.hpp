@@ -1,5 +1,6 @@
 #pragma once
 
+#include <culm/joint/anchor.hpp>
 #include <culm/joint/prescribed.hpp>
 #include <culm/model/build_context.hpp>
 
@@ -11,13 +12,11 @@ namespace culm::joint {
 /// Singular where u(c0) is parallel to the axis. @source formulation 2.3
 /// @param axis   n, unit length
 /// @param motion alpha [rad]
-model::Constraint rotation(const model::NodeTable& nodes, int node, const Vec3& axis,
-                           const Prescribed& motion);
+model::Constraint rotation(const Anchor& anchor, const Vec3& axis, const Prescribed& motion);
 
 /// The same about an axis fixed in the body, with c0 fixed in space:
 ///   c0 . u(e_b) = 0      e_b: sin(alpha) c0 + cos(alpha) n x c0 in the reference.
-model::Constraint rotation_local(const model::NodeTable& nodes, int node, const Vec3& axis,
-                                 const Prescribed& motion);
+model::Constraint rotation_local(const Anchor& anchor, const Vec3& axis, const Prescribed& motion);
 
 /// Rotation, Rotation Local
 void register_rotation(model::BuilderRegistry& registry);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <culm/joint/anchor.hpp>
 #include <culm/joint/prescribed.hpp>
 #include <culm/model/build_context.hpp>
 
@@ -9,7 +10,7 @@ namespace culm::joint {
 /// @param n       the direction in the reference, unit length
 /// @param motion  u [m]
 /// @source formulation 2.2 "simplesupport_local"
-model::Constraint simple_support_local(const model::NodeTable& nodes, int node, const Vec3& n,
+model::Constraint simple_support_local(const Anchor& anchor, const Vec3& n,
                                        const Prescribed& motion = {});
 
 void register_simple_support_local(model::BuilderRegistry& registry);

@@ -1,7 +1,7 @@
 /// What springs, dampers and drives act on: a number that says how far points or axes are apart.
 #pragma once
 
-#include <culm/joint/node_pair.hpp>
+#include <culm/joint/marker_pair.hpp>
 #include <culm/model/constraint.hpp>
 
 #include <vector>
@@ -58,6 +58,6 @@ Link plane_ground_link(const model::NodeTable& nodes, const LinkPoint& point, co
 /// Angle by which the second node has turned about `axis` relative to the first, zero in the
 /// reference, counting full turns: atan2(u_1(n2) . u_2(n1), u_1(n1) . u_2(n1)).
 /// @source formulation 2.2
-Link angle_link(const joint::NodePair& pair, const Vec3& axis);
+Link angle_link(const joint::MarkerPair& pair, const Vec3& axis);
 
 }  // namespace culm::load

@@ -37,6 +37,13 @@ std::vector<int> select_nodes(const Options& options, const std::string& paramet
 /// The nodes of a name that stands at `where`; none, and an issue, if there are none.
 std::vector<int> find_nodes(const std::string& name, const Where& where, BuildContext& context);
 
+/// Parameter that names one material point, for select_point.
+Field point_field(std::string name, std::string doc);
+/// The point that a parameter names: a node, or a point of a line at a fraction of its length, as
+/// 'beam@0.35'; nothing, and an issue, if there is no such point or more than one.
+std::optional<Marker> select_point(const Options& options, const std::string& parameter,
+                                   BuildContext& context);
+
 /// Parameter "Structure".
 Field structure_field();
 /// The structure that parameter "Structure" names; null, and an issue, if there is none.
@@ -46,9 +53,11 @@ const Structure* select_structure(const Options& options, BuildContext& context)
 Field vector_field(std::string name, std::string unit, std::string doc);
 Vec3 vector(const Options& options, const std::string& parameter);
 
-/// Parameter "Function"; `fallback` is "Ramp" or "Constant", which exist in every deck.
-Field function_field(std::string fallback);
-/// The function that parameter "Function" names; nothing, and an issue, if there is none.
-std::optional<Amplitude> find_function(const Options& options, BuildContext& context);
+/// Parameter "Function", or another of this kind; `fallback` is "Ramp" or "Constant", which exist
+/// in every deck.
+Field function_field(std::string fallback, std::string name = "Function");
+/// The function that a parameter names; nothing, and an issue, if there is none.
+std::optional<Amplitude> find_function(const Options& options, BuildContext& context,
+                                       const std::string& parameter = "Function");
 
 }  // namespace culm::model

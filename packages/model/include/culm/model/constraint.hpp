@@ -1,6 +1,7 @@
 /// Kinematic constraints as rows of quadratic forms.
 #pragma once
 
+#include <culm/base/issue.hpp>
 #include <culm/math/types.hpp>
 #include <culm/model/node_table.hpp>
 
@@ -43,8 +44,11 @@ SlotSum attached_vector(int a, int n, const Vec3& nu);
 struct Constraint {
   std::string name;
   std::string type;
+  Where where;  ///< in the deck; empty for what culm adds itself
   std::vector<int> nodes;
   std::vector<ConstraintRow> rows;
+  /// Rows with the gradients of equations on velocities, for which `rows` only holds the place.
+  std::vector<ConstraintRow> velocity_rows;
 
   struct Fix {
     int node = -1;
@@ -63,6 +67,11 @@ struct Constraint {
   /// Moves the rows in time (inhomogeneous constraints); empty for fixed ones.
   std::function<void(double time, std::vector<ConstraintRow>& rows)> drive;
 };
+
+/// h of a row for the slots of the nodes side by side, shape (3, 4 n).
+double row_value(const ConstraintRow& row, const Eigen::Matrix3Xd& q);
+/// The slots of the nodes of a constraint side by side, shape (3, 4 n).
+Eigen::Matrix3Xd slots_of(const Constraint& constraint, const Coordinates& q);
 
 /// d_i . d_j = delta_ij of one node: six product rows. @source formulation 2.2 "internal"
 Constraint internal_constraint(const NodeTable& nodes, int node);

@@ -38,7 +38,8 @@ class ConstraintBatch final : public Batch {
 
   /// Force [N] and moment about the node [N m] by which the constraints act on a node,
   /// -P^T H^T lambda at the end of the step.
-  Vec6 reaction(int node, const State& state) const;
+  /// @param constraint name of the only one to count; all if empty
+  Vec6 reaction(int node, const State& state, const std::string& constraint = {}) const;
 
  private:
   struct Item {

@@ -1,4 +1,4 @@
-/// Velocities at the start of a dynamic analysis.
+/// Displacements and velocities at the start.
 #pragma once
 
 #include <culm/model/build_context.hpp>

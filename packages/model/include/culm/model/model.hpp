@@ -23,6 +23,15 @@ struct InitialVelocity {
   Vec3 about = Vec3::Zero();     ///< [m]
 };
 
+/// A node starts displaced as part of a rigid motion: turned about a point, then shifted.
+struct InitialDisplacement {
+  Where where;  ///< in the deck
+  int node = -1;
+  Vec3 translation = Vec3::Zero();  ///< [m]
+  Vec3 rotation = Vec3::Zero();     ///< rotation vector [rad]
+  Vec3 about = Vec3::Zero();        ///< [m]
+};
+
 /// Filled by the builders of structures, constraints and loads, then frozen: numbering and batches
 /// are fixed from there on.
 class Model {
@@ -46,6 +55,10 @@ class Model {
   /// Sets the velocity that a node has at the start of a dynamic analysis, v + omega x (p - about)
   /// for every point p of the node; constraints are imposed later.
   void add_initial_velocity(InitialVelocity velocity) { initial_velocities_.push_back(velocity); }
+  /// Displaces a node at the start, after what was added before.
+  void add_initial_displacement(const InitialDisplacement& displacement) {
+    initial_displacements_.push_back(displacement);
+  }
   /// Nodes under one name, for select_nodes.
   void add_node_set(std::string name, std::vector<int> nodes) {
     node_sets_[std::move(name)] = std::move(nodes);
@@ -58,7 +71,10 @@ class Model {
   void add_rigid_link(std::string name, int slave, int master);
   void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
 
-  /// Chooses the form, eliminates what can be eliminated and numbers the unknowns.
+  /// Keeps equations that follow from others; for tests that look at rows one by one.
+  void keep_redundant_rows() { keeps_redundant_rows_ = true; }
+  /// Chooses the form, eliminates what can be eliminated and numbers the unknowns. Throws
+  /// InputError where constraints contradict each other or the initial displacements.
   /// @return notes for the user, on constraints that others make superfluous
   std::vector<std::string> freeze(Form form);
 
@@ -74,6 +90,8 @@ class Model {
   std::vector<std::string> selectable_names() const;
   /// "structure/number" of a node.
   std::string node_name(int node) const;
+  /// The structure of a node, or null.
+  const Structure* structure_of(int node) const;
 
   const std::vector<Constraint>& constraints() const { return constraints_; }
   /// Constraint numbers that are equations, by their number in the UnknownTable.
@@ -94,13 +112,17 @@ class Model {
   double mass() const;
   /// Diagonal of the box around all nodes [m]; 1 for a single point.
   double length() const;
-  /// The reference configuration with zero multipliers, at rest.
+  bool has_initial_displacements() const { return !initial_displacements_.empty(); }
+  /// The reference configuration, displaced as the deck says, with zero multipliers, at rest.
   State initial_state() const;
   /// Adds the initial velocities that the deck gives, at a configuration.
   void add_initial_velocities(const Coordinates& q, Coordinates& velocity) const;
 
  private:
   bool eliminate(const Constraint& constraint);
+  Coordinates initial_configuration() const;
+  void refuse_displaced_supports(double length) const;
+  std::vector<std::string> remove_redundant_equations(Form form);
   void batch_equations(double length);
 
   NodeTable nodes_;
@@ -113,6 +135,8 @@ class Model {
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
   std::vector<InitialVelocity> initial_velocities_;
+  std::vector<InitialDisplacement> initial_displacements_;
+  bool keeps_redundant_rows_ = false;
   UnknownTable unknowns_;
 };
 

@@ -4,6 +4,7 @@
 #include <culm/math/types.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,9 @@ struct Structure {
   /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none.
   std::vector<std::vector<Eigen::Vector2d>> outlines;
 };
+
+/// The point of a line at a fraction of its length, 0 at the first node and 1 at the last. Within
+/// an element the fraction is proportional to its natural coordinate. Nothing if it is no line.
+std::optional<Marker> marker_at_fraction(const Structure& structure, double fraction);
 
 }  // namespace culm::model
