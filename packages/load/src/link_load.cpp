@@ -50,7 +50,7 @@ LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
   const auto [force, derivative] =
       law_->answer(item.z_prev - item.link.rest, step.next - item.link.rest, state, stencil);
   return {force * step.gradient,
-          force * step.derivative + derivative * step.gradient * step.slope.transpose()};
+          force * step.derivative + derivative * step.gradient * step.slope.transpose(), force};
 }
 
 Verdict LinkLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -69,10 +69,11 @@ Verdict LinkLoad::assemble(const model::State& state, const Stencil& stencil, Wa
 
 template <class Space>
 Verdict LinkLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
-                                bool tangent, model::Target& target) const {
-  const Item& item = this->item(i);
+                                bool tangent, model::Target& target) {
+  Item& item = this->item(i);
   const Motion motion(nodes_, item.link.nodes, state, stencil.theta);
   const Response response = respond(item, motion.next, state, stencil);
+  item.force = response.force;
   const LinkGradient B = gradient_of(item.link, motion.mid);
   for (int a = 0; a < static_cast<int>(item.link.nodes.size()); ++a) {
     const Vec<12> force = B.middleRows<12>(12 * a) * response.stress;
@@ -146,6 +147,18 @@ double LinkLoad::stored_energy(const model::Coordinates& q) const {
     energy += law_->energy((z == no_length ? 0.0 : z) - item.link.rest);
   }
   return energy;
+}
+
+LinkLoad::Sample LinkLoad::sample(int item, const model::State& state) const {
+  const auto at = std::find(placement_.items.begin(), placement_.items.end(), item);
+  if (at == placement_.items.end()) return {};
+  const auto i = static_cast<std::size_t>(at - placement_.items.begin());
+  if (!placement_.owned[i]) return {};
+  const Item& it = this->item(i);
+  const double z = measure(it.link.measure, it.y_prev, it.z_prev,
+                           values_of(it.link, slots_of(it.link, state.next)));
+  const double u = (z == no_length ? 0.0 : z) - it.link.rest;
+  return {u, it.force ? *it.force : law_->answer(u, u, state, Stencil::statics()).force};
 }
 
 model::StepWork LinkLoad::step_work(const model::State& state, const Stencil& stencil) const {

@@ -19,6 +19,7 @@ Catalogue::Catalogue() {
   load::register_loads(loads);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
+  register_link_quantities(quantities);
   register_element_quantities(quantities);
 }
 

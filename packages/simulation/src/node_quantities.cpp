@@ -1,6 +1,8 @@
+#include <culm/base/nearest.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/simulation/quantity.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -15,6 +17,7 @@ using output::HistoryColumn;
 struct Place {
   int node = -1;
   Vec3 offset = Vec3::Zero();  // in the directors of the node
+  std::string constraint;      // whose reaction; all if empty
 
   Vec3 position(const model::Coordinates& q) const {
     const auto slots = NodeTable::slots(q, node);
@@ -67,18 +70,43 @@ void rotation(const assembly::System& system, const model::State& state, const P
 
 void reaction(const assembly::System& system, const model::State& state, const Place& place,
               std::vector<double>& numbers) {
-  const Vec6 r = system.reaction(place.node, state);
+  const Vec6 r = place.constraint.empty() ? system.reaction(place.node, state)
+                                          : system.reaction_of(place.constraint, place.node, state);
   numbers.insert(numbers.end(), r.data(), r.data() + 6);
+}
+
+// False, and an issue, if there is no such constraint there or it has no multipliers of its own.
+bool read_constraint(const Options& options, model::BuildContext& context, Place& place) {
+  if (!options.has("Constraint")) return true;
+  place.constraint = options.text("Constraint");
+  std::vector<std::string> names;
+  for (const model::Constraint& c : context.model.constraints()) {
+    if (std::find(c.nodes.begin(), c.nodes.end(), place.node) == c.nodes.end()) continue;
+    names.push_back(c.name);
+    if (c.name != place.constraint) continue;
+    if (!c.fix && !c.link) return true;
+    context.issues.add(options.where("Constraint"),
+                       c.type + " '" + c.name +
+                           "' is no equation, so its share of the reactions of the node is not "
+                           "known");
+    return false;
+  }
+  context.issues.add(options.where("Constraint"), "no constraint '" + place.constraint +
+                                                      "' acts on '" +
+                                                      context.model.node_name(place.node) + "'" +
+                                                      did_you_mean(place.constraint, names));
+  return false;
 }
 
 void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> columns,
          NodeQuantity::Evaluate evaluate) {
   const std::string type = schema.name();
   const bool has_offset = schema.find_field("Offset") != nullptr;
+  const bool has_constraint = schema.find_field("Constraint") != nullptr;
   schema.add(model::node_field("Node", "The node, such as 'structure/last'."));
   registry.add(
       type, std::move(schema),
-      [columns = std::move(columns), evaluate = std::move(evaluate), has_offset](
+      [columns = std::move(columns), evaluate = std::move(evaluate), has_offset, has_constraint](
           const Options& options, model::BuildContext& context) -> std::unique_ptr<Quantity> {
         const std::vector<int> nodes = model::select_nodes(options, "Node", context);
         if (nodes.empty()) return nullptr;
@@ -87,7 +115,8 @@ void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> c
                                                         " nodes, but one is watched");
           return nullptr;
         }
-        Place place{nodes.front(), Vec3::Zero()};
+        Place place{nodes.front(), Vec3::Zero(), {}};
+        if (has_constraint && !read_constraint(options, context, place)) return nullptr;
         if (has_offset) place.offset = model::vector(options, "Offset");
         return std::make_unique<NodeQuantity>(place, columns, evaluate);
       });
@@ -114,7 +143,10 @@ void register_node_quantities(QuantityRegistry& registry) {
   add(registry,
       Schema("Reaction",
              "Force, and moment about the node, by which supports and joints act on the structure "
-             "there."),
+             "there.")
+          .add(text("Constraint",
+                    "The only one to count: a joint, a drive, a moving support; all if absent.")
+                   .optional()),
       {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"Mx", "N m"}, {"My", "N m"}, {"Mz", "N m"}},
       reaction);
 }

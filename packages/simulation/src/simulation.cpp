@@ -4,6 +4,7 @@
 #include <culm/simulation/simulation.hpp>
 
 #include "model_builder.hpp"
+#include "model_report.hpp"
 #include "run_observer.hpp"
 
 #include <fmt/format.h>
@@ -72,16 +73,12 @@ void Simulation::run(const RunSettings& settings) {
 
 std::string Simulation::summary() const {
   const model::Model& model = parts_->model;
-  const model::UnknownTable& unknowns = model.unknowns();
-  std::string text;
-  for (const model::Structure& structure : model.structures()) {
-    text += fmt::format("structure '{}': {} nodes, {} elements\n", structure.name,
-                        structure.nodes.size(), structure.cells.size());
-  }
   const auto entries = parts_->system->matrix()->getGlobalNumEntries();
-  text += fmt::format("mass: {:.6g} kg\n", model.mass());
-  text += fmt::format("unknowns: {} ({} multipliers), matrix entries: {}\n",
-                      unknowns.num_unknowns(), unknowns.num_multipliers(), entries);
+  std::string text = report_masses(model) + '\n';
+  if (const std::string constraints = report_constraints(model); !constraints.empty()) {
+    text += constraints + '\n';
+  }
+  text += report_unknowns(model) + fmt::format("matrix entries: {}\n\n", entries);
   text +=
       fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
   const auto count = [](const std::optional<long long>& n) {

@@ -7,6 +7,7 @@
 #include <culm/model/item_motion.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,15 @@ class LinkLoad final : public model::Batch {
   void extrapolate(const model::State& state, const Stencil& stencil,
                    const model::Coordinates& increment) override;
   double stored_energy(const model::Coordinates& q) const override;
+  /// The coordinate u of an item [m, rad] at a state, and the force that resisted it in the last
+  /// step [N, N m]; of the state itself before the first. Zero on ranks that do not own the item.
+  struct Sample {
+    double coordinate = 0.0;
+    double force = 0.0;
+  };
+  Sample sample(int item, const model::State& state) const;
+  const Link& link(int item) const { return items_[static_cast<std::size_t>(item)].link; }
+
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
@@ -46,18 +56,20 @@ class LinkLoad final : public model::Batch {
     Vec<2> y_prev = Vec<2>::Zero();  ///< forms at the start of the step
     double z_prev = 0.0;             ///< and the coordinate, with all full turns
     Vec<2> predicted_stress = Vec<2>::Zero();
+    std::optional<double> force;  ///< of the last evaluation
   };
   /// S = G F and its derivative by the forms at the end of the step.
   struct Response {
     Vec<2> stress;
     Mat<2, 2> tangent;
+    double force = 0.0;
   };
 
   Response respond(const Item& item, const Motion::Slots& next, const model::State& state,
                    const Stencil& stencil) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
-                        bool tangent, model::Target& target) const;
+                        bool tangent, model::Target& target);
   template <class Space>
   void add_tangent(std::size_t i, const Motion& motion, const Response& response, double theta,
                    model::Target& target) const;

@@ -27,6 +27,8 @@ using QuantityRegistry = Registry<std::unique_ptr<Quantity>, model::BuildContext
 
 /// Position, Displacement, Rotation and Reaction of a node.
 void register_node_quantities(QuantityRegistry& registry);
+/// Springs, dampers, drives and angles of joints.
+void register_link_quantities(QuantityRegistry& registry);
 /// Stress resultants of an element, and energies.
 void register_element_quantities(QuantityRegistry& registry);
 
