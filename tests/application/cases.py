@@ -63,9 +63,9 @@ CASES = [
         0,
         args="check deck.xml",
         prints=[
-            "structure 'beam': 5 nodes, 4 elements\n",
-            "\nmass: 0 kg\n",
-            "\nunknowns: 24 (0 multipliers), matrix entries: ",
+            "\nbeam                          5        4            0\n",
+            "\nRigid Support 'clamp'                    by elimination               beam/0\n",
+            "\nunknowns: 24 (0 multipliers)\ndegrees of freedom: 24\nmatrix entries: ",
             "\nBeam, director, order 1 ",
             "\nForce, tip force ",
             "\nthe deck is sound\n",
@@ -77,7 +77,7 @@ CASES = [
         0,
         args="check deck.xml --set 'Solver/Form=Multipliers'",
         # twelve of the clamp, six of each other node
-        prints=["\nunknowns: 96 (36 multipliers), matrix entries: "],
+        prints=["\nunknowns: 96 (36 multipliers)\ndegrees of freedom: 24\nmatrix entries: "],
     ),
     Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),
     Case(

@@ -131,6 +131,12 @@ NAMES = [
         ranks=True,
     ),
     wrong(
+        "a misspelt name stands for one that is missing",
+        '"EI2" value',
+        '"EI3" value',
+        "Sections / bar: unknown name 'EI3' – did you mean 'EI2'?",
+    ),
+    wrong(
         "misspelt list at the top",
         '<ParameterList name="Loads">',
         '<ParameterList name="Load">',
@@ -693,7 +699,6 @@ FILES = [
 ]
 
 MECHANISM = "Likely cause: a mechanism. Nothing resists this motion:\n"
-REDUNDANT = "Likely cause: redundant constraints. These equations depend on each other:\n"
 SINGULAR = "The equations are singular at level 0, before the first step.\n"
 AXIS_X = ("Axis", "{1, 0, 0}")
 OFFSET = ("Offset", "{0, 0, 0.1}")
@@ -719,98 +724,146 @@ HINGE_Y = support("hinge", "Revolute Support", ("Axis", "{0, 1, 0}"), OFFSET) + 
 )
 
 
-def redundant(name, constraints, *says, **more):
-    """Too many constraints, in the form that keeps all their equations."""
-    return unsolvable(
-        name,
-        4,
-        (CLAMP, constraints),
-        says=[SINGULAR + REDUNDANT, "\nTry: remove one of the constraints", *says],
-        form="Multipliers",
+def left_out(name, constraints, note, form="Null Space", **more):
+    """Equations that follow from others are left out, with a note that names the constraints."""
+    return Case(
+        f"{name}, {form}",
+        0,
+        change=[(CLAMP, constraints), ('"Null Space"', f'"{form}"')],
+        prints=[f"note: {note}", "; the reactions of these constraints are not unique\n"],
+        results="out",
+        last_level=1.0,
         **more,
     )
 
 
-def left_out(name, constraints, note):
-    """The null-space form leaves out equations that follow from others, and says so."""
+def contradictory(name, constraints, error, form="Null Space", **more):
+    """A prescribed motion that others hold already."""
     return Case(
-        name,
-        0,
-        change=[(CLAMP, constraints)],
-        prints=[f"note: {note} equations follow from other constraints and are left out;"],
-        results="out",
-        last_level=1.0,
+        f"{name}, {form}",
+        3,
+        change=[('"Null Space"', f'"{form}"'), (CLAMP, constraints)],
+        errors=["deck.xml:{line}: " + error],
+        **more,
     )
 
 
+DRIVEN = support("@@turn", "Rotation", AXIS_X, ("Angle", 0.1)).replace(
+    '<ParameterList name="@@turn">', '@@<ParameterList name="turn">'
+)
+HELD = "Constraints / turn: prescribes a motion of 'beam' that is held already, by "
+TWICE = " hold motions of 'beam' more than once: "
 EQUATIONS = [
-    redundant(
-        "Rotation and Revolute Support",
-        HINGE_Y + support("turn", "Rotation", AXIS_X),
-        "\n  Revolute Support 'hinge', equation",
-        "\n  Rotation 'turn', equation 1\n",
-        ranks=True,
-    ),
     left_out(
-        "Rotation and Revolute Support, null space",
-        HINGE_Y + support("turn", "Rotation", AXIS_X),
-        "Rotation 'turn': 1 of 1",
-    ),
-    unsolvable(
-        "driven Rotation and Revolute Support, null space",
-        4,
-        (CLAMP, HINGE_Y + support("turn", "Rotation", AXIS_X, ("Angle", 0.1))),
-        says=[
-            SINGULAR + REDUNDANT,
-            "\n  Revolute Support 'hinge', equation",
-            "\n  Rotation 'turn', equation 1\n",
-        ],
-        ranks=True,
-    ),
-    redundant(
-        "Spherical Support twice",
-        TWO_PINS,
-        "\n  Spherical Support 'one', equation",
-        "\n  Spherical Support 'two', equation",
-    ),
-    left_out("Spherical Support twice, null space", TWO_PINS, "Spherical Support 'two': 3 of 3"),
-    redundant(
         "Rigid Support and Spherical Support",
         CLAMP + support("pin", "Spherical Support", OFFSET),
-        "\n  Rigid Support 'clamp', equations 1, 2, 3, 10, 11, 12\n",
-        "\n  Spherical Support 'pin', equations 1, 2, 3\n",
+        f"Spherical Support 'pin' and Rigid Support 'clamp'{TWICE}3 equations follow",
+        ranks=True,
     ),
     left_out(
-        "Rigid Support and Spherical Support, null space",
-        CLAMP + support("pin", "Spherical Support", OFFSET),
-        "Spherical Support 'pin': 3 of 3",
-    ),
-    unsolvable(
-        "Rigid Support and a driven support, null space",
-        4,
-        (CLAMP, CLAMP + support("turn", "Rotation", AXIS_X, ("Angle", 0.1))),
-        # the rigid support has no equations there
-        says=[
-            SINGULAR + REDUNDANT + "  Rotation 'turn', equation 1\n"
-            "  Rigid Support 'clamp', which acts on the same nodes\n"
-        ],
-    ),
-    redundant(
         "loop of rigid links",
         LOOP,
-        "\n  Rigid Connection 'first', equation",
-        "\n  Rigid Connection 'second', equation",
-        "\n  Rigid Connection 'third', equation",
-    ),
-    left_out("loop of rigid links, null space", LOOP, "Rigid Connection 'third': 12 of 12"),
-    redundant(
-        "node with two masters",
-        TWO_MASTERS,
-        "\n  Rigid Connection 'first', equation",
-        "\n  Rigid Connection 'second', equation",
+        "Rigid Connection 'third', Rigid Connection 'first' and Rigid Connection 'second'"
+        f"{TWICE}12 equations follow",
     ),
     left_out(
-        "node with two masters, null space", TWO_MASTERS, "Rigid Connection 'second': 6 of 12"
+        "node with two masters",
+        TWO_MASTERS,
+        f"Rigid Connection 'second' and Rigid Connection 'first'{TWICE}6 equations follow",
+    ),
+]
+for form in ("Null Space", "Multipliers"):
+    EQUATIONS += [
+        left_out(
+            "Rotation and Revolute Support",
+            HINGE_Y + support("turn", "Rotation", AXIS_X),
+            f"Revolute Support 'hinge' and Rotation 'turn'{TWICE}1 equation follows from the",
+            form,
+        ),
+        left_out(
+            "Spherical Support twice",
+            TWO_PINS,
+            f"Spherical Support 'one' and Spherical Support 'two'{TWICE}3 equations follow",
+            form,
+        ),
+        contradictory(
+            "driven Rotation and Revolute Support",
+            HINGE_Y + DRIVEN,
+            HELD + "Revolute Support 'hinge'",
+            form,
+            ranks=True,
+        ),
+        contradictory(
+            "Rigid Support and a driven support",
+            CLAMP + DRIVEN,
+            HELD + "Rigid Support 'clamp'",
+            form,
+        ),
+    ]
+EQUATIONS += [
+    left_out(
+        "Rigid Support and Spherical Support",
+        CLAMP + support("pin", "Spherical Support", OFFSET),
+        f"Rigid Support 'clamp' and Spherical Support 'pin'{TWICE}3 equations follow",
+        "Multipliers",
+    ),
+    left_out(
+        "loop of rigid links",
+        LOOP,
+        "Rigid Connection 'first', Rigid Connection 'second' and Rigid Connection 'third'"
+        f"{TWICE}12 equations follow",
+        "Multipliers",
+    ),
+    left_out(
+        "node with two masters",
+        TWO_MASTERS,
+        f"Rigid Connection 'first' and Rigid Connection 'second'{TWICE}6 equations follow",
+        "Multipliers",
+    ),
+]
+# masses at the nodes leave their rotations without inertia
+LEAD = parameters("lead", ("Type", "Point Mass"), ("Node", "beam"), ("Mass", 1))
+POINT_MASSES = f'<ParameterList name="Masses">\n    {LEAD}\n  </ParameterList>\n'
+DYNAMIC = [
+    ('"Static"/>', '"Dynamic"/>\n      <Parameter name="End Time" value="1"/>'),
+    (STEPS, '<Parameter name="Step" value="0.5"/>'),
+]
+EQUATIONS += [
+    unsolvable(
+        "motion without mass",
+        4,
+        *DYNAMIC,
+        says=["The mass matrix is singular: nothing has mass.\n", "\nTry: give every structure"],
+    ),
+    unsolvable(
+        "rotations without mass",
+        4,
+        *DYNAMIC,
+        (LOADS, LOADS + POINT_MASSES),
+        says=[
+            "The mass matrix is singular: this motion has no inertia.\n  beam/",
+            "\nTry: give every structure a density or mass, and rotary inertia to its nodes.\n",
+        ],
+        ranks=True,
+    ),
+    wrong(
+        "a displacement that leaves a support",
+        '<ParameterList name="Analyses">',
+        '<ParameterList name="Initial Conditions">\n    @@'
+        + parameters(
+            "swung", ("Type", "Displacement"), ("Node", "beam"), ("Translation", "{0, 0.5, 0}")
+        )
+        + '\n  </ParameterList>\n  <ParameterList name="Analyses">',
+        "Initial Conditions / swung: takes 'beam/0' out of Rigid Support 'clamp' by 0.5",
+    ),
+    wrong(
+        "a point beyond the end of a beam",
+        CLAMP,
+        CLAMP
+        + support(
+            "roller", "Simple Support", ("Direction", "{0, 0, 1}"), node="beam@1.5"
+        ).replace('<Parameter name="Node"', '@@<Parameter name="Node"'),
+        "Constraints / roller / Node: needs a fraction between 0 and 1 behind '@', got 'beam@1.5'",
     ),
 ]
 for form in ("Null Space", "Multipliers"):
@@ -821,7 +874,7 @@ for form in ("Null Space", "Multipliers"):
             f"no support, {form}",
             4,
             (CLAMP, ""),
-            says=[SINGULAR + MECHANISM, "\n  beam/0, z "],
+            says=[SINGULAR + MECHANISM, "\n  beam/0, z ", "\n'beam' ", "; nothing holds it\n"],
             ranks=null_space,
             **of_form,
         ),
@@ -831,7 +884,11 @@ for form in ("Null Space", "Multipliers"):
             (CLAMP, support("pin", "Spherical Support") + ROLLERS),
             says=[SINGULAR + MECHANISM]
             + [f"\n  beam/{node}, rotation x " for node in range(5)]
-            + ["\nTry: add a support"],
+            + [
+                "\n'beam' turns about the axis (1, 0, 0) through (0, 0, 0); held by "
+                "Spherical Support 'pin', Simple Support 'roller y', Simple Support 'roller z'\n",
+                "\nTry: add a support",
+            ],
             **of_form,
         ),
         unsolvable(
