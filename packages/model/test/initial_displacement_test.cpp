@@ -54,7 +54,8 @@ TEST_F(InitialDisplacements, TurnAboutAPointThenShift) {
 
 TEST_F(InitialDisplacements, DoNotLeaveSupports) {
   model.add_constraint(guide(model.nodes(), 0));
-  model.add_initial_displacement({{"deck.xml", 7, "here"}, 0, Vec3(0.25, 0.0, 1.0), {}, {}});
+  model.add_initial_displacement(
+      {{"deck.xml", 7, "here"}, 0, Vec3(0.25, 0.0, 1.0), Vec3::Zero(), Vec3::Zero()});
   try {
     model.freeze(Form::multipliers);
     FAIL() << "the support was left";
