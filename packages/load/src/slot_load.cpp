@@ -163,6 +163,7 @@ double SlotLoad::stored_energy(const model::Coordinates& q) const {
 model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
   const double factor = amplitude_.in_step(state, stencil);
+  const bool works = !has_potential();
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
@@ -171,7 +172,7 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
     for (int s = 0; s < f.cols(); ++s) {
       const auto node = item.nodes[static_cast<std::size_t>(s / 4)];
       const Vec3 moved = motion.next.col(s) - model::NodeTable::slots(state.prev, node).col(s % 4);
-      if (!has_potential()) work.external += moved.dot(f.col(s));
+      if (works) work.external += moved.dot(f.col(s));
       if (s % 4 == 0) work.force += f.col(s);
       work.moment += Vec3(motion.mid.col(s)).cross(Vec3(f.col(s)));
     }
