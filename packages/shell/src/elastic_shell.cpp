@@ -68,7 +68,7 @@ double ElasticShell::energy(int, const Strain& y) const noexcept {
   return 0.5 * y.dot(stress);
 }
 
-const ElasticShell::Stiffness& ElasticShell::stiffness(int) const noexcept { return stiffness_; }
+const ShellForms::Stiffness& ElasticShell::stiffness(int) const noexcept { return stiffness_; }
 
 EnhancedParameters ElasticShell::enhanced_at_centre(const Strain& y) const noexcept {
   const Enhancement& enhancement = geometry_.options().enhancement;

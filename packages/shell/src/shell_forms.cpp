@@ -123,9 +123,8 @@ void ShellForms::add_force(const Nodes& q, const Strain& S, Nodes& f) noexcept {
 
 // In modes, K_ik = Σ_jl C[ij, kl] p_j r_l^T. First over j, where rows of C are added; then over l,
 // where rows of the transposed intermediate result are: both run along contiguous memory.
-void ShellForms::add_stiffness(const Nodes& mid, const Nodes& next, const double* C_by_rows,
+void ShellForms::add_stiffness(const Nodes& mid, const Nodes& next, const Stiffness& C,
                                double factor, RowMat<3 * num_slots, 3 * num_slots>& K) noexcept {
-  const Eigen::Map<const RowMat<num_strains, num_strains>> C(C_by_rows);
   const Modes p = modes(mid);
   const Modes r = factor * modes(next);
   RowMat<3 * num_modes, num_forms> pC;

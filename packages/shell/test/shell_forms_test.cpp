@@ -40,7 +40,7 @@ TEST(ShellForms, ForceAndStiffnessWithoutTheGradient) {
   Gradient<8, 28> B_next;
   forms.gradient(0, mid, B_mid);
   forms.gradient(0, next, B_next);
-  const RowMat<28, 28> C = kit::Random(4).matrix<28, 28>();
+  const ShellForms::Stiffness C = kit::Random(4).matrix<28, 28>();
   const ShellForms::Strain S = kit::Random(5).matrix<28, 1>();
 
   Nodes f = any_slots(6);  // it is added to

@@ -17,7 +17,6 @@ namespace culm::shell {
 ///   Büchter, Ramm, Roehl (1994), Bischoff, Ramm (1997)
 class ElasticShell : public ShellForms {
  public:
-  using Stiffness = Mat<num_strains, num_strains>;
   static constexpr int num_resultants = 8;
 
   /// @param reference  nodes, stress-free, with directors of length one
@@ -53,6 +52,6 @@ class ElasticShell : public ShellForms {
 
 static_assert(Element<ElasticShell>);
 static_assert(HasResultants<ElasticShell>);
-static_assert(HasStiffness<ElasticShell> && HasSlotProducts<ElasticShell>);
+static_assert(HasStiffness<ElasticShell> && ActsOnSlots<ElasticShell>);
 
 }  // namespace culm::shell

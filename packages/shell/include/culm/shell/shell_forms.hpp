@@ -1,7 +1,7 @@
 /// The quadratic forms of the four-node shell, and all that follows from them without a law.
 #pragma once
 
-#include <culm/mechanics/slot_products.hpp>
+#include <culm/mechanics/element.hpp>
 
 namespace culm::shell {
 
@@ -29,6 +29,7 @@ class ShellForms {
   using Nodes = Slots<num_slots>;
   /// Columns x1, x2, x3, d0, d1, d2, d3.
   using Modes = Mat<3, num_modes>;
+  using Stiffness = RowMat<num_strains, num_strains>;
 
   /// Place of y_ij among the forms: the upper triangle by rows.
   static constexpr int form(int i, int j) {
@@ -48,18 +49,12 @@ class ShellForms {
 
   /// f += B(q) S, one column per slot
   static void add_force(const Nodes& q, const Strain& S, Nodes& f) noexcept;
-  /// K += factor B(mid) C B(next)^T; C row-major or symmetric
-  template <int Storage>
-  static void add_stiffness(const Nodes& mid, const Nodes& next,
-                            const Eigen::Matrix<double, num_strains, num_strains, Storage>& C,
-                            double factor, RowMat<3 * num_slots, 3 * num_slots>& K) noexcept {
-    add_stiffness(mid, next, C.data(), factor, K);
-  }
+  /// K += factor B(mid) C B(next)^T; C need not be symmetric
+  static void add_stiffness(const Nodes& mid, const Nodes& next, const Stiffness& C, double factor,
+                            RowMat<3 * num_slots, 3 * num_slots>& K) noexcept;
 
  private:
   static Strain products(const Modes& p) noexcept;
-  static void add_stiffness(const Nodes& mid, const Nodes& next, const double* C_by_rows,
-                            double factor, RowMat<3 * num_slots, 3 * num_slots>& K) noexcept;
 
   Strain reference_;
 };
