@@ -20,6 +20,10 @@ Schema newton_schema() {
                 "Predict the stress in the geometric stiffness (mixed-integration-point Newton): "
                 "fewer iterations, larger steps, same solution.")
                .optional(defaults.extrapolate_stress))
+      .add(choice("Refresh", {"Every Iteration", "On Slow Convergence"},
+                  "When the tangent is assembled and factored; between, old factors serve "
+                  "(modified Newton): more iterations, each of them cheaper.")
+               .optional("Every Iteration"))
       .add(choice("Line Search", {"Full Step", "Backtrack"},
                   "Whether steps that increase the residual are shortened.")
                .optional("Full Step"));
@@ -31,6 +35,9 @@ solver::NewtonSettings newton_settings(const Options& options) {
   settings.constraint_tolerance = options.number("Constraint Tolerance");
   settings.max_iterations = options.integer("Maximum Iterations");
   settings.extrapolate_stress = options.flag("Stress Extrapolation");
+  if (options.text("Refresh") == "On Slow Convergence") {
+    settings.refresh = solver::Refresh::on_slow_convergence;
+  }
   settings.backtrack = options.text("Line Search") == "Backtrack";
   return settings;
 }

@@ -148,9 +148,9 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
   }
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * size_;
-  const double stiffness = want == Want::residual_and_tangent ? largest_diagonal() : 0.0;
+  if (want == Want::residual_and_tangent) stiffness_ = largest_diagonal();
   double found[5] = {static_cast<double>(verdict), largest, target.force_scale,
-                     target.constraint_violation, rounding * stiffness};
+                     target.constraint_violation, rounding * stiffness_};
   comm_.max(found);
   return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3], found[4]};
 }

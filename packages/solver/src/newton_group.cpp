@@ -1,8 +1,20 @@
 #include "newton_group.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace culm::solver {
+namespace {
+
+// With old factors an iteration is cheap, but its residual must fall at least so much.
+constexpr double slow = 0.2;
+
+double relative_residual(const assembly::Evaluation& e) {
+  const double force = e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0;
+  return std::max(force, e.constraint_violation);
+}
+
+}  // namespace
 
 using assembly::values_of;
 
@@ -75,38 +87,62 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
   forget_results();
 }
 
+// Whether the factors at hand are missing or bring the residual down too slowly.
+bool NewtonGroup::needs_tangent() const {
+  const NewtonProblem& p = *problem_;
+  if (p.settings.refresh == Refresh::every_iteration || !p.has_factors) return true;
+  if (p.stencil.inertia != p.factored_inertia) return true;
+  return p.last_residual > 0.0 && relative_residual(evaluation_) > slow * p.last_residual;
+}
+
 // Residual and tangent in one pass: all but the last tangent of a step are used, and a separate
-// pass for the residual costs a third of the joint one.
+// pass for the residual costs a third of the joint one. Modified Newton uses few of them.
 NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
   if (has_residual_) return Ok;
   swap_with_state();
   NewtonProblem& p = *problem_;
-  evaluation_ = p.system.evaluate(*p.state, p.stencil, Want::residual_and_tangent);
+  const bool reuse =
+      p.settings.refresh == Refresh::on_slow_convergence && p.has_factors && !tangent_wanted_;
+  evaluation_ =
+      p.system.evaluate(*p.state, p.stencil, reuse ? Want::residual : Want::residual_and_tangent);
   swap_with_state();
   f_.get().assign(p.system.residual());
-  has_residual_ = has_tangent_ = evaluation_.verdict == Verdict::ok;
+  has_residual_ = evaluation_.verdict == Verdict::ok;
+  has_tangent_ = has_residual_ && !reuse;
   return has_residual_ ? Ok : Failed;
 }
 
 NOX::Abstract::Group::ReturnType NewtonGroup::computeJacobian() {
-  if (has_tangent_) return Ok;
+  if (has_tangent_ || !needs_tangent()) return Ok;
   has_residual_ = false;
-  return computeF();
+  tangent_wanted_ = true;
+  const ReturnType result = computeF();
+  tangent_wanted_ = false;
+  return result;
+}
+
+bool NewtonGroup::solve_linear() {
+  NewtonProblem& p = *problem_;
+  if (has_tangent_) {
+    const Ledger::Scope scope(p.ledger, p.factor_effect);
+    p.singular = !p.linear.factor();
+    p.has_factors = !p.singular;
+    p.factored_inertia = p.stencil.inertia;
+    if (p.singular) return false;
+  }
+  const Ledger::Scope scope(p.ledger, p.solve_effect);
+  const double residual = p.linear.solve(f_.get(), newton_.get());
+  p.not_finite = !std::isfinite(residual);
+  // old factors solve another system; Newton's own residual tells whether they serve
+  p.singular = has_tangent_ && residual > 1e-8;
+  return !p.singular;
 }
 
 NOX::Abstract::Group::ReturnType NewtonGroup::computeNewton(Teuchos::ParameterList&) {
   if (has_newton_) return Ok;
+  if (!solve_linear()) return Failed;
   NewtonProblem& p = *problem_;
-  {
-    const Ledger::Scope scope(p.ledger, p.factor_effect);
-    p.singular = !p.linear.factor();
-  }
-  if (p.singular) return Failed;
-  const Ledger::Scope scope(p.ledger, p.solve_effect);
-  const double residual = p.linear.solve(f_.get(), newton_.get());
-  p.not_finite = !std::isfinite(residual);
-  p.singular = residual > 1e-8;
-  if (p.singular) return Failed;
+  p.last_residual = relative_residual(evaluation_);
   newton_.get().scale(-1.0);
   p.largest_increment = newton_.get().normInf();
   has_newton_ = std::isfinite(p.largest_increment);

@@ -24,8 +24,11 @@ struct NewtonProblem {
   Ledger::Id solve_effect;
   model::State* state = nullptr;
   Stencil stencil;
-  bool singular = false;    ///< the last factorisation failed
-  bool not_finite = false;  ///< the last solution is infinite or not a number
+  bool has_factors = false;       ///< the linear solver holds factors of a tangent of this analysis
+  double factored_inertia = 0.0;  ///< Stencil::inertia of that tangent
+  double last_residual = 0.0;     ///< relative one of the iteration before; 0 before the first
+  bool singular = false;          ///< the last factorisation failed
+  bool not_finite = false;        ///< the last solution is infinite or not a number
   double largest_increment = 0.0;
 };
 
@@ -68,6 +71,9 @@ class NewtonGroup final : public NOX::Abstract::Group {
  private:
   void swap_with_state();
   void forget_results();
+  bool needs_tangent() const;
+  /// Solves with new or old factors. @return false if the result is of no use
+  bool solve_linear();
 
   std::shared_ptr<NewtonProblem> problem_;
   model::Coordinates next_;
@@ -78,6 +84,7 @@ class NewtonGroup final : public NOX::Abstract::Group {
   NewtonVector newton_;
   bool has_residual_ = false;
   bool has_tangent_ = false;
+  bool tangent_wanted_ = false;
   bool has_newton_ = false;
 };
 

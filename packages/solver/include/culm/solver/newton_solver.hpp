@@ -10,23 +10,32 @@
 
 namespace culm::solver {
 
+/// When the tangent is assembled and factored.
+enum class Refresh {
+  every_iteration,
+  on_slow_convergence,  ///< factors serve until the residual falls too slowly (modified Newton)
+};
+
 /// How an iteration is judged and steered.
 struct NewtonSettings {
   double force_tolerance = 1e-10;       ///< largest force residual over the force scale [-]
   double constraint_tolerance = 1e-11;  ///< largest |h|, lengths over the model's length [-]
   int max_iterations = 25;
   bool extrapolate_stress = true;  ///< stress prediction for the geometric part (formulation 5.2)
-  bool backtrack = false;          ///< shorten steps that increase the residual
+  Refresh refresh = Refresh::every_iteration;
+  bool backtrack = false;  ///< shorten steps that increase the residual
 };
 
 /// Why a step ended.
 enum class StepEnd {
   converged,
   too_many_iterations,
-  diverged,      ///< increments or residual beyond any use
-  singular,      ///< the tangent has no inverse
-  not_finite,    ///< NaN or infinity
-  out_of_range,  ///< an element or law left its domain
+  diverged,        ///< increments or residual beyond any use
+  singular,        ///< the tangent has no inverse
+  not_finite,      ///< NaN or infinity
+  out_of_range,    ///< an element or law left its domain
+  turned_too_far,  ///< solved, but a node turned too far to be trusted
+  inaccurate,      ///< solved, but with an error far above the tolerance
 };
 
 /// One line of the convergence history.
