@@ -29,6 +29,24 @@ def verify_order(culm, report):
         report.check(f"order from {steps[i]} to {steps[i + 1]}", order, 2.0, 0.05)
 
 
+def verify_adaptive(culm, report):
+    report.title("Heavy top: adaptive steps")
+    errors = []
+    for tolerance in (1e-4, 1e-5, 1e-6):
+        run = culm.run("body/heavy_top_adaptive.xml",
+                       [f"Analyses/motion/Adaptive/Tolerance={tolerance}", "Output/Every=1"],
+                       quiet=False)
+        error = math.dist(run.history.vector("centre", 0.5), TOP_REFERENCE[0.5])
+        steps = len(run.history.levels) - 1
+        report.holds(f"tolerance {tolerance}: all {steps} steps together", error, steps * tolerance)
+        report.holds("energy balance, relative", run.drift("energy balance"), 1e-9)
+        errors.append(error)
+    for coarse, fine in zip(errors, errors[1:]):
+        # step ~ tol^(1/3), error ~ step^2
+        report.relative("error for a tenth of the tolerance falls by", coarse / fine, 10 ** (2 / 3),
+                        0.1)
+
+
 def verify_balance(culm, report, deck, settings=(), free=True):
     run = culm.run(deck, settings, quiet=False)
     report.check(f"{deck} {list(settings)}: exit code", run.exit, 0, 0)
@@ -79,6 +97,7 @@ def verify_loops(culm, report):
 
 def verify(culm, report):
     verify_order(culm, report)
+    verify_adaptive(culm, report)
     verify_balances(culm, report)
     verify_spaghetti(culm, report)
     verify_forms(culm, report)

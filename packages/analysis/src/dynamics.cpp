@@ -11,6 +11,38 @@
 
 namespace culm::analysis {
 
+namespace {
+
+Schema adaptive_schema() {
+  return Schema("Adaptive",
+                "Steps follow an estimate of their error instead of being fixed; the first is a "
+                "sixteenth of `Step`. No node turns by more than 53 degrees in a step.")
+      .add(number("Tolerance", "1",
+                  "Error that a step may add to any position, over the length of the model, or to "
+                  "any director.")
+               .positive()
+               .optional(AdaptiveSettings{}.tolerance))
+      .add(number("Largest Step", "s", "Steps do not grow beyond; no limit if absent.")
+               .positive()
+               .optional());
+}
+
+StepSettings step_settings(const Options& options) {
+  StepSettings steps;
+  steps.end_time = options.number("End Time");
+  steps.step = options.number("Step");
+  steps.smallest_step =
+      options.has("Smallest Step") ? options.number("Smallest Step") : 1e-3 * steps.step;
+  if (!options.has_list("Adaptive")) return steps;
+  const Options& list = options.list("Adaptive");
+  steps.adaptive = AdaptiveSettings{};
+  steps.adaptive->tolerance = list.number("Tolerance");
+  if (list.has("Largest Step")) steps.adaptive->largest_step = list.number("Largest Step");
+  return steps;
+}
+
+}  // namespace
+
 Schema Dynamics::schema() {
   return Schema("Dynamic", "Motion in time from the present state and velocity.")
       .add(number("End Time", "s", "Time at the end; the analysis starts at time 0.").positive())
@@ -27,15 +59,13 @@ Schema Dynamics::schema() {
                   "Of Generalised Alpha at infinite frequency: 1 damps nothing, 0 most.")
                .between(0.0, 1.0)
                .optional(0.8))
+      .list("Adaptive", adaptive_schema(), Presence::optional)
       .list("Newton", newton_schema(), Presence::defaulted);
 }
 
 std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
   DynamicsSettings settings;
-  settings.end_time = options.number("End Time");
-  settings.step = options.number("Step");
-  settings.smallest_step =
-      options.has("Smallest Step") ? options.number("Smallest Step") : 1e-3 * settings.step;
+  settings.steps = step_settings(options);
   settings.newton = newton_settings(options.list("Newton"));
   std::unique_ptr<TimeScheme> scheme = std::make_unique<ConservingScheme>();
   if (options.text("Scheme") == "Generalised Alpha") {
@@ -84,7 +114,7 @@ void Dynamics::prepare(Context& context, model::State& state) {
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const double change = context.system.project_velocity(state, 1e-4 * settings_.step, solve_mass);
+  const double change = context.system.project_velocity(state, 1e-4 * settings_.steps.step, solve_mass);
   if (change > 1e-9 * std::max(1.0, largest(state.velocity))) {
     context.log.warning(fmt::format(
         "initial velocities were made to fit the constraints; largest change {:.3g}", change));
@@ -95,8 +125,9 @@ void Dynamics::prepare(Context& context, model::State& state) {
 AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& observer) {
   assembly::System& system = context.system;
   prepare(context, state);
-  double h = settings_.step;
-  Stencil stencil = scheme_->begin(state, h);
+  StepControl control(system, settings_.steps, scheme_->error_constant());
+  const double end_time = settings_.steps.end_time;
+  Stencil stencil = scheme_->begin(state, settings_.steps.step);
   system.begin_step(state, stencil);
   system.choose_multiplier_scale(state, stencil);
   PostMortem post_mortem(context, state, stencil);
@@ -106,37 +137,32 @@ AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& ob
   certificate.start(state);
 
   int steps = 0;
-  const auto grid = [this](double time) {  // the next multiple of the step after a time
-    const double next = settings_.step * (std::floor(time / settings_.step + 1e-6) + 1.0);
-    return next > settings_.end_time - 1e-6 * settings_.step ? settings_.end_time : next;
-  };
-  while (state.time < settings_.end_time) {
-    const double target = grid(state.time_prev);
-    state.time = state.time_prev + 1.01 * h > target ? target : state.time_prev + h;
+  while (state.time < end_time) {
+    state.time = control.end_of_step(state.time_prev);
     const double taken = state.time - state.time_prev;
     stencil = scheme_->begin(state, taken);
     system.begin_step(state, stencil);
     system.coast(state, taken);
-    StepReport report{steps, state.time, settings_.end_time,
-                      taken, true,       newton.solve(state, stencil)};
+    StepReport report{steps, state.time, end_time, taken, true, newton.solve(state, stencil)};
+    if (report.outcome.converged()) report.outcome.end = control.judge(state, stencil);
     report.accepted = report.outcome.converged();
     if (report.accepted) {
       report.step = ++steps;
+      control.accept(state, taken);
       scheme_->finish(state, taken);
       {
         const Ledger::Scope scope(context.ledger, certificate_effect);
         certificate.record(state, stencil, report.outcome.last.constraint_violation);
       }
       accept(state);
-      h = std::min(2.0 * h, settings_.step);
     } else {
+      control.reject(report.outcome.end, taken);
       reject(state);
-      h = 0.5 * taken;
     }
     post_mortem.record(report);
     observer.step(report, state);
     const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
-    if (!report.accepted && (not_finite || h < settings_.smallest_step)) {
+    if (!report.accepted && (not_finite || control.is_exhausted())) {
       post_mortem.give_up(state, stencil);
     }
   }

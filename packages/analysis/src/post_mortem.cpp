@@ -431,6 +431,9 @@ std::string PostMortem::dynamic_cause() const {
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
     return "Likely cause: an element turns too far in a step.\nTry: a smaller step, more elements.";
   }
+  if (attempts_.back().outcome.end == solver::StepEnd::turned_too_far) {
+    return "Likely cause: a body spins too fast for the steps.\nTry: a smaller step.";
+  }
   return "Likely cause: a sudden change of load, or motion that the mesh cannot follow.\n"
          "Try: a smaller step, 'Line Search' = Backtrack, more elements, or some dissipation.";
 }

@@ -1,5 +1,7 @@
 #include <culm/analysis/time_scheme.hpp>
 
+#include <cmath>
+
 namespace culm::analysis {
 
 // Dv / h = 2 Dq / h^2 - 2 v / h
@@ -26,6 +28,11 @@ GeneralisedAlphaScheme::GeneralisedAlphaScheme(double spectral_radius)
 
 void GeneralisedAlphaScheme::start(model::State& state) {
   acceleration_.assign(state.velocity.size(), 0.0);
+}
+
+// The accelerations of the method belong to times alpha_m - alpha_f steps later than their index.
+double GeneralisedAlphaScheme::error_constant() const {
+  return std::abs(beta_ - 1.0 / 6.0 + 0.5 * (alpha_m_ - alpha_f_));
 }
 
 // a_next = Dq / (beta h^2) - v / (beta h) - (1 / (2 beta) - 1) a;

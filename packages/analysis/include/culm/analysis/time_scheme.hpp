@@ -15,6 +15,8 @@ class TimeScheme {
   virtual std::string name() const = 0;
   /// Whether energy and momenta obey exact balances.
   virtual bool conserves() const = 0;
+  /// c of the error c h^3 q''' that a step adds to positions.
+  virtual double error_constant() const = 0;
   /// Once, with position and velocity of the start.
   virtual void start(model::State& state) = 0;
   /// Before a step of length h [s]: sets state.acceleration_offset. @return the step's stencil
@@ -29,6 +31,7 @@ class ConservingScheme final : public TimeScheme {
  public:
   std::string name() const override { return "Conserving"; }
   bool conserves() const override { return true; }
+  double error_constant() const override { return 1.0 / 12.0; }
   void start(model::State&) override {}
   Stencil begin(model::State& state, double h) override;
   void finish(model::State& state, double h) override;
@@ -44,6 +47,7 @@ class GeneralisedAlphaScheme final : public TimeScheme {
   explicit GeneralisedAlphaScheme(double spectral_radius);
   std::string name() const override { return "Generalised Alpha"; }
   bool conserves() const override { return false; }
+  double error_constant() const override;
   void start(model::State& state) override;
   Stencil begin(model::State& state, double h) override;
   void finish(model::State& state, double h) override;

@@ -1,0 +1,161 @@
+#include <culm/analysis/step_control.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace culm::analysis {
+namespace {
+
+// With adaptive steps a node turns by at most 2 atan(1/2), 53 degrees; see formulation 4.8.
+constexpr double largest_adaptive_turn = 1.0;
+// Mean directors vanish and rotations become ambiguous at pi; nothing turns beyond 160 degrees.
+const double hard_turn = 2.0 * std::tan(80.0 * std::numbers::pi / 180.0);
+
+constexpr double safety = 0.9;
+// The first steps have no estimate; this makes their error 4096 times smaller.
+constexpr double start = 1.0 / 16.0;
+constexpr double least_growth = 0.5;
+constexpr double most_growth = 2.0;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// 1 over the length of the model for positions, 1 for directors; 0 for slots without mass. A mass
+// matrix maps a vector without any structure to zero in rows that are zero only.
+std::vector<double> error_scales(const assembly::System& system) {
+  const model::Model& model = system.model();
+  model::Coordinates irregular(model.nodes().reference().size());
+  for (std::size_t i = 0; i < irregular.size(); ++i) {
+    irregular[i] = std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0) + 0.1;
+  }
+  const model::Coordinates image = model.mass_times(irregular);
+  std::vector<double> scales(image.size() / 3, 0.0);
+  for (std::size_t slot = 0; slot < scales.size(); ++slot) {
+    if (image[3 * slot] == 0.0) continue;
+    scales[slot] = slot % 4 == 0 ? 1.0 / model.length() : 1.0;
+  }
+  return scales;
+}
+
+}  // namespace
+
+StepControl::StepControl(const assembly::System& system, const StepSettings& settings,
+                         double error_constant)
+    : system_(system), settings_(settings), error_constant_(error_constant) {
+  memory_.next = settings_.adaptive ? start * settings_.step : settings_.step;
+  const model::Model& model = system.model();
+  for (int node = 0; node < model.nodes().size(); ++node) {
+    const int block = model.unknowns().node_block(node);
+    if (system.layout().owners()[index(block)] == system.comm().rank()) nodes_.push_back(node);
+  }
+  if (settings_.adaptive) slot_scale_ = error_scales(system);
+}
+
+double StepControl::end_of_step(double time) const {
+  const double step = settings_.step;
+  if (settings_.adaptive) {
+    const double left = settings_.end_time - time;
+    if (memory_.next > 0.99 * left) return settings_.end_time;
+    return time + (memory_.next > 0.5 * left ? 0.5 * left : memory_.next);  // no sliver at the end
+  }
+  // the next multiple of the step
+  double target = step * (std::floor(time / step + 1e-6) + 1.0);
+  if (target > settings_.end_time - 1e-6 * step) target = settings_.end_time;
+  return time + 1.01 * memory_.next > target ? target : time + memory_.next;
+}
+
+model::NodeSlots StepControl::mean_velocity(const model::State& state, double h, int node) const {
+  return (model::NodeTable::slots(state.next, node) - model::NodeTable::slots(state.prev, node)) /
+         h;
+}
+
+model::NodeSlots StepControl::mean_acceleration(const model::NodeSlots& velocity, double h,
+                                                int node) const {
+  return (velocity - model::NodeTable::slots(memory_.velocity, node)) / (0.5 * (h + memory_.last));
+}
+
+// The third derivative from the last four configurations, by divided differences.
+double StepControl::estimate_error(const model::State& state, double h) const {
+  double largest = 0.0;
+  for (int node : nodes_) {
+    const model::NodeSlots change = mean_acceleration(mean_velocity(state, h, node), h, node) -
+                                    model::NodeTable::slots(memory_.acceleration, node);
+    for (int s = 0; s < 4; ++s) {
+      largest = std::max(largest, slot_scale_[index(4 * node + s)] * change.col(s).norm());
+    }
+  }
+  const double third = 3.0 * system_.comm().max(largest) / (h + memory_.last + memory_.before_last);
+  return error_constant_ * h * h * h * third;
+}
+
+void StepControl::remember(const model::State& state, double h) {
+  memory_.velocity.resize(state.next.size());
+  memory_.acceleration.resize(state.next.size());
+  for (int node : nodes_) {
+    const model::NodeSlots velocity = mean_velocity(state, h, node);
+    if (memory_.last > 0.0) {
+      model::NodeTable::slots(memory_.acceleration, node) = mean_acceleration(velocity, h, node);
+    }
+    model::NodeTable::slots(memory_.velocity, node) = velocity;
+  }
+}
+
+// cos(angle) = (sum_i d_i,prev . d_i,next - 1) / 2 and tan(angle / 2)^2 = (1 - cos) / (1 + cos)
+double StepControl::largest_turn(const model::State& state) const {
+  double cosine = 1.0;
+  for (int node : nodes_) {
+    const auto prev = model::NodeTable::slots(state.prev, node);
+    const auto next = model::NodeTable::slots(state.next, node);
+    const double trace = prev.rightCols<3>().cwiseProduct(next.rightCols<3>()).sum();
+    cosine = std::min(cosine, 0.5 * (trace - 1.0));
+  }
+  cosine = -system_.comm().max(-cosine);
+  return 2.0 * std::sqrt(std::max(0.0, 1.0 - cosine) / std::max(1e-300, 1.0 + cosine));
+}
+
+double StepControl::growth() const {
+  double growth = error_.has_value() ? most_growth : 1.0;
+  if (turn_ > 0.0) growth = std::min(growth, safety * largest_adaptive_turn / turn_);
+  if (error_.value_or(0.0) > 0.0) {
+    growth = std::min(growth, safety * std::cbrt(settings_.adaptive->tolerance / *error_));
+  }
+  return std::max(growth, least_growth);
+}
+
+solver::StepEnd StepControl::judge(const model::State& state, const Stencil& stencil) {
+  turn_ = largest_turn(state);
+  const double allowed = settings_.adaptive ? largest_adaptive_turn : hard_turn;
+  if (turn_ > allowed) return solver::StepEnd::turned_too_far;
+  if (!settings_.adaptive) return solver::StepEnd::converged;
+  error_.reset();
+  if (memory_.before_last > 0.0) error_ = estimate_error(state, stencil.step);
+  // an error that asks for less than half of the step is not worth keeping
+  const bool keep = growth() > least_growth || stencil.step < 1.001 * settings_.smallest_step;
+  return keep ? solver::StepEnd::converged : solver::StepEnd::inaccurate;
+}
+
+void StepControl::accept(const model::State& state, double taken) {
+  if (settings_.adaptive) {
+    // right after a failure the step stays
+    memory_.next = taken * std::min(growth(), memory_.failed ? 1.0 : most_growth);
+    memory_.next =
+        std::clamp(memory_.next, settings_.smallest_step, settings_.adaptive->largest_step);
+    remember(state, taken);
+  } else {
+    memory_.next = std::min(2.0 * memory_.next, settings_.step);
+  }
+  memory_.before_last = memory_.last;
+  memory_.last = taken;
+  memory_.failed = false;
+}
+
+void StepControl::reject(solver::StepEnd reason, double taken) {
+  memory_.failed = true;
+  memory_.next = least_growth * taken;
+  // an error is no reason to give up
+  if (reason == solver::StepEnd::inaccurate) {
+    memory_.next = std::max(memory_.next, settings_.smallest_step);
+  }
+}
+
+}  // namespace culm::analysis
