@@ -56,8 +56,22 @@ void Certificate::record(const model::State& state, const Stencil& stencil,
   constraint_violation_ = std::max(constraint_violation_, constraint_violation);
 }
 
+void Certificate::finish(double change, double velocity) {
+  hidden_violation_ = relative(change, velocity);
+}
+
 double Certificate::energy_scale() const {
   return std::max({largest_kinetic_, largest_strain_, largest_work_});
+}
+
+// Momenta may vanish although everything moves: a spinning body has no linear momentum. What they
+// are made of is at most sqrt(2 m T).
+double Certificate::linear_scale() const {
+  return std::max(largest_linear_, std::sqrt(2.0 * system_.model().mass() * largest_kinetic_));
+}
+
+double Certificate::angular_scale() const {
+  return std::max(largest_angular_, system_.model().length() * linear_scale());
 }
 
 // Nothing holds the model from outside.
@@ -77,12 +91,12 @@ std::vector<std::pair<std::string, double>> Certificate::numbers() const {
       {"energy taken by dampers", work_.damping},
       {"energy taken by dissipation", work_.dissipation},
       {"relative energy drift", relative(energy_drift_, energy_scale())},
-      {"constraint drift", constraint_violation_}};
+      {"constraint drift", constraint_violation_},
+      {"hidden constraint violation", hidden_violation_}};
   if (is_free()) {
-    numbers.emplace_back("relative linear momentum drift",
-                         relative(linear_drift_, largest_linear_));
+    numbers.emplace_back("relative linear momentum drift", relative(linear_drift_, linear_scale()));
     numbers.emplace_back("relative angular momentum drift",
-                         relative(angular_drift_, largest_angular_));
+                         relative(angular_drift_, angular_scale()));
   }
   return numbers;
 }
@@ -95,22 +109,28 @@ std::string Certificate::text() const {
   line("kinetic energy", first_.kinetic, last_.kinetic);
   line("strain energy", first_.strain, last_.strain);
   line("potential energy", first_.potential, last_.potential);
-  text += fmt::format(
-      "  work: loads {:.9g} J, drives {:.9g} J; taken: dampers {:.6g} J, dissipation {:.6g} J\n",
-      work_.external, work_.drives, work_.damping, work_.dissipation);
+  const auto amount = [&text](const std::string& name, double value) {
+    text += fmt::format("  {:<28} {:>41.9g} J\n", name, value);
+  };
+  amount("work of loads", work_.external);
+  amount("work of drives", work_.drives);
+  amount("taken by dampers", work_.damping);
+  amount("taken by dissipation", work_.dissipation);
   const auto drift = [&](const std::string& name, double value, double promise) {
     text += fmt::format("  {:<28} {:.2e}  {}\n", name, value,
                         promises_ ? verdict(value, promise) : "not promised by this scheme");
   };
   drift("energy balance", relative(energy_drift_, energy_scale()), energy_promise);
   if (is_free()) {
-    drift("linear momentum", relative(linear_drift_, largest_linear_), momentum_promise);
-    drift("angular momentum", relative(angular_drift_, largest_angular_), momentum_promise);
+    drift("linear momentum", relative(linear_drift_, linear_scale()), momentum_promise);
+    drift("angular momentum", relative(angular_drift_, angular_scale()), momentum_promise);
   } else {
     text += "  momenta: the model is held, so supports change them\n";
   }
   text += fmt::format("  {:<28} {:.2e}  {}\n", "constraints", constraint_violation_,
                       verdict(constraint_violation_, constraint_promise));
+  text += fmt::format("  {:<28} {:.2e}  of the velocity, second order of the step\n",
+                      "hidden constraints", hidden_violation_);
   return text;
 }
 

@@ -41,6 +41,12 @@ StepSettings step_settings(const Options& options) {
   return steps;
 }
 
+double largest(const std::vector<double>& v) {
+  double result = 0.0;
+  for (double entry : v) result = std::max(result, std::abs(entry));
+  return result;
+}
+
 }  // namespace
 
 Schema Dynamics::schema() {
@@ -66,6 +72,7 @@ Schema Dynamics::schema() {
 std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
   DynamicsSettings settings;
   settings.steps = step_settings(options);
+  settings.scheme = options.where("Scheme");
   settings.newton = newton_settings(options.list("Newton"));
   std::unique_ptr<TimeScheme> scheme = std::make_unique<ConservingScheme>();
   if (options.text("Scheme") == "Generalised Alpha") {
@@ -76,15 +83,17 @@ std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
 
 namespace {
 
-double largest(const std::vector<double>& v) {
-  double result = 0.0;
-  for (double entry : v) result = std::max(result, std::abs(entry));
-  return result;
+assembly::System::Solve mass_solver(Context& context, const model::State& state) {
+  return [&](const assembly::Vector& b, assembly::Vector& x) {
+    if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
+      PostMortem::refuse_massless(context, state);
+    }
+  };
 }
 
 // The deck may displace bodies out of their joints.
-void close_joints(Context& context, model::State& state, const assembly::System::Solve& solve) {
-  const double change = context.system.project_position(state, solve);
+void close_joints(Context& context, model::State& state) {
+  const double change = context.system.project_position(state, mass_solver(context, state));
   if (std::isinf(change)) {
     throw NumericalError(
         "No position fits the constraints near the initial displacements.\n"
@@ -99,22 +108,22 @@ void close_joints(Context& context, model::State& state, const assembly::System:
 
 }  // namespace
 
+double Dynamics::project_velocity(Context& context, model::State& state) const {
+  return context.system.project_velocity(state, 1e-4 * settings_.steps.step,
+                                         mass_solver(context, state));
+}
+
 // Velocities that constraints do not allow would never decay, so they are removed.
 void Dynamics::prepare(Context& context, model::State& state) {
   state.time = state.time_prev = 0.0;
-  const assembly::System::Solve solve_mass = [&](const assembly::Vector& b, assembly::Vector& x) {
-    if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
-      PostMortem::refuse_massless(context, state);
-    }
-  };
   if (state.at_rest && context.system.model().has_initial_displacements()) {
-    close_joints(context, state, solve_mass);
+    close_joints(context, state);
   }
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const double change = context.system.project_velocity(state, 1e-4 * settings_.steps.step, solve_mass);
+  const double change = project_velocity(context, state);
   if (change > 1e-9 * std::max(1.0, largest(state.velocity))) {
     context.log.warning(fmt::format(
         "initial velocities were made to fit the constraints; largest change {:.3g}", change));
@@ -124,6 +133,12 @@ void Dynamics::prepare(Context& context, model::State& state) {
 
 AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& observer) {
   assembly::System& system = context.system;
+  if (system.velocity_dissipation() != nullptr && !scheme_->conserves()) {
+    throw InputError(settings_.scheme,
+                     fmt::format("'{}' does not know the 'Velocity Dissipation' that a structure "
+                                 "asks for; allowed: 'Conserving'",
+                                 scheme_->name()));
+  }
   prepare(context, state);
   StepControl control(system, settings_.steps, scheme_->error_constant());
   const double end_time = settings_.steps.end_time;
@@ -150,6 +165,9 @@ AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& ob
       report.step = ++steps;
       control.accept(state, taken);
       scheme_->finish(state, taken);
+      if (model::VelocityDissipation* dissipation = system.velocity_dissipation()) {
+        dissipation->correct(state, taken);
+      }
       {
         const Ledger::Scope scope(context.ledger, certificate_effect);
         certificate.record(state, stencil, report.outcome.last.constraint_violation);
@@ -166,6 +184,9 @@ AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& ob
       post_mortem.give_up(state, stencil);
     }
   }
+  model::State copy = state;
+  const double hidden = project_velocity(context, copy);
+  certificate.finish(hidden, system.comm().max(largest(copy.velocity)));
   return {certificate.text(), certificate.numbers()};
 }
 

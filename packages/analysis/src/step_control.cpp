@@ -1,4 +1,5 @@
 #include <culm/analysis/step_control.hpp>
+#include <culm/model/massless.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,19 +21,13 @@ constexpr double most_growth = 2.0;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// 1 over the length of the model for positions, 1 for directors; 0 for slots without mass. A mass
-// matrix maps a vector without any structure to zero in rows that are zero only.
+// 1 over the length of the model for positions, 1 for directors; 0 for slots without mass.
 std::vector<double> error_scales(const assembly::System& system) {
-  const model::Model& model = system.model();
-  model::Coordinates irregular(model.nodes().reference().size());
-  for (std::size_t i = 0; i < irregular.size(); ++i) {
-    irregular[i] = std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0) + 0.1;
-  }
-  const model::Coordinates image = model.mass_times(irregular);
-  std::vector<double> scales(image.size() / 3, 0.0);
+  const std::vector<bool> has_mass = model::slots_with_mass(system.model());
+  std::vector<double> scales(has_mass.size(), 0.0);
   for (std::size_t slot = 0; slot < scales.size(); ++slot) {
-    if (image[3 * slot] == 0.0) continue;
-    scales[slot] = slot % 4 == 0 ? 1.0 / model.length() : 1.0;
+    if (!has_mass[slot]) continue;
+    scales[slot] = slot % 4 == 0 ? 1.0 / system.model().length() : 1.0;
   }
   return scales;
 }

@@ -108,6 +108,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     }
   }
   length_ = model.length();
+  velocity_dissipation_ = model::VelocityDissipation::find(model);
   reactions_.assign(index(unknowns.num_reactions()), 0.0);
   linear_increment_.assign(model.nodes().reference().size(), 0.0);
 }
@@ -190,6 +191,23 @@ void System::move(model::State& state, const Vector& increment, double factor) {
     }
   }
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+  if (velocity_dissipation_ != nullptr) complete(state.next);
+}
+
+// Brings the coordinates of all nodes up to date on all ranks.
+void System::complete(model::Coordinates& values) const {
+  if (comm_.size() == 1) return;
+  const model::UnknownTable& unknowns = model_.unknowns();
+  // every value comes from its owner and is zero elsewhere, so the sum is exact
+  for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
+    const model::Block& block = unknowns.block(b);
+    if (layout_.owners()[index(b)] == comm_.rank()) continue;
+    if (block.kind == model::BlockKind::node) {
+      model::NodeTable::slots(values, block.owner).setZero();
+    }
+  }
+  comm_.sum(values);
+  for (int slave : slaves_) model_.nodes().follow_master(slave, values);
 }
 
 void System::extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
@@ -215,27 +233,18 @@ void System::synchronise(model::State& state) {
   gathered_reactions_ = reactions_;
   if (comm_.size() == 1) return;
   const model::UnknownTable& unknowns = model_.unknowns();
-  // every value comes from its owner and is zero elsewhere, so the sum is exact
   for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
     const model::Block& block = unknowns.block(b);
     if (layout_.owners()[index(b)] == comm_.rank()) continue;
-    if (block.kind == model::BlockKind::node) {
-      model::NodeTable::slots(state.next, block.owner).setZero();
-      if (!state.velocity.empty()) {
-        model::NodeTable::slots(state.velocity, block.owner).setZero();
-      }
-    } else {
+    if (block.kind == model::BlockKind::multipliers) {
       std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, 0.0);
     }
   }
-  comm_.sum(state.next);
-  comm_.sum(state.velocity);
   comm_.sum(state.multipliers);
   comm_.sum(gathered_reactions_);
-  for (int slave : slaves_) {
-    model_.nodes().follow_master(slave, state.next);
-    if (!state.velocity.empty()) model_.nodes().follow_master(slave, state.velocity);
-  }
+  complete(state.next);
+  // damped velocities are complete already, and those of eliminated nodes do not follow masters
+  if (!state.velocity.empty() && velocity_dissipation_ == nullptr) complete(state.velocity);
 }
 
 void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil) {
@@ -327,6 +336,7 @@ void System::coast(model::State& state, double time) const {
     model_.nodes().move(block.owner, u, state.next);
   }
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+  if (velocity_dissipation_ != nullptr) complete(state.next);
 }
 
 // dg/dt of all constraint rows at state.time: h = h_q - g, so g is what h loses while q stays.
@@ -394,6 +404,7 @@ double System::project_velocity(model::State& state, double probe, const Solve& 
         slot_motion(model_, block.owner, w, state.next);
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
+  if (velocity_dissipation_ != nullptr) complete(state.velocity);
   double largest = 0.0;
   each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
     if (model_.nodes().is_slave(block.owner)) return;  // its master may be elsewhere

@@ -2,6 +2,7 @@
 #include <culm/beam/beam_elements.hpp>
 #include <culm/beam/beam_structure.hpp>
 #include <culm/beam/helical_beam.hpp>
+#include <culm/model/velocity_dissipation.hpp>
 
 #include <fmt/format.h>
 
@@ -98,6 +99,12 @@ Schema beam_schema() {
                   "momenta are kept.")
                .between(0.0, 1.0)
                .optional(0.0))
+      .add(
+          number("Velocity Dissipation", "1",
+                 "Numerical dissipation of velocities in dynamics, rigid motions excepted: 0 keeps "
+                 "the energy, 1 damps most; momenta are kept.")
+              .between(0.0, 1.0)
+              .optional(0.0))
       .add(number("Damping", "s", "Physical damping: time by which stress runs ahead of strain.")
                .non_negative()
                .optional(0.0))
@@ -131,6 +138,10 @@ void add_beam(const Options& options, StructureContext& context) {
   structure.sets["first"] = {structure.nodes.front()};
   structure.sets["last"] = {structure.nodes.back()};
   structure.sets["all"] = structure.nodes;
+  const double velocity_dissipation = options.number("Velocity Dissipation");
+  if (velocity_dissipation > 0.0) {
+    model::VelocityDissipation::of(context.model).add_body(structure.nodes, velocity_dissipation);
+  }
   check_turn(kind, largest_turn, options, context);
 }
 

@@ -20,6 +20,11 @@ class Certificate {
   /// After each accepted step, with the velocity of its end already in state.velocity.
   void record(const model::State& state, const Stencil& stencil, double constraint_violation);
 
+  /// Once at the end. Constraints hold for positions; their rates, H v = dg/dt, hold to the second
+  /// order of the step only. @param change largest change of the velocity that makes them hold
+  /// @param velocity the largest one [m/s, 1/s]
+  void finish(double change, double velocity);
+
   /// A table for the user: balances, drifts, verdicts.
   std::string text() const;
   /// The same as numbers.
@@ -27,6 +32,8 @@ class Certificate {
 
  private:
   double energy_scale() const;
+  double linear_scale() const;
+  double angular_scale() const;
   bool is_free() const;
 
   const assembly::System& system_;
@@ -43,6 +50,7 @@ class Certificate {
   double linear_drift_ = 0.0;   ///< [N s]
   double angular_drift_ = 0.0;  ///< [N m s]
   double constraint_violation_ = 0.0;
+  double hidden_violation_ = 0.0;
   int steps_ = 0;
 };
 

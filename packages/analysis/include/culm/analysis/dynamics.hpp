@@ -12,6 +12,7 @@ namespace culm::analysis {
 /// How time is stepped.
 struct DynamicsSettings {
   StepSettings steps;
+  Where scheme;  ///< where the deck chooses it
   solver::NewtonSettings newton;
 };
 
@@ -28,6 +29,8 @@ class Dynamics final : public Analysis {
 
  private:
   void prepare(Context& context, model::State& state);
+  /// Makes the velocity fit the constraints. @return largest change [m/s, 1/s]
+  double project_velocity(Context& context, model::State& state) const;
 
   DynamicsSettings settings_;
   std::unique_ptr<TimeScheme> scheme_;

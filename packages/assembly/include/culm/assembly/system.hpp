@@ -3,6 +3,7 @@
 
 #include <culm/assembly/layout.hpp>
 #include <culm/base/ledger.hpp>
+#include <culm/model/velocity_dissipation.hpp>
 
 #include <functional>
 
@@ -66,6 +67,8 @@ class System {
   /// What loads, drives and dampers did in the step from state.prev to state.next.
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const;
   double multiplier_scale() const { return multiplier_scale_; }
+  /// Null if no structure asks for it.
+  model::VelocityDissipation* velocity_dissipation() const { return velocity_dissipation_; }
 
   /// Force [N] and moment about the node [N m] by which supports and joints act on the structure
   /// there: of the last evaluation where they take unknowns away, of the state's multipliers where
@@ -90,6 +93,7 @@ class System {
   double largest_diagonal() const;
   std::vector<double> drive_speed(model::State& state, double probe);
   const Vector& import(const Vector& increment);
+  void complete(model::Coordinates& values) const;
 
   model::Model& model_;
   parallel::Comm comm_;
@@ -98,6 +102,7 @@ class System {
   std::vector<model::Batch*> batches_;
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
+  model::VelocityDissipation* velocity_dissipation_ = nullptr;  ///< needs all nodes on all ranks
   std::vector<int> slaves_;
   std::vector<double> reactions_;           ///< owned ones
   std::vector<double> gathered_reactions_;  ///< all

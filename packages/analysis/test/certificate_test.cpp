@@ -1,0 +1,88 @@
+#include <culm/analysis/certificate.hpp>
+
+#include "motion.hpp"
+
+#include <gtest/gtest.h>
+
+namespace culm::analysis {
+namespace {
+
+double number(const Certificate& certificate, const std::string& name) {
+  for (const auto& [what, value] : certificate.numbers()) {
+    if (what == name) return value;
+  }
+  throw std::runtime_error("no number " + name);
+}
+
+void run(Motion& motion, Certificate& certificate, double h, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    const solver::StepOutcome outcome = motion.solve(h);
+    ASSERT_TRUE(outcome.converged());
+    motion.scheme->finish(motion.state, h);
+    certificate.record(motion.state, motion.stencil, outcome.last.constraint_violation);
+    accept(motion.state);
+  }
+}
+
+TEST(Certificate, HoldsForTheConservingScheme) {
+  Motion chain(build_free_chain);
+  Certificate certificate(*chain.system, true);
+  certificate.start(chain.state);
+  run(chain, certificate, 0.05, 50);
+  EXPECT_LT(number(certificate, "relative energy drift"), 1e-11);
+  EXPECT_LT(number(certificate, "relative linear momentum drift"), 1e-11);
+  EXPECT_LT(number(certificate, "relative angular momentum drift"), 1e-11);
+  EXPECT_NE(certificate.text().find("kept"), std::string::npos);
+  EXPECT_EQ(certificate.text().find("BROKEN"), std::string::npos);
+}
+
+TEST(Certificate, SeesEnergyAndMomentumThatAppearFromNowhere) {
+  Motion chain(build_free_chain);
+  Certificate certificate(*chain.system, true);
+  certificate.start(chain.state);
+  run(chain, certificate, 0.05, 5);
+  for (double& v : chain.state.velocity) v *= 1.0 + 1e-6;
+  run(chain, certificate, 0.05, 5);
+  EXPECT_GT(number(certificate, "relative energy drift"), 1e-7);
+  EXPECT_GT(number(certificate, "relative linear momentum drift"), 1e-7);
+  EXPECT_NE(certificate.text().find("BROKEN"), std::string::npos);
+}
+
+TEST(Certificate, PromisesNothingForGeneralisedAlpha) {
+  Motion chain(build_free_chain, std::make_unique<GeneralisedAlphaScheme>(0.5));
+  Certificate certificate(*chain.system, false);
+  certificate.start(chain.state);
+  run(chain, certificate, 0.05, 50);
+  EXPECT_GT(number(certificate, "relative energy drift"), 1e-6);
+  EXPECT_NE(certificate.text().find("not promised"), std::string::npos);
+}
+
+TEST(Certificate, JudgesMomentaThatVanishByTheMotionInside) {
+  // spins about its middle: linear momentum is rounding only
+  Motion chain([](model::Model& model) {
+    kit::add_chain(model, 2);
+    for (int node = 0; node <= 2; ++node) {
+      const Vec3 middle =
+          0.25 * (model::NodeTable::slots(model.nodes().reference(), 0).col(0) +
+                  2.0 * model::NodeTable::slots(model.nodes().reference(), 1).col(0) +
+                  model::NodeTable::slots(model.nodes().reference(), 2).col(0));
+      model.add_initial_velocity({node, Vec3::Zero(), Vec3(0, 0, 1.0), middle});
+    }
+  });
+  Certificate certificate(*chain.system, true);
+  certificate.start(chain.state);
+  run(chain, certificate, 0.05, 20);
+  EXPECT_LT(number(certificate, "relative linear momentum drift"), 1e-11);
+}
+
+TEST(Certificate, ReportsTheRatesOfConstraintsAsAShareOfTheVelocity) {
+  Motion chain(build_free_chain);
+  Certificate certificate(*chain.system, true);
+  certificate.start(chain.state);
+  run(chain, certificate, 0.05, 1);
+  certificate.finish(0.02, 4.0);
+  EXPECT_DOUBLE_EQ(number(certificate, "hidden constraint violation"), 0.005);
+}
+
+}  // namespace
+}  // namespace culm::analysis
