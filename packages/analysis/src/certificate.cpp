@@ -91,8 +91,8 @@ std::vector<std::pair<std::string, double>> Certificate::numbers() const {
       {"energy taken by dampers", work_.damping},
       {"energy taken by dissipation", work_.dissipation},
       {"relative energy drift", relative(energy_drift_, energy_scale())},
-      {"constraint drift", constraint_violation_},
-      {"hidden constraint violation", hidden_violation_}};
+      {"constraint drift", constraint_violation_}};
+  if (hidden_violation_) numbers.emplace_back("hidden constraint violation", *hidden_violation_);
   if (is_free()) {
     numbers.emplace_back("relative linear momentum drift", relative(linear_drift_, linear_scale()));
     numbers.emplace_back("relative angular momentum drift",
@@ -129,8 +129,10 @@ std::string Certificate::text() const {
   }
   text += fmt::format("  {:<28} {:.2e}  {}\n", "constraints", constraint_violation_,
                       verdict(constraint_violation_, constraint_promise));
-  text += fmt::format("  {:<28} {:.2e}  of the velocity, second order of the step\n",
-                      "hidden constraints", hidden_violation_);
+  if (hidden_violation_) {
+    text += fmt::format("  {:<28} {:.2e}  of the velocity, second order of the step\n",
+                        "hidden constraints", *hidden_violation_);
+  }
   return text;
 }
 

@@ -95,14 +95,19 @@ void StepControl::remember(const model::State& state, double h) {
   }
 }
 
-// cos(angle) = (sum_i d_i,prev . d_i,next - 1) / 2 and tan(angle / 2)^2 = (1 - cos) / (1 + cos)
+// cos(angle) = (sum_i d_i,prev . d_i,next - 1) / 2 of a triad, d_prev . d_next of a shell director,
+// which may change its length; tan(angle / 2)^2 = (1 - cos) / (1 + cos)
 double StepControl::largest_turn(const model::State& state) const {
   double cosine = 1.0;
   for (int node : nodes_) {
     const auto prev = model::NodeTable::slots(state.prev, node);
     const auto next = model::NodeTable::slots(state.next, node);
-    const double trace = prev.rightCols<3>().cwiseProduct(next.rightCols<3>()).sum();
-    cosine = std::min(cosine, 0.5 * (trace - 1.0));
+    const bool is_triad = system_.model().nodes().kind(node) == NodeKind::node12;
+    const double found =
+        is_triad ? 0.5 * (prev.rightCols<3>().cwiseProduct(next.rightCols<3>()).sum() - 1.0)
+                 : prev.col(1).dot(next.col(1)) /
+                       std::sqrt(prev.col(1).squaredNorm() * next.col(1).squaredNorm());
+    cosine = std::min(cosine, found);
   }
   cosine = -system_.comm().max(-cosine);
   return 2.0 * std::sqrt(std::max(0.0, 1.0 - cosine) / std::max(1e-300, 1.0 + cosine));

@@ -202,7 +202,6 @@ Verdict VelocityDissipation::assemble(const State& state, const Stencil& stencil
                                       Target& target) {
   if (stencil.inertia == 0.0 || want == Want::mass) return Verdict::ok;
   project_all(state, stencil.step);
-  const double theta = stencil.theta;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     const auto [number, a] = items_[static_cast<std::size_t>(placement_.items[i])];
     const Body& body = bodies_[static_cast<std::size_t>(number)];
@@ -211,8 +210,8 @@ Verdict VelocityDissipation::assemble(const State& state, const Stencil& stencil
     const Vec<12> force =
         -body.chi / ((1.0 + body.chi) * stencil.step) * body.damped.mx.segment<12>(12 * a);
     if (!std::isfinite(force.sum())) return Verdict::not_finite;
-    const NodeSlots arms = (1.0 - theta) * arms_of(model_.nodes(), node, state.prev) +
-                           theta * arms_of(model_.nodes(), node, state.next);
+    const Arms<4> arms = at_theta(stencil.theta, arms_of(model_.nodes(), node, state.prev),
+                                  arms_of(model_.nodes(), node, state.next));
     Vec<12> residual = force;
     if (form_ == Form::null_space) {
       RowMat<NullSpace::width, 1> reduced;

@@ -3,6 +3,7 @@
 
 #include <culm/assembly/system.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,9 @@ class Certificate {
   /// After each accepted step, with the velocity of its end already in state.velocity.
   void record(const model::State& state, const Stencil& stencil, double constraint_violation);
 
-  /// Once at the end. Constraints hold for positions; their rates, H v = dg/dt, hold to the second
-  /// order of the step only. @param change largest change of the velocity that makes them hold
+  /// Once at the end, if it can be told. Constraints hold for positions; their rates, H v = dg/dt,
+  /// hold to the second order of the step only. @param change largest change of the velocity that
+  /// makes them hold
   /// @param velocity the largest one [m/s, 1/s]
   void finish(double change, double velocity);
 
@@ -50,7 +52,7 @@ class Certificate {
   double linear_drift_ = 0.0;   ///< [N s]
   double angular_drift_ = 0.0;  ///< [N m s]
   double constraint_violation_ = 0.0;
-  double hidden_violation_ = 0.0;
+  std::optional<double> hidden_violation_;
   int steps_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/analysis.hpp>
+#include <culm/analysis/certificate.hpp>
 #include <culm/analysis/step_control.hpp>
 #include <culm/analysis/time_scheme.hpp>
 #include <culm/base/options.hpp>
@@ -29,8 +30,8 @@ class Dynamics final : public Analysis {
 
  private:
   void prepare(Context& context, model::State& state);
-  /// Makes the velocity fit the constraints. @return largest change [m/s, 1/s]
-  double project_velocity(Context& context, model::State& state) const;
+  void measure_hidden_constraints(Context& context, const model::State& state,
+                                  Certificate& certificate) const;
 
   DynamicsSettings settings_;
   std::unique_ptr<TimeScheme> scheme_;
