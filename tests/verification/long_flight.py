@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Free flight over 1e5 steps, and dissipation of velocities. Page: doc/verification/long_flight.md."""
 
+from verify import figure, main, save  # puts culm_runs on the path
+
 import culm_runs
-from verify import figure, main, save
 
 culm_runs.TIME_LIMIT = 900  # s; these runs are long on purpose
 STEPS = 100000
