@@ -271,8 +271,24 @@ std::vector<LinePoint> Model::line_points(std::string_view name) const {
   if (const auto set = element_sets_.find(std::string(name)); set != element_sets_.end()) {
     return set->second;
   }
-  const Structure* structure = find_structure(name);
-  return structure == nullptr ? std::vector<LinePoint>{} : structure->line_points;
+  const auto slash = name.find('/');
+  const Structure* structure = find_structure(name.substr(0, slash));
+  if (structure == nullptr) return {};
+  if (slash == std::string_view::npos) return structure->line_points;
+  const auto edge = structure->edges.find(std::string(name.substr(slash + 1)));
+  return edge == structure->edges.end() ? std::vector<LinePoint>{} : edge->second;
+}
+
+std::vector<Face> Model::faces(std::string_view name) const {
+  const auto slash = name.find('/');
+  const Structure* structure = find_structure(name.substr(0, slash));
+  if (structure == nullptr) return {};
+  if (slash == std::string_view::npos) return structure->faces;
+  const auto part = structure->parts.find(std::string(name.substr(slash + 1)));
+  std::vector<Face> faces;
+  if (part == structure->parts.end()) return faces;
+  for (int cell : part->second) faces.push_back(structure->faces[static_cast<std::size_t>(cell)]);
+  return faces;
 }
 
 std::vector<int> Model::select_nodes(std::string_view name) const {

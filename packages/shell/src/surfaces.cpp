@@ -83,6 +83,20 @@ Surface hypar(double side, double rise) {
           }};
 }
 
+Surface twisted_strip(double length, double width, double twist) {
+  const auto across = [=](double u) -> Vec3 {
+    return {0.0, std::cos(twist * u), std::sin(twist * u)};
+  };
+  return {[=](double u, double v) -> Vec3 {
+            return u * length * Vec3::UnitX() + (v - 0.5) * width * across(u);
+          },
+          [=](double u, double v) -> Vec3 {
+            const Vec3 along =
+                length * Vec3::UnitX() + (v - 0.5) * width * twist * Vec3::UnitX().cross(across(u));
+            return along.cross(across(u)).normalized();
+          }};
+}
+
 Surface extrusion(PlaneCurve curve, double length) {
   const auto normal = [curve](double s, double) -> Vec3 {
     constexpr double h = 1e-3;  // fourth order: exact to about 1e-12

@@ -10,7 +10,9 @@ namespace culm::simulation {
 
 Catalogue::Catalogue() {
   material::register_sections(sections);
+  material::register_materials(materials);
   beam::register_structures(structures);
+  shell::register_shells(shells);
   body::register_bodies(bodies);
   body::register_masses(masses);
   model::register_initial_motions(initial_conditions);
@@ -81,11 +83,16 @@ Schema output_schema(const QuantityRegistry& quantities) {
 
 Schema Catalogue::deck_schema() const {
   Variants all_structures = structures.variants();
+  all_structures.merge(shells.variants());
   all_structures.merge(bodies.variants());
   return Schema("culm", "An input deck.")
       .add(text("Title", "What the deck shows.").optional(""))
       .list("Sections",
             Schema("Sections", "Cross-sections by name.").entries_by_type(sections.variants()),
+            Presence::defaulted)
+      .list("Materials",
+            Schema("Materials", "What shells are made of, by name.")
+                .entries_by_type(materials.variants()),
             Presence::defaulted)
       .list("Structures", Schema("Structures", "Parts of the model by name.")
                               .entries_by_type(std::move(all_structures)))

@@ -23,28 +23,33 @@ std::map<std::string, Product> make_all(const Registry<Product>& registry, const
 }
 
 template <class Context>
-void build_one(const Registry<void, Context&>& registry, const Options& entry, Context& context) {
+void build_one(const Registry<void, Context&>& registry, const Options& entry, Context& context,
+               InputIssues& issues) {
   try {
     registry.make(entry.text("Type"), entry, context);
   } catch (const InputError& error) {
-    for (const InputIssue& issue : error.issues()) context.issues.add(issue);
+    for (const InputIssue& issue : error.issues()) issues.add(issue);
   }
 }
 
 void build_all(const model::BuilderRegistry& registry, const Options& list,
                model::BuildContext& context) {
-  for (const Options& entry : list.entries()) build_one(registry, entry, context);
+  for (const Options& entry : list.entries()) build_one(registry, entry, context, context.issues);
 }
 
-// Beams want sections, bodies do not; a deck lists them together and in any order.
+// Beams want sections, shells materials, bodies neither; a deck lists them together and in any
+// order.
 void build_structures(const Catalogue& catalogue, const Options& list,
-                      beam::StructureContext& beams, model::BuildContext& bodies) {
+                      beam::StructureContext& beams, shell::ShellContext& shells,
+                      model::BuildContext& bodies) {
   for (const Options& entry : list.entries()) {
     const std::string& type = entry.text("Type");
     if (catalogue.bodies.contains(type)) {
-      build_one(catalogue.bodies, entry, bodies);
+      build_one(catalogue.bodies, entry, bodies, bodies.issues);
+    } else if (catalogue.shells.contains(type)) {
+      build_one(catalogue.shells, entry, shells, bodies.issues);
     } else {
-      build_one(catalogue.structures, entry, beams);
+      build_one(catalogue.structures, entry, beams, bodies.issues);
     }
   }
 }
@@ -110,10 +115,12 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
                                          const Log& log, model::Model& model) {
   InputIssues issues;
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
+  const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
   beam::StructureContext beams{model, sections, issues, log};
+  shell::ShellContext shells{model, materials, log};
   model::BuildContext context{model, functions, issues};
-  build_structures(catalogue, deck.list("Structures"), beams, context);
+  build_structures(catalogue, deck.list("Structures"), beams, shells, context);
   // what follows refers to structures; without them every reference would be a mistake
   issues.throw_if_any();
   add_node_sets(deck.list("Node Sets"), context);

@@ -10,25 +10,35 @@ using model::NodeTable;
 
 void read_nodes(const model::Structure& structure, const model::Coordinates& q,
                 std::vector<Vec3>& positions, std::vector<Mat3>& triads) {
+  const bool is_shell = !structure.faces.empty();
   for (int node : structure.nodes) {
     const auto slots = NodeTable::slots(q, node);
     positions.emplace_back(slots.col(0));
     triads.emplace_back(slots.rightCols<3>());
+    // the one director of a shell node points through the thickness: pictures expect it as d3
+    if (is_shell) triads.back().col(2).swap(triads.back().col(0));
   }
+}
+
+output::CellType cell_type(std::size_t nodes, bool is_shell) {
+  if (is_shell) return output::CellType::quad4;
+  return nodes == 1 ? output::CellType::vertex : output::CellType::line;
 }
 
 output::StructureMesh mesh_of(const model::Structure& structure,
                               const model::Coordinates& reference) {
   output::StructureMesh mesh;
   mesh.name = structure.name;
-  mesh.type = structure.nodes.size() == 1 ? "Body" : "Beam";
+  const bool is_shell = !structure.faces.empty();
+  mesh.type = is_shell ? "Shell" : structure.nodes.size() == 1 ? "Body" : "Beam";
+  if (is_shell) mesh.directors = output::Directors::single;
   mesh.outlines = structure.outlines;
   read_nodes(structure, reference, mesh.positions, mesh.triads);
   std::unordered_map<int, int> number;  // of a node within the structure
   for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
   for (const model::Cell& cell : structure.cells) {
     output::Cell picture;
-    picture.type = cell.nodes.size() == 1 ? output::CellType::vertex : output::CellType::line;
+    picture.type = cell_type(cell.nodes.size(), is_shell);
     for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
     mesh.cells.push_back(picture);
     if (cell.source != nullptr) mesh.resultant_names = cell.source->resultant_names();

@@ -81,8 +81,11 @@ class Model {
   // --- reading ----------------------------------------------------------------------------------
   const std::deque<Structure>& structures() const { return structures_; }
   const Structure* find_structure(std::string_view name) const;
-  /// Points for loads per length of a structure or an element set; empty when it is no line.
+  /// Points for loads per length of a structure, an element set or "structure/edge"; empty when it
+  /// is no line.
   std::vector<LinePoint> line_points(std::string_view name) const;
+  /// Faces of a structure, or of "structure/part"; empty when it has none.
+  std::vector<Face> faces(std::string_view name) const;
   /// Nodes named by "structure/number", "structure/set", "structure" or the name of a node set;
   /// empty when there are none.
   std::vector<int> select_nodes(std::string_view name) const;

@@ -3,6 +3,7 @@
 
 #include <culm/math/types.hpp>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,7 +30,14 @@ struct LinePoint {
   double length = 0.0;  ///< quadrature weight [m]
 };
 
-/// What an element looks like in pictures: its nodes in order along the line.
+/// A patch of surface with its nodes counter-clockwise seen from its upper side, for loads per
+/// area: x = sum_a N_a (x_a + zeta d_a) with bilinear N_a.
+struct Face {
+  std::array<int, 4> nodes;
+  double thickness = 0.0;  ///< zeta from -thickness / 2 to thickness / 2 [m]
+};
+
+/// What an element looks like in pictures: its nodes in order along the line or around the face.
 struct Cell {
   std::vector<int> nodes;
   const ResultantSource* source = nullptr;  ///< where its stress resultants come from
@@ -43,6 +51,10 @@ struct Structure {
   std::map<std::string, std::vector<int>> sets;  ///< named node sets: first, last, all, …
   std::vector<Cell> cells;
   std::vector<LinePoint> line_points;  ///< quadrature points for loads per length
+  /// The same of its edges by name; an edge is also a node set.
+  std::map<std::string, std::vector<LinePoint>> edges;
+  std::vector<Face> faces;                        ///< for loads per area, one per cell of a shell
+  std::map<std::string, std::vector<int>> parts;  ///< cells by name
   /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none.
   std::vector<std::vector<Eigen::Vector2d>> outlines;
 };

@@ -36,6 +36,9 @@ Surface cone(double radius_below, double radius_above, double height, Sweep swee
 Surface annulus(double inner_radius, double outer_radius, Sweep sweep = {});
 /// z = rise (x^2 - y^2) over the square |x|, |y| <= side / 2. @param rise [1/m]
 Surface hypar(double side, double rise);
+/// A strip along x, of this width across, that turns about x by `twist` [rad] from y towards z;
+/// u along x, v across; normal z at the start.
+Surface twisted_strip(double length, double width, double twist);
 /// A curve of the plane z = 0 drawn along z; u along the curve, v along z; normal to the right of
 /// the curve, hence outward if it runs counter-clockwise.
 Surface extrusion(PlaneCurve curve, double length);

@@ -5,6 +5,7 @@
 #include <culm/beam/register_beam.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/quantity.hpp>
 
 namespace culm::simulation {
@@ -15,8 +16,10 @@ struct Catalogue {
   Catalogue();
 
   Registry<material::Section> sections;
+  Registry<material::Material> materials;
   beam::StructureRegistry structures;
-  model::BuilderRegistry bodies;  ///< structures, too
+  shell::ShellRegistry shells;    ///< structures, too
+  model::BuilderRegistry bodies;  ///< and these
   model::BuilderRegistry masses;
   model::BuilderRegistry initial_conditions;
   Registry<model::Amplitude> functions;

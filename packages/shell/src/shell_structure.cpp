@@ -1,0 +1,181 @@
+#include <culm/model/element_batch.hpp>
+#include <culm/shell/elastic_shell.hpp>
+#include <culm/shell/mesh_types.hpp>
+#include <culm/shell/shell_structure.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::shell {
+
+namespace {
+
+constexpr double degree = 0.017453292519943295;
+
+// Beyond these, elements still work but are poor.
+constexpr double poor_aspect = 20.0;
+constexpr double poor_angle = 20.0 * degree;
+
+MeshRegistry meshes() {
+  MeshRegistry registry;
+  register_meshes(registry);
+  return registry;
+}
+
+Schema shell_schema() {
+  Schema schema("Shell", "Solid-degenerate shell of one or more layers on a surface.");
+  schema.add_all(material::layup_schema())
+      .add(numbers("Reference Axis", "1",
+                   "Vector whose projection on the surface is the axis 1 of materials and "
+                   "resultants; the first line of each element if absent.")
+               .size(3)
+               .optional())
+      .add(choice("Enhanced Membrane", {"None", "4", "7"},
+                  "Parameters of the enhanced membrane strain.")
+               .optional("4"))
+      .add(choice("Enhanced Thickness", {"None", "1", "4"},
+                  "Parameters of the enhanced thickness strain; without them bending is too stiff "
+                  "by Poisson's ratio.")
+               .optional("4"))
+      .add(flag("Assumed Strains",
+                "Transverse shear from the edges and thickness strain from the corners; without "
+                "them the element locks, which shows what they are good for.")
+               .optional(true))
+      .add(number("Fold Angle", "rad",
+                  "Elements whose normals differ by more at a common edge keep their own "
+                  "directors there.")
+               .between(0.0, 3.1)
+               .optional(20.0 * degree))
+      .list_by_type("Mesh", meshes().variants());
+  return schema;
+}
+
+int parameters(const std::string& choice) { return choice == "None" ? 0 : std::stoi(choice); }
+
+ShellOptions read_options(const Options& options) {
+  ShellOptions result;
+  result.assumed_shear = result.assumed_thickness = options.flag("Assumed Strains");
+  result.enhancement = {parameters(options.text("Enhanced Membrane")),
+                        parameters(options.text("Enhanced Thickness"))};
+  if (options.has("Reference Axis")) {
+    result.reference_axis = Eigen::Map<const Vec3>(options.numbers("Reference Axis").data());
+  }
+  return result;
+}
+
+// Says what is poor about a mesh, names what is wrong.
+void check_quality(const ShellMesh& mesh, const Options& options, const Log& log) {
+  const MeshQuality quality = mesh_quality(mesh);
+  const std::string where = to_string(options.where());
+  log.info(
+      fmt::format("{}: {} nodes, {} elements, aspect up to {:.3g}, angles {:.0f} to {:.0f} "
+                  "degrees, warp up to {:.2g} degrees, {} folded nodes",
+                  options.name(), mesh.size(), mesh.quads.size(), quality.largest_aspect,
+                  quality.smallest_angle / degree, quality.largest_angle / degree,
+                  quality.largest_warp / degree, mesh.folds.size()));
+  if (!quality.turned.empty()) {
+    log.warning(
+        fmt::format("{}: element {} and {} others have their normal on the other side than "
+                    "a neighbour",
+                    where, quality.turned.front(), quality.turned.size() - 1));
+  }
+  if (quality.largest_aspect > poor_aspect || quality.smallest_angle < poor_angle) {
+    log.warning(
+        fmt::format("{}: elements with an aspect of {:.3g} or an angle of {:.0f} degrees "
+                    "are poor",
+                    where, quality.largest_aspect, quality.smallest_angle / degree));
+  }
+}
+
+std::vector<int> add_nodes(const ShellMesh& mesh, model::Model& model) {
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    model::NodeSlots slots = model::NodeSlots::Zero();
+    slots.col(0) = mesh.positions[i];
+    slots.col(1) = mesh.directors[i];
+    numbers.push_back(model.nodes().add(slots, NodeKind::node6));
+  }
+  return numbers;
+}
+
+// Two Gauss points on each piece of a line through nodes.
+std::vector<model::LinePoint> line_points(const std::vector<int>& nodes,
+                                          const model::NodeTable& table) {
+  std::vector<model::LinePoint> points;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const auto at = [&](std::size_t k) {
+      return Vec3(model::NodeTable::slots(table.reference(), nodes[k]).col(0));
+    };
+    const double length = (at(i + 1) - at(i)).norm();
+    if (length == 0.0) continue;  // both sides of a fold
+    for (double xi : {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)}) {
+      points.push_back({{{nodes[i], nodes[i + 1]}, {1.0 - xi, xi}, Vec3::Zero()}, 0.5 * length});
+    }
+  }
+  return points;
+}
+
+void add_sets(const ShellMesh& mesh, const std::vector<int>& nodes, const model::NodeTable& table,
+              model::Structure& structure) {
+  for (const auto& [name, edge] : mesh.edges) {
+    std::vector<int>& set = structure.sets[name];
+    for (int node : edge) set.push_back(nodes[static_cast<std::size_t>(node)]);
+    structure.edges[name] = line_points(set, table);
+  }
+  // where two edges meet: "u0 v0"
+  const auto edges = structure.sets;
+  for (const auto& [first, one] : edges) {
+    for (const auto& [second, other] : edges) {
+      if (first >= second) continue;
+      std::vector<int> common;
+      for (int node : one) {
+        if (std::find(other.begin(), other.end(), node) != other.end()) common.push_back(node);
+      }
+      if (!common.empty()) structure.sets[first + " " + second] = common;
+    }
+  }
+  structure.sets["all"] = structure.nodes;
+  structure.parts = mesh.parts;
+}
+
+void add_shell(const Options& options, ShellContext& context) {
+  const auto layup =
+      std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
+  if (!layup->is_linear()) {
+    throw InputError(options.where(), "materials other than St. Venant-Kirchhoff");
+  }
+  const ShellOptions shell_options = read_options(options);
+  const Options& list = options.list("Mesh");
+  const ShellMesh mesh =
+      make_mesh(meshes().make(list.text("Type"), list), options.number("Fold Angle"));
+  check_quality(mesh, options, context.log);
+
+  model::Structure& structure = context.model.add_structure(options.name());
+  structure.nodes = add_nodes(mesh, context.model);
+  const material::Material& material = layup->layers.front().material;
+  auto& batch = model::elements<ElasticShell>(context.model, "Shell",
+                                              {material.dissipation, material.damping});
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    const ShellForms::Nodes reference = mesh.slots(static_cast<int>(e));
+    const auto mistakes = shell_mistakes(reference, layup->thickness(), shell_options);
+    if (!mistakes.empty()) {
+      throw InputError(options.where(), fmt::format("element {}: {}", e, mistakes.front()));
+    }
+    std::array<int, 4> nodes{};
+    for (std::size_t a = 0; a < 4; ++a) {
+      nodes[a] = structure.nodes[static_cast<std::size_t>(mesh.quads[e][a])];
+    }
+    const int item = batch.add(ElasticShell(reference, layup, shell_options), nodes);
+    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, item});
+    structure.faces.push_back({nodes, layup->thickness()});
+  }
+  add_sets(mesh, structure.nodes, context.model.nodes(), structure);
+}
+
+}  // namespace
+
+void register_shells(ShellRegistry& registry) { registry.add("Shell", shell_schema(), add_shell); }
+
+}  // namespace culm::shell
