@@ -1,5 +1,6 @@
 #include <culm/model/element_batch.hpp>
 #include <culm/shell/elastic_shell.hpp>
+#include <culm/shell/hyperelastic_shell.hpp>
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/shell_structure.hpp>
 
@@ -140,26 +141,16 @@ void add_sets(const ShellMesh& mesh, const std::vector<int>& nodes, const model:
   structure.parts = mesh.parts;
 }
 
-void add_shell(const Options& options, ShellContext& context) {
-  const auto layup =
-      std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
-  if (!layup->is_linear()) {
-    throw InputError(options.where(), "materials other than St. Venant-Kirchhoff");
-  }
-  const ShellOptions shell_options = read_options(options);
-  const Options& list = options.list("Mesh");
-  const ShellMesh mesh =
-      make_mesh(meshes().make(list.text("Type"), list), options.number("Fold Angle"));
-  check_quality(mesh, options, context.log);
-
-  model::Structure& structure = context.model.add_structure(options.name());
-  structure.nodes = add_nodes(mesh, context.model);
+template <class E>
+void add_elements(const std::string& effect, const ShellMesh& mesh,
+                  const std::shared_ptr<const material::Layup>& layup, const Options& options,
+                  model::Structure& structure, model::Model& model) {
+  const ShellOptions choice = read_options(options);
   const material::Material& material = layup->layers.front().material;
-  auto& batch = model::elements<ElasticShell>(context.model, "Shell",
-                                              {material.dissipation, material.damping});
+  auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping});
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const ShellForms::Nodes reference = mesh.slots(static_cast<int>(e));
-    const auto mistakes = shell_mistakes(reference, layup->thickness(), shell_options);
+    const auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
     if (!mistakes.empty()) {
       throw InputError(options.where(), fmt::format("element {}: {}", e, mistakes.front()));
     }
@@ -167,9 +158,27 @@ void add_shell(const Options& options, ShellContext& context) {
     for (std::size_t a = 0; a < 4; ++a) {
       nodes[a] = structure.nodes[static_cast<std::size_t>(mesh.quads[e][a])];
     }
-    const int item = batch.add(ElasticShell(reference, layup, shell_options), nodes);
+    const int item = batch.add(E(reference, layup, choice), nodes);
     structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, item});
     structure.faces.push_back({nodes, layup->thickness()});
+  }
+}
+
+void add_shell(const Options& options, ShellContext& context) {
+  const auto layup =
+      std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
+  const Options& list = options.list("Mesh");
+  const ShellMesh mesh =
+      make_mesh(meshes().make(list.text("Type"), list), options.number("Fold Angle"));
+  check_quality(mesh, options, context.log);
+
+  model::Structure& structure = context.model.add_structure(options.name());
+  structure.nodes = add_nodes(mesh, context.model);
+  if (layup->is_linear()) {
+    add_elements<ElasticShell>("Shell", mesh, layup, options, structure, context.model);
+  } else {
+    add_elements<HyperelasticShell>("Shell, hyperelastic", mesh, layup, options, structure,
+                                    context.model);
   }
   add_sets(mesh, structure.nodes, context.model.nodes(), structure);
 }

@@ -5,19 +5,25 @@
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/inertia.hpp>
+#include <culm/model/internal_store.hpp>
 #include <culm/model/model.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/strain_damping.hpp>
 
 #include <cmath>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace culm::model {
 
+/// What a batch can hold.
+template <class E>
+concept BatchElement = Element<E> || ElementWithInternals<E>;
+
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
 /// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
-template <Element E>
+template <BatchElement E>
 class ElementBatch final : public Batch, public MassSource, public ResultantSource {
  public:
   static constexpr int N = E::num_nodes;
@@ -56,6 +62,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     form_ = form;
     strain_prev_.assign(placement_.items.size() * E::num_points, Strain::Zero());
     predicted_stress_.resize(strain_prev_.size());
+    if constexpr (has_internals) internals_.resize(strain_prev_.size());
     use_predicted_ = false;
   }
 
@@ -64,11 +71,15 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     if (stencil.inertia != 0.0 && masses_.empty()) {
       for (int item : placement_.items) masses_.push_back(element(item).mass());
     }
-    if (stencil.step == 0.0) return;  // the old strain has no weight in statics
+    // in statics the old strain has no weight
+    if (stencil.step == 0.0 && !has_internals) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.prev);
       const E& element = this->element(placement_.items[i]);
-      for (int p = 0; p < E::num_points; ++p) element.strain(p, q, strain_prev_[at(i, p)]);
+      for (int p = 0; p < E::num_points; ++p) {
+        element.strain(p, q, strain_prev_[at(i, p)]);
+        if constexpr (has_internals) internals_.begin_step(at(i, p), strain_prev_[at(i, p)]);
+      }
     }
   }
 
@@ -112,7 +123,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       const E& element = this->element(placement_.items[i]);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, slots, y);
-        energy += element.energy(p, y);
+        energy += energy_of(i, p, y);
       }
     }
     return energy;
@@ -150,10 +161,11 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int p = 0; p < E::num_points; ++p) {
         const Strain& prev = strain_prev_[at(i, p)];
         element(item).strain(p, q, y);
-        respond(i, p, y, damped, response);
+        Internals internals{};
+        if constexpr (has_internals) internals = internals_.at(at(i, p), y);
+        respond(i, p, y, damped, internals, response);
         // what the stress takes beyond the change of the stored energy
-        taken += response.stress.dot(y - prev) -
-                 (element(item).energy(p, y) - element(item).energy(p, prev));
+        taken += response.stress.dot(y - prev) - (energy_of(i, p, y) - energy_of(i, p, prev));
       }
     }
     StepWork work;
@@ -175,13 +187,34 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     Strain y;
     for (int p = 0; p < E::num_points; ++p) {
       element(item).strain(p, slots, y);
-      mean += element(item).resultants(p, y) / E::num_points;
+      if constexpr (has_internals) {
+        // the item may be evaluated elsewhere: internals as at rest in this configuration
+        Internals internals = Internals::Zero();
+        Response<M> response;
+        element(item).respond(p, y, y, internals, Stencil::statics(), internals, response);
+        mean += element(item).resultants(p, y, internals) / E::num_points;
+      } else {
+        mean += element(item).resultants(p, y) / E::num_points;
+      }
     }
     out.insert(out.end(), mean.data(), mean.data() + mean.size());
   }
 
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
+  static constexpr bool has_internals = ElementWithInternals<E>;
+  struct Nothing {};
+  template <class T, bool wanted>
+  struct InternalTypes {
+    using Store = InternalStore<T>;
+    using Values = typename Store::Internals;
+  };
+  template <class T>
+  struct InternalTypes<T, false> {
+    using Store = Nothing;
+    using Values = Nothing;
+  };
+  using Internals = typename InternalTypes<E, has_internals>::Values;
 
   Stencil with_damping(Stencil stencil) const {
     if (stencil.step > 0.0) stencil.theta_strain += damping_.weight(stencil.step);
@@ -293,7 +326,17 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
 
   // The stress of a point at the strain y, moved on by dy where that is given: to first order.
   Verdict respond(std::size_t i, int p, const Strain& y, const Stencil& stencil,
-                  Response<M>& response, const Strain* dy = nullptr) const {
+                  Response<M>& response, const Strain* dy = nullptr) {
+    if constexpr (has_internals) {
+      return respond(i, p, y, stencil, internals_.solve_at(at(i, p), y), response, dy);
+    } else {
+      Internals none;
+      return respond(i, p, y, stencil, none, response, dy);
+    }
+  }
+
+  Verdict respond(std::size_t i, int p, const Strain& y, const Stencil& stencil,
+                  Internals& internals, Response<M>& response, const Strain* dy = nullptr) const {
     const E& element = this->element(placement_.items[i]);
     const Strain& prev = strain_prev_[at(i, p)];
     const double weight = stencil.theta_strain;
@@ -303,9 +346,25 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       response.stress.noalias() = element.stiffness(p) * e;
       return Verdict::ok;
     } else {
-      const Verdict verdict = element.respond(p, prev, y, stencil, response);
+      Verdict verdict = Verdict::ok;
+      if constexpr (has_internals) {
+        verdict =
+            element.respond(p, prev, y, internals_.prev(at(i, p)), stencil, internals, response);
+      } else {
+        verdict = element.respond(p, prev, y, stencil, response);
+      }
       if (dy != nullptr) response.stress += response.tangent * *dy;
       return verdict;
+    }
+  }
+
+  // At one of the ends of the step.
+  double energy_of(std::size_t i, int p, const Strain& y) const {
+    const E& element = this->element(placement_.items[i]);
+    if constexpr (has_internals) {
+      return element.energy(p, y, internals_.at(at(i, p), y));
+    } else {
+      return element.energy(p, y);
     }
   }
 
@@ -485,11 +544,12 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   std::vector<Strain> strain_prev_;
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
+  [[no_unique_address]] typename InternalTypes<E, has_internals>::Store internals_;
 };
 
 /// The batch of elements E of a model with this ledger name and damping, made when it is first
 /// asked for.
-template <Element E>
+template <BatchElement E>
 ElementBatch<E>& elements(Model& model, const std::string& effect,
                           const StrainDamping& damping = {}) {
   for (const auto& batch : model.element_batches()) {
