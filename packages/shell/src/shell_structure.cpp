@@ -141,6 +141,17 @@ void add_sets(const ShellMesh& mesh, const std::vector<int>& nodes, const model:
   structure.parts = mesh.parts;
 }
 
+// Normals that point to opposite sides: corners out of order, or a quadrilateral bent double.
+bool is_crossed(const ShellMesh& mesh, const std::array<int, 4>& quad) {
+  std::array<Vec3, 4> points;
+  for (std::size_t a = 0; a < 4; ++a) {
+    points[a] = mesh.positions[static_cast<std::size_t>(quad[a])];
+  }
+  const std::array<Vec3, 4> normals = corner_normals(points);
+  return std::any_of(normals.begin(), normals.end(),
+                     [&](const Vec3& n) { return n.dot(normals[0]) <= 0.0; });
+}
+
 template <class E>
 void add_elements(const std::string& effect, const ShellMesh& mesh,
                   const std::shared_ptr<const material::Layup>& layup, const Options& options,
@@ -150,7 +161,10 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
   auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping});
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const ShellForms::Nodes reference = mesh.slots(static_cast<int>(e));
-    const auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
+    auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
+    if (is_crossed(mesh, mesh.quads[e])) {
+      mistakes.emplace_back("its corners are out of order, or it is bent double");
+    }
     if (!mistakes.empty()) {
       throw InputError(options.where(), fmt::format("element {}: {}", e, mistakes.front()));
     }

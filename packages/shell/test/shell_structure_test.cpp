@@ -1,0 +1,121 @@
+#include <culm/base/error.hpp>
+#include <culm/material/isotropic.hpp>
+#include <culm/shell/mesh_types.hpp>
+#include <culm/shell/shell_structure.hpp>
+
+#include <culm_kit/deck_list.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace culm::shell {
+namespace {
+
+using kit::GivenValues;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Numbers = std::vector<double>;
+using Integers = std::vector<int>;
+
+// A model with one shell.
+class ShellStructure : public testing::Test {
+ protected:
+  ShellStructure() {
+    register_shells(registry);
+    materials.emplace("steel",
+                      material::Material{material::IsotropicMaterial::law(2e11, 0.3), 7850.0});
+  }
+
+  const model::Structure& add(const std::string& mesh_type, const GivenValues& mesh) {
+    const Schema schema = registry.variants().at("Shell");
+    Options options =
+        kit::deck_list(schema, {{"Material", std::string("steel")}, {"Thickness", 0.1}}, "wall");
+    Options list = kit::deck_list(*schema.find_slot("Mesh")->find(mesh_type), mesh, "Mesh");
+    list.set("Type", mesh_type);
+    options.add_list(list);
+    ShellContext context{model, materials, log};
+    registry.make("Shell", options, context);
+    return *model.find_structure("wall");
+  }
+  const model::Structure& add_plane() {
+    return add(
+        "Plane",
+        {{"Side 1", Numbers{3, 0, 0}}, {"Side 2", Numbers{0, 2, 0}}, {"Elements", Integers{3, 2}}});
+  }
+
+  ShellRegistry registry;
+  std::map<std::string, material::Material> materials;
+  std::ostringstream printed;
+  Log log{printed, LogLevel::info};
+  model::Model model;
+};
+
+TEST_F(ShellStructure, PlaneHasNodesElementsAndNamedEdges) {
+  const model::Structure& plane = add_plane();
+  EXPECT_EQ(plane.nodes.size(), 12u);
+  EXPECT_EQ(plane.cells.size(), 6u);
+  EXPECT_EQ(plane.faces.size(), 6u);
+  EXPECT_EQ(plane.sets.at("u0").size(), 3u);
+  EXPECT_EQ(plane.sets.at("v1").size(), 4u);
+  ASSERT_EQ(plane.sets.at("u1 v0").size(), 1u);
+  const auto corner =
+      model::NodeTable::slots(model.nodes().reference(), plane.sets.at("u1 v0").front());
+  EXPECT_EQ(Vec3(corner.col(0)), Vec3(3, 0, 0));
+  EXPECT_EQ(Vec3(corner.col(1)), Vec3(0, 0, 1));
+  EXPECT_TRUE(corner.rightCols<2>().isZero(0.0));
+}
+
+TEST_F(ShellStructure, EdgesAndFacesMeasureLengthAndThickness) {
+  const model::Structure& plane = add_plane();
+  double length = 0.0;
+  for (const model::LinePoint& point : model.line_points("wall/v0")) length += point.length;
+  EXPECT_NEAR(length, 3.0, 1e-14);
+  EXPECT_EQ(model.faces("wall").size(), plane.faces.size());
+  EXPECT_EQ(model.faces("wall").front().thickness, 0.1);
+  EXPECT_TRUE(model.faces("wall/nowhere").empty());
+}
+
+TEST_F(ShellStructure, MassIsThatOfTheWall) {
+  add_plane();
+  model.freeze(model::Form::null_space);
+  EXPECT_NEAR(model.mass(), 7850.0 * 0.1 * 6.0, 1e-9);
+}
+
+TEST_F(ShellStructure, PlacedMeshIsTurnedAndMoved) {
+  const model::Structure& tube = add("Cylinder", {{"Radius", 2.0},
+                                                  {"Length", 5.0},
+                                                  {"Elements", Integers{12, 2}},
+                                                  {"Origin", Numbers{1, 0, 0}},
+                                                  {"Rotation", Numbers{0, 1.5707963267948966, 0}}});
+  EXPECT_EQ(tube.nodes.size(), 36u);  // closed
+  for (int node : tube.sets.at("v1")) {
+    const auto slots = model::NodeTable::slots(model.nodes().reference(), node);
+    EXPECT_NEAR(slots(0, 0), 6.0, 1e-12);
+    EXPECT_NEAR(slots(0, 1), 0.0, 1e-12);
+  }
+}
+
+TEST_F(ShellStructure, UnknownPointOfAQuadIsNamed) {
+  try {
+    add("Quads",
+        {{"Points", Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}}, {"Quads", Integers{0, 1, 2, 4}}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("point 4 does not exist"));
+  }
+}
+
+TEST_F(ShellStructure, ElementWithoutVolumeIsNamed) {
+  EXPECT_THROW(add("Quads", {{"Points", Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}},
+                             {"Quads", Integers{0, 1, 2, 3}}}),
+               InputError);
+}
+
+TEST_F(ShellStructure, QualityIsReported) {
+  add_plane();
+  EXPECT_THAT(printed.str(), HasSubstr("12 nodes, 6 elements, aspect up to 1, angles 90 to 90"));
+}
+
+}  // namespace
+}  // namespace culm::shell
