@@ -66,6 +66,7 @@ CASES = [
             "\nbeam                          5        4            0\n",
             "\nRigid Support 'clamp'                    by elimination               beam/0\n",
             "\nunknowns: 24 (0 multipliers)\ndegrees of freedom: 24\nmatrix entries: ",
+            "\nlinear solver: KLU2, automatic: fronts of ",
             "\nBeam, director, order 1 ",
             "\nForce, tip force ",
             "\nthe deck is sound\n",
@@ -78,6 +79,15 @@ CASES = [
         args="check deck.xml --set 'Solver/Form=Multipliers'",
         # twelve of the clamp, six of each other node
         prints=["\nunknowns: 96 (36 multipliers)\ndegrees of freedom: 24\nmatrix entries: "],
+    ),
+    Case(
+        "run with the other linear solver",
+        0,
+        args="run deck.xml --output out --set 'Solver/Linear Solver=MUMPS'",
+        prints=["\nFactorisation, MUMPS ", "\nlinear solver: MUMPS, as the deck says\n"],
+        results="out",
+        last_level=1.0,
+        ranks=True,
     ),
     Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),
     Case(

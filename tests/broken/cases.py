@@ -204,6 +204,12 @@ NAMES = [
         "Solver / Form: unknown choice 'Nullspace' – did you mean 'Null Space'?",
     ),
     wrong(
+        "misspelt linear solver",
+        '<Parameter name="Form" value="Null Space"/>',
+        '<Parameter name="Linear Solver" value="MUMS"/>',
+        "Solver / Linear Solver: unknown choice 'MUMS' – did you mean 'MUMPS'?",
+    ),
+    wrong(
         "unknown section",
         'value="bar"',
         'value="bra"',

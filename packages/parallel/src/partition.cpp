@@ -4,6 +4,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace culm::parallel {
 
@@ -27,6 +28,24 @@ std::vector<int> partition(const Graph& graph, int ranks) {
                                &parts, nullptr, nullptr, options, &cut, owner.data());
   internal_check(status == METIS_OK, "METIS could not partition the graph");
   return owner;
+}
+
+std::vector<int> dissect(const Graph& graph) {
+  std::vector<int> place(static_cast<std::size_t>(graph.size()));
+  std::iota(place.begin(), place.end(), 0);
+  if (graph.neighbours.empty()) return place;  // any order does, and METIS wants an edge
+  idx_t vertices = graph.size();
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  auto* begin = const_cast<idx_t*>(graph.begin.data());
+  auto* neighbours = const_cast<idx_t*>(graph.neighbours.data());
+  auto* weights = const_cast<idx_t*>(graph.weights.data());
+  std::vector<idx_t> order(place.size());
+  const int status =
+      METIS_NodeND(&vertices, begin, neighbours, weights, options, order.data(), place.data());
+  internal_check(status == METIS_OK, "METIS could not order the graph");
+  return place;
 }
 
 }  // namespace culm::parallel

@@ -35,5 +35,21 @@ TEST(Partition, OneRankOwnsEverything) {
   EXPECT_EQ(std::count(owner.begin(), owner.end(), 0), 5);
 }
 
+TEST(Dissection, EachVertexHasOnePlaceAndSeparatorsComeLast) {
+  std::vector<int> place = dissect(chain(31));
+  const auto last = std::max_element(place.begin(), place.end()) - place.begin();
+  EXPECT_GT(last, 3);  // the first separator cuts the chain in two
+  EXPECT_LT(last, 27);
+  EXPECT_EQ(place, dissect(chain(31)));
+  std::sort(place.begin(), place.end());
+  for (int v = 0; v < 31; ++v) EXPECT_EQ(place[static_cast<std::size_t>(v)], v);
+}
+
+TEST(Dissection, TakesGraphsWithoutEdges) {
+  const Graph lonely{{0, 0, 0}, {}, {6, 6}};
+  EXPECT_EQ(dissect(lonely), (std::vector<int>{0, 1}));
+  EXPECT_TRUE(dissect(Graph{}).empty());
+}
+
 }  // namespace
 }  // namespace culm::parallel

@@ -33,8 +33,10 @@ Schema solver_schema() {
                   "Six unknowns per node, or the twelve director coordinates with all constraints "
                   "as equations: the reference to compare with.")
                .optional("Null Space"))
-      .add(choice("Linear Solver", {"KLU2"}, "Direct solver of the linear systems.")
-               .optional("KLU2"));
+      .add(choice("Linear Solver", solver::linear_solver_names(),
+                  "Direct solver of the linear systems: KLU2 is best for beams, MUMPS for shells; "
+                  "'Automatic' decides by the predicted fill of the factors and says so.")
+               .optional(solver::linear_solver_names().front()));
 }
 
 Schema node_sets_schema() {

@@ -54,10 +54,11 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
 std::string RunObserver::convergence() const {
   return fmt::format(
       "{} steps accepted, {} cut back; {} iterations, {:.1f} per step, at most {}\n"
-      "worst accepted residual: forces {:.1e}, constraints {:.1e}\n",
+      "worst accepted residual: forces {:.1e}, constraints {:.1e}\n"
+      "linear solver: {}\n",
       accepted_, rejected_, iterations_,
       accepted_ > 0 ? static_cast<double>(iterations_) / accepted_ : 0.0, most_iterations_,
-      worst_residual_, worst_constraint_);
+      worst_residual_, worst_constraint_, linear_solver_);
 }
 
 std::string RunObserver::closing_words() const {

@@ -8,12 +8,14 @@ namespace culm::simulation {
 
 class RunObserver final : public analysis::Observer {
  public:
+  /// @param linear_solver its name and why it was taken, for the report
   RunObserver(assembly::System& system, ResultFiles& files, Ledger& ledger,
-              Ledger::Id output_effect, Progress progress)
+              Ledger::Id output_effect, std::string linear_solver, Progress progress)
       : system_(system),
         files_(files),
         ledger_(ledger),
         output_effect_(output_effect),
+        linear_solver_(std::move(linear_solver)),
         progress_(std::move(progress)) {}
 
   /// Records the reference state.
@@ -33,6 +35,7 @@ class RunObserver final : public analysis::Observer {
   ResultFiles& files_;
   Ledger& ledger_;
   Ledger::Id output_effect_;
+  std::string linear_solver_;
   Progress progress_;
   bool is_recorded_ = true;  // the last accepted state is on disk
   std::string certificates_;

@@ -23,7 +23,7 @@ struct Simulation::Parts {
   model::Model model;
   std::vector<WatchedQuantity> watched;
   std::unique_ptr<assembly::System> system;
-  std::unique_ptr<solver::LinearSolver> linear;
+  solver::ChosenSolver linear;
 };
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
@@ -32,7 +32,8 @@ Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, c
   Parts& p = *parts_;
   p.watched = build_model(catalogue, deck, log, p.model);
   p.system = std::make_unique<assembly::System>(p.model, comm, p.ledger);
-  p.linear = solver::make_rooted_klu2(p.system->matrix(), comm);
+  p.linear = solver::choose_linear_solver(deck.list("Solver").text("Linear Solver"),
+                                          p.system->matrix(), comm);
 }
 
 Simulation::~Simulation() = default;
@@ -47,9 +48,9 @@ void Simulation::run(const RunSettings& settings) {
                      output.flag("Pictures")},
                     p.watched);
   const Ledger::Id output_effect = p.ledger.add("Output");
-  RunObserver observer(*p.system, files, p.ledger, output_effect,
+  RunObserver observer(*p.system, files, p.ledger, output_effect, p.linear.reason,
                        Progress(p.log, settings.quiet, settings.terminal));
-  analysis::Context context{*p.system, *p.linear, p.ledger, p.log};
+  analysis::Context context{*p.system, *p.linear.solver, p.ledger, p.log};
   model::State state = p.model.initial_state();
   observer.start(state);
   try {
@@ -78,7 +79,8 @@ std::string Simulation::summary() const {
   if (const std::string constraints = report_constraints(model); !constraints.empty()) {
     text += constraints + '\n';
   }
-  text += report_unknowns(model) + fmt::format("matrix entries: {}\n\n", entries);
+  text += report_unknowns(model) + fmt::format("matrix entries: {}\n", entries);
+  text += fmt::format("linear solver: {}\n\n", parts_->linear.reason);
   text +=
       fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
   const auto count = [](const std::optional<long long>& n) {

@@ -14,7 +14,7 @@ using assembly::values_of;
 using assembly::Vector;
 
 RootedMatrix::RootedMatrix(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
-    : distributed_(std::move(matrix)), comm_(comm) {
+    : distributed_(std::move(matrix)), comm_(comm), rows_(*distributed_->getRowMap(), comm) {
   if (comm_.size() == 1) {
     // only read, but Amesos2 and the shifted copy want a common type
     serial_ = Teuchos::rcp_const_cast<CrsMatrix>(distributed_);
@@ -28,32 +28,27 @@ RootedMatrix::RootedMatrix(Teuchos::RCP<const CrsMatrix> matrix, const parallel:
 void RootedMatrix::plan_gather() {
   const auto local = distributed_->getLocalMatrixHost();
   const auto rows_here = static_cast<std::size_t>(local.numRows());
-  std::vector<long long> rows(rows_here);
   std::vector<int> counts(rows_here);
   std::vector<long long> columns;
   for (std::size_t r = 0; r < rows_here; ++r) {
-    rows[r] = distributed_->getRowMap()->getGlobalElement(static_cast<int>(r));
     counts[r] = static_cast<int>(local.graph.row_map(r + 1) - local.graph.row_map(r));
     for (auto k = local.graph.row_map(r); k < local.graph.row_map(r + 1); ++k) {
       columns.push_back(distributed_->getColMap()->getGlobalElement(local.graph.entries(k)));
     }
   }
   value_funnel_ = parallel::Funnel(comm_, static_cast<int>(columns.size()));
-  row_funnel_ = parallel::Funnel(comm_, static_cast<int>(rows_here));
-  const auto all_rows = comm_.gather(std::span<const long long>(rows));
   const auto all_counts = comm_.gather(std::span<const int>(counts));
   const auto all_columns = comm_.gather(std::span<const long long>(columns));
-  if (comm_.is_root()) build_serial(all_rows, all_counts, all_columns);
+  if (comm_.is_root()) build_serial(all_counts, all_columns);
 }
 
-void RootedMatrix::build_serial(const std::vector<long long>& rows, const std::vector<int>& counts,
+void RootedMatrix::build_serial(const std::vector<int>& counts,
                                 const std::vector<long long>& columns) {
-  const std::size_t n = rows.size();
-  row_place_.assign(rows.begin(), rows.end());
+  const std::size_t n = counts.size();
   std::vector<std::size_t> first_of(n);  // where a gathered row starts in the stream of values
   std::exclusive_scan(counts.begin(), counts.end(), first_of.begin(), std::size_t{0});
   std::vector<std::size_t> gathered_row(n);
-  for (std::size_t g = 0; g < n; ++g) gathered_row[row_place_[g]] = g;
+  for (std::size_t g = 0; g < n; ++g) gathered_row[rows_.rows()[g]] = g;
 
   using Size = Teuchos::ArrayRCP<std::size_t>::size_type;
   Teuchos::ArrayRCP<std::size_t> begin(static_cast<Size>(n + 1), 0);
@@ -81,7 +76,6 @@ void RootedMatrix::build_serial(const std::vector<long long>& rows, const std::v
   rhs_ = Teuchos::rcp(new Vector(map));
   solution_ = Teuchos::rcp(new Vector(map));
   gathered_values_.resize(columns.size());
-  gathered_rows_.resize(n);
 }
 
 void RootedMatrix::gather_values() {
@@ -96,30 +90,11 @@ void RootedMatrix::gather_values() {
 }
 
 void RootedMatrix::gather_rhs(const Vector& b) {
-  if (comm_.size() == 1) {
-    const auto from = values_of(b);
-    std::copy(from.begin(), from.end(), values_of(*rhs_).begin());
-    return;
-  }
-  row_funnel_.gather(values_of(b), gathered_rows_);
-  if (!comm_.is_root()) return;
-  const auto rhs = values_of(*rhs_);
-  for (std::size_t g = 0; g < row_place_.size(); ++g) rhs[row_place_[g]] = gathered_rows_[g];
+  rows_.gather(b, comm_.is_root() ? values_of(*rhs_) : std::span<double>());
 }
 
 void RootedMatrix::scatter_solution(Vector& x) {
-  if (comm_.size() == 1) {
-    const auto from = values_of(*solution_);
-    std::copy(from.begin(), from.end(), values_of(x).begin());
-    return;
-  }
-  if (comm_.is_root()) {
-    const auto solution = values_of(*solution_);
-    for (std::size_t g = 0; g < row_place_.size(); ++g) {
-      gathered_rows_[g] = solution[row_place_[g]];
-    }
-  }
-  row_funnel_.scatter(gathered_rows_, values_of(x));
+  rows_.scatter(comm_.is_root() ? values_of(*solution_) : std::span<double>(), x);
 }
 
 }  // namespace culm::solver

@@ -4,6 +4,8 @@
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 
+#include "rooted_vector.hpp"
+
 #include <vector>
 
 namespace culm::solver {
@@ -26,8 +28,7 @@ class RootedMatrix {
 
  private:
   void plan_gather();
-  void build_serial(const std::vector<long long>& rows, const std::vector<int>& counts,
-                    const std::vector<long long>& columns);
+  void build_serial(const std::vector<int>& counts, const std::vector<long long>& columns);
 
   Teuchos::RCP<const assembly::CrsMatrix> distributed_;
   parallel::Comm comm_;
@@ -35,11 +36,9 @@ class RootedMatrix {
   Teuchos::RCP<assembly::Vector> rhs_;
   Teuchos::RCP<assembly::Vector> solution_;
   parallel::Funnel value_funnel_;
-  parallel::Funnel row_funnel_;
+  RootedVector rows_;
   std::vector<std::size_t> value_place_;  ///< gathered value -> value of the serial matrix
-  std::vector<std::size_t> row_place_;    ///< gathered row -> global row
   std::vector<double> gathered_values_;
-  std::vector<double> gathered_rows_;
 };
 
 }  // namespace culm::solver

@@ -1,4 +1,4 @@
-/// Which rank owns which vertex of a graph.
+/// Which rank owns which vertex of a graph, and in which order vertices are eliminated.
 #pragma once
 
 #include <vector>
@@ -17,5 +17,9 @@ struct Graph {
 /// Rank of each vertex, by METIS: few edges between ranks, equal weights. Deterministic, so that
 /// every rank computes the same. @param ranks number of parts, >= 1
 std::vector<int> partition(const Graph& graph, int ranks);
+
+/// Place of each vertex in an order of elimination with little fill: nested dissection by METIS,
+/// deterministic.
+std::vector<int> dissect(const Graph& graph);
 
 }  // namespace culm::parallel

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace culm::parallel {
 class Comm;
@@ -36,5 +37,28 @@ class LinearSolver {
 /// returns wrong solutions on several ranks (Trilinos pull request 12232).
 std::unique_ptr<LinearSolver> make_rooted_klu2(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+
+/// MUMPS on all ranks, with rows where they are. Its ordering, nested dissection of the graph of
+/// nodes, and its analysis are made once. Solutions are refined where the residual is above 1e-14.
+/// On several ranks sums come together in an order that may change from run to run, and with it
+/// the rounding.
+std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                         const parallel::Comm& comm);
+
+/// A solver, and a sentence for reports: its name and why it was taken.
+struct ChosenSolver {
+  std::unique_ptr<LinearSolver> solver;
+  std::string reason;
+};
+
+/// What decks may write, the default first.
+const std::vector<std::string>& linear_solver_names();
+
+/// The solver of that name. `Automatic` takes KLU2 for graphs like beams and MUMPS for graphs like
+/// shells, whose factors are so dense that MUMPS gains by its dense kernels; it decides by
+/// predict_fill. Collective.
+ChosenSolver choose_linear_solver(const std::string& name,
+                                  const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                  const parallel::Comm& comm);
 
 }  // namespace culm::solver

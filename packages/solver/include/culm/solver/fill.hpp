@@ -1,0 +1,24 @@
+/// What a sparse factorisation will cost, from the graph alone.
+#pragma once
+
+#include <culm/parallel/partition.hpp>
+
+#include <vector>
+
+namespace culm::solver {
+
+/// Size and work of the factors L and U.
+struct Fill {
+  double entries = 0.0;     ///< of L and U together
+  double operations = 0.0;  ///< additions and multiplications
+  /// Mean length of a column of L where the work is done: about 15 in a chain of nodes with six
+  /// unknowns, whatever its length; it grows with the width of a surface.
+  double front() const { return entries > 0.0 ? operations / entries : 0.0; }
+};
+
+/// Fill without pivoting of a matrix of dense blocks. The vertices of the graph are the blocks,
+/// their weights the rows of each. @param place of each vertex in the order of elimination
+/// @source J. W. H. Liu, The role of elimination trees in sparse factorization, 1990
+Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place);
+
+}  // namespace culm::solver

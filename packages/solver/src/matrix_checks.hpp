@@ -1,0 +1,37 @@
+/// What every direct solver owes its callers: the residual of a solution, the weakest direction.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+
+#include <functional>
+#include <span>
+
+namespace culm::solver {
+
+/// How well x solves A x = b. A row may hold nothing but rounding, so rows are not judged one by
+/// one.
+struct Residual {
+  double largest = 0.0;  ///< |b - A x| in the maximum norm; infinite if a row is not finite
+  double size = 0.0;     ///< largest sum of the absolute terms of a row
+  double relative() const { return size > 0.0 ? largest / size : 0.0; }
+};
+/// Of this rank's rows. @param x values of all local columns @param r b - A x, or empty
+Residual residual(const assembly::CrsMatrix& A, std::span<const double> x,
+                  std::span<const double> b, std::span<double> r);
+
+/// Largest entry on this rank; infinite if one is not finite.
+double largest_entry(const assembly::CrsMatrix& A);
+
+/// What makes an exactly singular matrix invertible and is far below every eigenvalue of a sound
+/// one, over the largest entry.
+constexpr double relative_shift = 1e-13;
+
+/// A + shift 1, with the pattern of A.
+Teuchos::RCP<assembly::CrsMatrix> shifted_copy(const assembly::CrsMatrix& A, double shift);
+
+using Solve = std::function<void(const assembly::Vector& b, assembly::Vector& x)>;
+/// Inverse iteration from a start vector without symmetry, the same in every run. Collective.
+/// @param solve x = B^-1 b for a B close to A @param v of unit maximum norm @return |A v|
+double inverse_iteration(const assembly::CrsMatrix& A, const Solve& solve, assembly::Vector& v);
+
+}  // namespace culm::solver

@@ -1,0 +1,120 @@
+#include "mumps.hpp"
+
+#include <culm/base/error.hpp>
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace culm::solver {
+namespace {
+
+// Names as in the users' guide, which counts from 1.
+enum Control {
+  error_output = 1,
+  diagnostic_output = 2,
+  global_output = 3,
+  verbosity = 4,
+  ordering = 7,
+  root_on_one_rank = 13,
+  workspace_increase = 14,  // per cent of the estimate
+  distribution = 18,
+  null_pivots = 24,
+  analysis = 28,
+};
+enum Info { status = 1, status_detail = 2, null_pivot_count = 28 };
+
+constexpr int largest_workspace_increase = 10000;
+
+MUMPS_INT& control(DMUMPS_STRUC_C& mumps, Control which) { return mumps.icntl[which - 1]; }
+MUMPS_INT info(const DMUMPS_STRUC_C& mumps, Info which) { return mumps.infog[which - 1]; }
+
+}  // namespace
+
+Mumps::Mumps(const assembly::CrsMatrix& pattern, std::vector<int> place, const parallel::Comm& comm)
+    : pivots_(std::move(place)) {
+  mumps_.sym = 0;
+  mumps_.par = 1;  // the root works as well
+  mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.handle()));
+  run(-1);
+  for (Control stream : {error_output, diagnostic_output, global_output}) {
+    control(mumps_, stream) = -1;
+  }
+  control(mumps_, verbosity) = 0;
+  control(mumps_, analysis) = 1;  // on the root
+  control(mumps_, ordering) = 1;  // ours: MUMPS of Debian has neither METIS nor Scotch
+  control(mumps_, distribution) = 3;
+  control(mumps_, null_pivots) = 1;
+  control(mumps_, root_on_one_rank) = 1;  // ScaLAPACK would not report null pivots
+
+  const auto graph = pattern.getLocalMatrixHost().graph;
+  for (std::size_t row = 0; row < pattern.getRowMap()->getNodeNumElements(); ++row) {
+    const auto number = pattern.getRowMap()->getGlobalElement(static_cast<int>(row)) + 1;
+    for (auto k = graph.row_map(row); k < graph.row_map(row + 1); ++k) {
+      rows_.push_back(static_cast<MUMPS_INT>(number));
+      columns_.push_back(
+          static_cast<MUMPS_INT>(pattern.getColMap()->getGlobalElement(graph.entries(k)) + 1));
+    }
+  }
+  for (MUMPS_INT& pivot : pivots_) ++pivot;
+  mumps_.n = static_cast<MUMPS_INT>(pattern.getGlobalNumRows());
+  mumps_.nnz_loc = static_cast<MUMPS_INT8>(rows_.size());
+  mumps_.irn_loc = rows_.data();
+  mumps_.jcn_loc = columns_.data();
+  mumps_.perm_in = pivots_.data();
+}
+
+Mumps::~Mumps() {
+  mumps_.job = -2;
+  dmumps_c(&mumps_);
+}
+
+bool Mumps::factor(const assembly::CrsMatrix& matrix) {
+  // MUMPS takes the values as non-const but does not change them
+  mumps_.a_loc = const_cast<double*>(matrix.getLocalMatrixHost().values.data());
+  if (!analysed_) run(1);
+  if (info(mumps_, status) < 0) throw_error();
+  analysed_ = true;
+  run(2);
+  // pivoting may need more than the analysis foresaw
+  while (has_run_out_of_workspace() &&
+         control(mumps_, workspace_increase) < largest_workspace_increase) {
+    control(mumps_, workspace_increase) *= 2;
+    run(2);
+  }
+  constexpr int singular = -10;
+  if (info(mumps_, status) == singular) return false;
+  if (info(mumps_, status) < 0) throw_error();
+  return info(mumps_, null_pivot_count) == 0;
+}
+
+void Mumps::solve(std::span<double> b) {
+  mumps_.rhs = b.data();
+  mumps_.nrhs = 1;
+  mumps_.lrhs = mumps_.n;
+  run(3);
+  if (info(mumps_, status) < 0) throw_error();
+}
+
+void Mumps::run(int job) {
+  mumps_.job = job;
+  dmumps_c(&mumps_);
+}
+
+bool Mumps::has_run_out_of_workspace() const {
+  const int error = info(mumps_, status);
+  return error == -8 || error == -9;  // integer workspace, real workspace
+}
+
+void Mumps::throw_error() const {
+  constexpr int no_memory = -13;
+  if (info(mumps_, status) == no_memory || has_run_out_of_workspace()) {
+    throw NumericalError(
+        "MUMPS needs more memory than there is to factor the matrix.\n"
+        "Try: more ranks on more machines, or a coarser mesh.");
+  }
+  throw InternalError(fmt::format("MUMPS failed in job {}: INFOG(1) = {}, INFOG(2) = {}",
+                                  mumps_.job, info(mumps_, status), info(mumps_, status_detail)));
+}
+
+}  // namespace culm::solver

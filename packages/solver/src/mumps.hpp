@@ -1,0 +1,42 @@
+/// One instance of MUMPS, through its C interface.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+#include <culm/parallel/comm.hpp>
+
+#include <dmumps_c.h>
+
+#include <span>
+#include <vector>
+
+namespace culm::solver {
+
+/// LU factors of an unsymmetric matrix that stays distributed by rows. All calls are collective,
+/// and outcomes and errors are the same on all ranks, because MUMPS shares its first error.
+class Mumps {
+ public:
+  /// @param place of each global row among the pivots; on the root only
+  Mumps(const assembly::CrsMatrix& pattern, std::vector<int> place, const parallel::Comm& comm);
+  ~Mumps();
+  Mumps(const Mumps&) = delete;
+  Mumps& operator=(const Mumps&) = delete;
+
+  /// Factors the values of a matrix with the pattern; analyses it first if that is still to do.
+  /// @return false if a pivot is zero. Throws NumericalError if the memory does not suffice.
+  bool factor(const assembly::CrsMatrix& matrix);
+  /// Replaces b by A^-1 b, whole and in global order, on the root.
+  void solve(std::span<double> b);
+
+ private:
+  void run(int job);
+  bool has_run_out_of_workspace() const;
+  void throw_error() const;
+
+  DMUMPS_STRUC_C mumps_{};
+  std::vector<MUMPS_INT> rows_;     ///< of the entries of this rank, from 1
+  std::vector<MUMPS_INT> columns_;  ///< likewise
+  std::vector<MUMPS_INT> pivots_;   ///< place of each row, from 1; on the root
+  bool analysed_ = false;
+};
+
+}  // namespace culm::solver

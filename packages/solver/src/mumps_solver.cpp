@@ -1,0 +1,109 @@
+#include "mumps_solver.hpp"
+
+#include "matrix_checks.hpp"
+#include "mumps.hpp"
+#include "rooted_vector.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace culm::solver {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::values_of;
+
+class MumpsSolver final : public LinearSolver {
+ public:
+  MumpsSolver(const Teuchos::RCP<const CrsMatrix>& matrix, Ordering ordering,
+              const parallel::Comm& comm)
+      : matrix_(matrix),
+        comm_(comm),
+        place_(std::move(ordering.place)),
+        mumps_(*matrix, place_, comm),
+        rooted_(*matrix->getRowMap(), comm),
+        whole_(comm.is_root() ? matrix->getGlobalNumRows() : 0),
+        columns_(matrix->getColMap()),
+        rest_(matrix->getRowMap()),
+        correction_(matrix->getRowMap()) {}
+
+  std::string name() const override { return "MUMPS"; }
+
+  bool factor() override { return std::isfinite(size()) && mumps_.factor(*matrix_); }
+
+  double solve(const Vector& b, Vector& x) override {
+    apply_inverse(mumps_, b, x);
+    double achieved = check(b, x);
+    // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
+    for (int i = 0; i < 2 && achieved > good_residual && std::isfinite(achieved); ++i) {
+      apply_inverse(mumps_, rest_, correction_);
+      x.update(1.0, correction_, 1.0);
+      const double refined = check(b, x);
+      if (!(refined < achieved)) {
+        x.update(-1.0, correction_, 1.0);
+        break;
+      }
+      achieved = refined;
+    }
+    return achieved;
+  }
+
+  double weakest_direction(Vector& v) override {
+    v.putScalar(0.0);
+    const double largest = size();
+    if (!std::isfinite(largest) || largest == 0.0) return 0.0;
+    const auto shifted = shifted_copy(*matrix_, relative_shift * largest);
+    Mumps mumps(*shifted, place_, comm_);
+    if (!mumps.factor(*shifted)) return 0.0;
+    const auto solve = [&](const Vector& b, Vector& x) { apply_inverse(mumps, b, x); };
+    return inverse_iteration(*matrix_, solve, v) / largest;
+  }
+
+ private:
+  static constexpr double good_residual = 1e-14;
+
+  double size() const { return comm_.max(largest_entry(*matrix_)); }
+
+  void apply_inverse(Mumps& mumps, const Vector& b, Vector& x) {
+    rooted_.gather(b, whole_);
+    mumps.solve(whole_);
+    rooted_.scatter(whole_, x);
+  }
+
+  // Relative residual; leaves b - A x in rest_.
+  double check(const Vector& b, const Vector& x) {
+    const auto importer = matrix_->getGraph()->getImporter();
+    if (!importer.is_null()) columns_.doImport(x, *importer, Tpetra::INSERT);
+    const Vector& all = importer.is_null() ? x : columns_;
+    const Residual mine = residual(*matrix_, values_of(all), values_of(b), values_of(rest_));
+    std::array<double, 2> joint = {mine.largest, mine.size};
+    comm_.max(joint);
+    return Residual{joint[0], joint[1]}.relative();
+  }
+
+  Teuchos::RCP<const CrsMatrix> matrix_;
+  parallel::Comm comm_;
+  std::vector<int> place_;
+  Mumps mumps_;
+  RootedVector rooted_;
+  std::vector<double> whole_;  // a vector in global order, on the root
+  Vector columns_;             // values of all local columns
+  Vector rest_;
+  Vector correction_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const CrsMatrix>& matrix,
+                                         Ordering ordering, const parallel::Comm& comm) {
+  return std::make_unique<MumpsSolver>(matrix, std::move(ordering), comm);
+}
+
+std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const CrsMatrix>& matrix,
+                                         const parallel::Comm& comm) {
+  return make_mumps(matrix, order_rows(*matrix, comm), comm);
+}
+
+}  // namespace culm::solver

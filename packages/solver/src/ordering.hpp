@@ -1,0 +1,21 @@
+/// In which order a matrix is factored.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+#include <culm/parallel/comm.hpp>
+#include <culm/solver/fill.hpp>
+
+#include <vector>
+
+namespace culm::solver {
+
+/// Nested dissection of blocks of rows with one pattern: the unknowns of a node.
+struct Ordering {
+  std::vector<int> place;  ///< of each global row among the pivots; on the root only
+  Fill fill;               ///< what follows from it; on all ranks
+};
+
+/// Collective. Only one row of each block travels to the root.
+Ordering order_rows(const assembly::CrsMatrix& matrix, const parallel::Comm& comm);
+
+}  // namespace culm::solver

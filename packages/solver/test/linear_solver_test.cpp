@@ -1,0 +1,216 @@
+#include <culm/parallel/comm.hpp>
+#include <culm/solver/linear_solver.hpp>
+
+#include <Eigen/Dense>
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace culm::solver {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::GlobalIndex;
+using assembly::Map;
+using assembly::values_of;
+
+// An unsymmetric matrix with a band and some far entries.
+Eigen::MatrixXd band_with_far_entries(int size = 60) {
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j : {i - 2, i - 1, i, i + 1, (7 * i + 3) % size}) {
+      if (j >= 0 && j < size) dense(i, j) += std::sin(1.0 + 3.0 * i - 2.0 * j) + 4.0 * (i == j);
+    }
+  }
+  return dense;
+}
+
+// Row i of a matrix lives on rank i % size, so no rank has a contiguous piece.
+class ScatteredSystem {
+ public:
+  explicit ScatteredSystem(Eigen::MatrixXd dense = band_with_far_entries())
+      : dense_(std::move(dense)) {
+    const int size = static_cast<int>(dense_.rows());
+    std::vector<GlobalIndex> rows;
+    for (int i = comm_.rank(); i < size; i += comm_.size()) rows.push_back(i);
+    const auto mpi = Teuchos::rcp(new Teuchos::MpiComm<int>(comm_.handle()));
+    map_ = comm_.size() == 1
+               ? Teuchos::rcp(new Map(size, 0, mpi))
+               : Teuchos::rcp(new Map(size, Teuchos::arrayViewFromVector(rows), 0, mpi));
+    matrix_ = Teuchos::rcp(new CrsMatrix(map_, static_cast<std::size_t>(size)));
+    for (GlobalIndex i : rows) insert_row(i);
+    matrix_->fillComplete();
+  }
+
+  int size() const { return static_cast<int>(dense_.rows()); }
+  const Eigen::MatrixXd& dense() const { return dense_; }
+  const Teuchos::RCP<const Map> map() const { return map_; }
+  Teuchos::RCP<CrsMatrix> matrix() const { return matrix_; }
+  const parallel::Comm& comm() const { return comm_; }
+
+  Vector distribute(const Eigen::VectorXd& whole) const {
+    Vector v(map_);
+    const auto values = values_of(v);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = whole[map_->getGlobalElement(static_cast<int>(i))];
+    }
+    return v;
+  }
+  // largest difference to a whole vector on any rank
+  double difference(const Vector& v, const Eigen::VectorXd& whole) const {
+    Vector d = distribute(whole);
+    d.update(1.0, v, -1.0);
+    return d.normInf();
+  }
+
+ private:
+  void insert_row(GlobalIndex i) {
+    std::vector<GlobalIndex> columns;
+    std::vector<double> values;
+    for (int j = 0; j < dense_.cols(); ++j) {
+      if (dense_(i, j) == 0.0 && i != j) continue;
+      columns.push_back(j);
+      values.push_back(dense_(i, j));
+    }
+    matrix_->insertGlobalValues(i, Teuchos::arrayViewFromVector(columns),
+                                Teuchos::arrayViewFromVector(values));
+  }
+
+  parallel::Comm comm_;
+  Eigen::MatrixXd dense_;
+  Teuchos::RCP<const Map> map_;
+  Teuchos::RCP<CrsMatrix> matrix_;
+};
+
+std::unique_ptr<LinearSolver> make(const std::string& name, const ScatteredSystem& system) {
+  return choose_linear_solver(name, system.matrix(), system.comm()).solver;
+}
+
+class EachLinearSolver : public testing::TestWithParam<std::string> {
+ protected:
+  ScatteredSystem system;
+};
+INSTANTIATE_TEST_SUITE_P(LinearSolver, EachLinearSolver, testing::Values("KLU2", "MUMPS"),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(EachLinearSolver, SolvesUnsymmetricSystemsOnAnyNumberOfRanks) {
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.size(), -1.0, 2.0);
+  const auto solver = make(GetParam(), system);
+  ASSERT_TRUE(solver->factor());
+  Vector solution(system.map());
+  EXPECT_LT(solver->solve(system.distribute(system.dense() * x), solution), 1e-14);
+  EXPECT_LT(system.difference(solution, x), 1e-12);
+}
+
+TEST_P(EachLinearSolver, NewValuesReplaceOldFactors) {
+  const auto solver = make(GetParam(), system);
+  ASSERT_TRUE(solver->factor());
+  const auto values = system.matrix()->getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) *= 2.0;
+  ASSERT_TRUE(solver->factor());
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(system.size());
+  Vector solution(system.map());
+  solver->solve(system.distribute(system.dense() * x), solution);
+  EXPECT_LT(system.difference(solution, 0.5 * x), 1e-12);
+}
+
+TEST_P(EachLinearSolver, SingularMatrixIsNoticedAndItsDirectionFound) {
+  const auto values = system.matrix()->getLocalMatrixHost().values;
+  // row 5 becomes zero, so nothing resists a direction that the left kernel e_5 allows
+  for (int row = 0; row < static_cast<int>(system.map()->getNodeNumElements()); ++row) {
+    if (system.map()->getGlobalElement(row) != 5) continue;
+    const auto begin = system.matrix()->getLocalMatrixHost().graph.row_map;
+    for (auto k = begin(row); k < begin(row + 1); ++k) values(k) = 0.0;
+  }
+  const auto solver = make(GetParam(), system);
+  Vector x(system.map());
+  const Vector b = system.distribute(Eigen::VectorXd::Ones(system.size()));
+  EXPECT_TRUE(!solver->factor() || solver->solve(b, x) > 1e-8);
+  Vector direction(system.map());
+  EXPECT_LT(solver->weakest_direction(direction), 2e-15);
+  EXPECT_NEAR(direction.normInf(), 1.0, 1e-12);
+}
+
+// In each pair of rows the large entries stand beside the diagonal, and the partners far apart.
+TEST_P(EachLinearSolver, ZerosOnTheDiagonalAreNoObstacle) {
+  const int half = 120;
+  Eigen::MatrixXd dense = 1e-3 * band_with_far_entries(2 * half);
+  dense.diagonal().setZero();
+  for (int i = 0; i < half; ++i) {
+    dense(i, (i + 61) % half + half) = 1.0;
+    dense((i + 61) % half + half, i) = -2.0;
+  }
+  const ScatteredSystem hollow(dense);
+  const auto solver = make(GetParam(), hollow);
+  ASSERT_TRUE(solver->factor());
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(hollow.size(), -1.0, 2.0);
+  Vector solution(hollow.map());
+  EXPECT_LT(solver->solve(hollow.distribute(dense * x), solution), 1e-13);
+  EXPECT_LT(hollow.difference(solution, x), 1e-10);
+}
+
+TEST_P(EachLinearSolver, UnknownsMayDifferInSizeByOrders) {
+  Eigen::MatrixXd dense = system.dense();
+  for (int i = 0; i < system.size(); ++i) dense.col(i) *= std::pow(10.0, i % 9 - 4);
+  const ScatteredSystem scaled(dense);
+  const auto solver = make(GetParam(), scaled);
+  ASSERT_TRUE(solver->factor());
+  Vector solution(scaled.map());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(scaled.size(), 1.0, 2.0);
+  EXPECT_LT(solver->solve(scaled.distribute(b), solution), 1e-13);
+}
+
+TEST_P(EachLinearSolver, FactorsAfterASingularMatrix) {
+  const auto values = system.matrix()->getLocalMatrixHost().values;
+  std::vector<double> sound(values.data(), values.data() + values.extent(0));
+  const auto solver = make(GetParam(), system);
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = 0.0;
+  EXPECT_FALSE(solver->factor());
+  std::copy(sound.begin(), sound.end(), values.data());
+  ASSERT_TRUE(solver->factor());
+  Vector solution(system.map());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(system.size());
+  EXPECT_LT(solver->solve(system.distribute(b), solution), 1e-14);
+}
+
+TEST_P(EachLinearSolver, FactorsOutliveTheSearchForTheWeakestDirection) {
+  const auto solver = make(GetParam(), system);
+  ASSERT_TRUE(solver->factor());
+  Vector direction(system.map());
+  EXPECT_GT(solver->weakest_direction(direction), 1e-6);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.size(), -1.0, 2.0);
+  Vector solution(system.map());
+  solver->solve(system.distribute(system.dense() * x), solution);
+  EXPECT_LT(system.difference(solution, x), 1e-12);
+}
+
+TEST_P(EachLinearSolver, NumbersThatAreNotFiniteHaveNoDirection) {
+  if (system.comm().rank() == system.comm().size() - 1) {
+    system.matrix()->getLocalMatrixHost().values(1) = std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto solver = make(GetParam(), system);
+  Vector direction(system.map());
+  EXPECT_EQ(solver->weakest_direction(direction), 0.0);
+  EXPECT_EQ(direction.normInf(), 0.0);
+}
+
+TEST(ChooseLinearSolver, TakesMumpsForDenseFactorsOnly) {
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Identity(200, 200);
+  for (int i = 1; i < 200; ++i) chain(i, i - 1) = chain(i - 1, i) = 0.25;
+  const ScatteredSystem slender(chain);
+  const ScatteredSystem dense(Eigen::MatrixXd::Ones(120, 120) +
+                              Eigen::MatrixXd::Identity(120, 120));
+  const auto choose = [](const ScatteredSystem& system) {
+    return choose_linear_solver("Automatic", system.matrix(), system.comm());
+  };
+  EXPECT_EQ(choose(slender).solver->name(), "KLU2");
+  EXPECT_EQ(choose(slender).reason.find("KLU2, automatic: fronts of "), 0u);
+  EXPECT_EQ(choose(dense).solver->name(), "MUMPS");
+  EXPECT_EQ(choose(dense).reason.find("MUMPS, automatic: fronts of "), 0u);
+}
+
+}  // namespace
+}  // namespace culm::solver
