@@ -1,8 +1,9 @@
 """What the verification programs share: runs, comparisons that are printed and counted, plots.
 
-Each program offers verify(culm, report) and may offer plot(culm, path). By hand:
+Each program offers verify(culm, report) and may offer plot(culm, path) and fine(culm, report), what
+takes too long for every run of the tests. By hand:
 
-    tests/verification/roll_up.py --culm build/release/src/culm [--plot roll_up.png]
+    tests/verification/roll_up.py --culm build/release/src/culm [--plot roll_up.png] [--fine]
 """
 
 import argparse
@@ -67,11 +68,13 @@ def romberg(values, orders=(2, 4)):
     return values[-1]
 
 
-def main(verify, plot=None):
+def main(verify, plot=None, fine=None):
     parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__.splitlines()[0])
     parser.add_argument("--culm", required=True, help="the program")
     if plot:
         parser.add_argument("--plot", help="draw the figure of the page into this file instead")
+    if fine:
+        parser.add_argument("--fine", action="store_true", help="fine meshes as well")
     arguments = parser.parse_args()
     culm = Culm(arguments.culm)
     if plot and arguments.plot:
@@ -79,6 +82,8 @@ def main(verify, plot=None):
         return
     report = Report()
     verify(culm, report)
+    if fine and arguments.fine:
+        fine(culm, report)
     print(f"\n{report.failures} violations" if report.failures else "\nall held")
     sys.exit(1 if report.failures else 0)
 
