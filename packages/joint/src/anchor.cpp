@@ -12,6 +12,7 @@ Anchor::Anchor(const model::NodeTable& nodes, const model::Marker& marker)
     q_.middleCols<4>(at) = slots;
     position_ += marker.weights[a] * slots.col(0);
     directors_ += marker.weights[a] * slots.rightCols<3>();
+    on_shell_ = on_shell_ || nodes.kind(marker.nodes[a]) == NodeKind::node6;
     at += 4;
   }
   // those of a node are orthonormal: the transpose is free of round-off

@@ -10,8 +10,7 @@ namespace {
 
 // x - x0 and d_i - d_i0
 void hold_node(const Anchor& anchor, model::Constraint& support) {
-  // a shell node has one director, the other slots are empty
-  const std::size_t slots = anchor.reference().col(3).isZero(0.0) ? 2 : 4;
+  const std::size_t slots = anchor.on_shell() ? 2 : 4;
   for (std::size_t slot = 0; slot < slots; ++slot) {
     model::SlotSum alpha(4, 0.0);
     alpha[slot] = 1.0;

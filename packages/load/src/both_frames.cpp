@@ -33,6 +33,31 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
       "Components in the directors at function value 1.", Frame::directors);
 }
 
+void check_components(const LoadRequest& request, const std::string& parameter,
+                      const std::vector<int>& nodes) {
+  if (request.vector(parameter).tail<2>().isZero(0.0)) return;
+  for (int node : nodes) {
+    if (request.nodes().kind(node) != NodeKind::node6) continue;
+    request.context.issues.add(request.options.where(parameter),
+                               "node '" + request.context.model.node_name(node) +
+                                   "' of a shell has one director: only the first component may "
+                                   "differ from zero");
+    return;
+  }
+}
+
+void refuse_following_moment(const LoadRequest& request, const std::vector<int>& nodes) {
+  if (request.frame == Frame::space) return;
+  for (int node : nodes) {
+    if (request.nodes().kind(node) != NodeKind::node6) continue;
+    request.context.issues.add(request.options.where(),
+                               "node '" + request.context.model.node_name(node) +
+                                   "' of a shell has one director, which no moment can follow; a "
+                                   "Moment fixed in space is possible");
+    return;
+  }
+}
+
 std::string effect_name(const std::string& type, const Options& options) {
   return options.name().empty() ? type : type + ", " + options.name();
 }

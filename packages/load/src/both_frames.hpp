@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace culm::load {
 
@@ -34,6 +35,15 @@ struct LoadType {
 /// Registers a load and its follower. @param fields  the parameters besides vector and function
 void register_both_frames(model::BuilderRegistry& registry, const LoadType& type,
                           const Schema& fields, MakeLoad make);
+
+/// Adds an issue if a node is one of a shell, which has one director d, and a vector in directors
+/// has another component than the first. @param parameter  the vector
+void check_components(const LoadRequest& request, const std::string& parameter,
+                      const std::vector<int>& nodes);
+
+/// Adds an issue if a moment shall follow a node of a shell, whose one director does not tell the
+/// axes of the moment.
+void refuse_following_moment(const LoadRequest& request, const std::vector<int>& nodes);
 
 /// Name of a load in the ledger: the type and the name in the deck.
 std::string effect_name(const std::string& type, const Options& options);

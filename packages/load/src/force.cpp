@@ -8,7 +8,10 @@ namespace {
 
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
-  for (int node : model::select_nodes(request.options, "Node", request.context)) {
+  const auto nodes = model::select_nodes(request.options, "Node", request.context);
+  check_components(request, "Offset", nodes);
+  if (request.frame == Frame::directors) check_components(request, "Force", nodes);
+  for (int node : nodes) {
     model::Marker point = model::marker_at(node);
     point.offset = request.vector("Offset");
     load->add_force(point, request.vector("Force"), request.frame);

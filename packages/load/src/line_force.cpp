@@ -11,6 +11,9 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   const auto points = line_points(request.options, request.context);
   if (points.empty()) return nullptr;
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
+  const auto& nodes = points.front().marker.nodes;
+  check_components(request, "Offset", nodes);
+  if (request.frame == Frame::directors) check_components(request, "Force", nodes);
   for (model::LinePoint point : points) {
     point.marker.offset += request.vector("Offset");
     load->add_force(point.marker, point.length * request.vector("Force"), request.frame);

@@ -23,6 +23,7 @@ std::map<int, double> lengths_of_nodes(const std::vector<model::LinePoint>& poin
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   const auto points = line_points(request.options, request.context);
   if (points.empty()) return nullptr;
+  refuse_following_moment(request, points.front().marker.nodes);
   auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
                                            request.frame);
   for (const auto& [node, length] : lengths_of_nodes(points)) {

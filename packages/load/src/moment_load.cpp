@@ -1,12 +1,33 @@
 #include <culm/load/moment_load.hpp>
 #include <culm/math/rotation.hpp>
 
+#include "slot_kernel.hpp"
+
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 namespace culm::load {
+namespace {
+
+using NodeMotion = model::ItemMotion<1>;
+
+Vec3 director_force(const Vec3& moment, const Vec3& d) { return moment.cross(d) / d.squaredNorm(); }
+
+// d f_d / d d = [m] / (d . d) - 2 (m x d) d^T / (d . d)^2
+Mat3 director_derivative(const Vec3& moment, const Vec3& d) {
+  const double square = d.squaredNorm();
+  return (skew(moment) - 2.0 / square * moment.cross(d) * d.transpose()) / square;
+}
+
+}  // namespace
+
+bool MomentLoad::has_tangent() const {
+  return frame_ == Frame::directors || form_ == model::Form::multipliers ||
+         std::any_of(items_.begin(), items_.end(),
+                     [this](const Item& item) { return on_shell(item); });
+}
 
 std::vector<int> MomentLoad::blocks(int item, const model::UnknownTable& unknowns) const {
   return {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
@@ -21,8 +42,17 @@ Verdict MomentLoad::assemble(const model::State& state, const Stencil& stencil, 
                              model::Target& target) {
   const double factor = amplitude_.in_step(state, stencil);
   const bool tangent = want == Want::residual_and_tangent;
+  Verdict verdict = Verdict::ok;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    if (on_shell(item)) {
+      verdict = worse(
+          verdict,
+          form_ == model::Form::null_space
+              ? assemble_director<model::NullSpace>(i, state, stencil, factor, tangent, target)
+              : assemble_director<model::FullSpace>(i, state, stencil, factor, tangent, target));
+      continue;
+    }
     const Motion now = motion(item, state, stencil.theta, factor);
     if (!std::isfinite(now.moment.sum())) return Verdict::not_finite;
     if (form_ == model::Form::null_space) {
@@ -31,7 +61,7 @@ Verdict MomentLoad::assemble(const model::State& state, const Stencil& stencil, 
       assemble_full(i, now, stencil.theta, tangent, target);
     }
   }
-  return Verdict::ok;
+  return verdict;
 }
 
 MomentLoad::Motion MomentLoad::motion(const Item& item, const model::State& state, double theta,
@@ -85,12 +115,45 @@ void MomentLoad::assemble_full(std::size_t i, const Motion& motion, double theta
   placement_.scatter.add_tangent(i, 0, 0, block, target);
 }
 
+template <class Space>
+Verdict MomentLoad::assemble_director(std::size_t i, const model::State& state,
+                                      const Stencil& stencil, double factor, bool tangent,
+                                      model::Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const NodeMotion motion(nodes_, {item.node}, state, stencil.theta);
+  const Vec3 m = -factor * item.components;
+  const Vec3 d = motion.mid.col(1);
+  Vec<12> r = Vec<12>::Zero();
+  r.segment<3>(3) = director_force(m, d);
+  if (!std::isfinite(r.sum())) return Verdict::not_finite;
+  Vec<W> residual;
+  Space::reduce_rows(r, motion.arms_mid[0], residual);
+  target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  if (!tangent) return Verdict::ok;
+  Mat<12, 12> K = Mat<12, 12>::Zero();
+  K.block<3, 3>(3, 3) = stencil.theta * director_derivative(m, d);
+  RowMat<W, W> block = RowMat<W, W>::Zero();
+  add_slot_tangent<Space>(K, motion.arms_mid[0], motion.arms_next[0], block);
+  Space::add_turning(r.reshaped<Eigen::ColMajor>(3, 4), motion.arms_next[0], stencil.theta, block);
+  placement_.scatter.add_tangent(i, 0, 0, block, target);
+  return Verdict::ok;
+}
+
 model::StepWork MomentLoad::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
   const double factor = amplitude_.in_step(state, stencil);
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    if (on_shell(item)) {
+      const NodeMotion now(nodes_, {item.node}, state, stencil.theta);
+      NodeMotion::Slots forces = NodeMotion::Slots::Zero(3, 4);
+      forces.col(1) = director_force(factor * item.components, now.mid.col(1));
+      add_item_work(forces, now, {item.node}, state, true, work);
+      continue;
+    }
     const Vec3 moment = motion(item, state, stencil.theta, factor).moment;
     const Mat3 prev = model::NodeTable::slots(state.prev, item.node).rightCols<3>();
     const Mat3 next = model::NodeTable::slots(state.next, item.node).rightCols<3>();

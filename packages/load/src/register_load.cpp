@@ -9,6 +9,9 @@ void register_loads(model::BuilderRegistry& registry) {
   register_moment(registry);
   register_line_force(registry);
   register_line_moment(registry);
+  register_pressure(registry);
+  register_surface_force(registry);
+  register_director_force(registry);
   register_gravity(registry);
   register_spring(registry);
   register_directed_spring(registry);

@@ -2,7 +2,7 @@
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
 
-#include <Eigen/Geometry>
+#include "slot_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -169,13 +169,7 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
     const Motion motion(nodes_, item.nodes, state, stencil.theta);
     const ItemSlots f = factor * (item.constant + motion.mid * item.linear.transpose());
-    for (int s = 0; s < f.cols(); ++s) {
-      const auto node = item.nodes[static_cast<std::size_t>(s / 4)];
-      const Vec3 moved = motion.next.col(s) - model::NodeTable::slots(state.prev, node).col(s % 4);
-      if (works) work.external += moved.dot(f.col(s));
-      if (s % 4 == 0) work.force += f.col(s);
-      work.moment += Vec3(motion.mid.col(s)).cross(Vec3(f.col(s)));
-    }
+    add_item_work(f, motion, item.nodes, state, works, work);
   }
   return work;
 }

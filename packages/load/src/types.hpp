@@ -5,11 +5,14 @@
 
 namespace culm::load {
 
-void register_force(model::BuilderRegistry& registry);        // Force, Follower Force
-void register_moment(model::BuilderRegistry& registry);       // Moment, Follower Moment
-void register_line_force(model::BuilderRegistry& registry);   // Line Force, Follower Line Force
-void register_line_moment(model::BuilderRegistry& registry);  // Line Moment, Follower Line Moment
-void register_gravity(model::BuilderRegistry& registry);      // Gravity
+void register_force(model::BuilderRegistry& registry);          // Force, Follower Force
+void register_moment(model::BuilderRegistry& registry);         // Moment, Follower Moment
+void register_line_force(model::BuilderRegistry& registry);     // Line Force, Follower Line Force
+void register_line_moment(model::BuilderRegistry& registry);    // Line Moment, Follower Line Moment
+void register_pressure(model::BuilderRegistry& registry);       // Pressure
+void register_surface_force(model::BuilderRegistry& registry);  // Surface Force
+void register_director_force(model::BuilderRegistry& registry);  // Director Force
+void register_gravity(model::BuilderRegistry& registry);         // Gravity
 
 // … Spring and … Damper, all of them
 void register_spring(model::BuilderRegistry& registry);

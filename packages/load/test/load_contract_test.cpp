@@ -1,9 +1,11 @@
 #include <culm/load/moment_load.hpp>
+#include <culm/load/pressure_load.hpp>
 #include <culm/load/slot_load.hpp>
 
 #include <Eigen/Geometry>
 #include <culm_kit/load_contract.hpp>
 
+#include <cmath>
 #include <memory>
 
 namespace culm::load {
@@ -102,11 +104,79 @@ struct MomentCase {
   }
 };
 
+/// On a face of shell nodes.
+struct PressureCase {
+  static constexpr NodeKind node_kind = NodeKind::node6;
+  static constexpr int num_nodes = 4;
+  static constexpr bool follows = true;
+  static constexpr double zeta = 0.3;
+  static constexpr double pressure = 1.7;
+  static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
+    auto load = std::make_unique<PressureLoad>("Pressure", nodes, amplitude);
+    load->add_face({0, 1, 2, 3}, zeta, pressure);
+    return load;
+  }
+  /// By three Gauss points in each direction, of which the load takes two.
+  static Resultant resultant(const Coordinates& q) {
+    const double at[] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)};
+    const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    const double xi_a[] = {-1.0, 1.0, 1.0, -1.0};
+    const double eta_a[] = {-1.0, -1.0, 1.0, 1.0};
+    Resultant total;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        Vec3 x = Vec3::Zero();
+        Vec3 g1 = Vec3::Zero();
+        Vec3 g2 = Vec3::Zero();
+        for (int a = 0; a < 4; ++a) {
+          const auto slots = NodeTable::slots(q, a);
+          const Vec3 corner = slots.col(0) + zeta * slots.col(1);
+          x += 0.25 * (1.0 + xi_a[a] * at[i]) * (1.0 + eta_a[a] * at[j]) * corner;
+          g1 += 0.25 * xi_a[a] * (1.0 + eta_a[a] * at[j]) * corner;
+          g2 += 0.25 * eta_a[a] * (1.0 + xi_a[a] * at[i]) * corner;
+        }
+        const Vec3 force = weight[i] * weight[j] * pressure * g1.cross(g2);
+        total.force += force;
+        total.moment += x.cross(force);
+      }
+    }
+    return total;
+  }
+};
+
+/// Forces at a point above shell nodes.
+template <Frame F>
+struct ShellForceCase {
+  static constexpr NodeKind node_kind = NodeKind::node6;
+  static constexpr int num_nodes = 4;
+  static constexpr bool follows = F == Frame::directors;
+  static model::Marker point() { return {{0, 1, 2, 3}, {0.1, 0.2, 0.3, 0.4}, 0.3 * Vec3::UnitX()}; }
+  static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
+    auto load = std::make_unique<SlotLoad>("Force", nodes, amplitude);
+    load->add_force(point(), follows ? Vec3(2.0 * Vec3::UnitX()) : components, F);
+    return load;
+  }
+  static Resultant resultant(const Coordinates& q) {
+    Vec3 x = Vec3::Zero();
+    Vec3 d = Vec3::Zero();
+    for (int node = 0; node < num_nodes; ++node) {
+      const double weight = point().weights[static_cast<std::size_t>(node)];
+      x += weight * (NodeTable::slots(q, node).col(0) + 0.3 * NodeTable::slots(q, node).col(1));
+      d += weight * NodeTable::slots(q, node).col(1);
+    }
+    const Vec3 force = follows ? Vec3(2.0 * d) : components;
+    return {force, x.cross(force)};
+  }
+};
+
 using Cases =
     testing::Types<CentralForceCase, ForceCase<1, Frame::space>, ForceCase<2, Frame::space>,
                    ForceCase<4, Frame::space>, ForceCase<1, Frame::directors>,
                    ForceCase<2, Frame::directors>, ForceCase<4, Frame::directors>, TwoForcesCase,
-                   MomentCase<Frame::space>, MomentCase<Frame::directors>>;
+                   MomentCase<Frame::space>, MomentCase<Frame::directors>, PressureCase,
+                   ShellForceCase<Frame::space>, ShellForceCase<Frame::directors>>;
 
 }  // namespace
 }  // namespace culm::load

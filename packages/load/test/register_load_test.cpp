@@ -145,11 +145,11 @@ TEST_F(Loads, TheTypes) {
   EXPECT_THAT(
       registry.names(),
       ElementsAre("Damper", "Directed Damper", "Directed Ground Damper", "Directed Ground Spring",
-                  "Directed Spring", "Follower Force", "Follower Line Force",
+                  "Directed Spring", "Director Force", "Follower Force", "Follower Line Force",
                   "Follower Line Moment", "Follower Moment", "Force", "Gravity", "Ground Damper",
                   "Ground Spring", "Line Force", "Line Moment", "Moment", "Plane Ground Damper",
-                  "Plane Ground Spring", "Rotation Damper", "Rotation Damper Local", "Spring",
-                  "Torsion Damper", "Torsion Drive", "Torsion Spring"));
+                  "Plane Ground Spring", "Pressure", "Rotation Damper", "Rotation Damper Local",
+                  "Spring", "Surface Force", "Torsion Damper", "Torsion Drive", "Torsion Spring"));
 }
 
 TEST_F(Loads, VirtualWorkOfALineForceIsThatOfItsPoints) {

@@ -48,10 +48,14 @@ void Model::add_rigid_link(std::string name, int slave, int master) {
   c.is_internal = true;
   Eigen::Matrix3Xd q(3, 8);
   q << NodeTable::slots(nodes_.reference(), master), NodeTable::slots(nodes_.reference(), slave);
+  const bool directors = nodes_.kind(master) == NodeKind::node12;
   const Mat3 triad = q.block<3, 3>(0, 1);
-  // x_2 - p_1(phi) and d_i,2 - u_1(R_i): twelve linear rows
-  for (int i = 0; i < 4; ++i) {
-    const Vec3 components = triad.transpose() * (i == 0 ? Vec3(q.col(4) - q.col(0)) : q.col(4 + i));
+  // x_2 - p_1(phi) and d_i,2 - u_1(R_i); between shell nodes x_2 - x_1 and d_2 - d_1: linear rows
+  for (int i = 0; i < slots_of(nodes_.kind(slave)); ++i) {
+    Vec3 components = i == 0 ? Vec3(Vec3::Zero()) : Vec3(Vec3::UnitX());
+    if (directors) {
+      components = triad.transpose() * (i == 0 ? Vec3(q.col(4) - q.col(0)) : q.col(4 + i));
+    }
     SlotSum on_master =
         i == 0 ? attached_point(0, 2, components) : attached_vector(0, 2, components);
     for (double& factor : on_master) factor = -factor;

@@ -73,7 +73,8 @@ inline Eigen::VectorXd node_rows(const model::Model& model, const Eigen::VectorX
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(width * model.nodes().size());
   for (const model::Block& block : model.unknowns().blocks()) {
     if (block.kind != model::BlockKind::node || block.shape.active == 0) continue;
-    rows.segment(width * block.owner, width) = residual.segment(block.first, width);
+    rows.segment(width * block.owner, block.shape.width) =
+        residual.segment(block.first, block.shape.width);
   }
   return rows;
 }

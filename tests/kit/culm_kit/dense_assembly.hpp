@@ -21,6 +21,20 @@ inline model::NodeSlots random_node(int seed) {
   return slots;
 }
 
+/// A node of a shell anywhere, its director of any direction and not of length one.
+inline model::NodeSlots random_shell_node(int seed) {
+  Random random(seed);
+  model::NodeSlots slots = model::NodeSlots::Zero();
+  slots.col(0) = random.vector();
+  slots.col(1) = (1.0 + 0.3 * random.number()) * random.rotation().col(2);
+  return slots;
+}
+
+/// Adds a random node of a kind.
+inline int add_random_node(model::NodeTable& nodes, NodeKind kind, int seed) {
+  return nodes.add(kind == NodeKind::node6 ? random_shell_node(seed) : random_node(seed), kind);
+}
+
 /// Makes eliminated nodes follow their masters.
 inline void follow_masters(const model::NodeTable& nodes, model::Coordinates& q) {
   for (int node = 0; node < nodes.size(); ++node) {
@@ -166,6 +180,7 @@ inline model::State random_state(const model::Model& model, int seed) {
       auto slots = model::NodeTable::slots(*q, node);
       slots.col(0) += 0.5 * random.vector();
       slots.rightCols<3>() = random.rotation(0.8) * slots.rightCols<3>();
+      if (model.nodes().kind(node) == NodeKind::node6) slots.col(1) *= 1.0 + 0.2 * random.number();
     }
     follow_masters(model.nodes(), *q);
   }
@@ -197,7 +212,9 @@ inline Eigen::MatrixXd null_space_matrix(const model::NodeTable& nodes,
     const model::NodeSlots m = model::NodeTable::slots(q, master);
     Eigen::Matrix<double, 12, 6> P_m = Eigen::Matrix<double, 12, 6>::Zero();
     P_m.topLeftCorner<3, 3>().setIdentity();
-    for (int i = 0; i < 3; ++i) P_m.block<3, 3>(3 + 3 * i, 3) = -skew(m.col(1 + i));
+    const bool turns = nodes.kind(master) == NodeKind::node12;
+    if (!turns) P_m.block<3, 3>(3, 3).setIdentity();
+    for (int i = 0; turns && i < 3; ++i) P_m.block<3, 3>(3 + 3 * i, 3) = -skew(m.col(1 + i));
     Eigen::Matrix4d Lq = Eigen::Matrix4d::Identity();
     if (master != node) {
       Lq.topRightCorner<1, 3>() = nodes.rigid_link(node).lever.transpose();

@@ -13,7 +13,8 @@
 ///       static Resultant resultant(const model::Coordinates& q);
 ///     };
 ///
-/// Nodes 0, 1, … have random positions and triads.
+/// Nodes 0, 1, … have random positions and triads; with `static constexpr NodeKind node_kind`
+/// node6 they are nodes of shells.
 /// @source formulation 3, 8.2
 #pragma once
 
@@ -46,13 +47,24 @@ inline Resultant resultant_of(const Eigen::VectorXd& slot_forces, const model::C
 }
 
 template <class Case>
+constexpr NodeKind node_kind_of() {
+  if constexpr (requires { Case::node_kind; }) {
+    return Case::node_kind;
+  } else {
+    return NodeKind::node12;
+  }
+}
+
+template <class Case>
 class LoadContract : public testing::Test {
  protected:
   static constexpr int num_nodes = Case::num_nodes;
 
   static void fill(model::Model& model, bool with_slave,
                    const model::Amplitude& amplitude = model::Amplitude::constant()) {
-    for (int node = 0; node < num_nodes; ++node) model.nodes().add(random_node(10 + node));
+    for (int node = 0; node < num_nodes; ++node) {
+      add_random_node(model.nodes(), node_kind_of<Case>(), 10 + node);
+    }
     model.add_load(Case::make(model.nodes(), amplitude));
     if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(random_node(20)));
   }
@@ -74,7 +86,8 @@ class LoadContract : public testing::Test {
     full.time = state.time;
     full.prev = state.prev;
     full.next = state.next;
-    return -dense.residual(full, stencil, {find_batch(model, effect())}).head(12 * num_nodes);
+    return -node_rows(model, dense.residual(full, stencil, {find_batch(model, effect())}))
+                .head(12 * num_nodes);
   }
   static model::State state(int seed) {
     model::Model model;

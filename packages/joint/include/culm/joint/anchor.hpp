@@ -21,6 +21,8 @@ class Anchor {
   const std::vector<int>& nodes() const { return marker_.nodes; }
   /// The node, or -1 between nodes.
   int node() const { return marker_.nodes.size() == 1 ? marker_.nodes.front() : -1; }
+  /// Whether the point is of a shell: position and one director, slots 0 and 1 of its nodes.
+  bool on_shell() const { return on_shell_; }
   int num_slots() const { return static_cast<int>(q_.cols()); }
   /// Slots of the nodes side by side in the reference, shape (3, 4 n).
   const Eigen::Matrix3Xd& reference() const { return q_; }
@@ -30,6 +32,8 @@ class Anchor {
 
   /// Position of the point at `offset` in the directors.
   model::SlotSum point(const Vec3& offset = Vec3::Zero()) const;
+  /// The first director, which is the only one of a shell.
+  model::SlotSum director() const { return attached(Vec3::UnitX()); }
   /// Attached copy of a spatial vector in the reference.
   model::SlotSum vector(const Vec3& v) const;
 
@@ -40,6 +44,7 @@ class Anchor {
   Eigen::Matrix3Xd q_;
   Vec3 position_ = Vec3::Zero();
   Mat3 directors_ = Mat3::Zero();
+  bool on_shell_ = false;
   Mat3 components_;  ///< of a spatial vector in the directors
 };
 

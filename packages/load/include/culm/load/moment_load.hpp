@@ -16,7 +16,9 @@ namespace culm::load {
 /// The null-space form adds m to the rotational residual itself. The multiplier form spreads it on
 /// the directors so that sum_i d_i x f_i = m also where d_theta are shorter than one,
 ///   f_d_i = (Ac^-1 m) x d_i      Ac = sum_i ( |d_i|^2 1 - d_i d_i^T ),
-/// hence both have the same solutions. @source formulation 3.1, 3.2
+/// hence both have the same solutions. On a shell node it is a couple on its director,
+///   f_d = m x d / (d . d)
+/// in both forms; the part of m along d is not carried. @source formulation 3.1, 3.2
 class MomentLoad final : public model::Batch {
  public:
   MomentLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
@@ -26,16 +28,14 @@ class MomentLoad final : public model::Batch {
         amplitude_(std::move(amplitude)),
         frame_(frame) {}
 
-  /// @param components  of the moment [N m]
+  /// @param components  of the moment [N m]; in space where the node is one of a shell
   void add_moment(int node, const Vec3& components) { items_.push_back({node, components}); }
 
   const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
-  /// A moment fixed in space has no stiffness in the null-space form.
-  bool has_tangent() const override {
-    return frame_ == Frame::directors || form_ == model::Form::multipliers;
-  }
+  /// A moment fixed in space has no stiffness on triads in the null-space form.
+  bool has_tangent() const override;
   void place(model::Placement placement, model::Form form) override;
   void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -62,6 +62,11 @@ class MomentLoad final : public model::Batch {
                         model::Target& target) const;
   void assemble_full(std::size_t i, const Motion& motion, double theta, bool tangent,
                      model::Target& target) const;
+
+  bool on_shell(const Item& item) const { return nodes_.kind(item.node) == NodeKind::node6; }
+  template <class Space>
+  Verdict assemble_director(std::size_t i, const model::State& state, const Stencil& stencil,
+                            double factor, bool tangent, model::Target& target) const;
 
   std::string effect_;
   const model::NodeTable& nodes_;
