@@ -1,42 +1,37 @@
 #include <culm/solver/linear_solver.hpp>
 
+#include "klu2.hpp"
 #include "matrix_checks.hpp"
 #include "rooted_matrix.hpp"
 
-#include <Amesos2.hpp>
-
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace culm::solver {
 namespace {
 
 using assembly::CrsMatrix;
 using assembly::values_of;
-using MultiVector = Tpetra::MultiVector<>;
-using Klu2 = Amesos2::Solver<CrsMatrix, MultiVector>;
+
+// Above it kept pivots are not to be trusted; new ones leave little more than rounding.
+constexpr double largest_residual_of_kept_pivots = 1e-12;
 
 class RootedKlu2 final : public LinearSolver {
  public:
   RootedKlu2(const Teuchos::RCP<const CrsMatrix>& matrix, const parallel::Comm& comm)
       : comm_(comm), rooted_(matrix, comm) {
     if (!comm_.is_root()) return;
-    klu_ = Amesos2::create<CrsMatrix, MultiVector>("KLU2", rooted_.matrix());
+    klu_.emplace(*rooted_.matrix());
   }
 
   std::string name() const override { return "KLU2"; }
 
   bool factor() override {
     rooted_.gather_values();
-    bool sound = true;
-    if (comm_.is_root()) {
-      try {
-        if (!analysed_) klu_->symbolicFactorization();
-        analysed_ = true;
-        klu_->numericFactorization();
-      } catch (const std::exception&) {  // how Amesos2 reports a zero pivot
-        sound = false;
-      }
-    }
+    const bool sound = !comm_.is_root() || klu_->factor();
+    is_proven_ = false;
     return comm_.max(sound ? 0 : 1) == 0;
   }
 
@@ -44,10 +39,13 @@ class RootedKlu2 final : public LinearSolver {
     rooted_.gather_rhs(b);
     double relative = 0.0;
     if (comm_.is_root()) {
-      klu_->solve(&rooted_.solution(), &rooted_.rhs());
-      relative =
-          residual(*rooted_.matrix(), values_of(rooted_.solution()), values_of(rooted_.rhs()), {})
-              .relative();
+      relative = solve_on_root();
+      // only now: later the matrix may have other values than the one that was factored
+      const bool doubtful = !is_proven_ && klu_->kept_pivots();
+      if (doubtful && !(relative <= largest_residual_of_kept_pivots)) {
+        relative = klu_->factor_anew() ? solve_on_root() : std::numeric_limits<double>::infinity();
+      }
+      is_proven_ = true;
     }
     rooted_.scatter_solution(x);
     return comm_.max(relative);
@@ -61,28 +59,42 @@ class RootedKlu2 final : public LinearSolver {
     return comm_.max(ratio);
   }
 
+  std::vector<int> pivots() const override { return klu_ ? klu_->pivots() : std::vector<int>{}; }
+
+  bool set_pivots(std::span<const int> pivots) override {
+    const bool fit = !comm_.is_root() || pivots.empty() || klu_->set_pivots(pivots);
+    return comm_.max(fit ? 0 : 1) == 0;
+  }
+
  private:
+  double solve_on_root() {
+    const auto x = values_of(rooted_.solution());
+    const auto b = values_of(rooted_.rhs());
+    std::copy(b.begin(), b.end(), x.begin());
+    klu_->solve(x);
+    return residual(*rooted_.matrix(), x, b, {}).relative();
+  }
+
   double iterate_at_root() {
     const Teuchos::RCP<CrsMatrix>& A = rooted_.matrix();
     Vector& v = rooted_.solution();
     v.putScalar(0.0);
     const double size = largest_entry(*A);
     if (!std::isfinite(size) || size == 0.0) return 0.0;
-    const auto klu =
-        Amesos2::create<CrsMatrix, MultiVector>("KLU2", shifted_copy(*A, relative_shift * size));
-    try {
-      klu->symbolicFactorization().numericFactorization();
-    } catch (const std::exception&) {  // how Amesos2 reports a zero pivot
-      return 0.0;
-    }
-    const auto solve = [&](const Vector& b, Vector& x) { klu->solve(&x, &b); };
+    const auto shifted = shifted_copy(*A, relative_shift * size);
+    Klu2 klu(*shifted);
+    if (!klu.factor()) return 0.0;
+    const auto solve = [&](const Vector& b, Vector& x) {
+      x.assign(b);
+      klu.solve(values_of(x));
+    };
     return inverse_iteration(*A, solve, v) / size;
   }
 
   parallel::Comm comm_;
   RootedMatrix rooted_;
-  Teuchos::RCP<Klu2> klu_;
-  bool analysed_ = false;
+  std::optional<Klu2> klu_;  // on the root
+  bool is_proven_ = false;   // a solution with the last factors was judged
 };
 
 }  // namespace

@@ -51,6 +51,18 @@ class ScatteredSystem {
   Teuchos::RCP<CrsMatrix> matrix() const { return matrix_; }
   const parallel::Comm& comm() const { return comm_; }
 
+  void scale_diagonal(double factor) {
+    const auto local = matrix_->getLocalMatrixHost();
+    for (int row = 0; row < local.numRows(); ++row) {
+      const auto at = static_cast<std::size_t>(row);
+      for (auto k = local.graph.row_map(at); k < local.graph.row_map(at + 1); ++k) {
+        const GlobalIndex column = matrix_->getColMap()->getGlobalElement(local.graph.entries(k));
+        if (column == map_->getGlobalElement(row)) local.values(k) *= factor;
+      }
+    }
+    dense_.diagonal() *= factor;
+  }
+
   Vector distribute(const Eigen::VectorXd& whole) const {
     Vector v(map_);
     const auto values = values_of(v);
@@ -211,6 +223,49 @@ TEST(ChooseLinearSolver, TakesMumpsForDenseFactorsOnly) {
   EXPECT_EQ(choose(slender).reason.find("KLU2, automatic: fronts of "), 0u);
   EXPECT_EQ(choose(dense).solver->name(), "MUMPS");
   EXPECT_EQ(choose(dense).reason.find("MUMPS, automatic: fronts of "), 0u);
+}
+
+TEST(RootedKlu2, KeptPivotsThatDoNotServeAreReplaced) {
+  ScatteredSystem system;
+  const auto solver = make_rooted_klu2(system.matrix(), system.comm());
+  ASSERT_TRUE(solver->factor());
+  const std::vector<int> before = solver->pivots();
+  // what was largest becomes nothing beside the others
+  system.scale_diagonal(1e-14);
+  ASSERT_TRUE(solver->factor());
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.size(), -1.0, 2.0);
+  Vector solution(system.map());
+  EXPECT_LT(solver->solve(system.distribute(system.dense() * x), solution), 1e-12);
+  EXPECT_LT(system.difference(solution, x), 1e-10);
+  EXPECT_EQ(solver->pivots() != before, system.comm().is_root());
+}
+
+TEST(RootedKlu2, GoesOnBitByBitWithThePivotsOfAnother) {
+  ScatteredSystem system;
+  system.scale_diagonal(1e-4);  // too small for pivots, now
+  const auto solver = make_rooted_klu2(system.matrix(), system.comm());
+  ASSERT_TRUE(solver->factor());
+  system.scale_diagonal(1e3);
+  const auto resumed = make_rooted_klu2(system.matrix(), system.comm());
+  const auto fresh = make_rooted_klu2(system.matrix(), system.comm());
+  ASSERT_TRUE(resumed->set_pivots(solver->pivots()));
+  const Vector b = system.distribute(Eigen::VectorXd::LinSpaced(system.size(), 1.0, 2.0));
+  Vector x(system.map()), y(system.map()), z(system.map());
+  ASSERT_TRUE(solver->factor() && resumed->factor() && fresh->factor());
+  EXPECT_LT(solver->solve(b, x), 1e-12);
+  resumed->solve(b, y);
+  fresh->solve(b, z);
+  EXPECT_TRUE(std::ranges::equal(values_of(x), values_of(y)));
+  EXPECT_FALSE(std::ranges::equal(values_of(x), values_of(z)));
+  EXPECT_EQ(solver->pivots(), resumed->pivots());
+  EXPECT_EQ(solver->pivots() != fresh->pivots(), system.comm().is_root());
+}
+
+TEST(RootedKlu2, PivotsOfAnotherSizeAreRefused) {
+  const ScatteredSystem system;
+  const auto solver = make_rooted_klu2(system.matrix(), system.comm());
+  EXPECT_FALSE(solver->set_pivots(std::vector<int>{1, 0}));
+  EXPECT_FALSE(solver->set_pivots(std::vector<int>(system.size(), 0)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <culm/assembly/tpetra.hpp>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,18 @@ class LinearSolver {
   /// copy. @return |A v| / |A| for the returned v of unit maximum norm; zero with v = 0 if not even
   /// the copy has factors, as with numbers that are not finite or differ too much in size
   virtual double weakest_direction(Vector& v) = 0;
+  /// What later factorisations keep of earlier ones, to go on as after them, bit by bit. On the
+  /// root only; empty if there is nothing, as with solvers that begin anew each time.
+  virtual std::vector<int> pivots() const { return {}; }
+  /// Goes on with such pivots of the same matrix. @return false if they do not fit
+  virtual bool set_pivots(std::span<const int> pivots) { return pivots.empty(); }
 };
 
-/// Amesos2/KLU2 on rank 0. Values gather there in global order, so the factors, and the solution,
-/// are the same for any number of ranks. The plan and the symbolic factorisation are made once.
-/// Amesos2's own distributed path is avoided because KLU2 of Trilinos 13.2 as packaged by Debian
-/// returns wrong solutions on several ranks (Trilinos pull request 12232).
+/// KLU2 of Amesos2 on rank 0. Values gather there in global order, so the factors, and the
+/// solution, are the same for any number of ranks. The plan and the symbolic factorisation are made
+/// once, and pivots are kept as long as they serve. It is called past the interface of Amesos2,
+/// which chooses pivots each time and returns wrong solutions on several ranks (Trilinos 13.2 as
+/// packaged by Debian, pull request 12232).
 std::unique_ptr<LinearSolver> make_rooted_klu2(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
 

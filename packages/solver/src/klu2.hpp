@@ -1,0 +1,57 @@
+/// KLU2 of Amesos2 called directly, because Amesos2's adapter cannot factor again with the pivots
+/// that it has.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace culm::solver {
+
+/// LU factors of a matrix on one rank whose pattern never changes.
+///
+/// The first factorisation chooses the pivots, by size and sparsity. Later ones keep them, and with
+/// them the pattern of the factors, which takes a fifth of the time; if entries grow too much they
+/// choose anew. Which pivots serve is the only thing that depends on earlier factorisations.
+class Klu2 {
+ public:
+  /// The matrix stays with the caller. Its pattern is analysed here.
+  explicit Klu2(const assembly::CrsMatrix& matrix);
+  ~Klu2();
+  Klu2(const Klu2&) = delete;
+  Klu2& operator=(const Klu2&) = delete;
+
+  /// Factors the present values. @return false if the matrix is singular to working precision
+  bool factor();
+  /// Factors the present values with new pivots. @return as factor()
+  bool factor_anew();
+  /// Whether the last factorisation kept the pivots of an earlier one.
+  bool kept_pivots() const { return kept_pivots_; }
+  /// Puts A^-1 x into x with the last factors.
+  void solve(std::span<double> x);
+
+  /// Which unknown is eliminated with which row, as numbers for set_pivots of the same matrix
+  /// pattern; empty without factors.
+  std::vector<int> pivots() const;
+  /// The next factorisation keeps these pivots. It then rounds as it would have after those that
+  /// chose them. @return false if they are not pivots of a matrix of this size
+  bool set_pivots(std::span<const int> pivots);
+
+ private:
+  struct Parts;
+  void scale();
+  bool choose_pivots();
+  bool keep_pivots();
+
+  const assembly::CrsMatrix& matrix_;
+  std::unique_ptr<Parts> parts_;
+  std::vector<int> begin_;
+  std::vector<int> entries_;
+  std::vector<double> values_;  ///< of the matrix, each column divided by its largest entry
+  std::vector<double> scale_;   ///< by column
+  bool kept_pivots_ = false;
+};
+
+}  // namespace culm::solver
