@@ -2,12 +2,14 @@
 #include <culm/model/redundancy.hpp>
 
 #include <Eigen/OrderingMethods>
+#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseQR>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace culm::model {
@@ -88,6 +90,9 @@ class RowTable {
     const ConstraintRow& moved = rows[static_cast<std::size_t>(places_[k].row)];
     return (row_value(moved, slots) - row_value(row(k), slots)) / scale_[k];
   }
+
+  // Where the unknowns of each node begin.
+  const std::vector<int>& first_unknowns() const { return first_; }
 
   void move(const Eigen::VectorXd& u, Coordinates& q) const {
     for (int node = 0; node < nodes_.size(); ++node) {
@@ -172,21 +177,38 @@ class RowTable {
   std::vector<double> scale_;
 };
 
-// Rank-revealing factors G P = Q R of gradients.
+std::vector<int> all_columns(const Sparse& gradients) {
+  std::vector<int> columns(static_cast<std::size_t>(gradients.cols()));
+  std::iota(columns.begin(), columns.end(), 0);
+  return columns;
+}
+
+// Rank-revealing factors G P = Q R of some gradients.
 class Factors {
  public:
-  explicit Factors(Sparse gradients) {
-    gradients.makeCompressed();
+  explicit Factors(const Sparse& gradients) : Factors(gradients, all_columns(gradients)) {}
+
+  Factors(const Sparse& gradients, std::vector<int> columns) : columns_(std::move(columns)) {
+    Sparse some(gradients.rows(), static_cast<int>(columns_.size()));
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < some.cols(); ++k) {
+      for (Sparse::InnerIterator it(gradients, columns_[static_cast<std::size_t>(k)]); it; ++it) {
+        entries.emplace_back(static_cast<int>(it.row()), k, it.value());
+      }
+    }
+    some.setFromTriplets(entries.begin(), entries.end());
     qr_.setPivotThreshold(1e-10);
-    qr_.compute(gradients);
+    qr_.compute(some);
     const auto rank = qr_.rank();
     independent_ = Sparse(qr_.matrixR()).topLeftCorner(rank, rank);
   }
 
   int rank() const { return static_cast<int>(qr_.rank()); }
   int cols() const { return static_cast<int>(qr_.cols()); }
-  // Number of the column at a place; those from the rank on depend on the ones before.
-  int column(int place) const { return qr_.colsPermutation().indices()[place]; }
+  // Number of the gradient at a place; those from the rank on depend on the ones before.
+  int column(int place) const {
+    return columns_[static_cast<std::size_t>(qr_.colsPermutation().indices()[place])];
+  }
 
   // A dependent column as a combination of the independent ones, by place.
   Eigen::VectorXd combination(int place) const {
@@ -206,8 +228,89 @@ class Factors {
   }
 
  private:
+  std::vector<int> columns_;
   Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr_;
   Sparse independent_;  // the square part of R
+};
+
+// The gradients that may take part in a dependence. If those that touch a node are independent in
+// the unknowns of that node alone, each has the factor zero in every combination that vanishes;
+// without them the same may be true of the next node. An open chain is unravelled from its end,
+// and only what closes loops is left.
+class Unraveller {
+ public:
+  Unraveller(const Sparse& gradients, const std::vector<int>& first_unknowns)
+      : gradients_(gradients), first_(first_unknowns) {
+    node_of_.resize(static_cast<std::size_t>(gradients.rows()));
+    for (std::size_t node = 0; node < first_.size(); ++node) {
+      const int end =
+          node + 1 < first_.size() ? first_[node + 1] : static_cast<int>(gradients.rows());
+      for (int i = first_[node]; i < end; ++i) node_of_[static_cast<std::size_t>(i)] = node;
+    }
+    columns_of_.resize(first_.size());
+    for (int column = 0; column < gradients.cols(); ++column) {
+      for (std::size_t node : nodes_of(column)) columns_of_[node].push_back(column);
+    }
+    is_left_.assign(static_cast<std::size_t>(gradients.cols()), true);
+  }
+
+  std::vector<int> possibly_dependent() {
+    std::vector<std::size_t> waiting(first_.size());
+    std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+    while (!waiting.empty()) {
+      const std::size_t node = waiting.back();
+      waiting.pop_back();
+      std::vector<int>& columns = columns_of_[node];
+      std::erase_if(columns, [&](int c) { return !is_left_[static_cast<std::size_t>(c)]; });
+      if (columns.empty() || !are_independent(columns, node)) continue;
+      for (int column : columns) {
+        is_left_[static_cast<std::size_t>(column)] = false;
+        for (std::size_t other : nodes_of(column)) {
+          if (other != node) waiting.push_back(other);
+        }
+      }
+    }
+    std::vector<int> left;
+    for (int column = 0; column < gradients_.cols(); ++column) {
+      if (is_left_[static_cast<std::size_t>(column)]) left.push_back(column);
+    }
+    return left;
+  }
+
+ private:
+  static constexpr int max_width = 12;
+
+  std::vector<std::size_t> nodes_of(int column) const {
+    std::vector<std::size_t> nodes;
+    for (Sparse::InnerIterator it(gradients_, column); it; ++it) {
+      if (it.value() == 0.0) continue;
+      nodes.push_back(node_of_[static_cast<std::size_t>(it.row())]);
+    }
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    return nodes;
+  }
+
+  // Beyond doubt: what is hardly so stays for the factors.
+  bool are_independent(const std::vector<int>& columns, std::size_t node) const {
+    if (columns.size() > max_width) return false;
+    Eigen::MatrixXd part = Eigen::MatrixXd::Zero(max_width, static_cast<int>(columns.size()));
+    for (int k = 0; k < part.cols(); ++k) {
+      for (Sparse::InnerIterator it(gradients_, columns[static_cast<std::size_t>(k)]); it; ++it) {
+        if (node_of_[static_cast<std::size_t>(it.row())] != node) continue;
+        part(static_cast<int>(it.row()) - first_[node], k) = it.value();
+      }
+    }
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(part);
+    // against the unit length of a gradient, not against what is left of it here
+    return std::abs(qr.matrixR()(part.cols() - 1, part.cols() - 1)) > 1e-3;
+  }
+
+  const Sparse& gradients_;
+  const std::vector<int>& first_;
+  std::vector<std::size_t> node_of_;          // by unknown
+  std::vector<std::vector<int>> columns_of_;  // by node
+  std::vector<bool> is_left_;                 // by column
 };
 
 // A configuration near q where all rows hold; nothing if none is found.
@@ -288,17 +391,7 @@ bool gains_rank(const RowTable& table, const Sparse& gradients, const Factors& r
                 const RedundantSet& set) {
   std::vector<int> columns;
   for (int place = 0; place < reference.rank(); ++place) columns.push_back(reference.column(place));
-  const auto rank = [&] {
-    Sparse some(gradients.rows(), static_cast<int>(columns.size()));
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      for (Sparse::InnerIterator it(gradients, columns[k]); it; ++it) {
-        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(k), it.value());
-      }
-    }
-    some.setFromTriplets(entries.begin(), entries.end());
-    return Factors(std::move(some)).rank();
-  };
+  const auto rank = [&] { return Factors(gradients, columns).rank(); };
   const int without = rank();
   for (int place = reference.rank(); place < reference.cols(); ++place) {
     const int column = reference.column(place);
@@ -319,7 +412,11 @@ std::vector<RedundantSet> find_redundant_rows(const NodeTable& nodes,
   RowTable table(nodes, equations, form);
   if (table.places().empty()) return {};
   const Coordinates q = admissible(table, start).value_or(start);
-  const Factors factors(table.gradients(q));
+  const Sparse at_start = table.gradients(q);
+  const std::vector<int> doubtful =
+      Unraveller(at_start, table.first_unknowns()).possibly_dependent();
+  if (doubtful.empty()) return {};
+  const Factors factors(at_start, doubtful);
   if (factors.rank() == factors.cols()) return {};
   std::vector<RedundantSet> sets = dependent_sets(table, factors, q);
   // where no other position is found there is none, or it is out of reach
