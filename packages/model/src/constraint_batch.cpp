@@ -2,6 +2,8 @@
 #include <culm/model/constraint_batch.hpp>
 #include <culm/model/item_motion.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,46 +11,113 @@ namespace culm::model {
 namespace {
 
 constexpr int max_slots = 4 * ConstraintBatch::max_nodes;
-constexpr int max_width = 12 * ConstraintBatch::max_nodes;
 constexpr int max_rows = ConstraintBatch::max_rows;
 
 // Sizes vary with the constraint but are bounded, so nothing is on the heap.
 using ItemSlots = BoundedSlots<ConstraintBatch::max_nodes>;
-using Rows =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_width, max_rows>;
 using Scalars =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_slots, max_slots>;
 
+// The factors of a sum for the four slots of node a.
+Eigen::Map<const Vec<4>> of_node(const SlotSum& factors, int a) {
+  return Eigen::Map<const Vec<4>>(factors.data() + 4 * a);
+}
+
 Vec3 sum(const SlotSum& factors, const ItemSlots& q) {
   Vec3 result = Vec3::Zero();
-  for (int s = 0; s < q.cols(); ++s) result += factors[static_cast<std::size_t>(s)] * q.col(s);
+  for (int a = 0; 4 * a < q.cols(); ++a) {
+    result += q.middleCols<4>(4 * a).lazyProduct(of_node(factors, a));
+  }
   return result;
 }
 
-// Q = w + sum_s beta_s q_s
-Vec3 second_factor(const ConstraintRow& row, const ItemSlots& q) {
-  return row.linear() ? row.direction : Vec3(row.direction + sum(row.beta, q));
+// The factors of a row, P and Q, in a configuration.
+struct RowFactors {
+  Vec3 P;
+  Vec3 Q;
+
+  double value(const ConstraintRow& row) const { return P.dot(Q) - row.constant; }
+};
+
+using ItemFactors = std::array<RowFactors, max_rows>;
+
+ItemFactors factors_of(const std::vector<ConstraintRow>& rows, const ItemSlots& q) {
+  ItemFactors factors;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    factors[k].P = sum(rows[k].alpha, q);
+    factors[k].Q = rows[k].direction;
+    if (!rows[k].linear()) factors[k].Q += sum(rows[k].beta, q);
+  }
+  return factors;
 }
 
-double value(const ConstraintRow& row, const ItemSlots& q) {
-  return sum(row.alpha, q).dot(second_factor(row, q)) - row.constant;
+// H^T of one row by the slots of node a: alpha_s Q + beta_s P
+NodeSlots slot_gradient(const ConstraintRow& row, const RowFactors& f, int a) {
+  NodeSlots g = f.Q * of_node(row.alpha, a).transpose();
+  if (!row.linear()) g += f.P * of_node(row.beta, a).transpose();
+  return g;
 }
 
-// H^T, one column per row of the constraint: alpha_s Q + beta_s P
-Rows gradient(const std::vector<ConstraintRow>& rows, const ItemSlots& q) {
-  Rows H(3 * q.cols(), static_cast<int>(rows.size()));
-  for (int k = 0; k < H.cols(); ++k) {
-    const ConstraintRow& row = rows[static_cast<std::size_t>(k)];
-    const Vec3 P = sum(row.alpha, q);
-    const Vec3 Q = second_factor(row, q);
-    for (int s = 0; s < q.cols(); ++s) {
-      const auto at = static_cast<std::size_t>(s);
-      Vec3 column = row.alpha[at] * Q;
-      if (!row.linear()) column += row.beta[at] * P;
-      H.block<3, 1>(3 * s, k) = column;
+// P^T H^T of one row for node a. Where a node turns its arms are summed first, as
+// sum_s arm_s x alpha_s Q = (sum_s alpha_s arm_s) x Q.
+template <class Space>
+Vec<Space::width> gradient(const ConstraintRow& row, const RowFactors& f, int a,
+                           const Arms<4>& arms) {
+  if constexpr (Space::form == Form::null_space) {
+    if (arms.turns) {
+      const auto alpha = of_node(row.alpha, a);
+      Vec6 g;
+      g << alpha[0] * f.Q, Vec3(arms.slots.lazyProduct(alpha)).cross(f.Q);
+      if (!row.linear()) {
+        const auto beta = of_node(row.beta, a);
+        g.head<3>() += beta[0] * f.P;
+        g.tail<3>() += Vec3(arms.slots.lazyProduct(beta)).cross(f.P);
+      }
+      return g;
     }
   }
-  return H;
+  return slot_gradient(row, f, a).reshaped().template head<Space::width>();
+}
+
+// P^T H^T of all rows by node, shape (width, rows) each.
+template <class Space>
+class ConstraintJacobian {
+ public:
+  using Block =
+      Eigen::Matrix<double, Space::width, Eigen::Dynamic, Eigen::ColMajor, Space::width, max_rows>;
+
+  ConstraintJacobian(const std::vector<ConstraintRow>& rows, const ItemFactors& factors, int nodes,
+                     const ItemMotion<ConstraintBatch::max_nodes>::NodeArms& arms)
+      : nodes_(nodes) {
+    const int m = static_cast<int>(rows.size());
+    for (int a = 0; a < nodes; ++a) {
+      const auto at = static_cast<std::size_t>(a);
+      blocks_[at].resize(Space::width, m);
+      for (int k = 0; k < m; ++k) {
+        const auto row = static_cast<std::size_t>(k);
+        blocks_[at].col(k) = gradient<Space>(rows[row], factors[row], a, arms[at]);
+      }
+    }
+  }
+
+  int nodes() const { return nodes_; }
+  const Block& of(int a) const { return blocks_[static_cast<std::size_t>(a)]; }
+
+ private:
+  int nodes_;
+  std::array<Block, ConstraintBatch::max_nodes> blocks_;
+};
+
+// H^T lambda, the forces on the slots of the nodes side by side
+ItemSlots slot_forces(const std::vector<ConstraintRow>& rows, const ItemFactors& factors, int nodes,
+                      const double* lambda) {
+  ItemSlots force = ItemSlots::Zero(3, 4 * nodes);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (int a = 0; a < nodes; ++a) {
+      force.middleCols<4>(4 * a) += lambda[k] * slot_gradient(rows[k], factors[k], a);
+    }
+  }
+  return force;
 }
 
 // sum_k lambda_k A_k, A_k(i, j) = alpha_i beta_j + beta_i alpha_j for product rows
@@ -65,17 +134,6 @@ Scalars curvature(const std::vector<ConstraintRow>& rows, const double* lambda, 
     }
   }
   return A;
-}
-
-template <class Space>
-Rows reduce(const Rows& H, const ItemMotion<ConstraintBatch::max_nodes>::NodeArms& arms) {
-  const int nodes = static_cast<int>(H.rows()) / 12;
-  Rows R(Space::width * nodes, H.cols());
-  for (int a = 0; a < nodes; ++a) {
-    Space::reduce_rows(H.middleRows<12>(12 * a), arms[static_cast<std::size_t>(a)],
-                       R.middleRows<Space::width>(Space::width * a));
-  }
-  return R;
 }
 
 bool holds_positions(const ConstraintRow& row) {
@@ -152,34 +210,35 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
   const std::vector<int>& nodes = item.constraint.nodes;
   const int n = static_cast<int>(nodes.size());
-  const int m = static_cast<int>(item.rows_next.size());
   const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
-  const Eigen::Map<const Eigen::VectorXd> lambda(state.multipliers.data() + item.first_multiplier,
-                                                 m);
-  const Rows H_mid = gradient(item.rows_mid, motion.mid);
-  const Rows R_mid = reduce<Space>(H_mid, motion.arms_mid);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_width, 1> force(W * n);
-  force.noalias() = R_mid.lazyProduct(lambda);
-  if (!std::isfinite(force.sum())) return Verdict::not_finite;
-  target.force_scale = std::max(target.force_scale, force.lpNorm<Eigen::Infinity>());
+  const double* lambda = state.multipliers.data() + item.first_multiplier;
+  const ItemFactors factors_mid = factors_of(item.rows_mid, motion.mid);
+  const ItemFactors factors_next = factors_of(item.rows_next, motion.next);
+  const ItemSlots forces = slot_forces(item.rows_mid, factors_mid, n, lambda);
   for (int a = 0; a < n; ++a) {
-    placement_.scatter.add_residual(i, a, force.data() + W * a, target);
+    Vec<W> force;
+    const Vec<12> by_slot = forces.middleCols<4>(4 * a).reshaped();
+    Space::reduce_rows(by_slot, motion.arms_mid[static_cast<std::size_t>(a)], force);
+    if (!std::isfinite(force.sum())) return Verdict::not_finite;
+    target.force_scale = std::max(target.force_scale, force.template lpNorm<Eigen::Infinity>());
+    placement_.scatter.add_residual(i, a, force.data(), target);
   }
   std::array<double, max_rows> h{};
-  for (int k = 0; k < m; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    h[at] = value(item.rows_next[at], motion.next);
-    if (!std::isfinite(h[at])) return Verdict::not_finite;
+  for (std::size_t k = 0; k < item.rows_next.size(); ++k) {
+    const ConstraintRow& row = item.rows_next[k];
+    h[k] = factors_next[k].value(row);
+    if (!std::isfinite(h[k])) return Verdict::not_finite;
     target.constraint_violation =
-        std::max(target.constraint_violation, std::abs(h[at]) / item.measure[at]);
-    h[at] *= target.multiplier_scale;
+        std::max(target.constraint_violation, std::abs(h[k]) / item.measure[k]);
+    h[k] *= target.multiplier_scale;
   }
   placement_.scatter.add_residual(i, n, h.data(), target);
   if (want == Want::residual) return Verdict::ok;
 
-  const Rows R_next = reduce<Space>(gradient(item.rows_next, motion.next), motion.arms_next);
-  add_border<Space>(i, R_mid, R_next, target);
-  add_curvature<Space>(i, motion, H_mid, lambda.data(), stencil.theta, target);
+  add_border<Space>(i, ConstraintJacobian<Space>(item.rows_mid, factors_mid, n, motion.arms_mid),
+                    ConstraintJacobian<Space>(item.rows_next, factors_next, n, motion.arms_next),
+                    target);
+  add_curvature<Space>(i, motion, forces, lambda, stencil.theta, target);
   return Verdict::ok;
 }
 
@@ -187,35 +246,36 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
 template <class Space, class Jacobian>
 void ConstraintBatch::add_border(std::size_t i, const Jacobian& columns, const Jacobian& rows,
                                  Target& target) const {
-  constexpr int W = Space::width;
-  const int n = static_cast<int>(columns.rows()) / W;
+  const int n = columns.nodes();
   for (int a = 0; a < n; ++a) {
-    const Jacobian column = target.multiplier_scale * columns.template middleRows<W>(W * a);
-    const Jacobian row = target.multiplier_scale * rows.template middleRows<W>(W * a).transpose();
-    placement_.scatter.add_tangent(i, a, n, column, target);
-    placement_.scatter.add_tangent(i, n, a, row, target);
+    placement_.scatter.add_tangent(i, a, n, target.multiplier_scale * columns.of(a), target);
+    placement_.scatter.add_tangent(i, n, a, target.multiplier_scale * rows.of(a).transpose(),
+                                   target);
   }
 }
 
-// theta sum_k lambda_k A_k between the nodes, and the turning of the projection under H^T lambda.
-template <class Space, class Motion, class Jacobian>
-void ConstraintBatch::add_curvature(std::size_t i, const Motion& motion, const Jacobian& H_mid,
+// theta sum_k lambda_k A_k between the nodes, and the turning of the projection under the forces
+// H^T lambda.
+template <class Space, class Motion, class Forces>
+void ConstraintBatch::add_curvature(std::size_t i, const Motion& motion, const Forces& forces,
                                     const double* lambda, double theta, Target& target) const {
   constexpr int W = Space::width;
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const int n = static_cast<int>(item.constraint.nodes.size());
-  const Scalars A = theta * curvature(item.rows_mid, lambda, 4 * n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_width, 1> slot_force(12 * n);
-  slot_force.noalias() = H_mid.lazyProduct(Eigen::Map<const Eigen::VectorXd>(lambda, H_mid.cols()));
-  const Eigen::Map<const ItemSlots> slot_forces(slot_force.data(), 3, 4 * n);
+  const std::vector<ConstraintRow>& rows =
+      items_[static_cast<std::size_t>(placement_.items[i])].rows_mid;
+  const int n = static_cast<int>(forces.cols()) / 4;
+  const bool is_curved = !std::ranges::all_of(rows, &ConstraintRow::linear);
+  const Scalars A = is_curved ? Scalars(theta * curvature(rows, lambda, 4 * n)) : Scalars();
   for (int a = 0; a < n; ++a) {
+    const auto& arms_mid = motion.arms_mid[static_cast<std::size_t>(a)];
     for (int b = 0; b < n; ++b) {
-      RowMat<W, W> block = RowMat<W, W>::Zero();
+      if (!is_curved && (a != b || Space::form == Form::multipliers)) continue;
       const auto& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
-      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
-                       motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      if (is_curved) {
+        Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b), arms_mid, arms_next, block);
+      }
       if (a == b) {
-        Space::add_turning(slot_forces.template middleCols<4>(4 * a), arms_next, theta, block);
+        Space::add_turning(forces.template middleCols<4>(4 * a), arms_next, theta, block);
       }
       placement_.scatter.add_tangent(i, a, b, block, target);
     }
@@ -227,8 +287,10 @@ template <class Space>
 void ConstraintBatch::assemble_jacobian(std::size_t i, const State& state, Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
   const ItemMotion<max_nodes> motion(nodes_, item.constraint.nodes, state, 1.0);
-  const Rows R = reduce<Space>(gradient(item.rows_next, motion.next), motion.arms_next);
-  add_border<Space>(i, R, R, target);
+  const ConstraintJacobian<Space> rows(item.rows_next, factors_of(item.rows_next, motion.next),
+                                       static_cast<int>(item.constraint.nodes.size()),
+                                       motion.arms_next);
+  add_border<Space>(i, rows, rows, target);
 }
 
 StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) const {
@@ -238,15 +300,15 @@ StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) 
     if (!placement_.owned[i] || !item.constraint.drive) continue;
     const std::vector<int>& nodes = item.constraint.nodes;
     const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
-    const Rows H = gradient(item.rows_mid, motion.mid);
     ItemSlots moved = motion.next;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       moved.middleCols<4>(4 * static_cast<int>(a)) -= NodeTable::slots(state.prev, nodes[a]);
     }
+    const ItemSlots forces = slot_forces(item.rows_mid, factors_of(item.rows_mid, motion.mid),
+                                         static_cast<int>(nodes.size()),
+                                         state.multipliers.data() + item.first_multiplier);
     // the constraint acts with -H^T lambda
-    work.drives -= (H.transpose() * moved.reshaped())
-                       .dot(Eigen::Map<const Eigen::VectorXd>(
-                           state.multipliers.data() + item.first_multiplier, H.cols()));
+    work.drives -= forces.cwiseProduct(moved).sum();
   }
   return work;
 }
@@ -259,11 +321,10 @@ Vec6 ConstraintBatch::reaction(int node, const State& state, const std::string& 
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (nodes[a] != node) continue;
       const ItemMotion<max_nodes> motion(nodes_, nodes, state, 1.0);
-      const Rows H = gradient(item.rows_next, motion.next);
-      const Eigen::Map<const Eigen::VectorXd> lambda(
-          state.multipliers.data() + item.first_multiplier, H.cols());
-      const int at = static_cast<int>(a);
-      const Eigen::VectorXd force = H.middleRows<12>(12 * at) * lambda;
+      const ItemSlots forces = slot_forces(item.rows_next, factors_of(item.rows_next, motion.next),
+                                           static_cast<int>(nodes.size()),
+                                           state.multipliers.data() + item.first_multiplier);
+      const Vec<12> force = forces.middleCols<4>(4 * static_cast<int>(a)).reshaped();
       Arms<4> arms = motion.arms_next[a];
       arms.slots.col(0).setZero();  // the moment is taken about the node
       RowMat<6, 1> reduced;
