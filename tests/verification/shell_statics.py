@@ -329,16 +329,48 @@ def verify_sandwich(culm, report):
     report.relative("core carries the shear: NAFEMS R0031(3)", found[1.0], 3.1242, 0.02)
 
 
+def free_cylinder(culm, slenderness, n=32):
+    """Deflection under two opposite forces, times E t^3 / (F R); the diaphragms hold nothing here."""
+    radius, modulus, small = 4.953, 10.5e6, 1e-6
+    thickness = radius / slenderness
+    force = small * modulus * thickness**3 / radius
+    mesh = f"{SHELL}/Mesh"
+    history = culm.history("shell/pinched_cylinder.xml", [
+        f"N={n}", f"t={thickness!r}", f"F={force!r}", f"{mesh}/Radius={radius}",
+        f"{mesh}/Length={10.35 / 2.0}", f"Materials/elastic/Young Modulus={modulus!r}",
+        "Materials/elastic/Poisson Ratio=0.3125", "Constraints/diaphragm x/Node=shell/u1",
+        "Constraints/diaphragm y/Node=shell/u0", "Analyses/loading/Steps=1"])
+    return -history.vector("load")[1] / small
+
+
+def verify_free_cylinder(culm, report):
+    report.title("SS-9: pinched cylinder with free ends, 32 x 32, w E t^3 / (F R); Briassoulis")
+    for slenderness, reference in ((1e2, 1.997), (1e4, 1.912)):
+        report.relative(f"R/t = {slenderness:g}", free_cylinder(culm, slenderness), reference, 0.02)
+
+
+# stretch, first Piola stress over E, lateral stretch of a Neo-Hooke solid, nu = 0.3; exact
+NEO_HOOKE = [(0.6, -0.62434857, 1.15498215), (0.8, -0.24000538, 1.06733837),
+             (0.9, -0.10872219, 1.03170243), (1.1, 0.09307743, 0.97149295),
+             (1.25, 0.21260478, 0.93356010), (1.5, 0.37828018, 0.88017459),
+             (2.0, 0.64674466, 0.79807754)]
+
+
 def verify_uniaxial(culm, report):
+    def check(material, stretch, stress, lateral, tolerance):
+        history = culm.history("shell/uniaxial_stress.xml",
+                               [f"P={stress!r}", f"Materials/elastic/Type={material}"])
+        for point, x, y in (("corner", 1.0, 1.0), ("inside", 0.7, 0.75)):
+            exact = [x * (stretch - 1.0), y * (lateral - 1.0), 0.0]
+            report.check(f"stretch {stretch}, {point}", history.vector(point), exact, tolerance)
+
     report.title("SS-11: St. Venant-Kirchhoff patch in uniaxial stress, exact")
-    for stretch in (0.6, 0.8, 0.9, 1.1, 1.25, 1.5, 2.0):
+    for stretch, _, _ in NEO_HOOKE:
         strain = stretch**2 - 1.0
-        history = culm.history("shell/uniaxial_stress.xml", [f"P={0.5 * stretch * strain!r}"])
-        lateral = math.sqrt(1.0 - 0.3 * strain)
-        exact = [stretch - 1.0, lateral - 1.0, 0.0]
-        report.check(f"stretch {stretch}, corner", history.vector("corner"), exact, 1e-9)
-        exact = [0.7 * (stretch - 1.0), 0.75 * (lateral - 1.0), 0.0]
-        report.check(f"stretch {stretch}, inside", history.vector("inside"), exact, 1e-9)
+        check("Isotropic", stretch, 0.5 * stretch * strain, math.sqrt(1.0 - 0.3 * strain), 1e-9)
+    report.title("SS-11: Neo-Hooke patch in uniaxial stress, eight digits after the point")
+    for row in NEO_HOOKE:
+        check("Neo-Hooke", *row, 5e-8)
 
 
 def verify(culm, report):
@@ -346,6 +378,7 @@ def verify(culm, report):
     verify_locking(culm, report)
     verify_thickness(culm, report)
     verify_hook(culm, report)
+    verify_free_cylinder(culm, report)
     verify_shear(culm, report)
     verify_moment(culm, report)
     verify_hemisphere(culm, report)
