@@ -1,6 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/joint/angular_velocity.hpp>
 #include <culm/joint/rotation.hpp>
+#include <culm/joint/triad_nodes.hpp>
 #include <culm/math/rotation.hpp>
 
 #include "supports.hpp"
@@ -146,6 +147,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
     if (!velocity) return;
     model::Model& model = context.model;
     const std::vector<int> nodes = model::select_nodes(options, "Node", context);
+    if (!have_triads(nodes, "Node", options, context)) return;
     auto batch = std::make_unique<AngularVelocity>(type + ", " + options.name(), model);
     for (int node : nodes) {
       Vec3 axis = read_direction(options, "Axis");

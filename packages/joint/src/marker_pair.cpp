@@ -1,4 +1,5 @@
 #include <culm/joint/marker_pair.hpp>
+#include <culm/joint/triad_nodes.hpp>
 #include <culm/math/rotation.hpp>
 
 #include <Eigen/Geometry>
@@ -135,6 +136,10 @@ void add_joint(const std::string& type, const Options& options, model::BuildCont
   const auto first = model::select_point(options, "First", context);
   const auto second = model::select_point(options, "Second", context);
   if (!first || !second) return;
+  if (!have_triads(first->nodes, "First", options, context) ||
+      !have_triads(second->nodes, "Second", options, context)) {
+    return;
+  }
   if (first->nodes == second->nodes && first->weights == second->weights) {
     context.issues.add(options.where("Second"), "must be another node than First");
     return;

@@ -27,7 +27,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
                    const std::string& doc) {
   registry.add(type, directed_schema(type, doc, "Normal", "Normal of the plane, of any length."),
                [type](const Options& options, model::BuildContext& context) {
-                 add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+                 add_per_anchor(type, options, context, Holds::all, [&](const Anchor& anchor) {
                    return planar_support(anchor, read_direction(options, "Normal"));
                  });
                });

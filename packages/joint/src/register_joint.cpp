@@ -9,6 +9,7 @@
 #include <culm/joint/rigid_connection.hpp>
 #include <culm/joint/rigid_support.hpp>
 #include <culm/joint/rotation.hpp>
+#include <culm/joint/shell_connection.hpp>
 #include <culm/joint/simple_support.hpp>
 #include <culm/joint/simple_support_local.hpp>
 #include <culm/joint/spherical_joint.hpp>
@@ -35,6 +36,7 @@ void register_joints(model::BuilderRegistry& registry) {
   register_universal_joint(registry);
   register_weld(registry);
   register_joint_angle(registry);
+  register_shell_connections(registry);
 }
 
 }  // namespace culm::joint

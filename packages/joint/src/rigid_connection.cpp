@@ -12,6 +12,14 @@ void build(const Options& options, model::BuildContext& context) {
                        "must name one node, got " + std::to_string(masters.size()));
     return;
   }
+  const model::NodeTable& nodes = context.model.nodes();
+  if (nodes.kind(masters.front()) == NodeKind::node6) {
+    context.issues.add(options.where("Master"),
+                       "node '" + context.model.node_name(masters.front()) +
+                           "' is one of a shell and has no triad to follow; shells are joined by "
+                           "Smooth, Fold, Hinge and Layer Connection");
+    return;
+  }
   for (int node : followers) {
     if (node == masters.front()) {
       context.issues.add(options.where("Node"),

@@ -36,11 +36,28 @@ void hold_point(const Anchor& anchor, const SupportMotion& motion, model::Constr
   };
 }
 
+// x - x0 - u(t) and d - R(t) d0 of a shell node
+void move_shell_node(const Anchor& anchor, const SupportMotion& motion,
+                     model::Constraint& support) {
+  add_vector_rows(anchor.point(), anchor, support);
+  add_vector_rows(anchor.director(), anchor, support);
+  drive_constants(motion.translation, support);
+  support.drive = [motion, d = Vec3(anchor.directors().col(0)),
+                   translate = std::move(support.drive)](double time,
+                                                         std::vector<model::ConstraintRow>& rows) {
+    translate(time, rows);
+    const Vec3 turned = exp_rotation(motion.angle.at(time) * motion.axis) * d;
+    for (int i = 0; i < 3; ++i) rows[static_cast<std::size_t>(3 + i)].constant = turned[i];
+  };
+}
+
 }  // namespace
 
 model::Constraint rigid_support(const Anchor& anchor, const SupportMotion& motion) {
   model::Constraint support = support_of(anchor);
-  if (motion.moves() || anchor.node() < 0) {
+  if (motion.moves() && anchor.on_shell()) {
+    move_shell_node(anchor, motion, support);
+  } else if (motion.moves() || anchor.node() < 0) {
     hold_point(anchor, motion, support);
   } else {
     hold_node(anchor, support);
@@ -69,7 +86,7 @@ void register_rigid_support(model::BuilderRegistry& registry) {
     if (!translation || !angle) return;
     const SupportMotion motion{*std::move(translation), read_direction(options, "Axis"),
                                *std::move(angle)};
-    add_per_anchor(type, options, context,
+    add_per_anchor(type, options, context, Holds::all,
                    [&](const Anchor& anchor) { return rigid_support(anchor, motion); });
   });
 }

@@ -32,7 +32,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
   registry.add(type, schema, [type, make](const Options& options, model::BuildContext& context) {
     const auto motion = read_motion(options, "Angle", context);
     if (!motion) return;
-    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+    add_per_anchor(type, options, context, Holds::triads, [&](const Anchor& anchor) {
       return make(anchor, read_direction(options, "Axis"), *motion);
     });
   });

@@ -21,7 +21,7 @@ void register_simple_support_local(model::BuilderRegistry& registry) {
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
     const auto motion = read_motion(options, "Translation", context);
     if (!motion) return;
-    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+    add_per_anchor(type, options, context, Holds::triads, [&](const Anchor& anchor) {
       return simple_support_local(anchor, read_direction(options, "Direction"), *motion);
     });
   });

@@ -24,7 +24,7 @@ void register_spherical_support(model::BuilderRegistry& registry) {
   registry.add(type, schema, [type](const Options& options, model::BuildContext& context) {
     const auto motion = read_translation(options, context);
     if (!motion) return;
-    add_per_anchor(type, options, context, [&](const Anchor& anchor) {
+    add_per_anchor(type, options, context, Holds::all, [&](const Anchor& anchor) {
       return spherical_support(anchor, model::vector(options, "Offset"), *motion);
     });
   });

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <utility>
 
 namespace culm::joint {
@@ -70,7 +71,34 @@ Field anchor_field() {
                            "'beam@0.35'.");
 }
 
+namespace {
+
+// A shell node has no triad, and of the directions along which an offset could go only d.
+bool can_hold(const std::string& type, const model::Marker& marker, const Options& options,
+              model::BuildContext& context, Holds holds) {
+  if (context.model.nodes().kind(marker.nodes.front()) != NodeKind::node6) return true;
+  const std::string node =
+      "node '" + context.model.node_name(marker.nodes.front()) + "' is one of a shell: ";
+  if (holds == Holds::triads) {
+    context.issues.add(options.where("Node"),
+                       node + "it has one director and no triad, which " + type + " needs");
+    return false;
+  }
+  const auto is_offset = [](const auto& parameter) { return parameter.name == "Offset"; };
+  const auto& parameters = options.parameters();
+  if (std::any_of(parameters.begin(), parameters.end(), is_offset) &&
+      !model::vector(options, "Offset").tail<2>().isZero(0.0)) {
+    context.issues.add(options.where("Offset"),
+                       node + "only the first component, along the director, may differ from zero");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 void add_per_anchor(const std::string& type, const Options& options, model::BuildContext& context,
+                    Holds holds,
                     const std::function<model::Constraint(const Anchor& anchor)>& make) {
   std::vector<model::Marker> markers;
   if (options.text("Node").find('@') != std::string::npos) {
@@ -81,6 +109,7 @@ void add_per_anchor(const std::string& type, const Options& options, model::Buil
     }
   }
   for (const model::Marker& marker : markers) {
+    if (!can_hold(type, marker, options, context, holds)) return;
     model::Constraint constraint = make(Anchor(context.model.nodes(), marker));
     constraint.type = type;
     constraint.name = options.name();

@@ -37,9 +37,16 @@ bool is_node(const Anchor& anchor, const Vec3& offset);
 /// The two rotations that a fixed axis excludes: increments of rotations are vectors in space.
 std::bitset<6> rotations_across(std::size_t axis);
 
+/// Which nodes a type of support can hold.
+enum class Holds {
+  triads,  ///< those of beams and bodies
+  all,     ///< those of shells as well
+};
+
 /// Adds the constraint that `make` returns for each node of parameter "Node", or for the point of a
-/// beam that it names.
+/// beam that it names; an issue names a node of a shell that the type cannot hold.
 void add_per_anchor(const std::string& type, const Options& options, model::BuildContext& context,
+                    Holds holds,
                     const std::function<model::Constraint(const Anchor& anchor)>& make);
 
 /// Parameter "Node" of supports.

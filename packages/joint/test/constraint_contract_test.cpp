@@ -6,6 +6,7 @@
 #include <culm/joint/revolute_support.hpp>
 #include <culm/joint/rigid_support.hpp>
 #include <culm/joint/rotation.hpp>
+#include <culm/joint/shell_connection.hpp>
 #include <culm/joint/simple_support.hpp>
 #include <culm/joint/simple_support_local.hpp>
 #include <culm/joint/spherical_joint.hpp>
@@ -200,6 +201,97 @@ struct WeldedBetween : PairBetween {
   static Constraint make(const NodeTable& n) { return weld(pair(n)); }
 };
 
+// On nodes of shells.
+template <bool Eliminated>
+struct ShellCase : SupportCase<Eliminated> {
+  static constexpr NodeKind node_kind(int) { return NodeKind::node6; }
+};
+const Vec3 along_director(0.3, 0.0, 0.0);
+
+struct RigidShell : ShellCase<true> {
+  static Constraint make(const NodeTable& n) { return rigid_support({n, 0}); }
+};
+struct RigidShellMoving : ShellCase<false> {
+  static Constraint make(const NodeTable& n) { return RigidMoving::make(n); }
+};
+struct SphericalShell : ShellCase<true> {
+  static Constraint make(const NodeTable& n) { return Spherical::make(n); }
+};
+struct SphericalShellWithOffset : ShellCase<false> {
+  static Constraint make(const NodeTable& n) { return spherical_support({n, 0}, along_director); }
+};
+struct SimpleShell : ShellCase<true> {
+  static Constraint make(const NodeTable& n) { return SimpleAlongAxis::make(n); }
+};
+struct SimpleShellWithOffset : ShellCase<false> {
+  static Constraint make(const NodeTable& n) {
+    return simple_support({n, 0}, oblique, along_director);
+  }
+};
+struct SymmetryShell : ShellCase<true> {
+  static Constraint make(const NodeTable& n) { return Planar::make(n); }
+};
+struct SymmetryShellOblique : ShellCase<false> {
+  static Constraint make(const NodeTable& n) { return PlanarOblique::make(n); }
+};
+struct RevoluteShell : ShellCase<true> {
+  static Constraint make(const NodeTable& n) { return Revolute::make(n); }
+};
+struct RevoluteShellOblique : ShellCase<false> {
+  static Constraint make(const NodeTable& n) {
+    return revolute_support({n, 0}, oblique, along_director);
+  }
+};
+struct Inextensible : ShellCase<false> {
+  static Constraint make(const NodeTable& n) { return inextensible_director(n, 0); }
+};
+
+struct ShellPair : ShellCase<false> {
+  static constexpr int num_nodes = 2;
+};
+struct ShellHinge : ShellPair {
+  static Constraint make(const NodeTable& n) { return hinge_connection(n, 0, 1); }
+};
+struct ShellFold : ShellPair {
+  static Constraint make(const NodeTable& n) { return fold_connection(n, 0, 1); }
+};
+struct InextensibleFold : ShellPair {
+  static Constraint make(const NodeTable& n) { return fold_connection(n, 0, 1, true); }
+};
+struct Layers : ShellPair {
+  static Constraint make(const NodeTable& n) { return layer_connection(n, 0, 1, 0.2, 0.5); }
+};
+
+// A node of a shell on a triad.
+struct ToTriad {
+  static constexpr int num_nodes = 2;
+  static constexpr NodeKind node_kind(int node) {
+    return node == 0 ? NodeKind::node12 : NodeKind::node6;
+  }
+};
+struct Soft : ToTriad {
+  static constexpr bool eliminated = false;
+  static Constraint make(const NodeTable& n) { return soft_transition(n, 1, 0); }
+};
+struct RigidTransition : ToTriad {
+  static constexpr bool eliminated = true;
+  static Constraint make(const NodeTable& nodes) {
+    model::Model model;
+    for (int node : {0, 1}) {
+      model.nodes().add(NodeTable::slots(nodes.reference(), node), node_kind(node));
+    }
+    model.add_rigid_link("link", 1, 0);
+    return model.constraints().front();
+  }
+};
+
+using ShellCases =
+    testing::Types<RigidShell, RigidShellMoving, SphericalShell, SphericalShellWithOffset,
+                   SimpleShell, SimpleShellWithOffset, SymmetryShell, SymmetryShellOblique,
+                   RevoluteShell, RevoluteShellOblique, ShellHinge, ShellFold, InextensibleFold,
+                   Layers>;
+using ShellJoints = testing::Types<Inextensible, Soft, RigidTransition>;
+
 using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded, Angle, BallBetween,
                               HingeBetween, SliderBetween, WeldedBetween>;
 using Cases = testing::Types<Rigid, Spherical, SphericalWithOffset, SimpleAlongAxis, SimpleOblique,
@@ -216,4 +308,7 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Joint, ConstraintContract, joint::Cases);
 INSTANTIATE_TYPED_TEST_SUITE_P(Joint, JointContract, testing::Types<joint::RigidLink>);
 INSTANTIATE_TYPED_TEST_SUITE_P(Pair, ConstraintContract, joint::Joints);
 INSTANTIATE_TYPED_TEST_SUITE_P(Pair, JointContract, joint::Joints);
+INSTANTIATE_TYPED_TEST_SUITE_P(Shell, ConstraintContract, joint::ShellCases);
+INSTANTIATE_TYPED_TEST_SUITE_P(ShellJoint, ConstraintContract, joint::ShellJoints);
+INSTANTIATE_TYPED_TEST_SUITE_P(ShellJoint, JointContract, joint::ShellJoints);
 }  // namespace culm::kit

@@ -33,15 +33,15 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
       "Components in the directors at function value 1.", Frame::directors);
 }
 
-void check_components(const LoadRequest& request, const std::string& parameter,
-                      const std::vector<int>& nodes) {
-  if (request.vector(parameter).tail<2>().isZero(0.0)) return;
+void check_components(const std::string& parameter, const std::vector<int>& nodes,
+                      const Options& options, model::BuildContext& context) {
+  if (model::vector(options, parameter).tail<2>().isZero(0.0)) return;
   for (int node : nodes) {
-    if (request.nodes().kind(node) != NodeKind::node6) continue;
-    request.context.issues.add(request.options.where(parameter),
-                               "node '" + request.context.model.node_name(node) +
-                                   "' of a shell has one director: only the first component may "
-                                   "differ from zero");
+    if (context.model.nodes().kind(node) != NodeKind::node6) continue;
+    context.issues.add(options.where(parameter),
+                       "node '" + context.model.node_name(node) +
+                           "' of a shell has one director: only the first component may differ "
+                           "from zero");
     return;
   }
 }

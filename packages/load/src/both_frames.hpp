@@ -38,8 +38,8 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
 
 /// Adds an issue if a node is one of a shell, which has one director d, and a vector in directors
 /// has another component than the first. @param parameter  the vector
-void check_components(const LoadRequest& request, const std::string& parameter,
-                      const std::vector<int>& nodes);
+void check_components(const std::string& parameter, const std::vector<int>& nodes,
+                      const Options& options, model::BuildContext& context);
 
 /// Adds an issue if a moment shall follow a node of a shell, whose one director does not tell the
 /// axes of the moment.

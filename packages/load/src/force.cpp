@@ -9,8 +9,9 @@ namespace {
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
   const auto nodes = model::select_nodes(request.options, "Node", request.context);
-  check_components(request, "Offset", nodes);
-  if (request.frame == Frame::directors) check_components(request, "Force", nodes);
+  check_components("Offset", nodes, request.options, request.context);
+  if (request.frame == Frame::directors)
+    check_components("Force", nodes, request.options, request.context);
   for (int node : nodes) {
     model::Marker point = model::marker_at(node);
     point.offset = request.vector("Offset");

@@ -12,8 +12,9 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   if (points.empty()) return nullptr;
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
   const auto& nodes = points.front().marker.nodes;
-  check_components(request, "Offset", nodes);
-  if (request.frame == Frame::directors) check_components(request, "Force", nodes);
+  check_components("Offset", nodes, request.options, request.context);
+  if (request.frame == Frame::directors)
+    check_components("Force", nodes, request.options, request.context);
   for (model::LinePoint point : points) {
     point.marker.offset += request.vector("Offset");
     load->add_force(point.marker, point.length * request.vector("Force"), request.frame);

@@ -1,5 +1,6 @@
 #include "link_type.hpp"
 
+#include <culm/joint/triad_nodes.hpp>
 #include <culm/load/link_load.hpp>
 
 #include "both_frames.hpp"
@@ -152,6 +153,20 @@ void register_spring_and_damper(model::BuilderRegistry& registry, const LinkType
                 });
 }
 
+namespace {
+
+// A direction can turn with a triad only.
+void check_frame(const std::vector<int>& nodes, const std::string& parameter,
+                 const Options& options, model::BuildContext& context) {
+  const auto is_frame = [](const auto& field) { return field.name == "Frame"; };
+  const auto& all = options.parameters();
+  if (std::any_of(all.begin(), all.end(), is_frame) && follows(options)) {
+    joint::have_triads(nodes, parameter, options, context);
+  }
+}
+
+}  // namespace
+
 Schema point_pair_schema() {
   const auto offset = [](const std::string& node) {
     return model::vector_field(node + " Offset", "m",
@@ -168,6 +183,9 @@ Schema point_pair_schema() {
 std::vector<LinkPoint> select_points(const Options& options, model::BuildContext& context) {
   const auto nodes = joint::select_two_nodes(options, context);
   if (!nodes) return {};
+  check_components("First Offset", {(*nodes)[0]}, options, context);
+  check_components("Second Offset", {(*nodes)[1]}, options, context);
+  check_frame({(*nodes)[0]}, "First", options, context);
   return {{(*nodes)[0], model::vector(options, "First Offset")},
           {(*nodes)[1], model::vector(options, "Second Offset")}};
 }
@@ -176,7 +194,10 @@ Schema ground_schema() { return Schema("").add(model::node_field()).add(offset_f
 
 std::vector<LinkPoint> select_ground_points(const Options& options, model::BuildContext& context) {
   std::vector<LinkPoint> points;
-  for (int node : model::select_nodes(options, "Node", context)) {
+  const auto nodes = model::select_nodes(options, "Node", context);
+  check_components("Offset", nodes, options, context);
+  check_frame(nodes, "Node", options, context);
+  for (int node : nodes) {
     points.push_back({node, model::vector(options, "Offset")});
   }
   return points;

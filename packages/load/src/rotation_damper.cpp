@@ -1,3 +1,4 @@
+#include <culm/joint/triad_nodes.hpp>
 #include <culm/load/rotation_damper.hpp>
 
 #include "both_frames.hpp"
@@ -86,7 +87,9 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
     const model::NodeTable& nodes = context.model.nodes();
     auto damper = std::make_unique<RotationDamper>(effect_name(type, options), nodes,
                                                    read_damper(options, LinkUnits::angles()));
-    for (int node : model::select_nodes(options, "Node", context)) {
+    const auto selected = model::select_nodes(options, "Node", context);
+    if (!joint::have_triads(selected, "Node", options, context)) return;
+    for (int node : selected) {
       const Mat3 triad = model::NodeTable::slots(nodes.reference(), node).rightCols<3>();
       const Vec3 axis = model::vector(options, "Axis").normalized();
       damper->add(node, {follows ? Vec3(triad.transpose() * axis) : axis, follows});

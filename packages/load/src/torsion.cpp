@@ -1,3 +1,5 @@
+#include <culm/joint/triad_nodes.hpp>
+
 #include "link_type.hpp"
 #include "types.hpp"
 
@@ -6,7 +8,10 @@ namespace {
 
 std::vector<Link> make(const Options& options, model::BuildContext& context) {
   const auto nodes = joint::select_two_nodes(options, context);
-  if (!nodes) return {};
+  if (!nodes || !joint::have_triads({(*nodes)[0]}, "First", options, context) ||
+      !joint::have_triads({(*nodes)[1]}, "Second", options, context)) {
+    return {};
+  }
   const joint::MarkerPair pair(context.model.nodes(), (*nodes)[0], (*nodes)[1], Vec3::Zero());
   return {angle_link(pair, model::vector(options, "Axis").normalized())};
 }

@@ -106,7 +106,7 @@ struct MomentCase {
 
 /// On a face of shell nodes.
 struct PressureCase {
-  static constexpr NodeKind node_kind = NodeKind::node6;
+  static constexpr NodeKind node_kind(int) { return NodeKind::node6; }
   static constexpr int num_nodes = 4;
   static constexpr bool follows = true;
   static constexpr double zeta = 0.3;
@@ -148,7 +148,7 @@ struct PressureCase {
 /// Forces at a point above shell nodes.
 template <Frame F>
 struct ShellForceCase {
-  static constexpr NodeKind node_kind = NodeKind::node6;
+  static constexpr NodeKind node_kind(int) { return NodeKind::node6; }
   static constexpr int num_nodes = 4;
   static constexpr bool follows = F == Frame::directors;
   static model::Marker point() { return {{0, 1, 2, 3}, {0.1, 0.2, 0.3, 0.4}, 0.3 * Vec3::UnitX()}; }

@@ -1,3 +1,4 @@
+#include <culm/joint/shell_connection.hpp>
 #include <culm/model/element_batch.hpp>
 #include <culm/shell/elastic_shell.hpp>
 #include <culm/shell/hyperelastic_shell.hpp>
@@ -178,6 +179,21 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
   }
 }
 
+// Walls that meet keep their place and their angle: one joint from each node of a fold to the next.
+void join_folds(const ShellMesh& mesh, const std::vector<int>& nodes, const std::string& structure,
+                model::Model& model) {
+  for (const std::vector<int>& fold : mesh.folds) {
+    for (std::size_t i = 0; i + 1 < fold.size(); ++i) {
+      const int first = nodes[static_cast<std::size_t>(fold[i])];
+      const int second = nodes[static_cast<std::size_t>(fold[i + 1])];
+      model::Constraint joint = joint::fold_connection(model.nodes(), first, second);
+      joint.type = "Fold";
+      joint.name = structure + ", fold";
+      model.add_constraint(std::move(joint));
+    }
+  }
+}
+
 void add_shell(const Options& options, ShellContext& context) {
   const auto layup =
       std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
@@ -194,6 +210,7 @@ void add_shell(const Options& options, ShellContext& context) {
     add_elements<HyperelasticShell>("Shell, hyperelastic", mesh, layup, options, structure,
                                     context.model);
   }
+  join_folds(mesh, structure.nodes, structure.name, context.model);
   add_sets(mesh, structure.nodes, context.model.nodes(), structure);
 }
 

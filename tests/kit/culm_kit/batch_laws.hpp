@@ -14,6 +14,17 @@ namespace culm::kit {
 inline const std::vector<Stencil> law_stencils = {
     Stencil::statics(), Stencil::midpoint(0.4), {0.4, 0.5, 0.75}};
 
+/// Kind of a node of a contract's case: that of `static constexpr NodeKind node_kind(int node)`,
+/// a triad where the case has none.
+template <class Case>
+constexpr NodeKind kind_of(int node) {
+  if constexpr (requires { Case::node_kind(node); }) {
+    return Case::node_kind(node);
+  } else {
+    return NodeKind::node12;
+  }
+}
+
 /// Fills a model; called anew for each form.
 using FillModel = std::function<void(model::Model&)>;
 

@@ -10,7 +10,8 @@
 ///       static model::Constraint make(const model::NodeTable& nodes);  // of nodes 0, 1, …
 ///     };
 ///
-/// Nodes have random positions and triads. JointContract adds what joints between bodies obey.
+/// Nodes have random positions and triads, or are of the kind that `node_kind` says (kind_of).
+/// JointContract adds what joints between bodies obey.
 /// @source formulation 0.3, 2.1, 2.8, 6.4
 #pragma once
 
@@ -45,7 +46,9 @@ class ConstraintContract : public testing::Test {
   }
 
   static void add_nodes(model::Model& model) {
-    for (int node = 0; node < num_nodes; ++node) model.nodes().add(random_node(10 + node));
+    for (int node = 0; node < num_nodes; ++node) {
+      add_random_node(model.nodes(), kind_of<Case>(node), 10 + node);
+    }
   }
   /// The constraint, kept as equations, and on demand a master that node 0 follows.
   static void fill(model::Model& model, bool with_slave) {
@@ -70,7 +73,15 @@ class ConstraintContract : public testing::Test {
   }
   /// H(q) at time zero, shape (rows, 12 nodes)
   Eigen::MatrixXd H(const model::Coordinates& q) {
-    return rows_->tangent(state_at(q), Stencil::statics()).block(first_row_, 0, num_rows_, width);
+    const Eigen::MatrixXd K = rows_->tangent(state_at(q), Stencil::statics());
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(num_rows_, width);
+    for (int node = 0; node < num_nodes; ++node) {
+      const model::UnknownTable& unknowns = rows_model_.unknowns();
+      const model::Block& block = unknowns.block(unknowns.node_block(node));
+      H.middleCols(12 * node, block.shape.width) =
+          K.block(first_row_, block.first, num_rows_, block.shape.width);
+    }
+    return H;
   }
 
   const model::NodeTable& nodes() const { return rows_model_.nodes(); }
@@ -80,6 +91,10 @@ class ConstraintContract : public testing::Test {
     Random random(seed);
     model::Coordinates q(static_cast<std::size_t>(width));
     for (double& value : q) value = random.number();
+    for (int node = 0; node < num_nodes; ++node) {
+      const int slots = slots_of(kind_of<Case>(node));
+      model::NodeTable::slots(q, node).rightCols(4 - slots).setZero();
+    }
     return q;
   }
   /// The reference moved as one rigid body.
@@ -99,8 +114,10 @@ class ConstraintContract : public testing::Test {
     return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(m.transpose()).setThreshold(1e-10).rank();
   }
 
-  /// Gradient of the six internal constraints of a node, written out from formulation 2.2.
+  /// Gradient of the six internal constraints of a node, written out from formulation 2.2; a node
+  /// of a shell has none.
   static Eigen::MatrixXd internal_gradient(const model::Coordinates& q, int node) {
+    if (kind_of<Case>(node) == NodeKind::node6) return Eigen::MatrixXd::Zero(0, width);
     const Mat3 d = model::NodeTable::slots(q, node).template rightCols<3>();
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, width);
     for (int i = 0; i < 3; ++i) {
@@ -160,9 +177,13 @@ TYPED_TEST_P(ConstraintContract, RowsAreIndependentOfTheInternalOnesTheyDoNotRep
   Eigen::MatrixXd all = kept;
   for (int node = 0; node < TypeParam::num_nodes; ++node) {
     const Eigen::MatrixXd internal = this->internal_gradient(q, node);
-    all = (Eigen::MatrixXd(all.rows() + 6, all.cols()) << all, internal).finished();
+    const Eigen::MatrixXd before = all;
+    all.resize(before.rows() + internal.rows(), this->width);
+    all << before, internal;
     if (node == replaced) continue;
-    kept = (Eigen::MatrixXd(kept.rows() + 6, kept.cols()) << kept, internal).finished();
+    const Eigen::MatrixXd kept_before = kept;
+    kept.resize(kept_before.rows() + internal.rows(), this->width);
+    kept << kept_before, internal;
   }
   EXPECT_EQ(this->rank(kept), kept.rows());
   EXPECT_EQ(this->rank(all), kept.rows());  // the replaced ones are implied

@@ -13,8 +13,7 @@
 ///       static Resultant resultant(const model::Coordinates& q);
 ///     };
 ///
-/// Nodes 0, 1, … have random positions and triads; with `static constexpr NodeKind node_kind`
-/// node6 they are nodes of shells.
+/// Nodes 0, 1, … have random positions and triads, or what `node_kind` of the case says (kind_of).
 /// @source formulation 3, 8.2
 #pragma once
 
@@ -47,15 +46,6 @@ inline Resultant resultant_of(const Eigen::VectorXd& slot_forces, const model::C
 }
 
 template <class Case>
-constexpr NodeKind node_kind_of() {
-  if constexpr (requires { Case::node_kind; }) {
-    return Case::node_kind;
-  } else {
-    return NodeKind::node12;
-  }
-}
-
-template <class Case>
 class LoadContract : public testing::Test {
  protected:
   static constexpr int num_nodes = Case::num_nodes;
@@ -63,7 +53,7 @@ class LoadContract : public testing::Test {
   static void fill(model::Model& model, bool with_slave,
                    const model::Amplitude& amplitude = model::Amplitude::constant()) {
     for (int node = 0; node < num_nodes; ++node) {
-      add_random_node(model.nodes(), node_kind_of<Case>(), 10 + node);
+      add_random_node(model.nodes(), kind_of<Case>(node), 10 + node);
     }
     model.add_load(Case::make(model.nodes(), amplitude));
     if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(random_node(20)));

@@ -1,0 +1,32 @@
+/// Connections between nodes of shells, and from them to nodes with a triad.
+#pragma once
+
+#include <culm/model/build_context.hpp>
+
+namespace culm::joint {
+
+/// Directors with a smaller sine of the angle between them count as parallel: the row d_A . d_B has
+/// no derivative by their relative rotation then. @source formulation 2.5
+constexpr double parallel_directors = 0.05;
+
+/// x_A - x_B: three linear rows, between nodes of any kind.
+model::Constraint hinge_connection(const model::NodeTable& nodes, int first, int second);
+/// x_A - x_B and the angle between the directors, d_A . d_B: four rows. Between parallel directors
+/// x_A - x_B and d_A -+ d_B: six linear rows.
+/// @param inextensible  holds both lengths as well, 1/2 d . d: two more rows
+model::Constraint fold_connection(const model::NodeTable& nodes, int first, int second,
+                                  bool inextensible = false);
+/// x_A + t_A/2 d_A - (x_B - t_B/2 d_B): three linear rows; the first shell lies below.
+model::Constraint layer_connection(const model::NodeTable& nodes, int first, int second,
+                                   double first_thickness, double second_thickness);
+/// 1/2 d . d: one row.
+model::Constraint inextensible_director(const model::NodeTable& nodes, int node);
+/// Lets the shell node move along its director and stretch, not slide across it nor tilt:
+/// u(tau_k) . (x_s - x_m) and u(tau_k) . d_s with two vectors tau_k fixed to the master, normal to
+/// d_s in the reference: four rows. @source formulation 2.6
+model::Constraint soft_transition(const model::NodeTable& nodes, int shell_node, int master);
+
+/// Smooth, Fold, Hinge and Layer Connection, Inextensible Director, Soft Transition.
+void register_shell_connections(model::BuilderRegistry& registry);
+
+}  // namespace culm::joint

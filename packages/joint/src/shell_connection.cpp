@@ -1,0 +1,108 @@
+#include <culm/joint/shell_connection.hpp>
+#include <culm/math/rotation.hpp>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace culm::joint {
+namespace {
+
+using model::attached_vector;
+using model::Constraint;
+using model::NodeTable;
+using model::SlotSum;
+
+Constraint between(int first, int second) {
+  Constraint joint;
+  joint.nodes = {first, second};
+  joint.is_internal = true;
+  return joint;
+}
+
+Eigen::Matrix3Xd reference(const NodeTable& nodes, const Constraint& joint) {
+  return model::slots_of(joint, nodes.reference());
+}
+
+// a slot of the first node plus `factor` times that of the second stays as it is
+void add_slot_rows(int slot, double factor, const Eigen::Matrix3Xd& q, Constraint& joint) {
+  SlotSum alpha(8, 0.0);
+  alpha[static_cast<std::size_t>(slot)] = 1.0;
+  alpha[static_cast<std::size_t>(4 + slot)] = factor;
+  for (int i = 0; i < 3; ++i) {
+    joint.rows.push_back(model::linear_row(Vec3::Unit(i), alpha, q));
+  }
+}
+
+// half of d . d, so that the gradient is d itself
+void add_length_row(int node, int num_nodes, const Eigen::Matrix3Xd& q, Constraint& joint) {
+  joint.rows.push_back(model::product_row(attached_vector(node, num_nodes, 0.5 * Vec3::UnitX()),
+                                          attached_vector(node, num_nodes, Vec3::UnitX()), q));
+}
+
+}  // namespace
+
+Constraint hinge_connection(const NodeTable& nodes, int first, int second) {
+  Constraint joint = between(first, second);
+  add_slot_rows(0, -1.0, reference(nodes, joint), joint);
+  return joint;
+}
+
+Constraint fold_connection(const NodeTable& nodes, int first, int second, bool inextensible) {
+  Constraint joint = hinge_connection(nodes, first, second);
+  const Eigen::Matrix3Xd q = reference(nodes, joint);
+  const Vec3 d_first = q.col(1);
+  const Vec3 d_second = q.col(5);
+  const double sine = d_first.normalized().cross(d_second.normalized()).norm();
+  const bool parallel = sine <= parallel_directors;
+  if (parallel) {
+    add_slot_rows(1, d_first.dot(d_second) > 0.0 ? -1.0 : 1.0, q, joint);
+  } else {
+    joint.rows.push_back(model::product_row(attached_vector(0, 2, Vec3::UnitX()),
+                                            attached_vector(1, 2, Vec3::UnitX()), q));
+  }
+  if (inextensible) {
+    add_length_row(0, 2, q, joint);
+    if (!parallel) add_length_row(1, 2, q, joint);
+  }
+  return joint;
+}
+
+Constraint layer_connection(const NodeTable& nodes, int first, int second, double first_thickness,
+                            double second_thickness) {
+  Constraint joint = between(first, second);
+  const Eigen::Matrix3Xd q = reference(nodes, joint);
+  const SlotSum alpha = {1.0,  0.5 * first_thickness,  0.0, 0.0,
+                         -1.0, 0.5 * second_thickness, 0.0, 0.0};
+  for (int i = 0; i < 3; ++i) {
+    joint.rows.push_back(model::linear_row(Vec3::Unit(i), alpha, q));
+  }
+  return joint;
+}
+
+Constraint inextensible_director(const NodeTable& nodes, int node) {
+  Constraint constraint;
+  constraint.nodes = {node};
+  constraint.is_internal = true;
+  add_length_row(0, 1, reference(nodes, constraint), constraint);
+  return constraint;
+}
+
+Constraint soft_transition(const NodeTable& nodes, int shell_node, int master) {
+  Constraint joint = between(master, shell_node);
+  const Eigen::Matrix3Xd q = reference(nodes, joint);
+  const Mat3 triad = q.block<3, 3>(0, 1);
+  const Vec3 d = q.col(5).normalized();
+  const Vec3 across = any_normal(d);
+  SlotSum gap(8, 0.0);
+  gap[0] = -1.0;
+  gap[4] = 1.0;
+  for (const Vec3& tau : {across, Vec3(d.cross(across))}) {
+    const SlotSum attached = attached_vector(0, 2, triad.transpose() * tau);
+    joint.rows.push_back(model::product_row(attached, gap, q));
+    joint.rows.push_back(model::product_row(attached, attached_vector(1, 2, Vec3::UnitX()), q));
+  }
+  return joint;
+}
+
+}  // namespace culm::joint
