@@ -14,11 +14,23 @@ struct DeckArguments {
   std::string deck;
   std::vector<std::string> overrides;  ///< path=value
   std::filesystem::path folder;        ///< for results; results/<name of the deck> if empty
+  std::string walltime;                ///< time the run may take; empty for any
+  bool quiet = false;
+};
+
+/// A run to go on with, and what changes about it.
+struct ResumeArguments {
+  std::filesystem::path run;           ///< folder of results, or a checkpoint
+  std::string deck;                    ///< in place of that of the run; empty for that one
+  std::vector<std::string> overrides;  ///< path=value, after those of the run
+  std::string walltime;
   bool quiet = false;
 };
 
 /// Runs a deck.
 void run(const parallel::Comm& comm, const DeckArguments& arguments);
+/// Goes on with a run from its last checkpoint.
+void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
 void check(const parallel::Comm& comm, const DeckArguments& arguments);
 /// Prints the input reference, or the part of it that has a name.

@@ -17,9 +17,17 @@
 namespace {
 
 using culm::app::DeckArguments;
+using culm::app::ResumeArguments;
 
-void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
-  verb.add_option("deck", arguments.deck, "Input deck, XML")->required();
+// What the user gives, by verb.
+struct Arguments {
+  DeckArguments deck;
+  ResumeArguments resume;
+  std::string name;  // for the reference
+};
+
+template <class VerbArguments>
+void add_common_options(CLI::App& verb, VerbArguments& arguments) {
   verb.add_option("--set", arguments.overrides,
                   "Replace a value: Structures/beam/Elements=32; may be repeated")
       ->take_all()
@@ -27,24 +35,48 @@ void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
   verb.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
 }
 
+void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
+  verb.add_option("deck", arguments.deck, "Input deck, XML")->required();
+  add_common_options(verb, arguments);
+}
+
+void add_walltime(CLI::App& verb, std::string& walltime) {
+  verb.add_option("--walltime", walltime,
+                  "Write a checkpoint and stop, with exit code 7, before this time is over: "
+                  "1:30:00 or '90 min'");
+}
+
 // Declares all verbs; the chosen one becomes `action`.
-void declare_verbs(CLI::App& app, DeckArguments& arguments, std::string& name,
+void declare_verbs(CLI::App& app, Arguments& arguments,
                    std::function<void(const culm::parallel::Comm&)>& action) {
   using culm::parallel::Comm;
   app.set_version_flag("--version", std::string(culm::version));
   app.require_subcommand(1);
   CLI::App* run = app.add_subcommand("run", "Run a deck");
-  add_deck_options(*run, arguments);
-  run->add_option("--output", arguments.folder,
+  add_deck_options(*run, arguments.deck);
+  add_walltime(*run, arguments.deck.walltime);
+  run->add_option("--output", arguments.deck.folder,
                   "Folder for results; results/<name of the deck> if not given");
-  run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments); }; });
+  run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments.deck); }; });
+  CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
+  resume
+      ->add_option("run", arguments.resume.run, "Folder with the results of a run, or a checkpoint")
+      ->required();
+  resume->add_option("--deck", arguments.resume.deck,
+                     "Deck in place of that of the run; the model must be the same");
+  add_common_options(*resume, arguments.resume);
+  add_walltime(*resume, arguments.resume.walltime);
+  resume->callback(
+      [&] { action = [&](const Comm& comm) { culm::app::resume(comm, arguments.resume); }; });
   CLI::App* check = app.add_subcommand("check", "Parse, build and count a deck; do not solve it");
-  add_deck_options(*check, arguments);
-  check->callback([&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments); }; });
+  add_deck_options(*check, arguments.deck);
+  check->callback(
+      [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.deck); }; });
   CLI::App* reference = app.add_subcommand("reference", "Print what a deck may contain");
-  reference->add_option("name", name, "A list, type or parameter; everything if not given");
+  reference->add_option("name", arguments.name,
+                        "A list, type or parameter; everything if not given");
   reference->callback(
-      [&] { action = [&](const Comm& comm) { culm::app::reference(comm, name); }; });
+      [&] { action = [&](const Comm& comm) { culm::app::reference(comm, arguments.name); }; });
 }
 
 // CLI11 misses a subcommand even where an unknown one is given.
@@ -52,7 +84,8 @@ int report(const CLI::ParseError& error, const CLI::App& app, const culm::parall
   const std::vector<std::string> extras = app.remaining();
   const bool unknown = app.get_subcommands().empty() && !extras.empty();
   if (error.get_exit_code() != 0 && unknown) {
-    const std::string hint = culm::did_you_mean(extras.front(), {"run", "check", "reference"});
+    const std::string hint =
+        culm::did_you_mean(extras.front(), {"run", "resume", "check", "reference"});
     if (comm.is_root()) {
       std::fprintf(stderr, "unknown command '%s'%s\nRun with --help for more information.\n",
                    extras.front().c_str(), hint.c_str());
@@ -75,10 +108,9 @@ int main(int argc, char** argv) {
   const culm::simulation::Session session(argc, argv);
   const culm::parallel::Comm comm;
   CLI::App app("culm: nonlinear dynamics of slender structures", "culm");
-  DeckArguments arguments;
-  std::string name;
+  Arguments arguments;
   std::function<void(const culm::parallel::Comm&)> action;
-  declare_verbs(app, arguments, name, action);
+  declare_verbs(app, arguments, action);
   try {
     app.parse(argc, argv);
     action(comm);

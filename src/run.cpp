@@ -1,5 +1,6 @@
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/simulation.hpp>
+#include <culm/simulation/stop_request.hpp>
 
 #include "command.hpp"
 
@@ -8,16 +9,17 @@
 namespace culm::app {
 
 void run(const parallel::Comm& comm, const DeckArguments& arguments) {
+  const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
+  const std::filesystem::path by_name =
+      std::filesystem::path("results") / std::filesystem::path(arguments.deck).stem();
+  const simulation::RunSettings settings{arguments.folder.empty() ? by_name : arguments.folder,
+                                         arguments.quiet,
+                                         comm.is_root() && isatty(STDOUT_FILENO) != 0};
   const simulation::Catalogue catalogue;
-  const Options deck = simulation::read_deck(comm, catalogue, arguments.deck, arguments.overrides);
-  simulation::RunSettings settings;
-  settings.folder = arguments.folder.empty() ? std::filesystem::path("results") /
-                                                   std::filesystem::path(arguments.deck).stem()
-                                             : arguments.folder;
-  settings.quiet = arguments.quiet;
-  settings.terminal = comm.is_root() && isatty(STDOUT_FILENO) != 0;
-  simulation::Simulation(comm, catalogue, deck, log).run(settings);
+  const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
+  const Options deck = simulation::read_deck(catalogue, source);
+  simulation::Simulation(comm, catalogue, deck, source, log).run(settings, request);
 }
 
 }  // namespace culm::app

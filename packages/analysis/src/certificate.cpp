@@ -60,6 +60,45 @@ void Certificate::finish(double change, double velocity) {
   hidden_violation_ = relative(change, velocity);
 }
 
+// The places of all numbers that record() builds upon.
+template <class Self>
+auto Certificate::memory(Self& self) {
+  std::vector<decltype(&self.energy_drift_)> places = {
+      &self.largest_kinetic_, &self.largest_strain_,  &self.largest_work_,
+      &self.largest_linear_,  &self.largest_angular_, &self.energy_drift_,
+      &self.linear_drift_,    &self.angular_drift_,   &self.constraint_violation_};
+  const auto add_vector = [&places](auto& v) {
+    places.insert(places.end(), {&v[0], &v[1], &v[2]});
+  };
+  for (auto* e : {&self.first_, &self.last_}) {
+    places.insert(places.end(), {&e->kinetic, &e->strain, &e->potential});
+  }
+  for (auto* m : {&self.first_momentum_, &self.momentum_}) {
+    places.push_back(&m->kinetic_energy);
+    add_vector(m->linear);
+    add_vector(m->angular);
+  }
+  auto& work = self.work_;
+  places.insert(places.end(), {&work.external, &work.drives, &work.damping, &work.dissipation});
+  for (auto* v : {&work.force, &work.moment, &self.impulse_, &self.angular_impulse_}) {
+    add_vector(*v);
+  }
+  return places;
+}
+
+void Certificate::save(Snapshot& snapshot) const {
+  std::vector<double> numbers = {static_cast<double>(steps_)};
+  for (const double* place : memory(*this)) numbers.push_back(*place);
+  snapshot.set("certificate", std::move(numbers));
+}
+
+void Certificate::restore(const Snapshot& snapshot) {
+  const auto places = memory(*this);
+  const std::vector<double>& numbers = snapshot.numbers("certificate", places.size() + 1);
+  steps_ = static_cast<int>(numbers.front());
+  for (std::size_t i = 0; i < places.size(); ++i) *places[i] = numbers[i + 1];
+}
+
 double Certificate::energy_scale() const {
   return std::max({largest_kinetic_, largest_strain_, largest_work_});
 }

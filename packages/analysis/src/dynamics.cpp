@@ -1,7 +1,5 @@
-#include <culm/analysis/certificate.hpp>
 #include <culm/analysis/dynamics.hpp>
 #include <culm/analysis/newton_options.hpp>
-#include <culm/analysis/post_mortem.hpp>
 #include <culm/base/error.hpp>
 
 #include <fmt/format.h>
@@ -108,9 +106,8 @@ void close_joints(Context& context, model::State& state) {
 
 }  // namespace
 
-// Velocities that constraints do not allow would never decay, so they are removed.
-void Dynamics::prepare(Context& context, model::State& state) {
-  state.time = state.time_prev = 0.0;
+// Motion that constraints do not allow would never decay, so it is removed.
+void Dynamics::fit_motion(Context& context, model::State& state) const {
   if (state.at_rest && context.system.model().has_initial_displacements()) {
     close_joints(context, state);
   }
@@ -124,12 +121,10 @@ void Dynamics::prepare(Context& context, model::State& state) {
     context.log.warning(fmt::format(
         "initial velocities were made to fit the constraints; largest change {:.3g}", change));
   }
-  scheme_->start(state);
 }
 
 // On a copy: the state's own energy would change.
-void Dynamics::measure_hidden_constraints(Context& context, const model::State& state,
-                                          Certificate& certificate) const {
+void Dynamics::measure_hidden_constraints(Context& context, const model::State& state) {
   model::State copy = state;
   bool sound = true;  // a closed loop may just pass a singular position
   const double change = context.system.project_velocity(
@@ -137,10 +132,10 @@ void Dynamics::measure_hidden_constraints(Context& context, const model::State& 
         sound = context.linear.factor() && context.linear.solve(b, x) <= 1e-8;
         if (!sound) x.putScalar(0.0);
       });
-  if (sound) certificate.finish(change, context.system.comm().max(largest(copy.velocity)));
+  if (sound) certificate_->finish(change, context.system.comm().max(largest(copy.velocity)));
 }
 
-AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& observer) {
+void Dynamics::start(Context& context, model::State& state) {
   assembly::System& system = context.system;
   if (system.velocity_dissipation() != nullptr && !scheme_->conserves()) {
     throw InputError(settings_.scheme,
@@ -148,53 +143,80 @@ AnalysisReport Dynamics::run(Context& context, model::State& state, Observer& ob
                                  "asks for; allowed: 'Conserving'",
                                  scheme_->name()));
   }
-  prepare(context, state);
-  StepControl control(system, settings_.steps, scheme_->error_constant());
-  const double end_time = settings_.steps.end_time;
-  Stencil stencil = scheme_->begin(state, settings_.steps.step);
+  state.time = state.time_prev = 0.0;
+  fit_motion(context, state);
+  scheme_->start(state);
+  control_.emplace(system, settings_.steps, scheme_->error_constant());
+  steps_ = 0;
+  const Stencil stencil = scheme_->begin(state, settings_.steps.step);
   system.begin_step(state, stencil);
   system.choose_multiplier_scale(state, stencil);
-  PostMortem post_mortem(context, state, stencil);
-  solver::NewtonSolver newton(system, context.linear, settings_.newton, context.ledger);
-  const Ledger::Id certificate_effect = context.ledger.add("Certificate");
-  Certificate certificate(system, scheme_->conserves());
-  certificate.start(state);
+  post_mortem_.emplace(context, state, stencil);
+  newton_.emplace(system, context.linear, settings_.newton, context.ledger);
+  certificate_.emplace(system, scheme_->conserves());
+  certificate_->start(state);
+}
 
-  int steps = 0;
+void Dynamics::save(const Context& context, Snapshot& snapshot) const {
+  snapshot.set("dynamics/steps", steps_);
+  scheme_->save(context.system, snapshot);
+  control_->save(snapshot);
+  newton_->save(snapshot);
+  certificate_->save(snapshot);
+  post_mortem_->save(snapshot);
+}
+
+void Dynamics::restore(Context& context, const Snapshot& snapshot) {
+  assembly::System& system = context.system;
+  steps_ = snapshot.integer("dynamics/steps");
+  scheme_->restore(snapshot);
+  control_.emplace(system, settings_.steps, scheme_->error_constant());
+  control_->restore(snapshot);
+  newton_.emplace(system, context.linear, settings_.newton, context.ledger);
+  newton_->restore(snapshot);
+  certificate_.emplace(system, scheme_->conserves());
+  certificate_->restore(snapshot);
+  post_mortem_.emplace(context, snapshot);
+}
+
+AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer& observer) {
+  assembly::System& system = context.system;
+  const double end_time = settings_.steps.end_time;
+  const Ledger::Id certificate_effect = context.ledger.add("Certificate");
   while (state.time < end_time) {
-    state.time = control.end_of_step(state.time_prev);
+    state.time = control_->end_of_step(state.time_prev);
     const double taken = state.time - state.time_prev;
-    stencil = scheme_->begin(state, taken);
+    const Stencil stencil = scheme_->begin(state, taken);
     system.begin_step(state, stencil);
     system.coast(state, taken);
-    StepReport report{steps, state.time, end_time, taken, true, newton.solve(state, stencil)};
-    if (report.outcome.converged()) report.outcome.end = control.judge(state, stencil);
+    StepReport report{steps_, state.time, end_time, taken, true, newton_->solve(state, stencil)};
+    if (report.outcome.converged()) report.outcome.end = control_->judge(state, stencil);
     report.accepted = report.outcome.converged();
     if (report.accepted) {
-      report.step = ++steps;
-      control.accept(state, taken);
+      report.step = ++steps_;
+      control_->accept(state, taken);
       scheme_->finish(state, taken);
       if (model::VelocityDissipation* dissipation = system.velocity_dissipation()) {
         dissipation->correct(state, taken);
       }
       {
         const Ledger::Scope scope(context.ledger, certificate_effect);
-        certificate.record(state, stencil, report.outcome.last.constraint_violation);
+        certificate_->record(state, stencil, report.outcome.last.constraint_violation);
       }
       accept(state);
     } else {
-      control.reject(report.outcome.end, taken);
+      control_->reject(report.outcome.end, taken);
       reject(state);
     }
-    post_mortem.record(report);
+    post_mortem_->record(report);
     observer.step(report, state);
     const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
-    if (!report.accepted && (not_finite || control.is_exhausted())) {
-      post_mortem.give_up(state, stencil);
+    if (!report.accepted && (not_finite || control_->is_exhausted())) {
+      post_mortem_->give_up(state, stencil);
     }
   }
-  measure_hidden_constraints(context, state, certificate);
-  return {certificate.text(), certificate.numbers()};
+  measure_hidden_constraints(context, state);
+  return {certificate_->text(), certificate_->numbers()};
 }
 
 }  // namespace culm::analysis

@@ -104,6 +104,16 @@ PostMortem::PostMortem(Context& context, model::State& state, const Stencil& ste
   refuse_singular(state);
 }
 
+PostMortem::PostMortem(Context& context, const Snapshot& snapshot)
+    : context_(context),
+      first_flexibility_(snapshot.number("post-mortem/first flexibility")),
+      level_step_(snapshot.number("post-mortem/level step")) {}
+
+void PostMortem::save(Snapshot& snapshot) const {
+  snapshot.set("post-mortem/first flexibility", first_flexibility_);
+  snapshot.set("post-mortem/level step", level_step_);
+}
+
 void PostMortem::record(const StepReport& report) {
   if (attempts_.size() == kept_attempts) attempts_.pop_front();
   attempts_.push_back(report);

@@ -1,5 +1,4 @@
 #include <culm/analysis/newton_options.hpp>
-#include <culm/analysis/post_mortem.hpp>
 #include <culm/analysis/statics.hpp>
 
 #include <fmt/format.h>
@@ -77,7 +76,7 @@ double Statics::next_level(double level, double increment) const {
   return rest < 1.5 * increment ? level + 0.5 * rest : level + increment;
 }
 
-AnalysisReport Statics::run(Context& context, model::State& state, Observer& observer) {
+void Statics::start(Context& context, model::State& state) {
   const Stencil stencil = Stencil::statics();
   for (const model::Constraint& c : context.system.model().equations()) {
     if (c.velocity_rows.empty()) continue;
@@ -86,36 +85,54 @@ AnalysisReport Statics::run(Context& context, model::State& state, Observer& obs
   }
   // levels start at zero for each analysis
   state.time = state.time_prev = 0.0;
-  double increment = settings_.increment;
+  increment_ = settings_.increment;
+  steps_ = 0;
   context.system.begin_step(state, stencil);
   context.system.choose_multiplier_scale(state, stencil);
-  PostMortem post_mortem(context, state, stencil, next_level(0.0, increment));
-  solver::NewtonSolver newton(context.system, context.linear, settings_.newton, context.ledger);
+  post_mortem_.emplace(context, state, stencil, next_level(0.0, increment_));
+  newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
+}
 
-  int steps = 0;
+void Statics::save(const Context&, Snapshot& snapshot) const {
+  snapshot.set("statics/increment", increment_);
+  snapshot.set("statics/steps", steps_);
+  newton_->save(snapshot);
+  post_mortem_->save(snapshot);
+}
+
+void Statics::restore(Context& context, const Snapshot& snapshot) {
+  increment_ = snapshot.number("statics/increment");
+  steps_ = snapshot.integer("statics/steps");
+  newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
+  newton_->restore(snapshot);
+  post_mortem_.emplace(context, snapshot);
+}
+
+AnalysisReport Statics::advance(Context& context, model::State& state, Observer& observer) {
+  const Stencil stencil = Stencil::statics();
   while (state.time < settings_.final_level) {
-    state.time = next_level(state.time_prev, increment);
+    state.time = next_level(state.time_prev, increment_);
     const double taken = state.time - state.time_prev;
     context.system.begin_step(state, stencil);
-    StepReport report{steps, state.time, settings_.final_level,
-                      taken, true,       newton.solve(state, stencil)};
+    StepReport report{steps_, state.time, settings_.final_level,
+                      taken,  true,       newton_->solve(state, stencil)};
     report.accepted = report.outcome.converged();
-    if (report.accepted) report.step = ++steps;
-    post_mortem.record(report);
+    if (report.accepted) report.step = ++steps_;
+    post_mortem_->record(report);
     if (report.accepted) {
       accept(state);
-      if (report.outcome.iterations <= settings_.easy_iterations && taken >= increment) {
-        increment = std::min(1.5 * increment, settings_.largest_increment);
+      if (report.outcome.iterations <= settings_.easy_iterations && taken >= increment_) {
+        increment_ = std::min(1.5 * increment_, settings_.largest_increment);
       }
     } else {
       reject(state);
-      increment = 0.5 * taken;
+      increment_ = 0.5 * taken;
     }
     observer.step(report, state);
     // a number that is not finite will not become so with a smaller step
     const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
-    if (!report.accepted && (not_finite || increment < settings_.smallest_increment)) {
-      post_mortem.give_up(state, stencil);
+    if (!report.accepted && (not_finite || increment_ < settings_.smallest_increment)) {
+      post_mortem_->give_up(state, stencil);
     }
   }
   return {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace culm::analysis {
 namespace {
@@ -156,6 +157,29 @@ void StepControl::reject(solver::StepEnd reason, double taken) {
   if (reason == solver::StepEnd::inaccurate) {
     memory_.next = std::max(memory_.next, settings_.smallest_step);
   }
+}
+
+void StepControl::save(Snapshot& snapshot) const {
+  snapshot.set("steps/lengths", {memory_.next, memory_.last, memory_.before_last});
+  snapshot.set("steps/failed", memory_.failed ? 1.0 : 0.0);
+  for (const auto& [name, values] : {std::pair{"steps/velocity", &memory_.velocity},
+                                     {"steps/acceleration", &memory_.acceleration}}) {
+    model::Coordinates all = *values;
+    system_.complete(all);
+    snapshot.set(name, std::move(all));
+  }
+}
+
+void StepControl::restore(const Snapshot& snapshot) {
+  const std::vector<double>& lengths = snapshot.numbers("steps/lengths", 3);
+  memory_.next = lengths[0];
+  memory_.last = lengths[1];
+  memory_.before_last = lengths[2];
+  memory_.failed = snapshot.number("steps/failed") != 0.0;
+  memory_.velocity = snapshot.numbers("steps/velocity");
+  memory_.acceleration = snapshot.numbers("steps/acceleration");
+  // steps that become adaptive now do not know the ones before
+  if (settings_.adaptive && memory_.velocity.empty()) memory_.last = memory_.before_last = 0.0;
 }
 
 }  // namespace culm::analysis

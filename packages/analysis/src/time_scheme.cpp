@@ -56,4 +56,14 @@ void GeneralisedAlphaScheme::finish(model::State& state, double h) {
   }
 }
 
+void GeneralisedAlphaScheme::save(const assembly::System& system, Snapshot& snapshot) const {
+  model::Coordinates all = acceleration_;
+  system.complete(all);
+  snapshot.set("scheme/acceleration", std::move(all));
+}
+
+void GeneralisedAlphaScheme::restore(const Snapshot& snapshot) {
+  acceleration_ = snapshot.numbers("scheme/acceleration");
+}
+
 }  // namespace culm::analysis

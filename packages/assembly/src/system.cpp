@@ -14,6 +14,9 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+// What a sum over ranks adds to a value without changing it: x + -0 is x also where x is a zero.
+constexpr double nothing = -0.0;
+
 long long entries_of(const model::Batch& batch, const model::UnknownTable& unknowns) {
   if (!batch.has_tangent()) return 0;
   long long entries = 0;
@@ -194,22 +197,6 @@ void System::move(model::State& state, const Vector& increment, double factor) {
   if (velocity_dissipation_ != nullptr) complete(state.next);
 }
 
-// Brings the coordinates of all nodes up to date on all ranks.
-void System::complete(model::Coordinates& values) const {
-  if (comm_.size() == 1) return;
-  const model::UnknownTable& unknowns = model_.unknowns();
-  // every value comes from its owner and is zero elsewhere, so the sum is exact
-  for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
-    const model::Block& block = unknowns.block(b);
-    if (layout_.owners()[index(b)] == comm_.rank()) continue;
-    if (block.kind == model::BlockKind::node) {
-      model::NodeTable::slots(values, block.owner).setZero();
-    }
-  }
-  comm_.sum(values);
-  for (int slave : slaves_) model_.nodes().follow_master(slave, values);
-}
-
 void System::extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
                          double factor) {
   const std::span<const double> dx = values_of(import(increment));
@@ -229,22 +216,90 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
   }
 }
 
+void System::complete(model::Coordinates& values) const {
+  if (comm_.size() == 1 || values.empty()) return;
+  const model::UnknownTable& unknowns = model_.unknowns();
+  for (int node = 0; node < model_.nodes().size(); ++node) {
+    if (layout_.owners()[index(unknowns.node_block(node))] == comm_.rank()) continue;
+    model::NodeTable::slots(values, node).setConstant(nothing);
+  }
+  comm_.sum(values);
+}
+
 void System::synchronise(model::State& state) {
   gathered_reactions_ = reactions_;
   if (comm_.size() == 1) return;
+  complete(state.next);
+  complete(state.velocity);
   const model::UnknownTable& unknowns = model_.unknowns();
   for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
     const model::Block& block = unknowns.block(b);
+    if (block.kind != model::BlockKind::multipliers) continue;
     if (layout_.owners()[index(b)] == comm_.rank()) continue;
-    if (block.kind == model::BlockKind::multipliers) {
-      std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, 0.0);
-    }
+    std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, nothing);
   }
   comm_.sum(state.multipliers);
   comm_.sum(gathered_reactions_);
-  complete(state.next);
-  // damped velocities are complete already, and those of eliminated nodes do not follow masters
-  if (!state.velocity.empty() && velocity_dissipation_ == nullptr) complete(state.velocity);
+}
+
+void System::save(model::State& state, Snapshot& snapshot) {
+  synchronise(state);
+  snapshot.set("state/time", state.time);
+  snapshot.set("state/position", state.next);
+  snapshot.set("state/velocity", state.velocity);
+  snapshot.set("state/multipliers", state.multipliers);
+  snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
+  snapshot.set("system/multiplier scale", multiplier_scale_);
+  std::vector<double> memory;
+  for (const model::Batch* batch : batches_) {
+    std::vector<double> part(batch->memory_size(), nothing);
+    batch->save(part);
+    memory.insert(memory.end(), part.begin(), part.end());
+  }
+  comm_.sum(memory);
+  snapshot.set("system/batches", std::move(memory));
+}
+
+void System::restore(const Snapshot& snapshot, model::State& state) {
+  state.time = state.time_prev = snapshot.number("state/time");
+  state.next = state.prev = snapshot.numbers("state/position", state.next.size());
+  state.velocity = snapshot.numbers("state/velocity");
+  state.acceleration_offset.assign(state.velocity.size(), 0.0);
+  state.multipliers = snapshot.numbers("state/multipliers", state.multipliers.size());
+  state.multipliers_prev = state.multipliers;
+  state.at_rest = snapshot.number("state/at rest") != 0.0;
+  multiplier_scale_ = snapshot.number("system/multiplier scale");
+  std::size_t size = 0;
+  for (const model::Batch* batch : batches_) size += batch->memory_size();
+  std::span<const double> memory = snapshot.numbers("system/batches", size);
+  for (model::Batch* batch : batches_) {
+    batch->restore(memory.first(batch->memory_size()));
+    memory = memory.subspan(batch->memory_size());
+  }
+}
+
+void System::save_matrix(Snapshot& snapshot) const {
+  const auto values = matrix_->getLocalMatrixHost().values;
+  const std::vector<double> all =
+      comm_.gather(std::span<const double>(values.data(), values.extent(0)));
+  snapshot.set("matrix/ranks", comm_.size());
+  snapshot.set("matrix/values", all);
+}
+
+bool System::restore_matrix(const Snapshot& snapshot) {
+  if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
+  const auto values = matrix_->getLocalMatrixHost().values;
+  const std::vector<double>& all =
+      snapshot.numbers("matrix/values", static_cast<std::size_t>(matrix_->getGlobalNumEntries()));
+  // pieces are in the order of the ranks
+  std::vector<double> ends(index(comm_.size()), 0.0);
+  for (int rank = comm_.rank(); rank < comm_.size(); ++rank) {
+    ends[index(rank)] = static_cast<double>(values.extent(0));
+  }
+  comm_.sum(ends);
+  const auto begin = index(static_cast<int>(ends[index(comm_.rank())])) - values.extent(0);
+  std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(begin), values.extent(0), values.data());
+  return true;
 }
 
 void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil) {

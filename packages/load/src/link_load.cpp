@@ -137,6 +137,23 @@ void LinkLoad::extrapolate(const model::State& state, const Stencil& stencil,
   use_predicted_ = true;
 }
 
+void LinkLoad::save(std::span<double> memory) const {
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const auto place = item_memory * static_cast<std::size_t>(placement_.items[i]);
+    memory[place] = item(i).y_prev[0];
+    memory[place + 1] = item(i).y_prev[1];
+    memory[place + 2] = item(i).z_prev;
+  }
+}
+
+void LinkLoad::restore(std::span<const double> memory) {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    items_[i].y_prev = {memory[item_memory * i], memory[item_memory * i + 1]};
+    items_[i].z_prev = memory[item_memory * i + 2];
+  }
+}
+
 double LinkLoad::stored_energy(const model::Coordinates& q) const {
   double energy = 0.0;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {

@@ -69,6 +69,18 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   return {path, std::move(file)};
 }
 
+Hdf5File Hdf5File::reopen(const std::filesystem::path& path) {
+  recover(path);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (use_journal_driver(access.id()) < 0) throw_file_error(path, "set file access");
+  limit_cache(path, access.id());
+  Handle handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
+  if (!handle.is_open()) throw_file_error(path, "open file");
+  Hdf5File file(path, std::move(handle));
+  file.start_journal();
+  return file;
+}
+
 void Hdf5File::fail(std::string_view action) const { throw_file_error(path_, action); }
 
 void Hdf5File::move_to(const std::filesystem::path& path) {
@@ -77,12 +89,16 @@ void Hdf5File::move_to(const std::filesystem::path& path) {
   std::filesystem::remove(JournaledFile::journal_path(path), error);
   move_into_place(path_, path);
   path_ = path;
+  start_journal();
+}
+
+void Hdf5File::start_journal() {
   JournaledFile* const file = journaled_file(file_.id());
   if (file == nullptr) fail("start journal");
   try {
-    file->start_journal(path);
+    file->start_journal(path_);
   } catch (const std::system_error& reason) {
-    throw FileError(path.string(), fmt::format("cannot start journal: {}", reason.what()));
+    throw FileError(path_.string(), fmt::format("cannot start journal: {}", reason.what()));
   }
 }
 
@@ -171,6 +187,14 @@ Handle Hdf5File::make_growing_table(hid_t where, const std::string& name, hsize_
                            creation.id(), H5P_DEFAULT),
                 "create dataset " + name),
           H5Dclose};
+}
+
+void Hdf5File::shorten_table(hid_t table, hsize_t rows) {
+  const Handle space(check(H5Dget_space(table), "shorten table"), H5Sclose);
+  std::array<hsize_t, 2> size{};
+  check(H5Sget_simple_extent_dims(space.id(), size.data(), nullptr), "shorten table");
+  size[0] = rows;
+  check(H5Dset_extent(table, size.data()), "shorten table");
 }
 
 void Hdf5File::append_row(hid_t table, hsize_t row, std::span<const double> values) {

@@ -21,6 +21,9 @@ class Hdf5File {
   static Hdf5File create(const std::filesystem::path& path);
   /// Opens an existing file for reading, after recover().
   static Hdf5File open(const std::filesystem::path& path);
+  /// Opens an existing file for changes, after recover(). Each flush takes effect as a whole, as
+  /// after move_to(). Throws FileError also if another process writes the file.
+  static Hdf5File reopen(const std::filesystem::path& path);
 
   hid_t id() const { return file_.id(); }
   const std::filesystem::path& path() const { return path_; }
@@ -44,6 +47,8 @@ class Hdf5File {
   void write(hid_t where, const std::string& name, const std::string& text);
   /// An empty table of doubles that grows by append_row().
   Handle make_growing_table(hid_t where, const std::string& name, hsize_t columns);
+  /// Leaves the first rows of a table.
+  void shorten_table(hid_t table, hsize_t rows);
   /// @param row  number of rows so far
   void append_row(hid_t table, hsize_t row, std::span<const double> values);
 
@@ -64,6 +69,7 @@ class Hdf5File {
       : path_(std::move(path)), file_(std::move(file)) {}
 
   [[noreturn]] void fail(std::string_view action) const;
+  void start_journal();
   Handle make_dataset(hid_t where, const std::string& name, hid_t type, const Shape& shape);
   void write_attribute(hid_t where, const std::string& name, hid_t type, hid_t space,
                        const void* data);

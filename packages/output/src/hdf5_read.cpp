@@ -2,6 +2,8 @@
 
 #include <culm/base/error.hpp>
 
+#include <algorithm>
+
 namespace culm::output {
 
 namespace {
@@ -14,10 +16,6 @@ herr_t keep_name(hid_t, const char* name, const H5L_info_t*, void* names) {
 Handle open_attribute(const Hdf5File& file, hid_t where, const std::string& name) {
   return {file.check(H5Aopen(where, name.c_str(), H5P_DEFAULT), "find attribute " + name),
           H5Aclose};
-}
-
-Handle open_dataset(const Hdf5File& file, hid_t where, const std::string& name) {
-  return {file.check(H5Dopen2(where, name.c_str(), H5P_DEFAULT), "open dataset " + name), H5Dclose};
 }
 
 template <class T>
@@ -36,6 +34,10 @@ T read_number(const Hdf5File& file, hid_t where, const std::string& name, hid_t 
 
 Handle open_group(const Hdf5File& file, hid_t where, const std::string& name) {
   return {file.check(H5Gopen2(where, name.c_str(), H5P_DEFAULT), "open group " + name), H5Gclose};
+}
+
+Handle open_dataset(const Hdf5File& file, hid_t where, const std::string& name) {
+  return {file.check(H5Dopen2(where, name.c_str(), H5P_DEFAULT), "open dataset " + name), H5Dclose};
 }
 
 std::vector<std::string> list_links(const Hdf5File& file, hid_t group) {
@@ -68,6 +70,29 @@ std::vector<int> read_ints(const Hdf5File& file, hid_t where, const std::string&
   file.check(H5Dread(dataset.id(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
              "read dataset " + name);
   return values;
+}
+
+std::vector<double> read_doubles(const Hdf5File& file, hid_t where, const std::string& name) {
+  std::size_t size = 1;
+  for (const hsize_t length : read_shape(file, where, name)) size *= length;
+  std::vector<double> values(size);
+  const Handle dataset = open_dataset(file, where, name);
+  file.check(H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+             "read dataset " + name);
+  return values;
+}
+
+std::vector<Recorded::Step> read_steps(const Hdf5File& file) {
+  const Handle steps = open_group(file, file.id(), "steps");
+  std::vector<Recorded::Step> found;
+  for (const std::string& name : list_links(file, steps.id())) {
+    const Handle group = open_group(file, steps.id(), name);
+    found.push_back({read_int(file, group.id(), "index"), read_double(file, group.id(), "time")});
+  }
+  // Alphabetical order is not that of the indices once these have more than six digits.
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
+  return found;
 }
 
 double read_double(const Hdf5File& file, hid_t where, const std::string& attribute) {

@@ -1,6 +1,8 @@
 /// What the result file tells about itself.
 #pragma once
 
+#include <culm/output/recorded.hpp>
+
 #include "hdf5_file.hpp"
 
 #include <string>
@@ -9,6 +11,8 @@
 namespace culm::output {
 
 Handle open_group(const Hdf5File& file, hid_t where, const std::string& name);
+
+Handle open_dataset(const Hdf5File& file, hid_t where, const std::string& name);
 
 /// Names of what a group holds, in alphabetical order.
 std::vector<std::string> list_links(const Hdf5File& file, hid_t group);
@@ -20,6 +24,12 @@ Shape read_shape(const Hdf5File& file, hid_t where, const std::string& name);
 
 /// A dataset of one dimension.
 std::vector<int> read_ints(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// All numbers of a dataset, slowest index first.
+std::vector<double> read_doubles(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// The steps of a result file in the order of their indices.
+std::vector<Recorded::Step> read_steps(const Hdf5File& file);
 
 double read_double(const Hdf5File& file, hid_t where, const std::string& attribute);
 int read_int(const Hdf5File& file, hid_t where, const std::string& attribute);

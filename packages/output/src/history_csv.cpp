@@ -1,6 +1,8 @@
 #include <culm/base/error.hpp>
 #include <culm/output/history_csv.hpp>
 
+#include "replace_file.hpp"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -32,32 +34,49 @@ std::string header(const std::vector<HistoryColumn>& columns) {
   return line + '\n';
 }
 
-}  // namespace
-
-HistoryCsv::HistoryCsv(std::filesystem::path path, std::vector<HistoryColumn> columns)
-    : path_(std::move(path)), column_count_(columns.size()), file_(std::fopen(path_.c_str(), "w")) {
-  if (!file_) {
-    throw FileError(path_.string(), "cannot write: " + std::generic_category().message(errno));
-  }
-  write(header(columns));
-}
-
-void HistoryCsv::add(double time, std::span<const double> values) {
-  internal_check(values.size() == column_count_, "one value per history column");
+std::string line(double time, std::span<const double> values) {
   fmt::memory_buffer line;
   fmt::format_to(std::back_inserter(line), "{:.17g}", time);
   for (const double value : values) {
     fmt::format_to(std::back_inserter(line), ",{:.17g}", value);
   }
   line.push_back('\n');
-  write(fmt::to_string(line));
+  return fmt::to_string(line);
 }
 
-void HistoryCsv::write(const std::string& line) {
-  const bool written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
-  if (!written || std::fflush(file_.get()) != 0) {
-    throw FileError(path_.string(), "cannot write: " + std::generic_category().message(errno));
+}  // namespace
+
+HistoryCsv::HistoryCsv(std::filesystem::path path, const std::vector<HistoryColumn>& columns,
+                       std::span<const double> rows)
+    : path_(std::move(path)), column_count_(columns.size()) {
+  // what is there already must not get lost while it is written again
+  const std::filesystem::path name = rows.empty() ? path_ : temporary_name(path_);
+  file_.reset(std::fopen(name.c_str(), "w"));
+  if (!file_) give_up();
+  write(header(columns));
+  for (; !rows.empty(); rows = rows.subspan(column_count_ + 1)) {
+    write(line(rows[0], rows.subspan(1, column_count_)));
   }
+  flush();
+  if (name != path_) move_into_place(name, path_);
+}
+
+void HistoryCsv::add(double time, std::span<const double> values) {
+  internal_check(values.size() == column_count_, "one value per history column");
+  write(line(time, values));
+  flush();
+}
+
+void HistoryCsv::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) give_up();
+}
+
+void HistoryCsv::flush() {
+  if (std::fflush(file_.get()) != 0) give_up();
+}
+
+void HistoryCsv::give_up() const {
+  throw FileError(path_.string(), "cannot write: " + std::generic_category().message(errno));
 }
 
 }  // namespace culm::output

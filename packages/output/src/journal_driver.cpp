@@ -13,7 +13,7 @@ namespace {
 
 // HDF5 allocates by moving the end of addresses (eoa) and owns the base part.
 struct DriverFile : H5FD_t {
-  explicit DriverFile(const char* name) : H5FD_t{}, file(name) {}
+  DriverFile(const char* name, JournaledFile::Mode mode) : H5FD_t{}, file(name, mode) {}
   JournaledFile file;
   haddr_t eoa = 0;
   std::string failure;  ///< why something could not be written; then nothing more is
@@ -50,9 +50,10 @@ herr_t write_once(H5FD_t* file, Action action) {
 }
 
 H5FD_t* open_driver(const char* name, unsigned flags, hid_t, haddr_t) {
-  if ((flags & H5F_ACC_CREAT) == 0 && (flags & H5F_ACC_TRUNC) == 0) return nullptr;
+  const bool is_new = (flags & (H5F_ACC_CREAT | H5F_ACC_TRUNC)) != 0;
+  const auto mode = is_new ? JournaledFile::Mode::create : JournaledFile::Mode::existing;
   std::unique_ptr<DriverFile> file;
-  guarded("open_driver", [&] { file = std::make_unique<DriverFile>(name); });
+  guarded("open_driver", [&] { file = std::make_unique<DriverFile>(name, mode); });
   return file.release();
 }
 

@@ -8,7 +8,7 @@
 
 namespace culm::output {
 
-/// Lets HDF5 write through a JournaledFile: H5Fflush becomes a commit. Only for new files.
+/// Lets HDF5 write through a JournaledFile: H5Fflush becomes a commit. For writing.
 /// Returns a negative value if HDF5 refuses.
 herr_t use_journal_driver(hid_t access_properties);
 

@@ -1,5 +1,7 @@
 #include "journaled_file.hpp"
 
+#include "checksum.hpp"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -9,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace culm::output {
 
@@ -56,19 +59,6 @@ std::size_t read_all(int file, std::uint64_t offset, std::span<std::byte> bytes)
   return total;
 }
 
-// FNV-1a over words of eight bytes, the last one filled up with zeros.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  while (!bytes.empty()) {
-    std::uint64_t word = 0;
-    const std::size_t count = std::min(bytes.size(), sizeof word);
-    std::memcpy(&word, bytes.data(), count);
-    sum = (sum ^ word) * 0x100000001b3;
-    bytes = bytes.subspan(count);
-  }
-  return sum;
-}
-
 void put(std::vector<std::byte>& bytes, std::uint64_t number) {
   const auto raw = std::as_bytes(std::span(&number, 1));
   bytes.insert(bytes.end(), raw.begin(), raw.end());
@@ -106,8 +96,12 @@ void write_changes(int file, std::span<const std::byte> changes) {
 
 }  // namespace
 
-JournaledFile::JournaledFile(const std::filesystem::path& path)
-    : file_(open_file(path, O_RDWR | O_CREAT | O_TRUNC)) {}
+JournaledFile::JournaledFile(const std::filesystem::path& path, Mode mode)
+    : file_(open_file(path, mode == Mode::create ? O_RDWR | O_CREAT | O_TRUNC : O_RDWR)) {
+  struct stat status {};
+  if (::fstat(file_, &status) != 0) fail("open");
+  size_ = committed_size_ = static_cast<std::uint64_t>(status.st_size);
+}
 
 JournaledFile::~JournaledFile() {
   ::close(file_);
@@ -123,9 +117,13 @@ std::filesystem::path JournaledFile::journal_path(const std::filesystem::path& f
 
 void JournaledFile::start_journal(const std::filesystem::path& file) {
   journal_path_ = journal_path(file);
-  journal_ = open_file(journal_path_, O_RDWR | O_CREAT | O_TRUNC);
+  journal_ = open_file(journal_path_, O_RDWR | O_CREAT);
   // Some network file systems know no locks; then nothing tells that the file is in use.
-  ::flock(journal_, LOCK_EX | LOCK_NB);
+  if (::flock(journal_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(std::exchange(journal_, -1));
+    throw std::system_error(EBUSY, std::generic_category(), "another process writes this file");
+  }
+  if (::ftruncate(journal_, 0) != 0) fail("start journal");
 }
 
 void JournaledFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {

@@ -19,14 +19,18 @@ namespace culm::output {
 /// All functions throw std::system_error.
 class JournaledFile {
  public:
-  /// Creates or empties a file. There is no journal yet: commits are not protected.
-  explicit JournaledFile(const std::filesystem::path& path);
+  enum class Mode { create, existing };
+
+  /// Creates or empties a file, or opens one for changes. There is no journal yet: commits are not
+  /// protected.
+  explicit JournaledFile(const std::filesystem::path& path, Mode mode = Mode::create);
   JournaledFile(const JournaledFile&) = delete;
   JournaledFile& operator=(const JournaledFile&) = delete;
   /// Closes the file without a commit and removes the journal.
   ~JournaledFile();
 
-  /// Protects commits from now on. The journal is locked as long as this file is open.
+  /// Protects commits from now on. The journal is locked as long as this file is open; if it is
+  /// locked already, another process writes the file, which is an error.
   void start_journal(const std::filesystem::path& file);
 
   /// Bytes as written so far, committed or not; zeros behind the end.

@@ -1,7 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/output/recorder.hpp>
 
-#include "hdf5_file.hpp"
+#include "hdf5_read.hpp"
 #include "mesh_tables.hpp"
 #include "names.hpp"
 #include "replace_file.hpp"
@@ -136,6 +136,24 @@ class Recorder::File {
     cleanup.disarm();
   }
 
+  File(const std::filesystem::path& path, const RunInfo& info, std::vector<StructureMesh> meshes,
+       const std::vector<HistoryColumn>& history, const Recorded& recorded)
+      : meshes_(std::move(meshes)),
+        columns_(history.size()),
+        file_(Hdf5File::reopen(path)),
+        steps_(open_group(file_, file_.id(), "steps")),
+        history_(open_dataset(file_, file_.id(), "history/values")),
+        rows_(recorded.history.size() / (columns_ + 1)) {
+    for (const char* outdated : {"deck", "report"}) file_.remove_if_present(file_.id(), outdated);
+    write_deck(file_, info);
+    const std::vector<Recorded::Step> steps = read_steps(file_);
+    for (std::size_t s = recorded.steps.size(); s < steps.size(); ++s) {
+      file_.remove_if_present(steps_.id(), step_name(steps[s].index));
+    }
+    file_.shorten_table(history_.id(), rows_);
+    file_.flush();
+  }
+
   void record(const Frame& frame) {
     check_frame(meshes_, frame);
     const Handle step = file_.make_group(steps_.id(), step_name(frame.index));
@@ -201,6 +219,14 @@ Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
   check_meshes(meshes);
   const QuietHdf5 quiet;
   file_ = std::make_unique<File>(path, info, std::move(meshes), history);
+}
+
+Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
+                   std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history,
+                   const Recorded& recorded) {
+  check_meshes(meshes);
+  const QuietHdf5 quiet;
+  file_ = std::make_unique<File>(path, info, std::move(meshes), history, recorded);
 }
 
 bool recover_run(const std::filesystem::path& path) { return Hdf5File::recover(path); }

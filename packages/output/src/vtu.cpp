@@ -86,14 +86,29 @@ void Pictures::add(const Frame& frame) {
       skins.push_back(skin_grid(meshes_[s], frame.structures[s], static_cast<int>(s), skins_[s],
                                 reference_skins_[s]));
     }
-    const std::string file =
-        fmt::format("{}/{}_{}", vtu_folder_, group.file_part, step_name(frame.index));
+    const std::string file = stem(group, frame.index);
     replace_file(folder_ / (file + ".vtu"), vtu_text(merge(centres), frame.time, names_));
     collection_.add(collection_entry(frame.time, g, file + ".vtu"));
     if (skins.empty()) continue;
     replace_file(folder_ / (file + "_skin.vtu"), vtu_text(merge(skins), frame.time, names_));
     skin_collection_->add(collection_entry(frame.time, g, file + "_skin.vtu"));
   }
+}
+
+void Pictures::add_earlier(int index, double time) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::string file = stem(groups_[g], index);
+    if (std::filesystem::exists(folder_ / (file + ".vtu"))) {
+      collection_.add(collection_entry(time, g, file + ".vtu"));
+    }
+    if (!groups_[g].skinned.empty() && std::filesystem::exists(folder_ / (file + "_skin.vtu"))) {
+      skin_collection_->add(collection_entry(time, g, file + "_skin.vtu"));
+    }
+  }
+}
+
+std::string Pictures::stem(const Group& group, int index) const {
+  return fmt::format("{}/{}_{}", vtu_folder_, group.file_part, step_name(index));
 }
 
 void Pictures::write() {

@@ -11,8 +11,6 @@ namespace culm::output {
 
 namespace {
 
-using Step = std::pair<int, double>;  // index, time
-
 std::vector<int> find_directors(const Hdf5File& file, hid_t group) {
   std::vector<int> numbers;
   for (const int number : {1, 2, 3}) {
@@ -62,18 +60,6 @@ std::vector<XdmfStructure> read_structures(const Hdf5File& file) {
   return structures;
 }
 
-std::vector<Step> read_steps(const Hdf5File& file) {
-  const Handle steps = open_group(file, file.id(), "steps");
-  std::vector<Step> found;
-  for (const std::string& name : list_links(file, steps.id())) {
-    const Handle group = open_group(file, steps.id(), name);
-    found.emplace_back(read_int(file, group.id(), "index"), read_double(file, group.id(), "time"));
-  }
-  // Alphabetical order is not that of the indices once these have more than six digits.
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 }  // namespace
 
 std::filesystem::path write_xdmf_for(const std::filesystem::path& h5) {
@@ -84,7 +70,7 @@ std::filesystem::path write_xdmf_for(const std::filesystem::path& h5) {
   }
   const std::filesystem::path path = std::filesystem::path(h5).replace_extension(".xdmf");
   XdmfFile index(path, h5.filename().string(), read_structures(file));
-  for (const auto& [number, time] : read_steps(file)) index.add_step(number, time);
+  for (const Recorded::Step& step : read_steps(file)) index.add_step(step.index, step.time);
   index.write();
   return path;
 }

@@ -75,6 +75,13 @@ Schema output_schema(const QuantityRegistry& quantities) {
   return Schema("Output", "What is written.")
       .add(integer("Every", "Steps from one recorded state to the next.").at_least(1).optional(1))
       .add(flag("Pictures", "Write VTU files beside run.h5.").optional(true))
+      .add(flag("Checkpoints", "Write checkpoints, from which 'culm resume' goes on.")
+               .optional(true))
+      .add(number("Checkpoint Interval", "s",
+                  "Time on the clock from one checkpoint to the next; one at the end is always "
+                  "written. Writing takes at most a hundredth of the time.")
+               .at_least(0.0)
+               .optional(300.0))
       .list("History",
             Schema("History", "Quantities of each step, in history.csv and run.h5.")
                 .entries_by_type(quantities.variants()),

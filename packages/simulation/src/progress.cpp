@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace culm::simulation {
@@ -12,13 +13,15 @@ Progress::Progress(const Log& log, bool quiet, bool terminal)
 void Progress::begin(const std::string& analysis) {
   analysis_ = analysis;
   tenth_ = 0;
+  first_.reset();
   start_ = std::chrono::steady_clock::now();
 }
 
 std::string Progress::line(const analysis::StepReport& report) const {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   const double done = report.time / report.final_time;
-  const double left = done > 0.0 ? spent.count() * (1.0 - done) / done : 0.0;
+  const double way = done - *first_;
+  const double left = way > 0.0 ? spent.count() * (1.0 - done) / way : 0.0;
   const auto& history = report.outcome.history;
   const double residual = history.empty() ? 0.0 : history.back().force;
   return fmt::format(
@@ -29,6 +32,8 @@ std::string Progress::line(const analysis::StepReport& report) const {
 
 void Progress::show(const analysis::StepReport& report) {
   if (quiet_) return;
+  // a run that was resumed begins on the way
+  if (!first_) first_ = std::max(0.0, report.time - report.increment) / report.final_time;
   if (terminal_) {
     std::fputs(fmt::format("\r\033[K{}", line(report)).c_str(), stdout);
     std::fflush(stdout);

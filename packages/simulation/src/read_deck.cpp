@@ -1,37 +1,54 @@
-#include <culm/deck/deck.hpp>
 #include <culm/simulation/read_deck.hpp>
 
-namespace culm::simulation {
-namespace {
+#include "on_root.hpp"
 
-// The texts of the root on all ranks; its error, if it has one, too.
-std::vector<deck::DeckText> read_on_root(const parallel::Comm& comm, const std::string& path) {
-  std::vector<deck::DeckText> texts;
-  std::string error;
-  if (comm.is_root()) {
-    try {
-      texts = deck::Deck::read_files(path);
-    } catch (const FileError& e) {
-      error = e.what();
-    }
-  }
-  error = comm.broadcast(error);
-  if (!error.empty()) throw FileError(error);
-  const int count = comm.max(static_cast<int>(texts.size()));
-  texts.resize(static_cast<std::size_t>(count));
-  for (deck::DeckText& text : texts) {
+#include <filesystem>
+#include <utility>
+
+namespace culm::simulation {
+
+DeckSource read_source(const parallel::Comm& comm, const std::string& path,
+                       std::vector<std::string> overrides) {
+  DeckSource source{{}, std::move(overrides)};
+  on_root(comm, [&] { source.texts = deck::Deck::read_files(path); });
+  const int count = comm.max(static_cast<int>(source.texts.size()));
+  source.texts.resize(static_cast<std::size_t>(count));
+  for (deck::DeckText& text : source.texts) {
     text.name = comm.broadcast(text.name);
     text.text = comm.broadcast(text.text);
   }
-  return texts;
+  return source;
 }
 
-}  // namespace
+Options read_deck(const Catalogue& catalogue, const DeckSource& source) {
+  return deck::Deck::parse_texts(source.texts, source.overrides).validate(catalogue.deck_schema());
+}
 
-Options read_deck(const parallel::Comm& comm, const Catalogue& catalogue, const std::string& path,
-                  const std::vector<std::string>& overrides) {
-  const auto texts = read_on_root(comm, path);
-  return deck::Deck::parse_texts(texts, overrides).validate(catalogue.deck_schema());
+void DeckSource::save(Snapshot& snapshot) const {
+  snapshot.set("deck/files", static_cast<double>(texts.size()));
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const std::string number = std::to_string(i);
+    // from another folder the deck still finds its tables
+    snapshot.set_text("deck/name " + number, std::filesystem::absolute(texts[i].name).string());
+    snapshot.set_text("deck/text " + number, texts[i].text);
+  }
+  snapshot.set("deck/overrides", static_cast<double>(overrides.size()));
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    snapshot.set_text("deck/override " + std::to_string(i), overrides[i]);
+  }
+}
+
+DeckSource DeckSource::restore(const Snapshot& snapshot) {
+  DeckSource source;
+  for (int i = 0; i < snapshot.integer("deck/files"); ++i) {
+    const std::string number = std::to_string(i);
+    source.texts.push_back(
+        {snapshot.text("deck/name " + number), snapshot.text("deck/text " + number)});
+  }
+  for (int i = 0; i < snapshot.integer("deck/overrides"); ++i) {
+    source.overrides.push_back(snapshot.text("deck/override " + std::to_string(i)));
+  }
+  return source;
 }
 
 }  // namespace culm::simulation

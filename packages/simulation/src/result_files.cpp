@@ -1,5 +1,9 @@
 #include <culm/base/error.hpp>
+#include <culm/output/checkpoint_file.hpp>
 #include <culm/simulation/result_files.hpp>
+
+#include "checkpoints.hpp"
+#include "on_root.hpp"
 
 #include <unordered_map>
 
@@ -57,37 +61,53 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model) {
 }  // namespace
 
 ResultFiles::ResultFiles(assembly::System& system, ResultSettings settings,
-                         const std::vector<WatchedQuantity>& watched)
+                         const std::vector<WatchedQuantity>& watched, const Snapshot* from)
     : system_(system), settings_(std::move(settings)), watched_(watched) {
-  on_root([this] { open(); });
+  if (from != nullptr) {
+    frames_ = static_cast<std::size_t>(from->integer("output/states"));
+    rows_ = static_cast<std::size_t>(from->integer("output/rows"));
+  }
+  on_root(system_.comm(), [&] { from == nullptr ? open() : reopen(); });
 }
 
-// Runs on rank 0; an error there is an error everywhere.
-template <class Work>
-void ResultFiles::on_root(Work work) const {
-  std::string error;
-  if (system_.comm().is_root()) {
-    try {
-      work();
-    } catch (const FileError& e) {
-      error = e.what();
-    }
-  }
-  if (system_.comm().size() > 1) error = system_.comm().broadcast(error);
-  if (!error.empty()) throw FileError(error);
+void ResultFiles::save(Snapshot& snapshot) const {
+  snapshot.set("output/states", static_cast<double>(frames_));
+  snapshot.set("output/rows", static_cast<double>(rows_));
 }
 
 void ResultFiles::open() {
-  std::error_code failure;
-  std::filesystem::create_directories(settings_.folder, failure);
-  if (failure) throw FileError(settings_.folder.string(), failure.message());
   const std::filesystem::path& folder = settings_.folder;
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw FileError(folder.string(), failure.message());
+  // those of an earlier run do not belong to the files to come
+  const std::filesystem::path checkpoint = checkpoint_path(folder);
+  std::filesystem::remove(checkpoint, failure);
+  std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
   const auto meshes = meshes_of(system_.model());
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
   std::optional<output::Pictures> pictures;
   if (settings_.pictures) pictures.emplace(folder, "run", meshes);
+  files_ = std::make_unique<Files>(
+      Files{std::move(recorder), std::move(xdmf), std::move(history), std::move(pictures)});
+}
+
+// The result file is cut to the time of the checkpoint; the others are made again from it.
+void ResultFiles::reopen() {
+  const std::filesystem::path& folder = settings_.folder;
+  const auto meshes = meshes_of(system_.model());
+  const auto recorded = output::find_recorded(folder / "run.h5", frames_, rows_);
+  output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), recorded);
+  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
+  output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
+  std::optional<output::Pictures> pictures;
+  if (settings_.pictures) pictures.emplace(folder, "run", meshes);
+  for (const auto& step : recorded.steps) {
+    xdmf.add_step(step.index, step.time);
+    if (pictures) pictures->add_earlier(step.index, step.time);
+  }
   files_ = std::make_unique<Files>(
       Files{std::move(recorder), std::move(xdmf), std::move(history), std::move(pictures)});
 }
@@ -105,7 +125,7 @@ std::vector<output::HistoryColumn> ResultFiles::columns() const {
 
 output::Frame ResultFiles::frame(double time, const model::State& state) const {
   output::Frame frame;
-  frame.index = frames_;
+  frame.index = static_cast<int>(frames_);
   frame.time = time;
   for (const model::Structure& structure : system_.model().structures()) {
     output::StructureState s;
@@ -126,15 +146,16 @@ void ResultFiles::add_history(double time, model::State& state) {
   for (const WatchedQuantity& watched : watched_) {
     watched.quantity->evaluate(system_, state, numbers);
   }
-  on_root([&] {
+  on_root(system_.comm(), [&] {
     files_->recorder.add_history(time, numbers);
     files_->history.add(time, numbers);
   });
+  ++rows_;
 }
 
 void ResultFiles::record(double time, model::State& state) {
   system_.synchronise(state);
-  on_root([&] {
+  on_root(system_.comm(), [&] {
     const output::Frame f = frame(time, state);
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
@@ -145,7 +166,7 @@ void ResultFiles::record(double time, model::State& state) {
 
 void ResultFiles::finish(const std::string& report,
                          const std::vector<output::NamedScalar>& scalars) {
-  on_root([&] {
+  on_root(system_.comm(), [&] {
     files_->recorder.write_report(report, scalars);
     files_->recorder.close();
     files_->xdmf.write();

@@ -1,26 +1,50 @@
 #include "run_observer.hpp"
 
+#include <culm/base/error.hpp>
+#include <culm/base/version.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace culm::simulation {
 
+RunObserver::RunObserver(analysis::Context& context, ResultFiles& files, Checkpoints& checkpoints,
+                         const DeckSource& source, std::string linear_solver, Progress progress)
+    : context_(context),
+      files_(files),
+      checkpoints_(checkpoints),
+      source_(source),
+      linear_solver_(std::move(linear_solver)),
+      progress_(std::move(progress)),
+      output_effect_(context.ledger.add("Output")) {
+  if (checkpoints_.are_active()) checkpoint_effect_ = context.ledger.add("Checkpoints");
+}
+
+void RunObserver::begin(const std::string& name, std::size_t number,
+                        const analysis::Analysis& analysis) {
+  progress_.begin(name);
+  analysis_ = &analysis;
+  number_ = number;
+  has_stepped_ = false;
+}
+
 void RunObserver::start(model::State& state) {
-  const Ledger::Scope scope(ledger_, output_effect_);
+  const Ledger::Scope scope(context_.ledger, output_effect_);
   files_.add_history(state.time, state);
   files_.record(state.time, state);
 }
 
 void RunObserver::step(const analysis::StepReport& report, model::State& state) {
   const auto& outcome = report.outcome;
+  has_stepped_ = true;
   iterations_ += outcome.iterations;
   if (report.accepted) {
     ++accepted_;
     most_iterations_ = std::max(most_iterations_, outcome.iterations);
     worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
-    const Ledger::Scope scope(ledger_, output_effect_);
+    const Ledger::Scope scope(context_.ledger, output_effect_);
     files_.add_history(report.time, state);
     is_recorded_ = files_.is_due(accepted_) || report.time >= report.final_time;
     if (is_recorded_) files_.record(report.time, state);
@@ -28,6 +52,56 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     ++rejected_;
   }
   progress_.show(report);
+  const Checkpoints::Demand demand = checkpoints_.demand();
+  if (demand == Checkpoints::Demand::none) return;
+  write_checkpoint(state);
+  if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());
+}
+
+void RunObserver::write_checkpoint(model::State& state) {
+  if (!checkpoints_.are_active() || !has_stepped_) return;
+  const Ledger::Scope scope(context_.ledger, checkpoint_effect_);
+  Snapshot snapshot;
+  save(snapshot);
+  context_.system.save(state, snapshot);
+  analysis_->save(context_, snapshot);
+  files_.save(snapshot);
+  checkpoints_.write(snapshot);
+}
+
+void RunObserver::save(Snapshot& snapshot) const {
+  snapshot.set("format", checkpoint_format);
+  snapshot.set_text("run/version", std::string(version));
+  snapshot.set("run/ranks", context_.system.comm().size());
+  snapshot.set("run/analysis", static_cast<double>(number_));
+  source_.save(snapshot);
+  snapshot.set("run/counts",
+               {static_cast<double>(accepted_), static_cast<double>(rejected_),
+                static_cast<double>(iterations_), static_cast<double>(most_iterations_),
+                worst_residual_, worst_constraint_, is_recorded_ ? 1.0 : 0.0});
+  snapshot.set_text("run/certificates", certificates_);
+  std::vector<double> values;
+  for (const output::NamedScalar& scalar : numbers_) {
+    snapshot.set_text("run/number " + std::to_string(values.size()), scalar.name);
+    values.push_back(scalar.value);
+  }
+  snapshot.set("run/numbers", std::move(values));
+}
+
+void RunObserver::restore(const Snapshot& snapshot) {
+  const std::vector<double>& counts = snapshot.numbers("run/counts", 7);
+  accepted_ = static_cast<int>(counts[0]);
+  rejected_ = static_cast<int>(counts[1]);
+  iterations_ = static_cast<int>(counts[2]);
+  most_iterations_ = static_cast<int>(counts[3]);
+  worst_residual_ = counts[4];
+  worst_constraint_ = counts[5];
+  is_recorded_ = counts[6] != 0.0;
+  certificates_ = snapshot.text("run/certificates");
+  const std::vector<double>& values = snapshot.numbers("run/numbers");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    numbers_.push_back({snapshot.text("run/number " + std::to_string(i)), "", values[i]});
+  }
 }
 
 void RunObserver::finish_analysis(const analysis::AnalysisReport& report) {
@@ -37,7 +111,7 @@ void RunObserver::finish_analysis(const analysis::AnalysisReport& report) {
 
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
-  const Ledger::Scope scope(ledger_, output_effect_);
+  const Ledger::Scope scope(context_.ledger, output_effect_);
   // a run that fails leaves its last accepted state
   if (!is_recorded_) files_.record(state.time, state);
   std::vector<output::NamedScalar> numbers = {
@@ -48,7 +122,8 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"worst constraint violation", "", worst_constraint_},
       {"final time", "", state.time}};
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
-  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers);
+  files_.finish(outcome + "\n\n" + certificates_ + convergence() + context_.ledger.report(),
+                numbers);
 }
 
 std::string RunObserver::convergence() const {
@@ -62,7 +137,8 @@ std::string RunObserver::convergence() const {
 }
 
 std::string RunObserver::closing_words() const {
-  std::string text = "\n" + ledger_.report() + "\n" + certificates_ + convergence() + "results:";
+  std::string text =
+      "\n" + context_.ledger.report() + "\n" + certificates_ + convergence() + "results:";
   for (const auto& path : files_.paths()) text += "\n  " + path.string();
   return text;
 }

@@ -2,26 +2,32 @@
 #pragma once
 
 #include <culm/simulation/progress.hpp>
+#include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/result_files.hpp>
+
+#include "checkpoints.hpp"
 
 namespace culm::simulation {
 
 class RunObserver final : public analysis::Observer {
  public:
+  /// Version of what a checkpoint holds.
+  static constexpr int checkpoint_format = 1;
+
   /// @param linear_solver its name and why it was taken, for the report
-  RunObserver(assembly::System& system, ResultFiles& files, Ledger& ledger,
-              Ledger::Id output_effect, std::string linear_solver, Progress progress)
-      : system_(system),
-        files_(files),
-        ledger_(ledger),
-        output_effect_(output_effect),
-        linear_solver_(std::move(linear_solver)),
-        progress_(std::move(progress)) {}
+  RunObserver(analysis::Context& context, ResultFiles& files, Checkpoints& checkpoints,
+              const DeckSource& source, std::string linear_solver, Progress progress);
 
   /// Records the reference state.
   void start(model::State& state);
-  void begin(const std::string& analysis) { progress_.begin(analysis); }
+  /// Goes on from a checkpoint instead.
+  void restore(const Snapshot& snapshot);
+  /// @param number  of the analysis in the deck, from 0
+  void begin(const std::string& name, std::size_t number, const analysis::Analysis& analysis);
+  /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
+  /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
+  void write_checkpoint(model::State& state);
   void finish_analysis(const analysis::AnalysisReport& report);
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
@@ -29,15 +35,21 @@ class RunObserver final : public analysis::Observer {
   std::string closing_words() const;
 
  private:
+  void save(Snapshot& snapshot) const;
   std::string convergence() const;
 
-  assembly::System& system_;
+  analysis::Context& context_;
   ResultFiles& files_;
-  Ledger& ledger_;
-  Ledger::Id output_effect_;
+  Checkpoints& checkpoints_;
+  const DeckSource& source_;
   std::string linear_solver_;
   Progress progress_;
-  bool is_recorded_ = true;  // the last accepted state is on disk
+  Ledger::Id output_effect_;
+  Ledger::Id checkpoint_effect_ = 0;
+  const analysis::Analysis* analysis_ = nullptr;
+  std::size_t number_ = 0;
+  bool has_stepped_ = false;  // the analysis has something to save
+  bool is_recorded_ = true;   // the last accepted state is on disk
   std::string certificates_;
   std::vector<output::NamedScalar> numbers_;
   int accepted_ = 0;

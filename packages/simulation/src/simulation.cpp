@@ -9,15 +9,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
+#include <utility>
 
 namespace culm::simulation {
+namespace {
+
+bool is_numerical(const Error& error) {
+  return dynamic_cast<const NumericalError*>(&error) != nullptr ||
+         dynamic_cast<const NonFiniteError*>(&error) != nullptr;
+}
+
+}  // namespace
 
 struct Simulation::Parts {
   parallel::Comm comm;
   const Catalogue& catalogue;
   Options deck;
+  DeckSource source;
   Log log;
   Ledger ledger;
   model::Model model;
@@ -27,8 +35,8 @@ struct Simulation::Parts {
 };
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
-                       const Log& log)
-    : parts_(new Parts{comm, catalogue, deck, log, {}, {}, {}, {}, {}}) {
+                       DeckSource source, const Log& log)
+    : parts_(new Parts{comm, catalogue, deck, std::move(source), log, {}, {}, {}, {}, {}}) {
   Parts& p = *parts_;
   p.watched = build_model(catalogue, deck, log, p.model);
   p.system = std::make_unique<assembly::System>(p.model, comm, p.ledger);
@@ -38,27 +46,30 @@ Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, c
 
 Simulation::~Simulation() = default;
 
-void Simulation::run(const RunSettings& settings) {
+void Simulation::run(const RunSettings& settings, const StopRequest& request,
+                     const Snapshot* from) {
   Parts& p = *parts_;
   const Options& output = p.deck.list("Output");
+  Checkpoints checkpoints(p.comm, settings.folder, output.flag("Checkpoints"),
+                          output.number("Checkpoint Interval"), request);
   ResultFiles files(*p.system,
                     {settings.folder,
                      {p.deck.text("Title"), std::string(version), deck::resolved(p.deck)},
                      output.integer("Every"),
                      output.flag("Pictures")},
-                    p.watched);
-  const Ledger::Id output_effect = p.ledger.add("Output");
-  RunObserver observer(*p.system, files, p.ledger, output_effect, p.linear.reason,
-                       Progress(p.log, settings.quiet, settings.terminal));
+                    p.watched, from);
   analysis::Context context{*p.system, *p.linear.solver, p.ledger, p.log};
+  RunObserver observer(context, files, checkpoints, p.source, p.linear.reason,
+                       Progress(p.log, settings.quiet, settings.terminal));
   model::State state = p.model.initial_state();
-  observer.start(state);
   try {
-    for (const Options& entry : p.deck.list("Analyses").entries()) {
-      observer.begin(entry.name());
-      const auto analysis = p.catalogue.analyses.make(entry.text("Type"), entry);
-      observer.finish_analysis(analysis->run(context, state, observer));
+    if (from == nullptr) {
+      observer.start(state);
+    } else {
+      p.system->restore(*from, state);
+      observer.restore(*from);
     }
+    run_analyses(context, state, observer, from);
   } catch (const Error& error) {
     try {
       observer.end(state, error.what());
@@ -70,6 +81,37 @@ void Simulation::run(const RunSettings& settings) {
   }
   observer.end(state, "done");
   if (!settings.quiet) p.log.info(observer.closing_words());
+}
+
+void Simulation::run_analyses(analysis::Context& context, model::State& state,
+                              RunObserver& observer, const Snapshot* from) const {
+  const std::vector<Options>& entries = parts_->deck.list("Analyses").entries();
+  const auto first =
+      from == nullptr ? std::size_t{0} : static_cast<std::size_t>(from->integer("run/analysis"));
+  for (std::size_t i = first; i < entries.size(); ++i) {
+    const auto analysis = parts_->catalogue.analyses.make(entries[i].text("Type"), entries[i]);
+    observer.begin(entries[i].name(), i, *analysis);
+    const bool resumes = from != nullptr && i == first;
+    try {
+      const auto report = resumes ? analysis->resume(context, state, observer, *from)
+                                  : analysis->run(context, state, observer);
+      // from the last one a run can go on to a later end
+      if (i + 1 == entries.size()) observer.write_checkpoint(state);
+      observer.finish_analysis(report);
+    } catch (const Error& error) {
+      // other tolerances or steps may find the way that these did not
+      if (is_numerical(error)) write_last_checkpoint(state, observer);
+      throw;
+    }
+  }
+}
+
+void Simulation::write_last_checkpoint(model::State& state, RunObserver& observer) const {
+  try {
+    observer.write_checkpoint(state);
+  } catch (const FileError& second) {
+    parts_->log.warning(second.what());
+  }
 }
 
 std::string Simulation::summary() const {

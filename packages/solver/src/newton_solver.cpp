@@ -179,4 +179,19 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
   return outcome;
 }
 
+void NewtonSolver::save(Snapshot& snapshot) const {
+  const NewtonProblem& p = *nox_->problem;
+  if (p.settings.refresh == Refresh::every_iteration || !p.has_factors) return;
+  // the matrix has not changed since it was factored
+  snapshot.set("newton/inertia", p.factored_inertia);
+  p.system.save_matrix(snapshot);
+}
+
+void NewtonSolver::restore(const Snapshot& snapshot) {
+  NewtonProblem& p = *nox_->problem;
+  if (p.settings.refresh == Refresh::every_iteration || !snapshot.has("newton/inertia")) return;
+  p.factored_inertia = snapshot.number("newton/inertia");
+  p.has_factors = p.system.restore_matrix(snapshot) && p.linear.factor();
+}
+
 }  // namespace culm::solver

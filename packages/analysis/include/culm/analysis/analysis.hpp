@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/base/log.hpp>
+#include <culm/base/snapshot.hpp>
 #include <culm/solver/newton_solver.hpp>
 
 #include <memory>
@@ -49,12 +50,33 @@ void accept(model::State& state);
 /// Goes back to the start of the step.
 void reject(model::State& state);
 
-/// A way to move a state. Throws NumericalError or NonFiniteError with a post-mortem when it has to
-/// give up; the state is then the last accepted one.
+/// A way to move a state, in steps. Everything it remembers from one step to the next stands in its
+/// members, where save() finds it. run() and resume() throw NumericalError or NonFiniteError with a
+/// post-mortem when they have to give up; the state is then the last accepted one.
 class Analysis {
  public:
   virtual ~Analysis() = default;
-  virtual AnalysisReport run(Context& context, model::State& state, Observer& observer) = 0;
+
+  AnalysisReport run(Context& context, model::State& state, Observer& observer) {
+    start(context, state);
+    return advance(context, state, observer);
+  }
+  /// Goes on from the step in which save() was called. The state is that of then.
+  AnalysisReport resume(Context& context, model::State& state, Observer& observer,
+                        const Snapshot& snapshot) {
+    restore(context, snapshot);
+    return advance(context, state, observer);
+  }
+  /// Writes what the next step needs beside the state. For observers of a step; collective.
+  virtual void save(const Context& context, Snapshot& snapshot) const = 0;
+
+ private:
+  /// Looks at the present state and prepares the first step.
+  virtual void start(Context& context, model::State& state) = 0;
+  /// Takes over what save wrote. Throws FileError if it does not fit.
+  virtual void restore(Context& context, const Snapshot& snapshot) = 0;
+  /// Makes all steps to the end.
+  virtual AnalysisReport advance(Context& context, model::State& state, Observer& observer) = 0;
 };
 
 }  // namespace culm::analysis

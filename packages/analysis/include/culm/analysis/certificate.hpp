@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/assembly/system.hpp>
+#include <culm/base/snapshot.hpp>
 
 #include <optional>
 #include <string>
@@ -27,12 +28,18 @@ class Certificate {
   /// @param velocity the largest one [m/s, 1/s]
   void finish(double change, double velocity);
 
+  /// All that was summed and compared so far, as "certificate".
+  void save(Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
+
   /// A table for the user: balances, drifts, verdicts.
   std::string text() const;
   /// The same as numbers.
   std::vector<std::pair<std::string, double>> numbers() const;
 
  private:
+  template <class Self>
+  static auto memory(Self& self);
   double energy_scale() const;
   double linear_scale() const;
   double angular_scale() const;

@@ -1,12 +1,14 @@
 /// Motion in time.
 #pragma once
 
-#include <culm/analysis/analysis.hpp>
 #include <culm/analysis/certificate.hpp>
+#include <culm/analysis/post_mortem.hpp>
 #include <culm/analysis/step_control.hpp>
 #include <culm/analysis/time_scheme.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
+
+#include <optional>
 
 namespace culm::analysis {
 
@@ -26,15 +28,22 @@ class Dynamics final : public Analysis {
   static Schema schema();
   static std::unique_ptr<Analysis> make(const Options& options);
 
-  AnalysisReport run(Context& context, model::State& state, Observer& observer) override;
+  void save(const Context& context, Snapshot& snapshot) const override;
 
  private:
-  void prepare(Context& context, model::State& state);
-  void measure_hidden_constraints(Context& context, const model::State& state,
-                                  Certificate& certificate) const;
+  void start(Context& context, model::State& state) override;
+  void restore(Context& context, const Snapshot& snapshot) override;
+  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
+  void fit_motion(Context& context, model::State& state) const;
+  void measure_hidden_constraints(Context& context, const model::State& state);
 
   DynamicsSettings settings_;
   std::unique_ptr<TimeScheme> scheme_;
+  int steps_ = 0;
+  std::optional<StepControl> control_;
+  std::optional<solver::NewtonSolver> newton_;
+  std::optional<PostMortem> post_mortem_;
+  std::optional<Certificate> certificate_;
 };
 
 }  // namespace culm::analysis

@@ -20,6 +20,10 @@ class PostMortem {
   PostMortem(Context& context, model::State& state, const Stencil& stencil, double first_level);
   /// The same in dynamics, where no load can be too large for an equilibrium.
   PostMortem(Context& context, model::State& state, const Stencil& stencil);
+  /// Goes on where an earlier one was, without another look at the structure.
+  PostMortem(Context& context, const Snapshot& snapshot);
+  /// What it measured at the start.
+  void save(Snapshot& snapshot) const;
 
   /// Throws NumericalError where the mass matrix, bordered by constraints, has no useful factors.
   [[noreturn]] static void refuse_massless(Context& context, const model::State& state);

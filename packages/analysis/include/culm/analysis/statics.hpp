@@ -1,10 +1,11 @@
 /// Static equilibrium under loads that grow with the load level.
 #pragma once
 
-#include <culm/analysis/analysis.hpp>
+#include <culm/analysis/post_mortem.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace culm::analysis {
@@ -29,12 +30,19 @@ class Statics final : public Analysis {
   static Schema schema();
   static std::unique_ptr<Analysis> make(const Options& options);
 
-  AnalysisReport run(Context& context, model::State& state, Observer& observer) override;
+  void save(const Context& context, Snapshot& snapshot) const override;
 
  private:
+  void start(Context& context, model::State& state) override;
+  void restore(Context& context, const Snapshot& snapshot) override;
+  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
   double next_level(double level, double increment) const;
 
   StaticsSettings settings_;
+  double increment_ = 0.0;
+  int steps_ = 0;
+  std::optional<solver::NewtonSolver> newton_;
+  std::optional<PostMortem> post_mortem_;
 };
 
 }  // namespace culm::analysis

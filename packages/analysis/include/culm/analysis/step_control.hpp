@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/assembly/system.hpp>
+#include <culm/base/snapshot.hpp>
 #include <culm/solver/newton_solver.hpp>
 
 #include <optional>
@@ -61,8 +62,9 @@ class StepControl {
   /// length of the model, directors by 1. Not known in the first two steps.
   std::optional<double> error() const { return error_; }
 
-  const StepMemory& memory() const { return memory_; }
-  void restore(StepMemory memory) { memory_ = std::move(memory); }
+  /// The memory, under "steps/".
+  void save(Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
 
  private:
   model::NodeSlots mean_velocity(const model::State& state, double h, int node) const;

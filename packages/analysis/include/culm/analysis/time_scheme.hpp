@@ -1,6 +1,8 @@
 /// How a step of time is cut.
 #pragma once
 
+#include <culm/assembly/system.hpp>
+#include <culm/base/snapshot.hpp>
 #include <culm/mechanics/stencil.hpp>
 #include <culm/model/state.hpp>
 
@@ -23,6 +25,9 @@ class TimeScheme {
   virtual Stencil begin(model::State& state, double h) = 0;
   /// After an accepted step, before prev takes the place of next: sets state.velocity.
   virtual void finish(model::State& state, double h) = 0;
+  /// What the scheme remembers beside position and velocity, under "scheme/"; see Analysis.
+  virtual void save(const assembly::System&, Snapshot&) const {}
+  virtual void restore(const Snapshot&) {}
 };
 
 /// Energy-momentum conserving: mean velocity, forces at mid-step, mean of the end strains.
@@ -51,6 +56,8 @@ class GeneralisedAlphaScheme final : public TimeScheme {
   void start(model::State& state) override;
   Stencil begin(model::State& state, double h) override;
   void finish(model::State& state, double h) override;
+  void save(const assembly::System& system, Snapshot& snapshot) const override;
+  void restore(const Snapshot& snapshot) override;
 
  private:
   double alpha_m_, alpha_f_, beta_, gamma_;

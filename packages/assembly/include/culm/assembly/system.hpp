@@ -3,6 +3,7 @@
 
 #include <culm/assembly/layout.hpp>
 #include <culm/base/ledger.hpp>
+#include <culm/base/snapshot.hpp>
 #include <culm/model/velocity_dissipation.hpp>
 
 #include <functional>
@@ -45,6 +46,17 @@ class System {
   /// Brings coordinates, multipliers and reactions of all nodes up to date on all ranks, for
   /// output.
   void synchronise(model::State& state);
+  /// Brings an array over the slots of all nodes up to date on all ranks: each value from the rank
+  /// that owns the node, exactly.
+  void complete(model::Coordinates& values) const;
+  /// Writes the state, and what system and batches remember from step to step. Collective.
+  void save(model::State& state, Snapshot& snapshot);
+  /// Writes the present values of the matrix, for factors that serve on; collective.
+  void save_matrix(Snapshot& snapshot) const;
+  /// Takes them back. @return false with another number of ranks, where they do not fit
+  bool restore_matrix(const Snapshot& snapshot);
+  /// Goes back to what save wrote; on any number of ranks. Throws FileError if it does not fit.
+  void restore(const Snapshot& snapshot, model::State& state);
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
@@ -93,7 +105,6 @@ class System {
   double largest_diagonal() const;
   std::vector<double> drive_speed(model::State& state, double probe);
   const Vector& import(const Vector& increment);
-  void complete(model::Coordinates& values) const;
 
   model::Model& model_;
   parallel::Comm comm_;

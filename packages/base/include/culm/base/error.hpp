@@ -67,6 +67,14 @@ class FileError final : public Error {
   int exit_code() const noexcept override { return 6; }
 };
 
+/// A signal or the end of the time allowed stopped a run before its end. The text says how to go
+/// on.
+class Stopped final : public Error {
+ public:
+  using Error::Error;
+  int exit_code() const noexcept override { return 7; }
+};
+
 /// Throws InternalError with the caller's file and line if `condition` is false; in every build.
 inline void internal_check(bool condition, std::string_view text,
                            const char* file = __builtin_FILE(), int line = __builtin_LINE()) {

@@ -37,6 +37,9 @@ class LinkLoad final : public model::Batch {
                    model::Target& target) override;
   void extrapolate(const model::State& state, const Stencil& stencil,
                    const model::Coordinates& increment) override;
+  std::size_t memory_size() const override { return item_memory * items_.size(); }
+  void save(std::span<double> memory) const override;
+  void restore(std::span<const double> memory) override;
   double stored_energy(const model::Coordinates& q) const override;
   /// The coordinate u of an item [m, rad] at a state, and the force that resisted it in the last
   /// step [N, N m]; of the state itself before the first. Zero on ranks that do not own the item.
@@ -50,6 +53,8 @@ class LinkLoad final : public model::Batch {
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
+  static constexpr std::size_t item_memory = 3;  ///< forms and coordinate
+
   using Motion = model::ItemMotion<2>;
   struct Item {
     Link link;

@@ -63,6 +63,14 @@ class Batch {
   virtual void extrapolate(const State& state, const Stencil& stencil,
                            const Coordinates& increment) = 0;
 
+  /// Numbers that items carry from step to step beside the state, such as turns that were counted:
+  /// how many, for all items of the model. Zero where begin_step computes everything anew.
+  virtual std::size_t memory_size() const { return 0; }
+  /// Writes those of the owned items to their places in the array of all; leaves the others alone.
+  virtual void save(std::span<double>) const {}
+  /// Takes them over for all local items; after place, before begin_step.
+  virtual void restore(std::span<const double>) {}
+
   /// Energy stored in the owned items at a configuration [J]: strain energy, or the potential of a
   /// load that has one.
   virtual double stored_energy(const Coordinates& q) const = 0;

@@ -83,6 +83,32 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
   }
 
+  std::size_t memory_size() const override {
+    if constexpr (!has_internals) return 0;
+    return static_cast<std::size_t>(size()) * item_memory();
+  }
+
+  void save([[maybe_unused]] std::span<double> memory) const override {
+    if constexpr (has_internals) {
+      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+        if (!placement_.owned[i]) continue;
+        for (int p = 0; p < E::num_points; ++p) {
+          internals_.save(at(i, p), memory.subspan(memory_place(i, p)));
+        }
+      }
+    }
+  }
+
+  void restore([[maybe_unused]] std::span<const double> memory) override {
+    if constexpr (has_internals) {
+      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+        for (int p = 0; p < E::num_points; ++p) {
+          internals_.restore(at(i, p), memory.subspan(memory_place(i, p)));
+        }
+      }
+    }
+  }
+
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
     const Stencil damped = with_damping(stencil);
     // shell nodes have the same six unknowns in both forms
@@ -215,6 +241,24 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     using Values = Nothing;
   };
   using Internals = typename InternalTypes<E, has_internals>::Values;
+
+  // numbers that an item remembers, and where those of a point of a local item are in the array of
+  // all items
+  static constexpr std::size_t item_memory() {
+    if constexpr (!has_internals) return 0;
+    return static_cast<std::size_t>(E::num_points) * point_memory();
+  }
+  static constexpr std::size_t point_memory() {
+    if constexpr (!has_internals) {
+      return 0;
+    } else {
+      return InternalStore<E>::point_memory;
+    }
+  }
+  std::size_t memory_place(std::size_t i, int p) const {
+    return static_cast<std::size_t>(placement_.items[i]) * item_memory() +
+           static_cast<std::size_t>(p) * point_memory();
+  }
 
   Stencil with_damping(Stencil stencil) const {
     if (stencil.step > 0.0) stencil.theta_strain += damping_.weight(stencil.step);

@@ -3,7 +3,9 @@
 
 #include <culm/mechanics/internal_variables.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace culm::model {
@@ -39,6 +41,19 @@ class InternalStore {
   /// Those that belong to a strain at one of the ends of the step.
   const Internals& at(std::size_t point, const Strain& y) const {
     return y == strain_[point] ? next_[point] : prev_[point];
+  }
+
+  /// Numbers that a point keeps, for checkpoints.
+  static constexpr std::size_t point_memory = 2 * E::num_internals + E::num_strains;
+  void save(std::size_t point, std::span<double> memory) const {
+    std::copy_n(prev_[point].data(), E::num_internals, memory.data());
+    std::copy_n(next_[point].data(), E::num_internals, memory.data() + E::num_internals);
+    std::copy_n(strain_[point].data(), E::num_strains, memory.data() + 2 * E::num_internals);
+  }
+  void restore(std::size_t point, std::span<const double> memory) {
+    std::copy_n(memory.data(), E::num_internals, prev_[point].data());
+    std::copy_n(memory.data() + E::num_internals, E::num_internals, next_[point].data());
+    std::copy_n(memory.data() + 2 * E::num_internals, E::num_strains, strain_[point].data());
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace culm::output {
@@ -15,7 +16,9 @@ namespace culm::output {
 class HistoryCsv {
  public:
   /// Replaces a file of this name. Throws FileError.
-  HistoryCsv(std::filesystem::path path, std::vector<HistoryColumn> columns);
+  /// @param rows  of an earlier run, to go on with: time and values, row after row
+  HistoryCsv(std::filesystem::path path, const std::vector<HistoryColumn>& columns,
+             std::span<const double> rows = {});
 
   /// @param time    s
   /// @param values  one per column
@@ -27,7 +30,9 @@ class HistoryCsv {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  void write(const std::string& line);
+  void write(std::string_view text);
+  void flush();
+  [[noreturn]] void give_up() const;
 
   std::filesystem::path path_;
   std::size_t column_count_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <culm/output/picture_mesh.hpp>
+#include <culm/output/recorded.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -38,6 +39,11 @@ class Recorder {
   /// Replaces a file of this name, but only when deck, mesh and empty tables are complete.
   Recorder(const std::filesystem::path& path, const RunInfo& info,
            std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history);
+  /// Goes on with the file of an earlier run, of the same model and history, as it was when it held
+  /// what `recorded` says: later steps, rows and the report go. See find_recorded().
+  Recorder(const std::filesystem::path& path, const RunInfo& info,
+           std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history,
+           const Recorded& recorded);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Closes the file; use close() to learn whether that worked.

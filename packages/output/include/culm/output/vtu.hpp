@@ -30,6 +30,10 @@ class Pictures {
   /// FileError.
   void add(const Frame& frame);
 
+  /// Lists a step of an earlier run whose files are there; those that are not are left out. Throws
+  /// FileError.
+  void add_earlier(int index, double time);
+
   /// Brings the collections up to date, as at the end of a run. Throws FileError.
   void write();
 
@@ -41,6 +45,7 @@ class Pictures {
     std::vector<std::size_t> skinned;  // those of them that have a skin
   };
 
+  std::string stem(const Group& group, int index) const;
   void make_groups();
   void make_skins();
 

@@ -5,6 +5,7 @@
 #include <culm/base/log.hpp>
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace culm::simulation {
@@ -31,6 +32,7 @@ class Progress {
   bool open_ = false;
   std::string analysis_;
   int tenth_ = 0;
+  std::optional<double> first_;  ///< part of the way that was done before
   std::chrono::steady_clock::time_point start_;
 };
 

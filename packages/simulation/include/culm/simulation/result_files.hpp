@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/assembly/system.hpp>
+#include <culm/base/snapshot.hpp>
 #include <culm/output/history_csv.hpp>
 #include <culm/output/recorder.hpp>
 #include <culm/output/vtu.hpp>
@@ -35,8 +36,12 @@ struct ResultSettings {
 /// FileError on all of them.
 class ResultFiles {
  public:
+  /// @param from  checkpoint of an earlier run, to go on with its files as they were then
   ResultFiles(assembly::System& system, ResultSettings settings,
-              const std::vector<WatchedQuantity>& watched);
+              const std::vector<WatchedQuantity>& watched, const Snapshot* from);
+
+  /// How much there is, under "output/".
+  void save(Snapshot& snapshot) const;
 
   /// Adds a row to the history.
   void add_history(double time, model::State& state);
@@ -58,9 +63,8 @@ class ResultFiles {
     std::optional<output::Pictures> pictures;
   };
 
-  template <class Work>
-  void on_root(Work work) const;
   void open();
+  void reopen();
   std::vector<output::HistoryColumn> columns() const;
   output::Frame frame(double time, const model::State& state) const;
 
@@ -68,7 +72,8 @@ class ResultFiles {
   ResultSettings settings_;
   const std::vector<WatchedQuantity>& watched_;
   std::unique_ptr<Files> files_;
-  int frames_ = 0;
+  std::size_t frames_ = 0;
+  std::size_t rows_ = 0;  ///< of the history
 };
 
 }  // namespace culm::simulation

@@ -6,12 +6,16 @@
 #include <culm/base/options.hpp>
 #include <culm/parallel/comm.hpp>
 #include <culm/simulation/catalogue.hpp>
+#include <culm/simulation/read_deck.hpp>
+#include <culm/simulation/stop_request.hpp>
 
 #include <filesystem>
 #include <memory>
 #include <string>
 
 namespace culm::simulation {
+
+class RunObserver;
 
 /// How a run talks and where it writes.
 struct RunSettings {
@@ -25,18 +29,25 @@ class Simulation {
  public:
   /// Builds the model. Throws InputError with all mistakes.
   /// @param deck validated with Catalogue::deck_schema
+  /// @param source what it was read from, for checkpoints
   Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
-             const Log& log);
+             DeckSource source, const Log& log);
   ~Simulation();
 
   /// Runs all analyses and writes results. On NumericalError or NonFiniteError the files hold
-  /// everything up to the last accepted step, and the post-mortem as report.
-  void run(const RunSettings& settings);
+  /// everything up to the last accepted step, and the post-mortem as report. Throws Stopped when a
+  /// signal or the end of the time allowed stopped the run.
+  /// @param from  checkpoint of an earlier run in this folder, to go on with
+  void run(const RunSettings& settings, const StopRequest& request, const Snapshot* from = nullptr);
 
   /// Structures, masses, unknowns and effects, for `culm check`.
   std::string summary() const;
 
  private:
+  void run_analyses(analysis::Context& context, model::State& state, RunObserver& observer,
+                    const Snapshot* from) const;
+  void write_last_checkpoint(model::State& state, RunObserver& observer) const;
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

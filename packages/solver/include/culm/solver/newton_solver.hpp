@@ -68,6 +68,11 @@ class NewtonSolver {
   /// iterate.
   StepOutcome solve(model::State& state, const Stencil& stencil);
 
+  /// The tangent whose factors serve on, if there is one, under "newton/". Collective.
+  void save(Snapshot& snapshot) const;
+  /// Factors it again. With another number of ranks the next step begins with a new tangent.
+  void restore(const Snapshot& snapshot);
+
  private:
   struct Nox;
   std::unique_ptr<Nox> nox_;

@@ -1,0 +1,36 @@
+/// From the folder of a run to where it goes on.
+#pragma once
+
+#include <culm/base/log.hpp>
+#include <culm/base/options.hpp>
+#include <culm/base/snapshot.hpp>
+#include <culm/parallel/comm.hpp>
+#include <culm/simulation/catalogue.hpp>
+#include <culm/simulation/read_deck.hpp>
+
+#include <filesystem>
+
+namespace culm::simulation {
+
+/// A checkpoint of a run, the same on all ranks.
+struct FoundCheckpoint {
+  std::filesystem::path folder;  ///< with the results
+  std::filesystem::path file;
+  Snapshot snapshot;
+};
+
+/// Reads a checkpoint.
+/// @param path  the file, or the folder of the run: then the newest one that is whole, with a
+///              warning when it is not the newest one
+/// Throws FileError on all ranks.
+FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesystem::path& path,
+                                const Log& log);
+
+/// Compares the deck to go on with to that of the checkpoint. Throws InputError with all
+/// differences that would make another model.
+void check_resumed_deck(const Catalogue& catalogue, const Options& deck, const Snapshot& snapshot);
+
+/// Warns where a run cannot go on bit by bit.
+void warn_of_differences(const parallel::Comm& comm, const Snapshot& snapshot, const Log& log);
+
+}  // namespace culm::simulation

@@ -1,0 +1,108 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
+#include <culm/deck/units.hpp>
+#include <culm/simulation/stop_request.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <vector>
+
+namespace culm::simulation {
+namespace {
+
+constexpr std::array signals = {SIGTERM, SIGUSR1};
+
+// The only way from a signal handler to the program.
+volatile std::sig_atomic_t received = 0;
+
+void note(int signal) { received = signal; }
+
+void set_handlers(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;  // reading and writing go on
+  for (const int signal : signals) sigaction(signal, &action, nullptr);
+}
+
+std::optional<double> find_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+// [D-]H:M:S or M:S
+std::optional<double> find_clock_time(std::string_view text) {
+  double days = 0.0;
+  const auto dash = text.find('-');
+  if (dash != std::string_view::npos) {
+    const auto number = find_number(text.substr(0, dash));
+    if (!number) return {};
+    days = *number;
+    text.remove_prefix(dash + 1);
+  }
+  std::vector<double> parts;
+  while (true) {
+    const auto colon = text.find(':');
+    const auto number = find_number(text.substr(0, colon));
+    // what follows a larger unit is less than one of it
+    if (!number || *number < 0.0 || (!parts.empty() && *number >= 60.0)) return {};
+    parts.push_back(*number);
+    if (colon == std::string_view::npos) break;
+    text.remove_prefix(colon + 1);
+  }
+  if (parts.size() != 3 && (parts.size() != 2 || dash != std::string_view::npos)) return {};
+  double seconds = 0.0;
+  for (const double part : parts) seconds = 60.0 * seconds + part;
+  return 86400.0 * days + seconds;
+}
+
+// A number and perhaps a unit of time.
+std::optional<double> find_duration(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return {};
+  const std::string_view name = trim(text.substr(static_cast<std::size_t>(end - text.data())));
+  if (name.empty()) return value;
+  const auto unit = deck::find_unit(name);
+  if (!unit || !unit->same_dimension(*deck::find_unit("s"))) return {};
+  return unit->to_si(value);
+}
+
+}  // namespace
+
+StopRequest::StopRequest(std::optional<double> walltime) : walltime_(walltime) {
+  received = 0;
+  set_handlers(note);
+}
+
+StopRequest::~StopRequest() { set_handlers(SIG_DFL); }
+
+int StopRequest::signal() const { return received; }
+
+double StopRequest::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+bool StopRequest::is_time_over(double ahead) const {
+  return walltime_ && elapsed() + ahead >= *walltime_;
+}
+
+std::optional<double> find_walltime(const std::string& text) {
+  if (text.empty()) return {};
+  const std::string_view trimmed = trim(text);
+  auto seconds = find_clock_time(trimmed);
+  if (!seconds) seconds = find_duration(trimmed);
+  if (!seconds || !(*seconds > 0.0) || !std::isfinite(*seconds)) {
+    throw UsageError(
+        "--walltime needs a time such as 1:30:00, 2-00:00:00, '90 min' or '1.5 h', "
+        "got '" +
+        text + "'");
+  }
+  return seconds;
+}
+
+}  // namespace culm::simulation
