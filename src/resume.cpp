@@ -21,6 +21,7 @@ void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
   const Options deck = simulation::read_deck(catalogue, source);
   simulation::check_resumed_deck(catalogue, deck, found.snapshot);
   simulation::warn_of_differences(comm, found.snapshot, log);
+  log.info(simulation::describe(found, deck));
   simulation::Simulation(comm, catalogue, deck, source, log)
       .run(settings, request, &found.snapshot);
 }

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <ostream>
 #include <string>
 
@@ -263,6 +264,17 @@ TEST(AngleLink, CountsFullTurns) {
     EXPECT_LT((r.segment<3>(3) + r.segment<3>(9)).norm(), 1e-12);
     EXPECT_NEAR(one.load->stored_energy(one.state.next), angle * angle, 1e-11);
   }
+  // a load made anew, as by a run that goes on, does not know them unless it is told
+  std::vector<double> memory(one.load->memory_size());
+  one.load->save(memory);
+  EXPECT_EQ(memory.size(), 3U);
+  const double energy = one.load->stored_energy(one.state.next);
+  std::vector<double> fresh(3, 0.0);
+  fresh[0] = 1.0;
+  one.load->restore(fresh);
+  EXPECT_LT(one.load->stored_energy(one.state.next), std::numbers::pi * std::numbers::pi);
+  one.load->restore(memory);
+  EXPECT_EQ(one.load->stored_energy(one.state.next), energy);
 }
 
 // At no length the force has no direction but its stiffness does: k 1.

@@ -50,6 +50,15 @@ TEST(HistoryCsv, UnwritablePlacesAreFileErrors) {
   }
 }
 
+TEST(HistoryCsv, AnEarlierHistoryGoesOn) {
+  const TemporaryFolder folder;
+  { HistoryCsv(folder / "h.csv", {{"x", "m"}}).add(7.0, std::array{7.0}); }
+  HistoryCsv history(folder / "h.csv", {{"x", "m"}}, std::array{0.0, 0.1, 1.0, -0.0});
+  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m]\n0,0.10000000000000001\n1,-0\n");
+  history.add(2.0, std::array{3.0});
+  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m]\n0,0.10000000000000001\n1,-0\n2,3\n");
+}
+
 TEST(HistoryCsv, FullDiskIsAFileError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
   EXPECT_THROW(HistoryCsv("/dev/full", {{"x", "m"}}), FileError);

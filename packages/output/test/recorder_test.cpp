@@ -147,6 +147,45 @@ TEST(Recorder, KilledRunLosesAtMostTheStepItWrote) {
   }
 }
 
+TEST(Recorder, AnEarlierRunGoesOnAsItWasThen) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "run.h5";
+  const std::vector<StructureMesh> meshes = sample_meshes(4);
+  const std::vector<HistoryColumn> columns = {{"energy", "J"}, {"drift", ""}};
+  const auto add = [&](Recorder& recorder, int from, int to) {
+    for (int i = from; i < to; ++i) {
+      recorder.record(sample_frame(meshes, i));
+      recorder.add_history(i, std::array{10.0 * i, 0.5});
+    }
+  };
+  {
+    Recorder recorder = make_recorder(path);
+    add(recorder, 0, 500);
+    recorder.write_report("stopped", {});
+  }
+  const Recorded recorded = find_recorded(path, 3, 400);
+  EXPECT_EQ(recorded.steps.size(), 3U);
+  EXPECT_EQ(recorded.steps.back().index, 2);
+  EXPECT_EQ(recorded.history.size(), 1200U);
+  EXPECT_EQ(recorded.history[1198], 3990.0);
+  {
+    Recorder recorder(path, {"longer", "0.2.0", "<deck/>"}, meshes, columns, recorded);
+    EXPECT_EQ(count_links(path, "/steps"), 3);
+    EXPECT_EQ(count_links(path, "/report"), -1);
+    EXPECT_EQ(read_dataset(path, "/history/values"), recorded.history);
+    // two processes, or two parts of one, must not write one file
+    EXPECT_THROW(Recorder(path, info, meshes, columns, recorded), FileError);
+    add(recorder, 3, 5);
+    recorder.close();
+  }
+  EXPECT_EQ(count_links(path, "/steps"), 5);
+  EXPECT_EQ(read_dataset(path, "/history/values").size(), 3U * 402U);
+  EXPECT_EQ(read_dataset(path, "/history/values").back(), 0.5);
+  EXPECT_EQ(read_dataset(path, "/steps/000004/main tube/position").size(), 15U);
+  EXPECT_THROW(find_recorded(path, 6, 1), FileError);
+  EXPECT_THROW(find_recorded(path, 1, 403), FileError);
+}
+
 TEST(Recorder, NothingButTheFinishedFileStaysInTheFolder) {
   const TemporaryFolder folder;
   { Recorder recorder = make_recorder(folder / "run.h5"); }

@@ -77,6 +77,14 @@ void check_resumed_deck(const Catalogue& catalogue, const Options& deck, const S
   find_forbidden_changes(before, deck, analysis, snapshot.number("state/time")).throw_if_any();
 }
 
+std::string describe(const FoundCheckpoint& found, const Options& deck) {
+  const auto analysis = static_cast<std::size_t>(found.snapshot.integer("run/analysis"));
+  return fmt::format("going on from {}: {} at {:.8g}, after {} steps", found.file.string(),
+                     deck.list("Analyses").entries()[analysis].name(),
+                     found.snapshot.number("state/time"),
+                     found.snapshot.integer("output/rows") - 1);
+}
+
 void warn_of_differences(const parallel::Comm& comm, const Snapshot& snapshot, const Log& log) {
   const int ranks = snapshot.integer("run/ranks");
   if (ranks != comm.size()) {

@@ -21,11 +21,13 @@ RunObserver::RunObserver(analysis::Context& context, ResultFiles& files, Checkpo
   if (checkpoints_.are_active()) checkpoint_effect_ = context.ledger.add("Checkpoints");
 }
 
-void RunObserver::begin(const std::string& name, std::size_t number,
+void RunObserver::begin(const std::string& name, std::size_t number, bool is_last,
                         const analysis::Analysis& analysis) {
   progress_.begin(name);
+  name_ = name;
   analysis_ = &analysis;
   number_ = number;
+  is_last_ = is_last;
   has_stepped_ = false;
 }
 
@@ -53,7 +55,8 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   }
   progress_.show(report);
   const Checkpoints::Demand demand = checkpoints_.demand();
-  if (demand == Checkpoints::Demand::none) return;
+  const bool ends = is_last_ && report.accepted && report.time >= report.final_time;
+  if (demand == Checkpoints::Demand::none && !ends) return;
   write_checkpoint(state);
   if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());
 }
@@ -106,7 +109,10 @@ void RunObserver::restore(const Snapshot& snapshot) {
 
 void RunObserver::finish_analysis(const analysis::AnalysisReport& report) {
   certificates_ += report.text;
-  for (const auto& [name, value] : report.numbers) numbers_.push_back({name, "", value});
+  const bool is_first = numbers_.empty();
+  for (const auto& [name, value] : report.numbers) {
+    numbers_.push_back({is_first ? name : name_ + ": " + name, "", value});
+  }
 }
 
 void RunObserver::end(model::State& state, const std::string& outcome) {

@@ -22,8 +22,11 @@ class RunObserver final : public analysis::Observer {
   void start(model::State& state);
   /// Goes on from a checkpoint instead.
   void restore(const Snapshot& snapshot);
-  /// @param number  of the analysis in the deck, from 0
-  void begin(const std::string& name, std::size_t number, const analysis::Analysis& analysis);
+  /// @param number   of the analysis in the deck, from 0
+  /// @param is_last  of the deck: its end is a checkpoint, from which the run can go on to a later
+  ///                 one
+  void begin(const std::string& name, std::size_t number, bool is_last,
+             const analysis::Analysis& analysis);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
@@ -47,7 +50,9 @@ class RunObserver final : public analysis::Observer {
   Ledger::Id output_effect_;
   Ledger::Id checkpoint_effect_ = 0;
   const analysis::Analysis* analysis_ = nullptr;
+  std::string name_;  // of the analysis
   std::size_t number_ = 0;
+  bool is_last_ = false;
   bool has_stepped_ = false;  // the analysis has something to save
   bool is_recorded_ = true;   // the last accepted state is on disk
   std::string certificates_;

@@ -90,13 +90,11 @@ void Simulation::run_analyses(analysis::Context& context, model::State& state,
       from == nullptr ? std::size_t{0} : static_cast<std::size_t>(from->integer("run/analysis"));
   for (std::size_t i = first; i < entries.size(); ++i) {
     const auto analysis = parts_->catalogue.analyses.make(entries[i].text("Type"), entries[i]);
-    observer.begin(entries[i].name(), i, *analysis);
+    observer.begin(entries[i].name(), i, i + 1 == entries.size(), *analysis);
     const bool resumes = from != nullptr && i == first;
     try {
       const auto report = resumes ? analysis->resume(context, state, observer, *from)
                                   : analysis->run(context, state, observer);
-      // from the last one a run can go on to a later end
-      if (i + 1 == entries.size()) observer.write_checkpoint(state);
       observer.finish_analysis(report);
     } catch (const Error& error) {
       // other tolerances or steps may find the way that these did not

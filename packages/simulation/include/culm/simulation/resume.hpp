@@ -9,6 +9,7 @@
 #include <culm/simulation/read_deck.hpp>
 
 #include <filesystem>
+#include <string>
 
 namespace culm::simulation {
 
@@ -29,6 +30,9 @@ FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesyste
 /// Compares the deck to go on with to that of the checkpoint. Throws InputError with all
 /// differences that would make another model.
 void check_resumed_deck(const Catalogue& catalogue, const Options& deck, const Snapshot& snapshot);
+
+/// Where a run goes on, for the user.
+std::string describe(const FoundCheckpoint& found, const Options& deck);
 
 /// Warns where a run cannot go on bit by bit.
 void warn_of_differences(const parallel::Comm& comm, const Snapshot& snapshot, const Log& log);

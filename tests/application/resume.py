@@ -1,0 +1,428 @@
+#!/usr/bin/env python3
+"""Stops and kills runs, goes on with them, and compares the results with those of a run that nobody
+disturbed: all bits must be the same.
+
+usage: resume.py --culm PROGRAM [--mpiexec PROGRAM --ranks N] [--kills N] [--seed N] [--only NAME]
+"""
+
+import argparse
+import contextlib
+import os
+import pathlib
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+import numpy
+
+HERE = pathlib.Path(__file__).resolve().parent
+INPUTS = HERE.parent.parent / "inputs"
+TIME_LIMIT = 120  # s
+
+
+class Failure(Exception):
+    pass
+
+
+def demand(condition, complaint):
+    if not condition:
+        raise Failure(complaint)
+
+
+class Program:
+    """culm on some ranks, in a folder."""
+
+    def __init__(self, options, folder):
+        self.folder = folder
+        self.culm = os.path.abspath(options.culm)
+        self.mpiexec = [options.mpiexec, "-n", str(options.ranks)] if options.ranks > 1 else []
+        # a single process needs neither Open MPI's server nor its transports
+        self.alone = dict(
+            OMPI_MCA_ess_singleton_isolated="1", OMPI_MCA_btl="self", OMPI_MCA_pml="ob1"
+        )
+
+    def start(self, *words):
+        return subprocess.Popen(
+            self.mpiexec + [self.culm] + [str(word) for word in words],
+            cwd=self.folder,
+            env={**os.environ, **({} if self.mpiexec else self.alone)},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def finish(self, process):
+        try:
+            out, err = process.communicate(timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            kill_tree(process)
+            raise Failure(f"still running after {TIME_LIMIT} s") from None
+        return process.returncode, out, err
+
+    def __call__(self, *words, expect=(0,)):
+        code, out, err = self.finish(self.start(*words))
+        demand(code in expect, f"{words}: exit code {code}, expected {expect}\n{out}{err}")
+        return code, out, err
+
+
+def children(pid):
+    """All processes below one."""
+    found = []
+    for task in pathlib.Path(f"/proc/{pid}/task").glob("*/children"):
+        with contextlib.suppress(OSError):
+            for child in task.read_text().split():
+                found += [int(child)] + children(int(child))
+    return found
+
+
+def kill_tree(process):
+    for pid in [process.pid] + children(process.pid):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+
+
+def wait_for(condition, complaint):
+    end = time.monotonic() + TIME_LIMIT
+    while not condition():
+        demand(time.monotonic() < end, complaint)
+        time.sleep(0.002)
+
+
+def content(path):
+    """Everything in run.h5 by name, as bytes; without the text of the report, which has times."""
+    found = {}
+
+    def add(name, item):
+        found[name + "@"] = {key: repr(value) for key, value in item.attrs.items()}
+        if isinstance(item, h5py.Dataset) and name != "report/text":
+            value = item[()]
+            found[name] = value if isinstance(value, bytes) else numpy.asarray(value).tobytes()
+
+    with h5py.File(path, "r") as file:
+        file.visititems(add)
+    return found
+
+
+def files(folder):
+    return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+
+
+def differences(expected, found):
+    """What two folders of results do not have in common."""
+    a, b = content(expected / "run.h5"), content(found / "run.h5")
+    names = sorted(a.keys() | b.keys())
+    complaints = [f"run.h5/{name}" for name in names if a.get(name) != b.get(name)]
+    for name in sorted(files(expected) | files(found)):
+        if name.name == "run.h5" or name.name.startswith("run.checkpoint"):
+            continue
+        both = (expected / name).is_file() and (found / name).is_file()
+        if not both or (expected / name).read_bytes() != (found / name).read_bytes():
+            complaints.append(str(name))
+    return complaints
+
+
+def demand_same(expected, found):
+    complaints = differences(expected, found)
+    demand(not complaints, f"{found.name} differs from {expected.name} in {complaints[:10]}")
+
+
+def settings(*assignments):
+    return [word for assignment in assignments for word in ("--set", assignment)]
+
+
+TORSION = [INPUTS / "joint/torsion.xml", "--quiet"]
+LONG = [INPUTS / "body/heavy_top.xml", "--quiet", *settings("Analyses/motion/End Time=60")]
+EVERY_STEP = settings("Output/Checkpoint Interval=0")
+
+# Decks with all that a run remembers: counted turns, drives, multipliers, cut-backs and growth of
+# load steps, memory of a scheme, several analyses.
+PARTS = {
+    "torsion": TORSION,
+    "multipliers": TORSION + settings("Solver/Form=Multipliers"),
+    "generalised alpha": TORSION + settings("Analyses/motion/Scheme=Generalised Alpha"),
+    "four bars": [
+        INPUTS / "joint/four_bar_2.xml",
+        "--quiet",
+        *settings("Analyses/motion/End Time=0.05"),
+    ],
+    "statics": [INPUTS / "beam/lee_frame.xml", "--quiet", *settings("Analyses/loading/Steps=4")],
+    "two analyses": TORSION
+    + settings("Analyses/more/Type=Dynamic", "Analyses/more/Step=0.02")
+    + settings("Analyses/more/End Time=3", "Output/Every=7"),
+}
+
+
+def run_in_parts(name, words):
+    def test(program, folder, options):
+        """Each part has one step, as the time allowed is always over; the last one all others."""
+        program("run", *words, "--output", "whole")
+        code, *_ = program("run", *words, "--output", "parts", "--walltime", "1e-6", expect=(7,))
+        parts = 1
+        while code == 7:
+            walltime = ["--walltime", "1 us"] if parts < 16 else []
+            code, *_ = program("resume", "parts", "--quiet", *walltime, expect=(0, 7))
+            parts += 1
+        demand(parts > 4, f"only {parts} parts")
+        demand_same(folder / "whole", folder / "parts")
+
+    test.__name__ = f"run_in_parts: {name}"
+    return test
+
+
+def signals_stop_within_a_step(program, folder, options):
+    for number in (signal.SIGTERM, signal.SIGUSR1):
+        process = program.start("run", *LONG, "--output", number.name)
+        history = folder / number.name / "history.csv"
+        wait_for(lambda: history.exists() and history.stat().st_size > 5000, "no steps")
+        # the last rank: whoever sees the signal, all stop
+        os.kill(([process.pid] + children(process.pid))[-1], number)
+        start = time.monotonic()
+        code, _, err = program.finish(process)
+        demand(time.monotonic() - start < 2.0, "it did not stop at once")
+        demand(code == 7, f"exit code {code} after {number.name}: {err}")
+        demand(f"stopped: signal {number.name}\n" in err, f"stderr is {err}")
+        demand(f"Go on with: culm resume {number.name}\n" in err, f"stderr is {err}")
+        with h5py.File(folder / number.name / "run.h5") as file:
+            demand(b"stopped: signal" in file["report/text"][()], "the report does not say so")
+
+
+def time_allowed_is_kept(program, folder, options):
+    start = time.monotonic()
+    _, _, err = program("run", *LONG, "--output", "out", "--walltime", "00:01", expect=(7,))
+    demand("stopped: the time allowed is over\n" in err, f"stderr is {err}")
+    demand(time.monotonic() - start < 4.0, "it took too long")
+    _, _, err = program("run", *LONG, "--output", "out", "--walltime", "soon", expect=(2,))
+    demand("--walltime needs a time such as" in err, f"stderr is {err}")
+
+
+def later_end(program, folder, options):
+    """A finished run goes on to a later end, with other tolerances, and with an edited deck."""
+    end = settings("Analyses/motion/End Time=3")
+    program("run", *TORSION, *end, "--output", "whole")
+    program("run", *TORSION, "--output", "parts")
+    tolerance = settings("Analyses/motion/Newton/Maximum Iterations=30")
+    program("resume", "parts", "--quiet", *end, *tolerance)
+    complaints = differences(folder / "whole", folder / "parts")
+    demand(complaints == ["run.h5/deck/xml"], f"the longer run differs in {complaints}")
+    deck = (INPUTS / "joint/torsion.xml").read_text()
+    longer = deck.replace('"End Time" value="2"', '"End Time" value="4"')
+    demand(longer != deck, "the end time of torsion.xml is not 2")
+    (folder / "longer.xml").write_text(longer)
+    program("resume", "parts", "--quiet", "--deck", "longer.xml")
+    last = (folder / "parts/history.csv").read_text().splitlines()[-1]
+    demand(float(last.split(",")[0]) == 4.0, f"the last step is {last}")
+
+
+def other_model_is_refused(program, folder, options):
+    program("run", *TORSION, "--output", "out")
+    before = {name: (folder / "out" / name).read_bytes() for name in files(folder / "out")}
+
+    def refuse(assignments, *says):
+        _, _, err = program("resume", "out", *settings(*assignments), expect=(3,))
+        for text in says:
+            demand(err.count(text) == 1, f"{assignments}: stderr has not '{text}':\n{err}")
+
+    refuse(
+        ["Structures/spun/Mass=2", "Constraints/spun/Axis={0, 1, 0}"],
+        "Structures / spun / Mass: 'Mass' was 1 in the run and is 2 now\n",
+        "Constraints / spun / Axis: 'Axis' was {0, 0, 1} in the run and is {0, 1, 0} now\n",
+    )
+    mass = ["Masses/more/Type=Point Mass", "Masses/more/Node=led", "Masses/more/Mass=1"]
+    refuse(mass, "Masses / more: was not in the run\n")
+    refuse(
+        ["Analyses/motion/Scheme=Generalised Alpha"],
+        "'Scheme' was Conserving in the run and is Generalised Alpha now\n",
+    )
+    refuse(["Analyses/motion/End Time=1"], "the run has reached 2, got 1\n")
+    after = {name: (folder / "out" / name).read_bytes() for name in files(folder / "out")}
+    demand(before == after, "a resume that was refused changed files")
+
+
+def damaged_checkpoints(program, folder, options):
+    program("run", *TORSION, *EVERY_STEP, "--output", "whole")
+    newest, older = (folder / "whole" / name for name in ("run.checkpoint", "run.checkpoint.old"))
+    demand(older.is_file(), "there is only one checkpoint")
+    sound = newest.read_bytes()
+    for complaint, content in {
+        "is no checkpoint": b"",
+        "was cut off": sound[:-1],
+        "is damaged": sound[:-9] + bytes([sound[-9] ^ 1]) + sound[-8:],
+    }.items():
+        shutil.rmtree(folder / "parts", ignore_errors=True)
+        shutil.copytree(folder / "whole", folder / "parts")
+        (folder / "parts/run.checkpoint").write_bytes(content)
+        _, _, err = program("resume", "parts", "--quiet")
+        demand("warning: parts/run.checkpoint: " + complaint in err, f"no warning: {err}")
+        demand("going on from parts/run.checkpoint.old" in err, f"no way out: {err}")
+        demand_same(folder / "whole", folder / "parts")
+    for name in ("run.checkpoint", "run.checkpoint.old"):
+        (folder / "parts" / name).write_bytes(b"")
+    _, _, err = program("resume", "parts", expect=(6,))
+    demand("run.checkpoint.old: is no checkpoint" in err, f"stderr is {err}")
+    (folder / "empty").mkdir()
+    _, _, err = program("resume", "empty", expect=(6,))
+    demand("empty: there is no checkpoint" in err, f"stderr is {err}")
+    shutil.copy(newest, folder / "empty")
+    _, _, err = program("resume", "empty", expect=(6,))
+    demand("empty/run.h5" in err, f"stderr is {err}")
+
+
+def checkpoints_can_be_switched_off(program, folder, options):
+    off = settings("Output/Checkpoints=false")
+    program("run", *TORSION, "--output", "out")
+    demand((folder / "out/run.checkpoint").exists(), "there is no checkpoint at the end")
+    program("run", *TORSION, *off, "--output", "out")
+    _, _, err = program("run", *LONG, *off, "--output", "out", "--walltime", "1e-6", expect=(7,))
+    demand("There is no checkpoint" in err, f"stderr is {err}")
+    left = list((folder / "out").glob("*checkpoint*"))
+    demand(not left, f"left behind: {left}")
+
+
+def other_number_of_processes(program, folder, options):
+    """Goes on, and says that the last digits will differ."""
+    program("run", *TORSION, "--output", "whole")
+    program("run", *TORSION, "--output", "parts", "--walltime", "1e-6", expect=(7,))
+    launcher = program.mpiexec
+    program.mpiexec = [] if launcher else [options.mpiexec, "-n", "2"]
+    _, _, err = program("resume", "parts", "--quiet")
+    said = "the run had {} and goes on with {}".format(
+        *(("2 processes", 1) if launcher else ("1 process", 2))
+    )
+    demand(said in err, f"stderr is {err}")
+    whole, parts = (
+        numpy.loadtxt(folder / name / "history.csv", delimiter=",", skiprows=1)
+        for name in ("whole", "parts")
+    )
+    demand(whole.shape == parts.shape, "the numbers of steps differ")
+    demand(numpy.abs(whole - parts).max() < 1e-9, "the results differ")
+
+
+def living_run_is_left_alone(program, folder, options):
+    process = program.start("run", *LONG, *EVERY_STEP, "--output", "out")
+    try:
+        wait_for((folder / "out/run.checkpoint").exists, "no checkpoint")
+        _, _, err = program("resume", "out", expect=(6,))
+        demand("another process writes this file" in err, f"stderr is {err}")
+        demand(process.poll() is None, "the run has ended")
+    finally:
+        kill_tree(process)
+        process.communicate()
+
+
+def journal_is_void(folder):
+    journal = folder / "run.h5.journal"
+    return not journal.exists() or journal.read_bytes()[:8] in (b"", bytes(8))
+
+
+def check_killed(folder):
+    """Files after a SIGKILL: they can be read, and agree with each other up to one step. Returns
+    the number of steps."""
+    for name in ("run.checkpoint", "run.checkpoint.old"):
+        path = folder / name
+        if path.exists():
+            # the header states the length; culm checks the rest
+            raw = path.read_bytes()
+            whole = len(raw) >= 24 and struct.unpack("<Q", raw[8:16])[0] == len(raw) - 24
+            demand(whole, f"{name} is not whole")
+    text = (folder / "history.csv").read_text()
+    demand(text.endswith("\n"), "the last line of history.csv was cut off")
+    lines = text.splitlines()
+    demand(len({line.count(",") for line in lines}) == 1, "history.csv is no table")
+    rows = len(lines) - 1
+    if journal_is_void(folder):  # otherwise culm recovers the commit that was cut off
+        with h5py.File(folder / "run.h5", "r") as file:
+            table = file["history/values"][()]
+            demand(rows <= len(table) <= rows + 1, f"{rows} rows in CSV, {len(table)} in run.h5")
+            for step in file["steps"].values():
+                for structure in step.values():
+                    structure["position"][()]
+    return rows - 1
+
+
+def kills(program, folder, options):
+    """Kills a run at random times. Each resume goes on where the one before was."""
+    words = [INPUTS / "joint/torsion.xml", *EVERY_STEP, *settings("Output/Every=10")]
+    words += settings("Analyses/motion/Step=4e-3")
+    whole, parts = folder / "whole", folder / "parts"
+    program("run", *words, "--output", "whole")
+    generator = random.Random(options.seed)
+    done = resumed = ends = 0
+    steps = None  # on disk after the last kill
+    while done < options.kills or parts.exists():
+        last = done >= options.kills
+        resumes = any((parts / f"run.checkpoint{old}").exists() for old in ("", ".old"))
+        process = program.start(*(["resume", "parts"] if resumes else ["run", *words, "--output", "parts"]))
+        if not last:
+            # the start takes about a third of this
+            time.sleep(generator.uniform(0.0, 0.8 if options.ranks == 1 else 1.6))
+            kill_tree(process)
+        code, out, err = program.finish(process)
+        demand(code == 0 or not last, f"exit code {code}: {out}{err}")
+        demand("damaged" not in err and "cut off" not in err and "holds" not in err, err)
+        if "going on from" in out and steps is not None:
+            begin = int(out.split("after ")[1].split()[0])
+            demand(begin >= steps - 1, f"{steps} steps were done, it goes on after {begin}")
+            resumed += 1
+        if code == 0:
+            demand_same(whole, parts)
+            shutil.rmtree(parts)
+            steps = None
+            ends += 1
+            if last:
+                break
+            continue
+        done += 1
+        if (parts / "history.csv").exists():
+            steps = check_killed(parts)
+    demand(options.kills < 8 or resumed > 0, "no resume got as far as to be killed")
+    print(f"{done} kills, {resumed} resumes, {ends} ends, all like the whole run")
+
+
+TESTS = [
+    *(run_in_parts(name, words) for name, words in PARTS.items()),
+    signals_stop_within_a_step,
+    time_allowed_is_kept,
+    later_end,
+    other_model_is_refused,
+    damaged_checkpoints,
+    checkpoints_can_be_switched_off,
+    other_number_of_processes,
+    living_run_is_left_alone,
+    kills,
+]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True)
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--kills", type=int, default=8)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="tests whose name has this in it")
+    options = parser.parse_args()
+    failed = 0
+    for test in TESTS:
+        if options.only not in test.__name__:
+            continue
+        with tempfile.TemporaryDirectory(prefix="culm-resume-") as folder:
+            start = time.monotonic()
+            try:
+                test(Program(options, pathlib.Path(folder)), pathlib.Path(folder), options)
+                outcome = "passed"
+            except Failure as failure:
+                outcome = f"FAILED: {failure}"
+                failed += 1
+            print(f"{test.__name__}: {outcome} ({time.monotonic() - start:.1f} s)", flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
