@@ -49,7 +49,11 @@ double largest(const std::vector<double>& v) {
 
 Schema Dynamics::schema() {
   return Schema("Dynamic", "Motion in time from the present state and velocity.")
-      .add(number("End Time", "s", "Time at the end; the analysis starts at time 0.").positive())
+      .add(number("Start Time", "s",
+                  "Time at the start, which functions follow; where the analysis before ended if "
+                  "absent, and 0 in the first one.")
+               .optional())
+      .add(number("End Time", "s", "Time at the end.").positive())
       .add(number("Step", "s", "Time step; cut where an iteration fails.").positive())
       .add(number("Smallest Step", "s",
                   "Time step at which cutting ends; a thousandth of the step if absent.")
@@ -69,7 +73,9 @@ Schema Dynamics::schema() {
 
 std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
   DynamicsSettings settings;
+  if (options.has("Start Time")) settings.start_time = options.number("Start Time");
   settings.steps = step_settings(options);
+  settings.end_time = options.where("End Time");
   settings.scheme = options.where("Scheme");
   settings.newton = newton_settings(options.list("Newton"));
   std::unique_ptr<TimeScheme> scheme = std::make_unique<ConservingScheme>();
@@ -143,7 +149,13 @@ void Dynamics::start(Context& context, model::State& state) {
                                  "asks for; allowed: 'Conserving'",
                                  scheme_->name()));
   }
-  state.time = state.time_prev = 0.0;
+  state.time = state.time_prev = settings_.start_time.value_or(state.time);
+  if (state.time >= settings_.steps.end_time) {
+    throw InputError(settings_.end_time,
+                     fmt::format("the analysis starts at {:g}, unless 'Start Time' says otherwise; "
+                                 "got {:g}",
+                                 state.time, settings_.steps.end_time));
+  }
   fit_motion(context, state);
   scheme_->start(state);
   control_.emplace(system, settings_.steps, scheme_->error_constant());

@@ -14,8 +14,10 @@ namespace culm::analysis {
 
 /// How time is stepped.
 struct DynamicsSettings {
+  std::optional<double> start_time;  ///< [s]; the time of the state if absent
   StepSettings steps;
-  Where scheme;  ///< where the deck chooses it
+  Where end_time;  ///< where the deck says so
+  Where scheme;    ///< where the deck chooses it
   solver::NewtonSettings newton;
 };
 

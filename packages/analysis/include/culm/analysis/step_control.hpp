@@ -62,6 +62,7 @@ class StepControl {
   /// length of the model, directors by 1. Not known in the first two steps.
   std::optional<double> error() const { return error_; }
 
+  const StepMemory& memory() const { return memory_; }
   /// The memory, under "steps/".
   void save(Snapshot& snapshot) const;
   void restore(const Snapshot& snapshot);

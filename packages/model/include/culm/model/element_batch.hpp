@@ -84,7 +84,6 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
   std::size_t memory_size() const override {
-    if constexpr (!has_internals) return 0;
     return static_cast<std::size_t>(size()) * item_memory();
   }
 
@@ -245,7 +244,6 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   // numbers that an item remembers, and where those of a point of a local item are in the array of
   // all items
   static constexpr std::size_t item_memory() {
-    if constexpr (!has_internals) return 0;
     return static_cast<std::size_t>(E::num_points) * point_memory();
   }
   static constexpr std::size_t point_memory() {
