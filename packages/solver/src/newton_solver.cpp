@@ -181,6 +181,8 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
 
 void NewtonSolver::save(Snapshot& snapshot) const {
   const NewtonProblem& p = *nox_->problem;
+  const std::vector<int> pivots = p.linear.pivots();
+  snapshot.set("newton/pivots", {pivots.begin(), pivots.end()});
   if (p.settings.refresh == Refresh::every_iteration || !p.has_factors) return;
   // the matrix has not changed since it was factored
   snapshot.set("newton/inertia", p.factored_inertia);
@@ -189,6 +191,9 @@ void NewtonSolver::save(Snapshot& snapshot) const {
 
 void NewtonSolver::restore(const Snapshot& snapshot) {
   NewtonProblem& p = *nox_->problem;
+  const std::vector<double>& kept = snapshot.numbers("newton/pivots");
+  // where they do not fit, the solver begins anew
+  p.linear.set_pivots(std::vector<int>(kept.begin(), kept.end()));
   if (p.settings.refresh == Refresh::every_iteration || !snapshot.has("newton/inertia")) return;
   p.factored_inertia = snapshot.number("newton/inertia");
   p.has_factors = p.system.restore_matrix(snapshot) && p.linear.factor();

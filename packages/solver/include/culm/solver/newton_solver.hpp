@@ -68,7 +68,8 @@ class NewtonSolver {
   /// iterate.
   StepOutcome solve(model::State& state, const Stencil& stencil);
 
-  /// The tangent whose factors serve on, if there is one, under "newton/". Collective.
+  /// What the linear solver keeps, and the tangent whose factors serve on, if there is one, under
+  /// "newton/". Collective; the snapshot is complete on the root.
   void save(Snapshot& snapshot) const;
   /// Factors it again. With another number of ranks the next step begins with a new tangent.
   void restore(const Snapshot& snapshot);
