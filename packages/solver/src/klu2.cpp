@@ -23,6 +23,7 @@ Int klu_scale(Int scale, Int n, Int* begin, Int* entries, Entry* values, double*
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <random>
 
 namespace culm::solver {
 namespace {
@@ -142,9 +143,9 @@ bool Klu2::set_pivots(std::span<const int> pivots) {
     if (sorted[k] != static_cast<int>(k)) return false;
   }
   if (sorted.size() != scale_.size() || p.symbolic == nullptr) return false;
-  for (std::size_t k = 0; k < values_.size(); ++k) {
-    values_[k] = 1.0 + std::fmod(0.6180339887498949 * static_cast<double>(k), 1.0);
-  }
+  // numbers that rise evenly would leave dense blocks without rank
+  std::minstd_rand random;
+  for (double& value : values_) value = 1e-9 * static_cast<double>(random());
   const std::vector<int> analysed(p.symbolic->P, p.symbolic->P + p.symbolic->n);
   const double tolerance = p.common.tol;
   std::copy(pivots.begin(), pivots.end(), p.symbolic->P);

@@ -261,6 +261,20 @@ TEST(RootedKlu2, GoesOnBitByBitWithThePivotsOfAnother) {
   EXPECT_EQ(solver->pivots() != fresh->pivots(), system.comm().is_root());
 }
 
+TEST(RootedKlu2, TakesPivotsOfDenseBlocks) {
+  const int size = 24;
+  Eigen::MatrixXd dense(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) dense(i, j) = std::sin(1.0 + 5.0 * i * i + 3.0 * j * j * i);
+  }
+  const ScatteredSystem system(dense);
+  const auto solver = make_rooted_klu2(system.matrix(), system.comm());
+  const auto resumed = make_rooted_klu2(system.matrix(), system.comm());
+  ASSERT_TRUE(solver->factor());
+  EXPECT_TRUE(resumed->set_pivots(solver->pivots()));
+  EXPECT_EQ(solver->pivots(), resumed->pivots());
+}
+
 TEST(RootedKlu2, PivotsOfAnotherSizeAreRefused) {
   const ScatteredSystem system;
   const auto solver = make_rooted_klu2(system.matrix(), system.comm());
