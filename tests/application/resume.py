@@ -185,12 +185,12 @@ def run_in_parts(name, words):
             return
         program("run", *words, "--output", "whole")
         code, *_ = program("run", *words, "--output", "parts", "--walltime", "1e-6", expect=(7,))
-        parts, most = 1, 16 if options.ranks == 1 else 6
+        parts, most = 1, 16 if options.ranks == 1 else 3  # mpiexec takes its time
         while code == 7:
             walltime = ["--walltime", "1 us"] if parts < most else []
             code, *_ = program("resume", "parts", "--quiet", *walltime, expect=(0, 7))
             parts += 1
-        demand(parts > 4, f"only {parts} parts")
+        demand(parts > 3, f"only {parts} parts")
         demand_same(folder / "whole", folder / "parts")
 
     test.__name__ = f"run_in_parts: {name}"
