@@ -8,7 +8,7 @@ import re
 
 from driver import BASE, Case
 
-# --- pieces of base.xml and their replacements
+#-- - pieces of base.xml and their replacements
 
 
 def list_of(name):
@@ -20,7 +20,6 @@ def list_of(name):
         if depth == 0:
             return BASE[start : start + tag.end() + 1]
     raise ValueError(name)
-
 
 def parameters(name, *pairs):
     """A list of parameters, each a pair of name and value."""
@@ -67,7 +66,7 @@ WATCH_ELEMENT = (
 INCLUDE = '<xi:include href="loads.xml"/>'
 LOADS = list_of("Loads")
 
-# --- kinds of cases
+#-- - kinds of cases
 
 
 def wrong(name, old, new, *errors, **more):
@@ -239,6 +238,21 @@ NAMES = [
         WATCH,
         WATCH_ELEMENT % ("Structure", "beam", "@@Element", 4),
         "Output / History / tip / Element: structure 'beam' has elements 0 to 3, got 4",
+    ),
+    wrong(
+        "layer of a beam",
+        WATCH,
+        'value="Layer Stress"/>\n        <Parameter name="@@Structure" value="beam"/>'
+        '\n        <Parameter name="Element" value="0"/>',
+        "Output / History / tip / Structure: structure 'beam' is no shell and has no layers",
+    ),
+    wrong(
+        "layers that no shell has",
+        '<ParameterList name="Output">',
+        '<ParameterList name="Output">\n    <ParameterList name="Shell">\n'
+        '      <Parameter name="Stresses" value="true"/>\n'
+        '      @@<Parameter name="Layers" value="{0}"/>\n    </ParameterList>',
+        "Output / Shell / Layers: no shell has more than 0 layers, numbered from 0, got 0",
     ),
     wrong(
         "unknown function",
@@ -715,7 +729,7 @@ LOOP = (
     + link("second", "beam/2", "beam/3")
     + link("third", "beam/3", "beam/1")
 )
-# holds y and z of the last node
+#holds y and z of the last node
 ROLLERS = support(
     "roller y", "Simple Support", ("Direction", "{0, 1, 0}"), node="beam/last"
 ) + support("roller z", "Simple Support", ("Direction", "{0, 0, 1}"), node="beam/last")
@@ -827,7 +841,7 @@ EQUATIONS += [
         "Multipliers",
     ),
 ]
-# masses at the nodes leave their rotations without inertia
+#masses at the nodes leave their rotations without inertia
 LEAD = parameters("lead", ("Type", "Point Mass"), ("Node", "beam"), ("Mass", 1))
 POINT_MASSES = f'<ParameterList name="Masses">\n    {LEAD}\n  </ParameterList>\n'
 DYNAMIC = [

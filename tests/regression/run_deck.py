@@ -1,10 +1,11 @@
-#!/usr/bin/env python3
-"""Runs a deck on 1, 2 and 3 ranks and compares its history with the expected values.
+#!/ usr / bin / env python3
+""
+    "Runs a deck on 1, 2 and 3 ranks and compares its history with the expected values.
 
-usage: run_deck.py --culm PROGRAM [--mpiexec PROGRAM] DECK.xml EXPECTED.xml
+    usage : run_deck.py-- culm PROGRAM[--mpiexec PROGRAM] DECK.xml EXPECTED.xml
 
-What an expected file holds, see README.md beside this file. All ranks are compared with the same
-file, and with each other; where the file says so, so are the two forms of the equations.
+                What an expected file holds,
+    see README.md beside this file.All ranks are compared with the same file, and with each other; where the file says so, so are the two forms of the equations.
 """
 
 import argparse
@@ -24,14 +25,18 @@ def unit_of(column):
     return column[column.rindex("[") + 1 : -1]
 
 
-def scales(history, size, force):
+def scales(history, size, force, stress):
     """What differences are divided by, for each unit: lengths by the size of the model, forces by
-    the largest force, a moment or an energy counting as one at that distance."""
+    the largest force, a moment or an energy counting as one at that distance, others, such as
+    stresses, by the largest of their unit."""
+    by_unit = {"N/m^2": stress}
     for name in history.names:
         arm = {"N": 1.0, "N m": size, "J": size}.get(unit_of(name))
+        largest = max(abs(value) for value in history.column(name))
         if arm:
-            force = max([force] + [abs(value) / arm for value in history.column(name)])
-    return {"m": size, "rad": 1.0, "N": force, "N m": force * size, "J": force * size}
+            force = max(force, largest / arm)
+        by_unit[unit_of(name)] = max(largest, by_unit.get(unit_of(name), 1e-300))
+    return {**by_unit, "m": size, "rad": 1.0, "N": force, "N m": force * size, "J": force * size}
 
 
 def compare(one, other, scale, tolerance, what):
@@ -96,7 +101,8 @@ def check_deck(culm, deck, expected):
         histories[ranks] = run.history
         if ranks == 1:
             size, force = float(expected.get("size")), float(expected.get("force", 1e-300))
-            scale = scales(run.history, size, force)
+            stress = float(expected.get("stress", 1e-300))
+            scale = scales(run.history, size, force, stress)
         complaints += check_values(run.history, expected, f"{ranks} ranks")
         if ranks > 1:
             complaints += compare(

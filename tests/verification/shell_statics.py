@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/ usr / bin / python3
 """SS-1, SS-2, SS-4, SS-6, SS-8 to SS-11: shells in statics. Page: doc/verification/shells.md."""
 
 import math
@@ -10,8 +10,7 @@ from verify import figure, main, mesh_axis, romberg, save
 SHELL = "Structures/shell"
 PLAIN = [f"{SHELL}/Assumed Strains=false", f"{SHELL}/Enhanced Membrane=None",
          f"{SHELL}/Enhanced Thickness=None"]
-
-# Sze, Liu, Lo (2004): share of the full load, displacements
+#Sze, Liu, Lo(2004) : share of the full load, displacements
 SHEAR = [(0.1, 0.103, 1.309), (0.2, 0.381, 2.493), (0.3, 0.763, 3.488), (0.4, 1.184, 4.292),
          (0.5, 1.604, 4.933), (0.6, 2.002, 5.444), (0.7, 2.370, 5.855), (0.8, 2.705, 6.190),
          (0.9, 3.010, 6.467), (1.0, 3.286, 6.698)]
@@ -59,7 +58,8 @@ def twisted(thickness, force, direction, reference, name):
     names = {"y": 1, "z": 2}
 
     def settings(n):
-        forces = {"y": 0.0, "z": 0.0, direction: force}
+        forces = {
+  "y" : 0.0, "z" : 0.0, direction : force}
         return [f"t={thickness}", f"N={3 * n // 2}", f"M={n // 4}",
                 *(f"F{axis}={value}" for axis, value in forces.items())]
 
@@ -81,7 +81,7 @@ def plate():
 
 
 def pinched_cylinder():
-    # 1.82488e-5 for a unit force, thickness 3 and modulus 3e6
+# 1.82488e-5 for a unit force, thickness 3 and modulus 3e6
     return Linear("pinched cylinder", "shell/pinched_cylinder.xml", 
                   lambda n: [f"N={n}", "F=0.1", "Analyses/loading/Steps=1"],
                   lambda history: -history.vector("load")[1], 1.82488e-5 * 9e6 * 0.1 / 30e3, 0.931)
@@ -103,8 +103,7 @@ def pinched_hemisphere(thickness=0.04, reference=0.093):
                   lambda n: [f"N={n}", f"t={thickness!r}", f"F={force!r}",
                              "Analyses/loading/Steps=1"], value, reference, 1.003)
 
-
-# SS-9, references as on the page
+#SS - 9, references as on the page
 CASES = [
     pinched_cylinder(),
     scordelis_lo(),
@@ -150,7 +149,7 @@ def verify_shear(culm, report):
             f"Analyses/bending/Levels={{{levels}}}"])
         for level, along, across in SHEAR:
             tip = history.vector("tip", level)
-            # digits of the table end at 5e-4
+#digits of the table end at 5e-4
             report.holds(f"level {level}, -U {-tip[0]:.4f}, {along}",
                          max(0.0, abs(-tip[0] - along) - 5e-4) / along, tolerance)
             report.holds(f"level {level},  W {tip[2]:.4f}, {across}",
@@ -176,7 +175,7 @@ def verify_moment(culm, report):
             error = math.dist(tip, circle(level)) / 12.0
             report.holds(f"level {level}, {n} elements", error, tolerance)
         limit = [romberg([tip[k] for tip in tips]) for k in range(3)]
-        # the arc is that of a line; a wall of St. Venant-Kirchhoff differs by (curvature * thickness)^2
+#the arc is that of a line; a wall of St.Venant - Kirchhoff differs by(curvature * thickness) ^ 2
         allowed = (2.0 * math.pi * level / 12.0 * 0.1) ** 2
         report.holds(f"level {level}, extrapolated", math.dist(limit, circle(level)) / 12.0, allowed)
 
@@ -204,7 +203,7 @@ def verify_cylinder(culm, report):
                       ["N=32", "F=12000", "Analyses/loading/Steps=5"])
     for level, load, side in CYLINDER:
         report.relative(f"level {level}, -W", -history.vector("load", level)[1], load, 0.02)
-        # small beside W: compared with it
+#small beside W : compared with it
         report.check(f"level {level}, U", history.vector("side", level)[0], side, 0.02 * load)
 
 
@@ -329,6 +328,58 @@ def verify_sandwich(culm, report):
     report.relative("core carries the shear: NAFEMS R0031(3)", found[1.0], 3.1242, 0.02)
 
 
+def verify_z_section(culm, report):
+    report.title("SS-9: Z-section under torque (NAFEMS LE5), axial stress at the edge of the flange [MPa]")
+    for n in (2, 4, 8):
+        report.relative(f"{n} elements over a flange", edge_stress(culm, n), -108.0, 0.03)
+
+
+def edge_stress(culm, n):
+    """At 2.5 m: mean of the elements before and behind, from two rows of centres to the edge."""
+    history = culm.history("shell/z_section.xml", [f"n={n}"])
+    edge, inner = (0.5 * sum(history.vector(f"{row} {side}")[0] for side in ("before", "behind"))
+                   for row in ("edge", "inner"))
+    return 1.5 * edge - 0.5 * inner
+
+
+def to_layer(angle):
+    """Turns plane strains (engineering shear last) to the axes of a layer."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s],
+                     [-2.0 * c * s, 2.0 * c * s, c * c - s * s]])
+
+
+def plane_stiffness(e1, e2, nu12, g12):
+    Q = np.zeros((3, 3))
+    Q[:2, :2] = np.array([[e1, nu12 * e2], [nu12 * e2, e2]]) / (1.0 - nu12**2 * e2 / e1)
+    Q[2, 2] = g12
+    return Q
+
+
+def bending_stiffness(Q, angles, thickness):
+    """D of classical laminate theory, layers of one thickness."""
+    z = [thickness * (k / len(angles) - 0.5) for k in range(len(angles) + 1)]
+    return sum(to_layer(angle).T @ Q @ to_layer(angle) * (z[k + 1]**3 - z[k]**3) / 3.0
+               for k, angle in enumerate(angles))
+
+
+def verify_layers(culm, report):
+    report.title("Symmetric angle-ply strip: stresses of layers from moments, classical laminate theory")
+    angles = [math.pi / 6, -math.pi / 6, -math.pi / 6, math.pi / 6]
+    shown = {"top": (3, 0.05), "bottom": (0, -0.05), "cross ply": (2, 0.025)}  # layer, height
+    history = culm.history("shell/layered_strip.xml", [
+        "Structures/strip/Angles={pi/6, -pi/6, -pi/6, pi/6}", "Structures/strip/Thickness=0.025",
+        "Structures/strip/Mesh/Elements={40, 8}", "Materials/ply/nu12=0.25",
+        *(f"Output/History/{name}/Element=140" for name in ("force", "strain", *shown)),
+        *(f"Output/History/{name}/Layer={layer}" for name, (layer, _) in shown.items())])
+    Q = plane_stiffness(25e6, 1e6, 0.25, 0.5e6)
+    curvature = np.linalg.solve(bending_stiffness(Q, angles, 0.1), history.vector("force")[3:6])
+    for name, (layer, z) in shown.items():
+        wanted = Q @ to_layer(angles[layer]) @ curvature * z
+        found = [history.vector(name)[k] for k in (0, 1, 5)]
+        report.relative(f"{name}: S11, S22, S12", found, list(wanted), 1e-3)
+
+
 def free_cylinder(culm, slenderness, n=32):
     """Deflection under two opposite forces, times E t^3 / (F R); the diaphragms hold nothing here."""
     radius, modulus, small = 4.953, 10.5e6, 1e-6
@@ -348,8 +399,7 @@ def verify_free_cylinder(culm, report):
     for slenderness, reference in ((1e2, 1.997), (1e4, 1.912)):
         report.relative(f"R/t = {slenderness:g}", free_cylinder(culm, slenderness), reference, 0.02)
 
-
-# stretch, first Piola stress over E, lateral stretch of a Neo-Hooke solid, nu = 0.3; exact
+#stretch, first Piola stress over E, lateral stretch of a Neo - Hooke solid, nu = 0.3; exact
 NEO_HOOKE = [(0.6, -0.62434857, 1.15498215), (0.8, -0.24000538, 1.06733837),
              (0.9, -0.10872219, 1.03170243), (1.1, 0.09307743, 0.97149295),
              (1.25, 0.21260478, 0.93356010), (1.5, 0.37828018, 0.88017459),
@@ -385,6 +435,8 @@ def verify(culm, report):
     verify_cylinder(culm, report)
     verify_roof(culm, report)
     verify_sandwich(culm, report)
+    verify_z_section(culm, report)
+    verify_layers(culm, report)
     verify_uniaxial(culm, report)
 
 

@@ -59,8 +59,8 @@ Schema Dynamics::schema() {
                   "Time step at which cutting ends; a thousandth of the step if absent.")
                .positive()
                .optional())
-      .add(choice("Scheme", {"Conserving", "Generalised Alpha"},
-                  "Conserving keeps energy and momenta exactly; Generalised Alpha is there to "
+      .add(choice("Scheme", {"Conserving", "Generalised Alpha", "Trapezoidal"},
+                  "Conserving keeps energy and momenta exactly; the others are there to "
                   "compare with.")
                .optional("Conserving"))
       .add(number("Spectral Radius", "1",
@@ -81,6 +81,8 @@ std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
   std::unique_ptr<TimeScheme> scheme = std::make_unique<ConservingScheme>();
   if (options.text("Scheme") == "Generalised Alpha") {
     scheme = std::make_unique<GeneralisedAlphaScheme>(options.number("Spectral Radius"));
+  } else if (options.text("Scheme") == "Trapezoidal") {
+    scheme = std::make_unique<TrapezoidalScheme>();
   }
   return std::make_unique<Dynamics>(std::move(settings), std::move(scheme));
 }

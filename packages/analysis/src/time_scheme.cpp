@@ -21,8 +21,12 @@ void ConservingScheme::finish(model::State& state, double h) {
 }
 
 GeneralisedAlphaScheme::GeneralisedAlphaScheme(double spectral_radius)
-    : alpha_m_((2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)),
-      alpha_f_(spectral_radius / (spectral_radius + 1.0)),
+    : GeneralisedAlphaScheme((2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0),
+                             spectral_radius / (spectral_radius + 1.0)) {}
+
+GeneralisedAlphaScheme::GeneralisedAlphaScheme(double alpha_m, double alpha_f)
+    : alpha_m_(alpha_m),
+      alpha_f_(alpha_f),
       beta_(0.25 * (1.0 - alpha_m_ + alpha_f_) * (1.0 - alpha_m_ + alpha_f_)),
       gamma_(0.5 - alpha_m_ + alpha_f_) {}
 

@@ -71,8 +71,9 @@ bool Model::eliminate(const Constraint& constraint) {
   if (constraint.link) return nodes_.link(constraint.link->slave, constraint.link->master);
   if (!constraint.fix) return false;
   const int node = constraint.fix->node;
-  // partly held eliminated nodes have a lever, so their rows stay equations
-  if (nodes_.is_slave(node) && !constraint.fix->unknowns.all()) return false;
+  // followers of a triad have a lever, so the rows of partly held ones stay equations
+  const bool has_lever = nodes_.is_slave(node) && nodes_.turns(node);
+  if (has_lever && !constraint.fix->unknowns.all()) return false;
   nodes_.fix(nodes_.master(node), constraint.fix->unknowns);
   return true;
 }

@@ -41,6 +41,18 @@ std::vector<VtuArray> resultant_arrays(const StructureMesh& mesh, const Structur
   return arrays;
 }
 
+// All cells in their order.
+std::vector<VtuArray> cell_data(const StructureMesh& mesh, const StructureState& state,
+                                const std::vector<int>& cells) {
+  std::vector<VtuArray> arrays = resultant_arrays(mesh, state, cells);
+  for (std::size_t a = 0; a < mesh.cell_arrays.size(); ++a) {
+    const CellArray& array = mesh.cell_arrays[a];
+    arrays.push_back(
+        {array.name, static_cast<int>(array.columns.size()), state.cell_values[a], array.columns});
+  }
+  return arrays;
+}
+
 std::vector<VtuArray> node_data(const StructureMesh& mesh, const StructureState& state) {
   std::vector<VtuArray> arrays{
       {"displacement", 3, flatten_difference(state.positions, mesh.positions)}};
@@ -67,7 +79,7 @@ VtuGrid centre_grid(const StructureMesh& mesh, const StructureState& state, int 
           .types = table.types,
           .structures = std::vector<int>(cells.size(), number),
           .point_data = node_data(mesh, state),
-          .cell_data = resultant_arrays(mesh, state, cells)};
+          .cell_data = cell_data(mesh, state, cells)};
 }
 
 VtuGrid skin_grid(const StructureMesh& mesh, const StructureState& state, int number,

@@ -43,6 +43,9 @@ void check_mesh(const StructureMesh& mesh) {
   for (const NodeArray& array : mesh.node_arrays) {
     demand(array.columns > 0, "a node array needs a column");
   }
+  for (const CellArray& array : mesh.cell_arrays) {
+    demand(!array.columns.empty(), "a cell array needs a column");
+  }
 }
 
 }  // namespace
@@ -76,6 +79,11 @@ void check_frame(const std::vector<StructureMesh>& meshes, const Frame& frame) {
     for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
       const auto columns = static_cast<std::size_t>(mesh.node_arrays[a].columns);
       demand(state.node_values[a].size() == nodes * columns, "columns per node in a node array");
+    }
+    demand(state.cell_values.size() == mesh.cell_arrays.size(), "values for each cell array");
+    for (std::size_t a = 0; a < mesh.cell_arrays.size(); ++a) {
+      demand(state.cell_values[a].size() == mesh.cells.size() * mesh.cell_arrays[a].columns.size(),
+             "columns per cell in a cell array");
     }
   }
 }

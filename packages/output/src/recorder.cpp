@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
 #include <culm/output/recorder.hpp>
 
 #include "hdf5_read.hpp"
@@ -40,6 +41,17 @@ void write_node_array_names(Hdf5File& file, hid_t group, const std::vector<NodeA
   file.write(group, "node_array_columns", columns);
 }
 
+void write_cell_array_names(Hdf5File& file, hid_t group, const std::vector<CellArray>& arrays) {
+  std::vector<std::string> names;
+  std::vector<std::string> columns;
+  for (const CellArray& array : arrays) {
+    names.push_back(array.name);
+    columns.push_back(join(array.columns, " "));
+  }
+  file.set_attribute(group, "cell_array_names", names);
+  file.set_attribute(group, "cell_array_columns", columns);
+}
+
 void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int number) {
   const Handle group = file.make_group(parent, link_name(mesh.name));
   file.set_attribute(group.id(), "name", mesh.name);
@@ -47,6 +59,7 @@ void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int num
   file.set_attribute(group.id(), "number", number);
   file.set_attribute(group.id(), "resultant_names", mesh.resultant_names);
   write_node_array_names(file, group.id(), mesh.node_arrays);
+  write_cell_array_names(file, group.id(), mesh.cell_arrays);
 
   file.write(group.id(), "position", flatten(mesh.positions), {mesh.positions.size(), 3});
   write_directors(file, group.id(), mesh.directors, mesh.triads);
@@ -93,6 +106,12 @@ void write_state(Hdf5File& file, hid_t parent, const StructureMesh& mesh,
     const std::vector<double>& values = state.node_values[a];
     file.write(group.id(), link_name(array.name), values,
                table_shape(values.size(), array.columns));
+  }
+  for (std::size_t a = 0; a < mesh.cell_arrays.size(); ++a) {
+    const CellArray& array = mesh.cell_arrays[a];
+    const std::vector<double>& values = state.cell_values[a];
+    file.write(group.id(), link_name(array.name), values,
+               table_shape(values.size(), static_cast<int>(array.columns.size())));
   }
 }
 

@@ -19,7 +19,8 @@ XdmfStructure describe(const StructureMesh& mesh) {
           .topology_size = xdmf_topology(mesh.cells).size(),
           .directors = director_numbers(mesh.directors),
           .resultant_names = mesh.resultant_names,
-          .node_arrays = mesh.node_arrays};
+          .node_arrays = mesh.node_arrays,
+          .cell_arrays = mesh.cell_arrays};
 }
 
 std::vector<XdmfStructure> describe(const std::vector<StructureMesh>& meshes) {
@@ -79,6 +80,10 @@ std::string grid(const XdmfStructure& structure, const Place& place) {
     text += attribute(join(structure.resultant_names, " "), "Cell",
                       static_cast<int>(structure.resultant_names.size()), structure.cells,
                       place.step + "/resultants");
+  }
+  for (const CellArray& array : structure.cell_arrays) {
+    text += attribute(array.name, "Cell", static_cast<int>(array.columns.size()), structure.cells,
+                      place.step + "/" + link_name(array.name));
   }
   return text + "</Grid>\n";
 }

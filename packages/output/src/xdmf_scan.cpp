@@ -5,6 +5,8 @@
 #include "names.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace culm::output {
@@ -30,6 +32,20 @@ std::vector<NodeArray> read_node_arrays(const Hdf5File& file, hid_t group) {
   return arrays;
 }
 
+std::vector<CellArray> read_cell_arrays(const Hdf5File& file, hid_t group) {
+  const std::vector<std::string> names = read_texts(file, group, "cell_array_names");
+  const std::vector<std::string> columns = read_texts(file, group, "cell_array_columns");
+  if (columns.size() != names.size()) {
+    throw FileError(file.path().string(), "cell arrays need one list of columns each");
+  }
+  std::vector<CellArray> arrays;
+  for (std::size_t a = 0; a < names.size(); ++a) {
+    std::istringstream text(columns[a]);
+    arrays.push_back({names[a], {std::istream_iterator<std::string>(text), {}}});
+  }
+  return arrays;
+}
+
 std::size_t read_length(const Hdf5File& file, hid_t group, const std::string& name) {
   const Shape shape = read_shape(file, group, name);
   if (shape.empty()) throw FileError(file.path().string(), "dataset " + name + " has no rows");
@@ -43,7 +59,8 @@ XdmfStructure read_structure(const Hdf5File& file, hid_t group) {
           .topology_size = read_length(file, group, "topology"),
           .directors = find_directors(file, group),
           .resultant_names = read_texts(file, group, "resultant_names"),
-          .node_arrays = read_node_arrays(file, group)};
+          .node_arrays = read_node_arrays(file, group),
+          .cell_arrays = read_cell_arrays(file, group)};
 }
 
 std::vector<XdmfStructure> read_structures(const Hdf5File& file) {

@@ -89,6 +89,7 @@ inline StructureMesh patch_mesh() {
   }
   mesh.cells = {{CellType::quad4, {0, 1, 2, 3}}};
   mesh.resultant_names = {"n11"};
+  mesh.cell_arrays = {{"stress", {"11", "22"}}};
   return mesh;
 }
 
@@ -132,7 +133,7 @@ inline StructureState tube_state(const StructureMesh& mesh, double angle) {
 inline Frame sample_frame(const std::vector<StructureMesh>& meshes, int index) {
   Frame frame{.index = index, .time = 0.1 * index, .structures = {}, .arrays = {}};
   frame.structures.push_back(tube_state(meshes[0], 2.5 * frame.time));
-  StructureState patch{meshes[1].positions, meshes[1].triads, {{7.5}}, {}};
+  StructureState patch{meshes[1].positions, meshes[1].triads, {{7.5}}, {}, {{1.5, 2.5}}};
   for (Vec3& x : patch.positions) x.y() += frame.time;
   frame.structures.push_back(patch);
   StructureState body{meshes[2].positions, meshes[2].triads, {}, {}};

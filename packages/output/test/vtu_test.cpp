@@ -80,7 +80,7 @@ TEST(Vtu, StructuresOfOneTypeShareAFileAndMissingDataIsNan) {
   meshes[1].resultant_names = {"q"};
   Frame frame;
   for (const StructureMesh& mesh : meshes) {
-    frame.structures.push_back({mesh.positions, mesh.triads, {{4.0}}, {}});
+    frame.structures.push_back({mesh.positions, mesh.triads, {{4.0}}, {}, {{1.0, 2.0}}});
   }
   Pictures(folder.path(), "run", meshes).add(frame);
   const std::string text = run_python(std::string(decoder) + R"(
@@ -89,7 +89,8 @@ print(points, cells, topology['connectivity'], topology['offsets'], cell_data)
                                       folder / "run_vtu/shell_000000.vtu");
   EXPECT_EQ(text,
             "8 2 [0, 1, 2, 3, 4, 5, 6, 7] [4, 8] "
-            "{'structure': [0, 1], 'n11': [4.0, nan], 'q': [nan, 4.0]}\n");
+            "{'structure': [0, 1], 'n11': [4.0, nan], 'stress': [1.0, 2.0, 1.0, 2.0], "
+            "'q': [nan, 4.0]}\n");
 }
 
 TEST(Vtu, CollectionsListExistingFilesWithTheirTimes) {

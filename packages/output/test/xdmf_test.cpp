@@ -49,7 +49,7 @@ for item in items:
 print(root.get('Version'), times, len(items))
 )",
                                       folder / "run.xdmf");
-  EXPECT_EQ(text, "3.0 [0.0, 0.1, 0.2] 60\n");
+  EXPECT_EQ(text, "3.0 [0.0, 0.1, 0.2] 63\n");
 }
 
 TEST(Xdmf, CanBeMadeFromTheResultFileAlone) {

@@ -5,6 +5,8 @@
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/shell_structure.hpp>
 
+#include "shell_layers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -160,6 +162,7 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
   const ShellOptions choice = read_options(options);
   const material::Material& material = layup->layers.front().material;
   auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping});
+  std::vector<int> items;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const ShellForms::Nodes reference = mesh.slots(static_cast<int>(e));
     auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
@@ -173,10 +176,11 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
     for (std::size_t a = 0; a < 4; ++a) {
       nodes[a] = structure.nodes[static_cast<std::size_t>(mesh.quads[e][a])];
     }
-    const int item = batch.add(E(reference, layup, choice), nodes);
-    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, item});
+    items.push_back(batch.add(E(reference, layup, choice), nodes));
+    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
     structure.faces.push_back({nodes, layup->thickness()});
   }
+  structure.layers = std::make_shared<ShellLayers<E>>(batch, std::move(items));
 }
 
 // Walls that meet keep their place and their angle: one joint from each node of a fold to the next.

@@ -1,5 +1,6 @@
 #include <culm/base/error.hpp>
 #include <culm/material/isotropic.hpp>
+#include <culm/model/layer_source.hpp>
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/shell_structure.hpp>
 
@@ -80,6 +81,33 @@ TEST_F(ShellStructure, MassIsThatOfTheWall) {
   add_plane();
   model.freeze(model::Form::null_space);
   EXPECT_NEAR(model.mass(), 7850.0 * 0.1 * 6.0, 1e-9);
+}
+
+// Of plane elements with one director all stresses are quadratic in the height: Simpson's rule over
+// the layer gives the resultants.
+TEST_F(ShellStructure, LayersAddUpToTheResultants) {
+  const model::Structure& plane = add_plane();
+  ASSERT_EQ(plane.layers->layers(), 1);
+  model::Coordinates q = model.nodes().reference();
+  for (std::size_t i = 0; i < plane.nodes.size(); ++i) {
+    auto slots = model::NodeTable::slots(q, plane.nodes[i]);
+    const double t = static_cast<double>(i);
+    slots.col(0) += Vec3(0.02 * std::sin(t), 0.03 * std::cos(2.0 * t), 0.1 * std::sin(1.5 * t));
+    slots.col(1) += Vec3(0.2 * std::cos(t), 0.1 * std::sin(t), 0.01 * std::cos(0.5 * t));
+  }
+  const double h = 0.1;
+  for (std::size_t cell = 0; cell < plane.cells.size(); ++cell) {
+    std::vector<double> R;
+    plane.cells[cell].source->resultants(plane.cells[cell].item, q, R);
+    const std::vector<model::LayerState> states = plane.layers->states(static_cast<int>(cell), q);
+    ASSERT_EQ(states.size(), 3u);
+    const Vec6 N = h / 6.0 * (states[0].stress + 4.0 * states[1].stress + states[2].stress);
+    const Vec6 M = h * h / 12.0 * (states[2].stress - states[0].stress);
+    const std::array<double, 8> wanted{N[0], N[1], N[5], M[0], M[1], M[5], N[4], N[3]};
+    for (std::size_t k = 0; k < 8; ++k) {
+      EXPECT_NEAR(R[k], wanted[k], 1e-12 * N.norm()) << "cell " << cell << ", " << k;
+    }
+  }
 }
 
 TEST_F(ShellStructure, PlacedMeshIsTurnedAndMoved) {

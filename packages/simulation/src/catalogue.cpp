@@ -82,6 +82,17 @@ Schema output_schema(const QuantityRegistry& quantities) {
                   "written. Writing takes at most a hundredth of the time.")
                .at_least(0.0)
                .optional(300.0))
+      .list("Shell",
+            Schema("Shell",
+                   "What is shown of the layers of shells beside stress resultants, at the centre "
+                   "of each element, at bottom, middle and top of each layer, in its axes.")
+                .add(flag("Stresses", "Second Piola-Kirchhoff stresses.").optional(false))
+                .add(flag("Strains", "Green-Lagrange strains, shears in full.").optional(false))
+                .add(integers("Layers", "Numbers of the layers, the bottom one 0; all if absent.")
+                         .at_least(0)
+                         .min_size(1)
+                         .optional()),
+            Presence::defaulted)
       .list("History",
             Schema("History", "Quantities of each step, in history.csv and run.h5.")
                 .entries_by_type(quantities.variants()),

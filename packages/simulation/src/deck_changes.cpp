@@ -121,7 +121,9 @@ InputIssues find_forbidden_changes(const Options& before, const Options& now, st
                                    double time) {
   InputIssues issues;
   compare(before, now, {"Title", "Output", "Analyses"}, issues);
-  compare(before.list("Output").list("History"), now.list("Output").list("History"), {}, issues);
+  for (const char* list : {"History", "Shell"}) {
+    compare(before.list("Output").list(list), now.list("Output").list(list), {}, issues);
+  }
   compare_analyses(before.list("Analyses"), now.list("Analyses"), analysis, time, issues);
   return issues;
 }

@@ -1,10 +1,14 @@
 #include <culm/base/error.hpp>
+#include <culm/model/layer_source.hpp>
 #include <culm/output/checkpoint_file.hpp>
 #include <culm/simulation/result_files.hpp>
 
 #include "checkpoints.hpp"
 #include "on_root.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <unordered_map>
 
 namespace culm::simulation {
@@ -50,15 +54,90 @@ output::StructureMesh mesh_of(const model::Structure& structure,
   return mesh;
 }
 
-std::vector<output::StructureMesh> meshes_of(const model::Model& model) {
-  std::vector<output::StructureMesh> meshes;
-  for (const model::Structure& structure : model.structures()) {
-    meshes.push_back(mesh_of(structure, model.nodes().reference()));
+std::vector<int> shown_layers(const model::Structure& structure, const LayerSettings& settings) {
+  std::vector<int> shown;
+  const bool wanted = settings.stresses || settings.strains;
+  for (int layer = 0; wanted && structure.layers != nullptr && layer < structure.layers->layers();
+       ++layer) {
+    const auto& chosen = settings.layers;
+    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), layer) != chosen.end()) {
+      shown.push_back(layer);
+    }
   }
-  return meshes;
+  return shown;
+}
+
+std::vector<output::CellArray> layer_arrays(const model::Structure& structure,
+                                            const LayerSettings& settings) {
+  std::vector<output::CellArray> arrays;
+  for (int layer : shown_layers(structure, settings)) {
+    for (const char* height : model::layer_heights) {
+      const auto add = [&](const char* what) {
+        arrays.push_back({fmt::format("{} layer {} {}", what, layer, height),
+                          {"11", "22", "33", "23", "13", "12"}});
+      };
+      if (settings.stresses) add("stress");
+      if (settings.strains) add("strain");
+    }
+  }
+  return arrays;
+}
+
+// The numbers of those arrays.
+std::vector<std::vector<double>> layer_values(const model::Structure& structure,
+                                              const LayerSettings& settings,
+                                              const model::Coordinates& q) {
+  const std::vector<int> shown = shown_layers(structure, settings);
+  std::vector<std::vector<double>> values;
+  if (shown.empty()) return values;
+  values.resize(layer_arrays(structure, settings).size());
+  for (std::size_t cell = 0; cell < structure.cells.size(); ++cell) {
+    const std::vector<model::LayerState> states =
+        structure.layers->states(static_cast<int>(cell), q);
+    auto array = values.begin();
+    const auto add = [&](const Vec6& v) {
+      array->insert(array->end(), v.begin(), v.end()), ++array;
+    };
+    for (int layer : shown) {
+      for (std::size_t height = 0; height < model::layer_heights.size(); ++height) {
+        const model::LayerState& state =
+            states[static_cast<std::size_t>(layer) * model::layer_heights.size() + height];
+        if (settings.stresses) add(state.stress);
+        if (settings.strains) add(state.strain);
+      }
+    }
+  }
+  return values;
 }
 
 }  // namespace
+
+LayerSettings read_layer_settings(const Options& shell, const model::Model& model) {
+  LayerSettings settings{shell.flag("Stresses"), shell.flag("Strains")};
+  if (!shell.has("Layers")) return settings;
+  settings.layers = shell.integers("Layers");
+  int most = 0;
+  for (const model::Structure& structure : model.structures()) {
+    if (structure.layers != nullptr) most = std::max(most, structure.layers->layers());
+  }
+  for (int layer : settings.layers) {
+    if (layer < most) continue;
+    throw InputError(
+        shell.where("Layers"),
+        fmt::format("no shell has more than {} layers, numbered from 0, got {}", most, layer));
+  }
+  return settings;
+}
+
+std::vector<output::StructureMesh> ResultFiles::meshes() const {
+  const model::Model& model = system_.model();
+  std::vector<output::StructureMesh> meshes;
+  for (const model::Structure& structure : model.structures()) {
+    meshes.push_back(mesh_of(structure, model.nodes().reference()));
+    meshes.back().cell_arrays = layer_arrays(structure, settings_.layers);
+  }
+  return meshes;
+}
 
 ResultFiles::ResultFiles(assembly::System& system, ResultSettings settings,
                          const std::vector<WatchedQuantity>& watched, const Snapshot* from)
@@ -84,7 +163,7 @@ void ResultFiles::open() {
   const std::filesystem::path checkpoint = checkpoint_path(folder);
   std::filesystem::remove(checkpoint, failure);
   std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
-  const auto meshes = meshes_of(system_.model());
+  const auto meshes = this->meshes();
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
@@ -97,7 +176,7 @@ void ResultFiles::open() {
 // The result file is cut to the time of the checkpoint; the others are made again from it.
 void ResultFiles::reopen() {
   const std::filesystem::path& folder = settings_.folder;
-  const auto meshes = meshes_of(system_.model());
+  const auto meshes = this->meshes();
   const auto recorded = output::find_recorded(folder / "run.h5", frames_, rows_);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), recorded);
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
@@ -135,6 +214,7 @@ output::Frame ResultFiles::frame(double time, const model::State& state) const {
       if (cell.source != nullptr)
         cell.source->resultants(cell.item, state.next, s.resultants.back());
     }
+    s.cell_values = layer_values(structure, settings_.layers, state.next);
     frame.structures.push_back(std::move(s));
   }
   return frame;

@@ -56,7 +56,8 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                     {settings.folder,
                      {p.deck.text("Title"), std::string(version), deck::resolved(p.deck)},
                      output.integer("Every"),
-                     output.flag("Pictures")},
+                     output.flag("Pictures"),
+                     read_layer_settings(output.list("Shell"), p.model)},
                     p.watched, from);
   analysis::Context context{*p.system, *p.linear.solver, p.ledger, p.log};
   RunObserver observer(context, files, checkpoints, p.source, p.linear.reason,

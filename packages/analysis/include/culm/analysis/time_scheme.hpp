@@ -46,7 +46,7 @@ class ConservingScheme final : public TimeScheme {
 /// does not resolve, keeps neither energy nor momenta.
 /// @source Chung, Hulbert, J. Appl. Mech. 60 (1993) 371-375; as an integrator of constrained
 /// systems: Arnold, Bruls, Multibody Syst. Dyn. 18 (2007) 185-202
-class GeneralisedAlphaScheme final : public TimeScheme {
+class GeneralisedAlphaScheme : public TimeScheme {
  public:
   /// @param spectral_radius at infinite frequency, in [0, 1]
   explicit GeneralisedAlphaScheme(double spectral_radius);
@@ -59,9 +59,22 @@ class GeneralisedAlphaScheme final : public TimeScheme {
   void save(const assembly::System& system, Snapshot& snapshot) const override;
   void restore(const Snapshot& snapshot) override;
 
+ protected:
+  /// @param alpha_m, alpha_f  weights of the start of the step in inertia and in all other forces
+  GeneralisedAlphaScheme(double alpha_m, double alpha_f);
+
  private:
   double alpha_m_, alpha_f_, beta_, gamma_;
   model::Coordinates acceleration_;
+};
+
+/// The trapezoidal rule of Newmark (beta 1/4, gamma 1/2), for comparison: equations at the end of
+/// the step. It is stable for linear systems only.
+/// @source Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94
+class TrapezoidalScheme final : public GeneralisedAlphaScheme {
+ public:
+  TrapezoidalScheme() : GeneralisedAlphaScheme(0.0, 0.0) {}
+  std::string name() const override { return "Trapezoidal"; }
 };
 
 }  // namespace culm::analysis

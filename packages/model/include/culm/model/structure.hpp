@@ -5,12 +5,14 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace culm::model {
 
+class LayerSource;
 class ResultantSource;
 
 /// A material point: a constant linear map from node coordinates to its position and directors,
@@ -54,6 +56,7 @@ struct Structure {
   /// The same of its edges by name; an edge is also a node set.
   std::map<std::string, std::vector<LinePoint>> edges;
   std::vector<Face> faces;                        ///< for loads per area, one per cell of a shell
+  std::shared_ptr<const LayerSource> layers;      ///< what happens within the wall of a shell
   std::map<std::string, std::vector<int>> parts;  ///< cells by name
   /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none.
   std::vector<std::vector<Eigen::Vector2d>> outlines;

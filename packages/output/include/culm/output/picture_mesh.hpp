@@ -37,6 +37,12 @@ struct NodeArray {
   int columns = 1;  ///< numbers per node
 };
 
+/// Numbers of the cells besides stress resultants, such as stresses of a layer.
+struct CellArray {
+  std::string name;
+  std::vector<std::string> columns;  ///< one name per number of a cell
+};
+
 /// One structure in the reference configuration.
 struct StructureMesh {
   std::string name;                ///< unique in the model
@@ -53,6 +59,7 @@ struct StructureMesh {
   /// N2, N3) are also shown as the vector N.
   std::vector<std::string> resultant_names;
   std::vector<NodeArray> node_arrays;
+  std::vector<CellArray> cell_arrays;
 
   int node_count() const { return static_cast<int>(positions.size()); }
   int cell_count() const { return static_cast<int>(cells.size()); }
@@ -65,6 +72,8 @@ struct StructureState {
   std::vector<std::vector<double>> resultants;  ///< per cell, as resultant_names
   /// Per NodeArray all its numbers, node after node; shape (nodes * columns).
   std::vector<std::vector<double>> node_values;
+  /// Per CellArray all its numbers, cell after cell; shape (cells * columns).
+  std::vector<std::vector<double>> cell_values = {};
 };
 
 /// A named table of numbers that belongs to no node or cell.

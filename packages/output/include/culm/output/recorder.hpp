@@ -23,8 +23,8 @@ struct RunInfo {
 ///     /deck     xml; attributes title, version
 ///     /mesh/<structure>     position, director1..3, cell_types, cell_offsets, connectivity,
 ///     topology /steps/000000/<structure>   position, displacement, director1..3, resultants, node
-///     arrays /history/values   one row per add_history(); attributes names, units; first column
-///     time /report   text, scalars/<name>
+///     and cell arrays /history/values   one row per add_history(); attributes names, units; first
+///     column time /report   text, scalars/<name>
 ///
 /// and per step whatever Frame::arrays holds in /steps/000000/%arrays. In names the characters / :
 /// % | are written as %XX.

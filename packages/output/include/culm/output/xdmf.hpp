@@ -18,6 +18,7 @@ struct XdmfStructure {
   std::vector<int> directors;  ///< numbers of those written
   std::vector<std::string> resultant_names;
   std::vector<NodeArray> node_arrays;
+  std::vector<CellArray> cell_arrays;
 };
 
 /// Index in XDMF 3 through which ParaView shows the steps of a result file: a temporal collection

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/material/layup.hpp>
+#include <culm/model/layer_source.hpp>
 #include <culm/shell/shell_geometry.hpp>
 
 #include <array>
@@ -15,12 +16,7 @@ using ShellResultants = Vec<8>;
 inline constexpr std::array<const char*, 8> shell_resultant_names{"N11", "N22", "N12", "M11",
                                                                   "M22", "M12", "Q1",  "Q2"};
 
-/// Green-Lagrange strain and second Piola-Kirchhoff stress, Voigt order 11, 22, 33, 23, 13, 12 with
-/// engineering shears, in the axes of a layer.
-struct LayerState {
-  Vec6 strain;
-  Vec6 stress;  ///< [N/m^2]
-};
+using LayerState = model::LayerState;
 
 /// A layered element that is deformed.
 struct DeformedShell {

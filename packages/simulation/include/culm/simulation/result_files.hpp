@@ -24,12 +24,23 @@ struct WatchedQuantity {
   std::unique_ptr<Quantity> quantity;
 };
 
+/// What to show of the layers of shells, in each recorded state.
+struct LayerSettings {
+  bool stresses = false;
+  bool strains = false;
+  std::vector<int> layers = {};  ///< numbers from the bottom, from 0; all if empty
+};
+
+/// Reads the list Output / Shell. Throws InputError for layers that no shell has.
+LayerSettings read_layer_settings(const Options& shell, const model::Model& model);
+
 /// What to write, and how often.
 struct ResultSettings {
   std::filesystem::path folder;
   output::RunInfo info;
   int every = 1;
   bool pictures = true;
+  LayerSettings layers = {};
 };
 
 /// Gathers states and writes them on rank 0. All functions are called on all ranks, and throw
@@ -65,6 +76,7 @@ class ResultFiles {
 
   void open();
   void reopen();
+  std::vector<output::StructureMesh> meshes() const;
   std::vector<output::HistoryColumn> columns() const;
   output::Frame frame(double time, const model::State& state) const;
 

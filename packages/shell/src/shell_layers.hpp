@@ -1,0 +1,63 @@
+/// The layers of the elements of one structure, for results.
+#pragma once
+
+#include <culm/model/element_batch.hpp>
+#include <culm/model/layer_source.hpp>
+#include <culm/shell/shell_results.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace culm::shell {
+
+/// Elements of type E of one layup, one per cell.
+template <class E>
+class ShellLayers final : public model::LayerSource {
+ public:
+  /// @param items  of the batch, which must outlive this, one or more
+  ShellLayers(const model::ElementBatch<E>& batch, std::vector<int> items)
+      : batch_(batch), items_(std::move(items)) {}
+
+  int layers() const override {
+    return static_cast<int>(batch_.element(items_.front()).layup().layers.size());
+  }
+
+  std::vector<LayerState> states(int cell, const model::Coordinates& q) const override {
+    const int item = items_[static_cast<std::size_t>(cell)];
+    const E& element = batch_.element(item);
+    const auto& nodes = batch_.nodes(item);
+    ShellForms::Nodes slots;
+    for (int a = 0; a < 4; ++a) {
+      const model::NodeSlots node = model::NodeTable::slots(q, nodes[static_cast<std::size_t>(a)]);
+      slots.middleCols<2>(2 * a) = node.leftCols<2>();
+    }
+    ShellForms::Strain y;
+    element.strain(0, slots, y);
+    if constexpr (ElementWithInternals<E>) {
+      typename E::Internals internals = E::Internals::Zero();
+      Response<E::num_strains> response;
+      element.respond(0, y, y, internals, Stencil::statics(), internals, response);
+      return collect([&](int layer, double height) {
+        return element.layer_state(layer, height, y, internals);
+      });
+    } else {
+      return collect(
+          [&](int layer, double height) { return element.layer_state(layer, height, y); });
+    }
+  }
+
+ private:
+  template <class At>
+  std::vector<LayerState> collect(At&& at) const {
+    std::vector<LayerState> states;
+    for (int layer = 0; layer < layers(); ++layer) {
+      for (const double height : {-1.0, 0.0, 1.0}) states.push_back(at(layer, height));
+    }
+    return states;
+  }
+
+  const model::ElementBatch<E>& batch_;
+  std::vector<int> items_;
+};
+
+}  // namespace culm::shell
