@@ -8,7 +8,7 @@ import re
 
 from driver import BASE, Case
 
-#-- - pieces of base.xml and their replacements
+# --- pieces of base.xml and their replacements
 
 
 def list_of(name):
@@ -20,6 +20,7 @@ def list_of(name):
         if depth == 0:
             return BASE[start : start + tag.end() + 1]
     raise ValueError(name)
+
 
 def parameters(name, *pairs):
     """A list of parameters, each a pair of name and value."""
@@ -66,7 +67,7 @@ WATCH_ELEMENT = (
 INCLUDE = '<xi:include href="loads.xml"/>'
 LOADS = list_of("Loads")
 
-#-- - kinds of cases
+# --- kinds of cases
 
 
 def wrong(name, old, new, *errors, **more):
@@ -729,7 +730,7 @@ LOOP = (
     + link("second", "beam/2", "beam/3")
     + link("third", "beam/3", "beam/1")
 )
-#holds y and z of the last node
+# holds y and z of the last node
 ROLLERS = support(
     "roller y", "Simple Support", ("Direction", "{0, 1, 0}"), node="beam/last"
 ) + support("roller z", "Simple Support", ("Direction", "{0, 0, 1}"), node="beam/last")
@@ -841,7 +842,7 @@ EQUATIONS += [
         "Multipliers",
     ),
 ]
-#masses at the nodes leave their rotations without inertia
+# masses at the nodes leave their rotations without inertia
 LEAD = parameters("lead", ("Type", "Point Mass"), ("Node", "beam"), ("Mass", 1))
 POINT_MASSES = f'<ParameterList name="Masses">\n    {LEAD}\n  </ParameterList>\n'
 DYNAMIC = [

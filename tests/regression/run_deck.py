@@ -1,11 +1,10 @@
-#!/ usr / bin / env python3
-""
-    "Runs a deck on 1, 2 and 3 ranks and compares its history with the expected values.
+#!/usr/bin/env python3
+"""Runs a deck on 1, 2 and 3 ranks and compares its history with the expected values.
 
-    usage : run_deck.py-- culm PROGRAM[--mpiexec PROGRAM] DECK.xml EXPECTED.xml
+usage: run_deck.py --culm PROGRAM [--mpiexec PROGRAM] DECK.xml EXPECTED.xml
 
-                What an expected file holds,
-    see README.md beside this file.All ranks are compared with the same file, and with each other; where the file says so, so are the two forms of the equations.
+What an expected file holds, see README.md beside this file. All ranks are compared with the same
+file, and with each other; where the file says so, so are the two forms of the equations.
 """
 
 import argparse

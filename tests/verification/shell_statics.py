@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """SS-1, SS-2, SS-4, SS-6, SS-8 to SS-11: shells in statics. Page: doc/verification/shells.md."""
 
 import math
@@ -10,7 +10,8 @@ from verify import figure, main, mesh_axis, romberg, save
 SHELL = "Structures/shell"
 PLAIN = [f"{SHELL}/Assumed Strains=false", f"{SHELL}/Enhanced Membrane=None",
          f"{SHELL}/Enhanced Thickness=None"]
-#Sze, Liu, Lo(2004) : share of the full load, displacements
+
+# Sze, Liu, Lo (2004): share of the full load, displacements
 SHEAR = [(0.1, 0.103, 1.309), (0.2, 0.381, 2.493), (0.3, 0.763, 3.488), (0.4, 1.184, 4.292),
          (0.5, 1.604, 4.933), (0.6, 2.002, 5.444), (0.7, 2.370, 5.855), (0.8, 2.705, 6.190),
          (0.9, 3.010, 6.467), (1.0, 3.286, 6.698)]
@@ -58,8 +59,7 @@ def twisted(thickness, force, direction, reference, name):
     names = {"y": 1, "z": 2}
 
     def settings(n):
-        forces = {
-  "y" : 0.0, "z" : 0.0, direction : force}
+        forces = {"y": 0.0, "z": 0.0, direction: force}
         return [f"t={thickness}", f"N={3 * n // 2}", f"M={n // 4}",
                 *(f"F{axis}={value}" for axis, value in forces.items())]
 
@@ -81,7 +81,7 @@ def plate():
 
 
 def pinched_cylinder():
-# 1.82488e-5 for a unit force, thickness 3 and modulus 3e6
+    # 1.82488e-5 for a unit force, thickness 3 and modulus 3e6
     return Linear("pinched cylinder", "shell/pinched_cylinder.xml", 
                   lambda n: [f"N={n}", "F=0.1", "Analyses/loading/Steps=1"],
                   lambda history: -history.vector("load")[1], 1.82488e-5 * 9e6 * 0.1 / 30e3, 0.931)
@@ -103,7 +103,8 @@ def pinched_hemisphere(thickness=0.04, reference=0.093):
                   lambda n: [f"N={n}", f"t={thickness!r}", f"F={force!r}",
                              "Analyses/loading/Steps=1"], value, reference, 1.003)
 
-#SS - 9, references as on the page
+
+# SS-9, references as on the page
 CASES = [
     pinched_cylinder(),
     scordelis_lo(),
@@ -149,7 +150,7 @@ def verify_shear(culm, report):
             f"Analyses/bending/Levels={{{levels}}}"])
         for level, along, across in SHEAR:
             tip = history.vector("tip", level)
-#digits of the table end at 5e-4
+            # digits of the table end at 5e-4
             report.holds(f"level {level}, -U {-tip[0]:.4f}, {along}",
                          max(0.0, abs(-tip[0] - along) - 5e-4) / along, tolerance)
             report.holds(f"level {level},  W {tip[2]:.4f}, {across}",
@@ -175,7 +176,7 @@ def verify_moment(culm, report):
             error = math.dist(tip, circle(level)) / 12.0
             report.holds(f"level {level}, {n} elements", error, tolerance)
         limit = [romberg([tip[k] for tip in tips]) for k in range(3)]
-#the arc is that of a line; a wall of St.Venant - Kirchhoff differs by(curvature * thickness) ^ 2
+        # the arc is that of a line; a wall of St. Venant-Kirchhoff differs by (curvature * thickness)^2
         allowed = (2.0 * math.pi * level / 12.0 * 0.1) ** 2
         report.holds(f"level {level}, extrapolated", math.dist(limit, circle(level)) / 12.0, allowed)
 
@@ -203,7 +204,7 @@ def verify_cylinder(culm, report):
                       ["N=32", "F=12000", "Analyses/loading/Steps=5"])
     for level, load, side in CYLINDER:
         report.relative(f"level {level}, -W", -history.vector("load", level)[1], load, 0.02)
-#small beside W : compared with it
+        # small beside W: compared with it
         report.check(f"level {level}, U", history.vector("side", level)[0], side, 0.02 * load)
 
 
@@ -329,7 +330,7 @@ def verify_sandwich(culm, report):
 
 
 def verify_z_section(culm, report):
-    report.title("SS-9: Z-section under torque (NAFEMS LE5), axial stress at the edge of the flange [MPa]")
+    report.title("SS-9: Z-section under torque (NAFEMS LE5), axial stress at the edge of a flange [MPa]")
     for n in (2, 4, 8):
         report.relative(f"{n} elements over a flange", edge_stress(culm, n), -108.0, 0.03)
 
@@ -399,7 +400,8 @@ def verify_free_cylinder(culm, report):
     for slenderness, reference in ((1e2, 1.997), (1e4, 1.912)):
         report.relative(f"R/t = {slenderness:g}", free_cylinder(culm, slenderness), reference, 0.02)
 
-#stretch, first Piola stress over E, lateral stretch of a Neo - Hooke solid, nu = 0.3; exact
+
+# stretch, first Piola stress over E, lateral stretch of a Neo-Hooke solid, nu = 0.3; exact
 NEO_HOOKE = [(0.6, -0.62434857, 1.15498215), (0.8, -0.24000538, 1.06733837),
              (0.9, -0.10872219, 1.03170243), (1.1, 0.09307743, 0.97149295),
              (1.25, 0.21260478, 0.93356010), (1.5, 0.37828018, 0.88017459),
