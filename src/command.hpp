@@ -27,12 +27,21 @@ struct ResumeArguments {
   bool quiet = false;
 };
 
+/// Files of another program, and the deck to make of them.
+struct ImportArguments {
+  std::filesystem::path file;
+  std::filesystem::path deck;  ///< to write; name of the file with .xml if empty
+  bool quiet = false;
+};
+
 /// Runs a deck.
 void run(const parallel::Comm& comm, const DeckArguments& arguments);
 /// Goes on with a run from its last checkpoint.
 void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
 void check(const parallel::Comm& comm, const DeckArguments& arguments);
+/// Makes a deck from files of OpenFAST, and a report beside it; replaces nothing.
+void import_openfast(const parallel::Comm& comm, const ImportArguments& arguments);
 /// Prints the input reference, or the part of it that has a name.
 void reference(const parallel::Comm& comm, const std::string& name);
 

@@ -17,12 +17,14 @@
 namespace {
 
 using culm::app::DeckArguments;
+using culm::app::ImportArguments;
 using culm::app::ResumeArguments;
 
 // What the user gives, by verb.
 struct Arguments {
   DeckArguments deck;
   ResumeArguments resume;
+  ImportArguments import;
   std::string name;  // for the reference
 };
 
@@ -72,6 +74,16 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   add_deck_options(*check, arguments.deck);
   check->callback(
       [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.deck); }; });
+  CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");
+  import->require_subcommand(1);
+  CLI::App* openfast = import->add_subcommand("openfast", "A blade of BeamDyn");
+  openfast->add_option("file", arguments.import.file, "Driver or primary file")->required();
+  openfast->add_option("--output", arguments.import.deck,
+                       "Deck to write; here, with the name of the file and .xml, if not given");
+  openfast->add_flag("--quiet", arguments.import.quiet, "Do not print the report");
+  openfast->callback([&] {
+    action = [&](const Comm& comm) { culm::app::import_openfast(comm, arguments.import); };
+  });
   CLI::App* reference = app.add_subcommand("reference", "Print what a deck may contain");
   reference->add_option("name", arguments.name,
                         "A list, type or parameter; everything if not given");
@@ -85,7 +97,7 @@ int report(const CLI::ParseError& error, const CLI::App& app, const culm::parall
   const bool unknown = app.get_subcommands().empty() && !extras.empty();
   if (error.get_exit_code() != 0 && unknown) {
     const std::string hint =
-        culm::did_you_mean(extras.front(), {"run", "resume", "check", "reference"});
+        culm::did_you_mean(extras.front(), {"run", "resume", "check", "import", "reference"});
     if (comm.is_root()) {
       std::fprintf(stderr, "unknown command '%s'%s\nRun with --help for more information.\n",
                    extras.front().c_str(), hint.c_str());

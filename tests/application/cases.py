@@ -1,5 +1,6 @@
 """Sound decks and command lines: what culm prints and leaves behind."""
 
+import pathlib
 import re
 
 from driver import BASE, Case
@@ -13,6 +14,16 @@ def history(folder):
 def has_levels(folder, *levels):
     found = history(folder)
     return "" if found == list(levels) else f"the history has the levels {found}"
+
+
+BLADE = pathlib.Path(__file__).resolve().parents[2] / "inputs/turbine/generic_blade"
+BLADE_FILES = {name: (BLADE / name).read_text() for name in ("driver.inp", "beamdyn.inp", "blade.inp")}
+
+
+def is_imported(folder, _):
+    found = sorted(path.name for path in folder.iterdir())
+    wanted = sorted([*BLADE_FILES, "driver.xml", "driver.report.txt"])
+    return "" if found == wanted else f"there is {found}"
 
 
 def is_version(_, stdout):
@@ -90,6 +101,43 @@ CASES = [
         ranks=True,
     ),
     Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),
+    Case(
+        "import",
+        0,
+        deck=None,
+        files=BLADE_FILES,
+        args="import openfast driver.inp",
+        prints=["10 matrices of stiffness and of mass: symmetric", "\nwritten: driver.xml, "],
+        leaves=["driver.xml", "driver.report.txt"],
+        check=is_imported,
+        ranks=True,
+    ),
+    Case(
+        "import replaces nothing",
+        6,
+        deck=None,
+        files={**BLADE_FILES, "driver.xml": "mine"},
+        args="import openfast driver.inp",
+        errors=["driver.xml: exists and may have been edited: remove it, or name another file ..."],
+        check=lambda folder, _: "" if (folder / "driver.xml").read_text() == "mine" else "replaced",
+    ),
+    Case(
+        "import of a mistake",
+        3,
+        deck=None,
+        files={**BLADE_FILES, "beamdyn.inp": BLADE_FILES["beamdyn.inp"].replace("kp_total ", "kp_totl ")},
+        args="import openfast driver.inp",
+        errors=["beamdyn.inp: kp_total: is missing"],
+        ranks=True,
+    ),
+    Case(
+        "import of a file that is not there",
+        6,
+        deck=None,
+        args="import openfast driver.inp",
+        errors=["driver.inp: cannot read: No such file or directory"],
+        ranks=True,
+    ),
     Case(
         "reference of a type",
         0,

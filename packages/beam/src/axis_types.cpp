@@ -11,6 +11,7 @@ void register_axes(AxisRegistry& registry) {
   registry.add("Arc", arc_schema(), make_arc);
   registry.add("Arc Through Points", arc_through_points_schema(), make_arc_through_points);
   registry.add("Helix", helix_schema(), make_helix);
+  registry.add("Spline", spline_schema(), make_spline);
   registry.add("Nodes", nodes_schema(), make_nodes);
 }
 

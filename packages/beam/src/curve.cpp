@@ -1,5 +1,6 @@
 #include <culm/beam/curve.hpp>
 #include <culm/math/rotation.hpp>
+#include <culm/math/spline.hpp>
 
 #include <Eigen/Geometry>
 
@@ -34,6 +35,14 @@ Curve helix(const Vec3& centre, const Vec3& axis, const Vec3& start, double angl
             return turn * (n.cross(exp_rotation(turn * s * n) * arm) + rise * n);
           },
           .normal = n};
+}
+
+Curve spline(const std::vector<Vec3>& points) {
+  const Spline curve(points);
+  return {.length = curve.length(),
+          .position = [=](double s) { return curve.position(s); },
+          .tangent = [=](double s) { return curve.tangent(s); },
+          .normal = any_normal((points.back() - points.front()).normalized())};
 }
 
 Curve arc_through(const Vec3& a, const Vec3& b, const Vec3& c) {

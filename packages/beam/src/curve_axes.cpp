@@ -189,6 +189,18 @@ std::vector<Vec3> read_points(const Options& options) {
   return points;
 }
 
+void check_spline(const Options& options, InputIssues& issues) {
+  const std::vector<Vec3> points = read_points(options);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i] == points[i - 1]) {
+      issues.add(options.where("Points"), fmt::format("points {} and {} are the same", i, i + 1));
+    }
+  }
+  if (points.size() > 2 && points.front() == points.back() && !options.has("Up")) {
+    issues.add(options.where(), "the curve is closed: give 'Up'");
+  }
+}
+
 void check_polyline(const Options& options, InputIssues& issues) {
   const std::vector<Vec3> points = read_points(options);
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -226,6 +238,22 @@ Vec3 plane_normal(const std::vector<Segment>& segments, const Options& options) 
 }
 
 }  // namespace
+
+Schema spline_schema() {
+  Schema schema = curve_schema("Spline", "Smooth curve, a natural cubic spline through points.");
+  schema
+      .add(numbers("Points", "m", "Points from start to end, three coordinates each.")
+               .size_multiple_of(3)
+               .min_size(6))
+      .add(elements_field())
+      .check(check_spline);
+  return schema;
+}
+
+Axis make_spline(const Options& options, int order) {
+  const Curve curve = spline(read_points(options));
+  return place({{curve, options.integer("Elements")}}, curve.normal, options, order);
+}
 
 Schema polyline_schema() {
   Schema schema = curve_schema(

@@ -22,4 +22,7 @@ Axis make_arc_through_points(const Options& options, int order);
 Schema helix_schema();
 Axis make_helix(const Options& options, int order);
 
+Schema spline_schema();
+Axis make_spline(const Options& options, int order);
+
 }  // namespace culm::beam

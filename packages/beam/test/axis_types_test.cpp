@@ -102,6 +102,17 @@ TEST_F(AxisTypes, ArcThroughPointsAndHelixMeetTheirPoints) {
   EXPECT_LT((helix.chains[0].back().position - Vec3(1, 0, 0.3)).norm(), 1e-15);
 }
 
+TEST_F(AxisTypes, SplineRunsThroughItsPointsAtEqualArcLengths) {
+  const Axis axis = make(
+      "Spline",
+      {{"Points", Numbers{0, 0, 0, 1, 0, 4, 3, 0, 8}}, {"Up", Numbers{1, 0, 0}}, {"Elements", 2}});
+  const Chain& chain = axis.chains[0];
+  ASSERT_EQ(chain.size(), 3U);
+  EXPECT_LT((chain[2].position - Vec3(3, 0, 8)).norm(), 1e-14);
+  EXPECT_EQ(chain[1].span, 0.5);
+  for (const AxisNode& node : chain) EXPECT_LT(triad_defect(node.triad), 1e-15);
+}
+
 TEST_F(AxisTypes, PolylineHasTwoNodesAtAKink) {
   const Axis axis = make("Polyline", {{"Points", Numbers{0, 0, 0, 0, 2, 0, 1, 2, 0}},
                                       {"Elements", std::vector{4, 1}}});

@@ -20,6 +20,17 @@ void hold_node(const Anchor& anchor, model::Constraint& support) {
   support.replaces_internal = anchor.node();
 }
 
+// Adds (R - 1)(x0 - a) to the translation that the first three rows prescribe.
+void add_circling(const Vec3& arm, const Mat3& turn, std::vector<model::ConstraintRow>& rows) {
+  const Vec3 way = turn * arm - arm;
+  for (std::size_t i = 0; i < 3; ++i) rows[i].constant += way[static_cast<int>(i)];
+}
+
+// From the axis to the point; zero where the axis goes through it.
+Vec3 arm_of(const Anchor& anchor, const SupportMotion& motion) {
+  return motion.about ? Vec3(anchor.position() - *motion.about) : Vec3::Zero();
+}
+
 void hold_point(const Anchor& anchor, const SupportMotion& motion, model::Constraint& support) {
   add_vector_rows(anchor.point(), anchor, support);
   for (int i = 0; i < 3; ++i) {
@@ -28,10 +39,11 @@ void hold_point(const Anchor& anchor, const SupportMotion& motion, model::Constr
   }
   if (!motion.moves()) return;
   drive_constants(motion.translation, support);
-  support.drive = [motion, translate = std::move(support.drive)](
+  support.drive = [motion, arm = arm_of(anchor, motion), translate = std::move(support.drive)](
                       double time, std::vector<model::ConstraintRow>& rows) {
     translate(time, rows);
     const Mat3 turn = exp_rotation(motion.angle.at(time) * motion.axis);
+    add_circling(arm, turn, rows);
     for (int i = 0; i < 3; ++i) rows[static_cast<std::size_t>(3 + i)].direction = turn.col(i);
   };
 }
@@ -42,11 +54,13 @@ void move_shell_node(const Anchor& anchor, const SupportMotion& motion,
   add_vector_rows(anchor.point(), anchor, support);
   add_vector_rows(anchor.director(), anchor, support);
   drive_constants(motion.translation, support);
-  support.drive = [motion, d = Vec3(anchor.directors().col(0)),
+  support.drive = [motion, d = Vec3(anchor.directors().col(0)), arm = arm_of(anchor, motion),
                    translate = std::move(support.drive)](double time,
                                                          std::vector<model::ConstraintRow>& rows) {
     translate(time, rows);
-    const Vec3 turned = exp_rotation(motion.angle.at(time) * motion.axis) * d;
+    const Mat3 turn = exp_rotation(motion.angle.at(time) * motion.axis);
+    add_circling(arm, turn, rows);
+    const Vec3 turned = turn * d;
     for (int i = 0; i < 3; ++i) rows[static_cast<std::size_t>(3 + i)].constant = turned[i];
   };
 }
@@ -71,8 +85,10 @@ void register_rigid_support(model::BuilderRegistry& registry) {
   schema.add(anchor_field());
   add_translation(schema);
   schema
-      .add(model::vector_field("Axis", "1", "Axis of a rotation about the point, of any length.")
+      .add(model::vector_field("Axis", "1", "Axis of a rotation, of any length.")
                .optional({0.0, 0.0, 1.0}))
+      .add(model::vector_field("About", "m", "A point on this axis; the held point if absent.")
+               .optional())
       .add(number("Angle", "rad", "Angle of rotation at function value 1.").optional(0.0))
       .add(model::function_field("Ramp", "Angle Function"))
       .check([](const Options& options, InputIssues& issues) {
@@ -84,8 +100,9 @@ void register_rigid_support(model::BuilderRegistry& registry) {
     auto translation = read_translation(options, context);
     auto angle = read_motion(options, "Angle", context, "Angle Function");
     if (!translation || !angle) return;
-    const SupportMotion motion{*std::move(translation), read_direction(options, "Axis"),
-                               *std::move(angle)};
+    SupportMotion motion{
+        *std::move(translation), read_direction(options, "Axis"), *std::move(angle), {}};
+    if (options.has("About")) motion.about = model::vector(options, "About");
     add_per_anchor(type, options, context, Holds::all,
                    [&](const Anchor& anchor) { return rigid_support(anchor, motion); });
   });

@@ -49,7 +49,8 @@ struct SphericalMoving : SupportCase<false> {
 };
 struct RigidMoving : SupportCase<false> {
   static Constraint make(const NodeTable& n) {
-    return rigid_support({n, 0}, {{Vec3(0.3, -0.4, 0.2), square}, oblique, quadratic(2.0)});
+    return rigid_support(
+        {n, 0}, {{Vec3(0.3, -0.4, 0.2), square}, oblique, quadratic(2.0), Vec3(0.5, -0.2, 0.9)});
   }
 };
 struct SphericalWithOffset : SupportCase<false> {

@@ -104,6 +104,18 @@ TEST_F(DrivenSupport, RigidSupportsFollowTheirMotion) {
   EXPECT_TRUE(rigid_support({nodes, 0}).fix);  // at rest it is eliminated
 }
 
+TEST_F(DrivenSupport, RigidSupportsCircleAPoint) {
+  const Vec3 about(0.7, -1.1, 0.4);
+  const Mat3 turn = exp_rotation(0.6 * axis);
+  model::NodeSlots q = turned(0.6 * axis);
+  q.col(0) = about + turn * (reference.col(0) - about);
+  model::Constraint support = rigid_support({nodes, 0}, {{}, axis, proportional(0.4), about});
+  support.drive(1.5, support.rows);
+  for (const model::ConstraintRow& r : support.rows) {
+    EXPECT_NEAR(model::row_value(r, q), 0.0, round_off);
+  }
+}
+
 TEST_F(DrivenSupport, OnlyTheLocalDirectionTurnsWithTheNode) {
   const Vec3 turn(0.3, 0.9, -0.4);
   model::NodeSlots q = turned(turn);

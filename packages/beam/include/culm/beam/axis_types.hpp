@@ -9,7 +9,7 @@ namespace culm::beam {
 /// Makers take the order of the elements. They throw InputError for impossible geometry.
 using AxisRegistry = Registry<Axis, int>;
 
-/// Adds Line, Polyline, Arc, Arc Through Points, Helix and Nodes.
+/// Adds Line, Polyline, Arc, Arc Through Points, Helix, Spline and Nodes.
 void register_axes(AxisRegistry& registry);
 
 }  // namespace culm::beam

@@ -4,6 +4,7 @@
 #include <culm/math/types.hpp>
 
 #include <functional>
+#include <vector>
 
 namespace culm::beam {
 
@@ -24,6 +25,10 @@ Curve line(const Vec3& from, const Vec3& to);
 /// the axis.
 /// @pre `start` is not on the axis; angle != 0
 Curve helix(const Vec3& centre, const Vec3& axis, const Vec3& start, double angle, double pitch);
+
+/// Natural cubic spline through points; its normal is the coordinate axis least aligned with the
+/// line between its ends. @pre at least two points, neighbours and ends differ
+Curve spline(const std::vector<Vec3>& points);
 
 /// Circular arc from a through b to c. @pre the points are not on a line
 Curve arc_through(const Vec3& a, const Vec3& b, const Vec3& c);
