@@ -38,14 +38,15 @@ class Rod:
     """A rod clamped at s = 0 with triad `root` (columns d1, d2, d3) at `start`.
 
     stiffness(s): 6x6 in culm's order (shear 1, shear 2, stretch, curvature 1, curvature 2, twist);
-    curvature(s): components of the reference curvature and twist in the triad.
+    curvature(s): components of the reference curvature and twist in the triad. Both may jump or kink
+    where one step ends and the next begins: steps is their number, or the places of all ends.
     """
 
     def __init__(self, length, stiffness, root, start=(0.0, 0.0, 0.0), curvature=None, steps=400):
         self.length = length
         self.root = np.array(root, dtype=float)
         self.start = np.array(start, dtype=float)
-        self.steps = steps
+        self.places = np.linspace(0.0, length, steps + 1) if np.isscalar(steps) else np.array(steps)
         constant = None if callable(stiffness) else np.linalg.inv(np.array(stiffness, dtype=float))
         self.compliance = (
             (lambda s: np.linalg.inv(stiffness(s))) if constant is None else (lambda s: constant)
@@ -61,10 +62,10 @@ class Rod:
     def _integrate(self, r, n, m, load):
         """From the tip (x = 0) to the root; returns the states at all steps, root first."""
         x = np.zeros(3)
-        h = -self.length / self.steps
         states = [(x, r, n, m)]
-        for i in range(self.steps):
-            s = self.length + i * h
+        for end, begin in zip(self.places[:0:-1], self.places[-2::-1]):
+            h = begin - end
+            s = end + 1e-9 * h  # on this side of a jump, as s + h is
             k1 = self._rates(s, r, n, m, load)
             turn = h * 0.5 * k1[1]
             k2 = self._rates(
@@ -78,7 +79,7 @@ class Rod:
             )
             w3 = k3[1] - 0.5 * cross(turn, k3[1]) + cross(turn, cross(turn, k3[1])) / 12.0
             turn = h * w3
-            k4 = self._rates(s + h, exp_rotation(turn) @ r, n + h * k3[2], m + h * k3[3], load)
+            k4 = self._rates(begin - 1e-9 * h, exp_rotation(turn) @ r, n + h * k3[2], m + h * k3[3], load)
             w4 = k4[1] - 0.5 * cross(turn, k4[1]) + cross(turn, cross(turn, k4[1])) / 12.0
             r = exp_rotation(h / 6.0 * (k1[1] + 2.0 * w2 + 2.0 * w3 + w4)) @ r
             x = x + h / 6.0 * (k1[0] + 2.0 * k2[0] + 2.0 * k3[0] + k4[0])

@@ -82,19 +82,20 @@ void check_places(const BeamDynBlade& blade) {
 }
 
 void read_damping(InputFile& file, BeamDynBlade& blade, Report& report) {
-  const int type = file.integer("damp_type");
+  // the older name has the same values
+  const std::string keyword = file.has("damp_type") ? "damp_type" : "damp_flag";
+  const int type = file.integer(keyword);
   file.ignore({"n_modes", "zeta"});
   if (type == 1) {
     const auto rows = file.numbers_below("Damping");
     if (rows.empty() || rows.front().values.size() != 6) {
-      throw InputError(file.where("damp_type"),
-                       "announces six damping coefficients mu, there are not");
+      throw InputError(file.where(keyword), "announces six damping coefficients mu, there are not");
     }
     std::copy_n(rows.front().values.begin(), 6, blade.damping.begin());
   } else if (type == 2) {
     report.add(assumed, "damp_type 2, damping of modes, has no counterpart in culm: no damping");
   } else if (type != 0) {
-    throw InputError(file.where("damp_type"), fmt::format("must be 0, 1 or 2, got {}", type));
+    throw InputError(file.where(keyword), fmt::format("must be 0, 1 or 2, got {}", type));
   }
 }
 

@@ -85,9 +85,9 @@ void DeckWriter::set_degrees(const std::string& name, const std::vector<double>&
 void DeckWriter::set_triangle(const std::string& name, const Mat6& matrix) {
   line(fmt::format("<Parameter name=\"{}\" value=\"{{", escape(name)));
   for (int i = 0; i < 6; ++i) {
-    std::string row(static_cast<std::size_t>(2 + 12 * i), ' ');
+    std::string row(static_cast<std::size_t>(2 + 13 * i), ' ');
     for (int j = i; j < 6; ++j) {
-      row += j < 5 ? fmt::format("{:<12}", format(matrix(i, j)) + ", ") : format(matrix(i, j));
+      row += j < 5 ? fmt::format("{:<13}", format(matrix(i, j)) + ", ") : format(matrix(i, j));
     }
     line(row + (i < 5 ? "," : "}\"/>"));
   }

@@ -1,0 +1,164 @@
+#!/usr/bin/python3
+"""NREL 5 MW: the blade by BeamDyn's examples. Page: doc/verification/nrel5mw.md."""
+
+import functools
+import math
+import pathlib
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+from rod import Rod
+from verify import figure, main, richardson, save
+
+INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs/turbine/nrel5mw"
+STATIC, DYNAMIC = "turbine/nrel5mw/blade_static.xml", "turbine/nrel5mw/blade_dynamic.xml"
+LENGTH, ROOT, SPEED = 61.5, 1.0, 1.0006
+# BeamDyn at 0.01 s: r-test of OpenFAST, bd_5MW_dynamic_gravity_Az90; blade horizontal, at rest,
+# gravity along -y, mu = 1e-3. Tip displacement x, y, z in the axes of the root.
+BEAMDYN = {
+    0.10: (1.73450881e-3, -4.61099292e-2, -4.55473125e-5),
+    0.20: (-1.40464547e-2, -3.26605134e-1, -1.01107682e-3),
+    0.30: (-1.44682959e-2, -6.51135948e-1, -4.49145935e-3),
+    0.40: (3.92736638e-2, -8.03169376e-1, -6.42171223e-3),
+    0.47: (7.90453386e-2, -8.74622779e-1, -7.91327186e-3),
+}
+# Sections that kink between nodes make the error fall with the square of the mesh width, unevenly.
+MESHES = [(24, 1, 6e-3), (48, 1, 1.5e-3), (96, 1, 4e-4), (24, 2, 4e-4), (48, 2, 2e-4), (96, 2, 5e-5),
+          (192, 2, 1e-5), (24, 3, 4e-4), (96, 3, 5e-5), (192, 3, 1e-5)]
+AT_REST = [
+    "Constraints/root/Angle=0",
+    "Initial Conditions/spin/Angular Velocity={0, 0, 0}",
+    "Structures/blade/Damping=0.001",
+]
+
+
+def mesh(elements, order=2):
+    return [f"Structures/blade/Curve/Elements={elements}", f"Structures/blade/Order={order}"]
+
+
+def numbers(element, name):
+    for parameter in element.iter("Parameter"):
+        if parameter.get("name") == name:
+            return np.array([float(v) for v in parameter.get("value").strip("{}\n ").split(",")])
+    raise KeyError(name)
+
+
+def read_blade():
+    """Places, stiffness matrices and twist of the deck, read without culm."""
+    beam = ElementTree.parse(INPUTS / "blade_static.xml").getroot()
+    sections = ElementTree.parse(INPUTS / "include/blade_sections.xml").getroot()
+    matrices = []
+    for section in sections:
+        upper = np.zeros((6, 6))
+        upper[np.triu_indices(6)] = numbers(section, "Stiffness")
+        matrices.append(upper + np.triu(upper, 1).T)
+    twist = np.radians(numbers(beam, "Pre-Twist"))
+    return (numbers(beam, "Section Positions"), np.array(matrices),
+            numbers(beam, "Pre-Twist Positions"), twist)
+
+
+def integrate(parts):
+    """Tip displacement by integration of the rod, in equal parts between stations and key points."""
+    places, matrices, twist_places, twist = read_blade()
+    slopes = np.diff(twist) / np.diff(twist_places) / LENGTH
+
+    @functools.lru_cache(maxsize=None)
+    def stiffness(s):
+        span = min(max(s / LENGTH, 0.0), 1.0)
+        i = min(int(np.searchsorted(places, span, side="right")), len(places) - 1)
+        t = (span - places[i - 1]) / (places[i] - places[i - 1])
+        return (1.0 - t) * matrices[i - 1] + t * matrices[i]
+
+    @functools.lru_cache(maxsize=None)
+    def compliance(s):
+        return np.linalg.inv(stiffness(s))
+
+    @functools.lru_cache(maxsize=None)
+    def curvature(s):
+        i = int(np.searchsorted(twist_places, s / LENGTH, side="right"))
+        return np.array([0.0, 0.0, slopes[min(max(i - 1, 0), len(slopes) - 1)]])
+
+    c, s = math.cos(twist[0]), math.sin(twist[0])
+    breaks = LENGTH * np.unique(np.round(np.concatenate((places, twist_places)), 9))
+    ends = [np.linspace(a, b, parts, endpoint=False) for a, b in zip(breaks, breaks[1:])]
+    rod = Rod(LENGTH, stiffness, [[c, -s, 0], [s, c, 0], [0, 0, 1]], curvature=curvature,
+              steps=np.append(np.concatenate(ends), LENGTH))
+    rod.compliance = compliance
+    states = rod.solve(load=lambda s, r: (np.array([1e4, 0.0, 0.0]), np.zeros(3)), levels=3)
+    return [float(v) for v in states[-1][0] - np.array([0.0, 0.0, LENGTH])]
+
+
+def turned(history):
+    """Tip displacements at tenths of a second in the axes that turn with the root."""
+    tips = []
+    for i in range(0, 51):
+        u = np.array(history.vector("tip", i / 10)) + np.array([0.0, 0.0, ROOT + LENGTH])
+        c, s = math.cos(SPEED * i / 10), math.sin(SPEED * i / 10)
+        tips.append([u[0], c * u[1] + s * u[2], -s * u[1] + c * u[2] - ROOT - LENGTH])
+    return np.array(tips)
+
+
+def difference(found, wanted):
+    """The largest over time, over the largest displacement."""
+    return float(np.max(np.linalg.norm(found - wanted, axis=1))
+                 / np.max(np.linalg.norm(wanted, axis=1)))
+
+
+def verify_static(culm, report):
+    report.title("Blade under 10 kN/m in x: displacement of the tip [m]")
+    coarse, fine = integrate(2), integrate(4)
+    report.relative("integration of the rod, 2 and 4 steps per station", coarse, fine, 5e-6)
+    for elements, order, tolerance in MESHES:
+        tip = culm.history(STATIC, mesh(elements, order)).vector("tip")
+        report.relative(f"{elements} elements of order {order}", tip, fine, tolerance)
+
+
+def verify_dynamic(culm, report):
+    report.title("Turning blade: tip in the axes of the root, largest difference over 5 s")
+    short = ["Analyses/motion/End Time=5"]
+    runs = {}
+    for step in (0.02, 0.01, 0.005, 0.0025):
+        run = culm.run(DYNAMIC, [*short, f"Analyses/motion/Step={step}"], quiet=False)
+        report.holds(f"step {step} s: energy balance", run.drift("energy balance"), 1e-9)
+        runs[step] = turned(run.history)
+    limit = richardson(runs[0.005], runs[0.0025])
+    for step, tolerance in [(0.02, 8e-2), (0.01, 2e-2), (0.005, 5e-3)]:
+        report.holds(f"step {step} s against the limit", difference(runs[step], limit), tolerance)
+    fine = turned(culm.history(DYNAMIC, [*short, *mesh(96)]))
+    report.holds("24 elements against 96", difference(runs[0.01], fine), 3e-2)
+    at_end = ", ".join(f"{v:.4f}" for v in limit[-1])
+    report.note(f"limit after 5 s: {at_end} m")
+
+    report.title("Blade at rest, horizontal, released under its weight: tip [m]")
+    history = culm.history(DYNAMIC, AT_REST + ["Analyses/motion/End Time=0.5"])
+    for time, wanted in BEAMDYN.items():
+        tip = history.vector("tip", time)
+        report.check(f"BeamDyn at {time} s", tip, list(wanted), 0.02)
+
+
+def verify(culm, report):
+    verify_static(culm, report)
+    verify_dynamic(culm, report)
+
+
+def plot(culm, path):
+    fig, (left, right) = figure(2)
+    limit = integrate(2)
+    for order, counts in [(1, (12, 24, 48, 96, 192)), (2, (6, 12, 24, 48, 96)), (3, (4, 8, 16, 32, 64))]:
+        errors = [math.dist(culm.history(STATIC, mesh(n, order)).vector("tip"), limit)
+                  / math.hypot(*limit) for n in counts]
+        left.loglog([n * order + 1 for n in counts], errors, ".-", label=f"culm, order {order}")
+    left.set(xlabel="nodes", ylabel="relative error of the tip [-]", title="Static, 10 kN/m")
+    left.legend(fontsize=7)
+    history = culm.history(DYNAMIC, AT_REST + ["Analyses/motion/End Time=0.5"])
+    for c, name in enumerate("xy"):
+        right.plot(history.levels, history.column(f"tip u{name} [m]"), label=f"culm, u{name}")
+        right.plot(list(BEAMDYN), [u[c] for u in BEAMDYN.values()], "ks", mfc="none",
+                   label="BeamDyn" if c == 0 else None)
+    right.set(xlabel="time [s]", ylabel="tip [m]", title="Released horizontally")
+    right.legend(fontsize=7)
+    save(fig, path)
+
+
+if __name__ == "__main__":
+    main(verify, plot)
