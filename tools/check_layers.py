@@ -24,6 +24,7 @@ EXTERNAL = [
     (r"Teuchos_.*", TEUCHOS, False),
     (r"(Tpetra|Kokkos|Thyra|Xpetra).*", TPETRA, False),
     (r"(NOX|LOCA|Amesos2|Anasazi|Belos|Ifpack2|MueLu|Stratimikos)[_.A-Z].*", {"solver"}, False),
+    (r"Spectra/.*", {"solver"}, False),
     (r"[sdcz]mumps_c\.h$", {"solver"}, False),
     (r"metis\.h$", {"parallel"}, False),
     (r"(hdf5|H5).*", {"output", "simulation"}, False),

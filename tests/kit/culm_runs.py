@@ -62,8 +62,28 @@ class History:
         return [self.columns[name][row] for name in names]
 
 
+class Table:
+    """Columns of a table that an analysis wrote, such as 'frequency [Hz]'; rows from 1."""
+
+    def __init__(self, path):
+        with open(path, newline="") as file:
+            rows = list(csv.reader(file))
+        self.names = rows[0]
+        self.rows = rows[1:]
+
+    def column(self, name):
+        if name not in self.names:
+            raise KeyError(f"no column '{name}' among: {', '.join(self.names)}")
+        i = self.names.index(name)
+        return [row[i] if name == "remark" else float(row[i]) for row in self.rows]
+
+    def at(self, row, name):
+        return self.column(name)[row - 1]
+
+
 class Run:
-    """Exit code, what was printed, and the history if one was written."""
+    """Exit code, what was printed, the history if one was written, and the tables by their paths
+    below analyses/, such as 'modes/modes'."""
 
     def drift(self, what):
         """A number of the certificate, such as 'energy balance'; the run must not be quiet."""
@@ -89,6 +109,10 @@ class Run:
         self.output = process.stdout
         history = pathlib.Path(folder) / "history.csv"
         self.history = History(history) if history.exists() else None
+        self.tables = {
+            f"{path.parent.name}/{path.stem}": Table(path)
+            for path in sorted(pathlib.Path(folder).glob("analyses/*/*.csv"))
+        }
 
 
 class Culm:
@@ -114,9 +138,15 @@ class Culm:
             )
             return Run(process, folder)
 
-    def history(self, deck, settings=(), ranks=1):
+    def succeed(self, deck, settings=(), ranks=1):
         """As run, but the run must succeed."""
         run = self.run(deck, settings, ranks)
         if run.exit != 0:
             raise RunFailed(f"{deck} {list(settings)}: exit code {run.exit}\n{run.errors}")
-        return run.history
+        return run
+
+    def history(self, deck, settings=(), ranks=1):
+        return self.succeed(deck, settings, ranks).history
+
+    def table(self, name, deck, settings=(), ranks=1):
+        return self.succeed(deck, settings, ranks).tables[name]

@@ -1,4 +1,5 @@
 #include <culm/analysis/dynamics.hpp>
+#include <culm/analysis/modal.hpp>
 #include <culm/analysis/register_analysis.hpp>
 #include <culm/analysis/statics.hpp>
 
@@ -7,6 +8,7 @@ namespace culm::analysis {
 void register_analyses(AnalysisRegistry& registry) {
   registry.add("Static", Statics::schema(), Statics::make);
   registry.add("Dynamic", Dynamics::schema(), Dynamics::make);
+  registry.add("Modal", Modal::schema(), Modal::make);
 }
 
 }  // namespace culm::analysis

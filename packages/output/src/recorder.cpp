@@ -209,6 +209,24 @@ class Recorder::File {
     file_.flush();
   }
 
+  void write_results(const AnalysisResults& results) {
+    const Handle all = has_link(file_, file_.id(), "analyses")
+                           ? open_group(file_, file_.id(), "analyses")
+                           : file_.make_group(file_.id(), "analyses");
+    const std::string name = link_name(results.name);
+    file_.remove_if_present(all.id(), name);
+    const Handle group = file_.make_group(all.id(), name);
+    for (const NamedTable& table : results.tables) {
+      file_.write(group.id(), link_name(table.name), flatten_rows(table.rows),
+                  {table.rows.size(), table.columns.size()});
+      const Handle dataset = open_dataset(file_, group.id(), link_name(table.name));
+      file_.set_attribute(dataset.id(), "names", table.columns);
+      if (!table.remarks.empty()) file_.set_attribute(dataset.id(), "remarks", table.remarks);
+    }
+    if (!results.shapes.empty()) write_shapes(group.id(), results);
+    file_.flush();
+  }
+
   void close() {
     file_.check(steps_.close(), "close steps");
     file_.check(history_.close(), "close history");
@@ -216,6 +234,19 @@ class Recorder::File {
   }
 
  private:
+  void write_shapes(hid_t where, const AnalysisResults& results) {
+    const Handle real = file_.make_group(where, "shapes");
+    file_.set_attribute(real.id(), "names", results.shape_names);
+    for (const StructureShapes& s : results.shapes) {
+      file_.write(real.id(), link_name(s.structure), s.real, {s.shapes, s.nodes, 6});
+    }
+    if (results.shapes.front().imaginary.empty()) return;
+    const Handle imaginary = file_.make_group(where, "shapes_imaginary");
+    for (const StructureShapes& s : results.shapes) {
+      file_.write(imaginary.id(), link_name(s.structure), s.imaginary, {s.shapes, s.nodes, 6});
+    }
+  }
+
   void write_arrays(hid_t step, const std::vector<NamedArray>& arrays) {
     // A structure may have any name, so free arrays stand in a place that no structure name makes.
     const Handle group = file_.make_group(step, "%arrays");
@@ -268,6 +299,12 @@ void Recorder::add_history(double time, std::span<const double> values) {
   internal_check(file_ != nullptr, "the recorder is closed");
   const QuietHdf5 quiet;
   file_->add_history(time, values);
+}
+
+void Recorder::write_results(const AnalysisResults& results) {
+  internal_check(file_ != nullptr, "the recorder is closed");
+  const QuietHdf5 quiet;
+  file_->write_results(results);
 }
 
 void Recorder::write_report(const std::string& text, std::span<const NamedScalar> scalars) {

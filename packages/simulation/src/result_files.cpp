@@ -3,114 +3,16 @@
 #include <culm/output/checkpoint_file.hpp>
 #include <culm/simulation/result_files.hpp>
 
+#include "analysis_files.hpp"
 #include "checkpoints.hpp"
 #include "on_root.hpp"
+#include "picture_frames.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace culm::simulation {
-namespace {
-
-using model::NodeTable;
-
-void read_nodes(const model::Structure& structure, const model::Coordinates& q,
-                std::vector<Vec3>& positions, std::vector<Mat3>& triads) {
-  const bool is_shell = !structure.faces.empty();
-  for (int node : structure.nodes) {
-    const auto slots = NodeTable::slots(q, node);
-    positions.emplace_back(slots.col(0));
-    triads.emplace_back(slots.rightCols<3>());
-    // the one director of a shell node points through the thickness: pictures expect it as d3
-    if (is_shell) triads.back().col(2).swap(triads.back().col(0));
-  }
-}
-
-output::CellType cell_type(std::size_t nodes, bool is_shell) {
-  if (is_shell) return output::CellType::quad4;
-  return nodes == 1 ? output::CellType::vertex : output::CellType::line;
-}
-
-output::StructureMesh mesh_of(const model::Structure& structure,
-                              const model::Coordinates& reference) {
-  output::StructureMesh mesh;
-  mesh.name = structure.name;
-  const bool is_shell = !structure.faces.empty();
-  mesh.type = is_shell ? "Shell" : structure.nodes.size() == 1 ? "Body" : "Beam";
-  if (is_shell) mesh.directors = output::Directors::single;
-  mesh.outlines = structure.outlines;
-  read_nodes(structure, reference, mesh.positions, mesh.triads);
-  std::unordered_map<int, int> number;  // of a node within the structure
-  for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
-  for (const model::Cell& cell : structure.cells) {
-    output::Cell picture;
-    picture.type = cell_type(cell.nodes.size(), is_shell);
-    for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
-    mesh.cells.push_back(picture);
-    if (cell.source != nullptr) mesh.resultant_names = cell.source->resultant_names();
-  }
-  return mesh;
-}
-
-std::vector<int> shown_layers(const model::Structure& structure, const LayerSettings& settings) {
-  std::vector<int> shown;
-  const bool wanted = settings.stresses || settings.strains;
-  for (int layer = 0; wanted && structure.layers != nullptr && layer < structure.layers->layers();
-       ++layer) {
-    const auto& chosen = settings.layers;
-    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), layer) != chosen.end()) {
-      shown.push_back(layer);
-    }
-  }
-  return shown;
-}
-
-std::vector<output::CellArray> layer_arrays(const model::Structure& structure,
-                                            const LayerSettings& settings) {
-  std::vector<output::CellArray> arrays;
-  for (int layer : shown_layers(structure, settings)) {
-    for (const char* height : model::layer_heights) {
-      const auto add = [&](const char* what) {
-        arrays.push_back({fmt::format("{} layer {} {}", what, layer, height),
-                          {"11", "22", "33", "23", "13", "12"}});
-      };
-      if (settings.stresses) add("stress");
-      if (settings.strains) add("strain");
-    }
-  }
-  return arrays;
-}
-
-// The numbers of those arrays.
-std::vector<std::vector<double>> layer_values(const model::Structure& structure,
-                                              const LayerSettings& settings,
-                                              const model::Coordinates& q) {
-  const std::vector<int> shown = shown_layers(structure, settings);
-  std::vector<std::vector<double>> values;
-  if (shown.empty()) return values;
-  values.resize(layer_arrays(structure, settings).size());
-  for (std::size_t cell = 0; cell < structure.cells.size(); ++cell) {
-    const std::vector<model::LayerState> states =
-        structure.layers->states(static_cast<int>(cell), q);
-    auto array = values.begin();
-    const auto add = [&](const Vec6& v) {
-      array->insert(array->end(), v.begin(), v.end()), ++array;
-    };
-    for (int layer : shown) {
-      for (std::size_t height = 0; height < model::layer_heights.size(); ++height) {
-        const model::LayerState& state =
-            states[static_cast<std::size_t>(layer) * model::layer_heights.size() + height];
-        if (settings.stresses) add(state.stress);
-        if (settings.strains) add(state.strain);
-      }
-    }
-  }
-  return values;
-}
-
-}  // namespace
 
 LayerSettings read_layer_settings(const Options& shell, const model::Model& model) {
   LayerSettings settings{shell.flag("Stresses"), shell.flag("Strains")};
@@ -127,16 +29,6 @@ LayerSettings read_layer_settings(const Options& shell, const model::Model& mode
         fmt::format("no shell has more than {} layers, numbered from 0, got {}", most, layer));
   }
   return settings;
-}
-
-std::vector<output::StructureMesh> ResultFiles::meshes() const {
-  const model::Model& model = system_.model();
-  std::vector<output::StructureMesh> meshes;
-  for (const model::Structure& structure : model.structures()) {
-    meshes.push_back(mesh_of(structure, model.nodes().reference()));
-    meshes.back().cell_arrays = layer_arrays(structure, settings_.layers);
-  }
-  return meshes;
 }
 
 ResultFiles::ResultFiles(assembly::System& system, ResultSettings settings,
@@ -163,7 +55,7 @@ void ResultFiles::open() {
   const std::filesystem::path checkpoint = checkpoint_path(folder);
   std::filesystem::remove(checkpoint, failure);
   std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
-  const auto meshes = this->meshes();
+  const auto meshes = meshes_of(system_.model(), settings_.layers);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
@@ -176,7 +68,7 @@ void ResultFiles::open() {
 // The result file is cut to the time of the checkpoint; the others are made again from it.
 void ResultFiles::reopen() {
   const std::filesystem::path& folder = settings_.folder;
-  const auto meshes = this->meshes();
+  const auto meshes = meshes_of(system_.model(), settings_.layers);
   const auto recorded = output::find_recorded(folder / "run.h5", frames_, rows_);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), recorded);
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
@@ -202,24 +94,6 @@ std::vector<output::HistoryColumn> ResultFiles::columns() const {
   return all;
 }
 
-output::Frame ResultFiles::frame(double time, const model::State& state) const {
-  output::Frame frame;
-  frame.index = static_cast<int>(frames_);
-  frame.time = time;
-  for (const model::Structure& structure : system_.model().structures()) {
-    output::StructureState s;
-    read_nodes(structure, state.next, s.positions, s.triads);
-    for (const model::Cell& cell : structure.cells) {
-      s.resultants.emplace_back();
-      if (cell.source != nullptr)
-        cell.source->resultants(cell.item, state.next, s.resultants.back());
-    }
-    s.cell_values = layer_values(structure, settings_.layers, state.next);
-    frame.structures.push_back(std::move(s));
-  }
-  return frame;
-}
-
 void ResultFiles::add_history(double time, model::State& state) {
   system_.synchronise(state);
   std::vector<double> numbers;
@@ -236,12 +110,25 @@ void ResultFiles::add_history(double time, model::State& state) {
 void ResultFiles::record(double time, model::State& state) {
   system_.synchronise(state);
   on_root(system_.comm(), [&] {
-    const output::Frame f = frame(time, state);
+    output::Frame f = frame_of(system_.model(), settings_.layers, state.next);
+    f.index = static_cast<int>(frames_);
+    f.time = time;
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
     if (files_->pictures) files_->pictures->add(f);
   });
   ++frames_;
+}
+
+void ResultFiles::add_results(const std::string& name, const analysis::AnalysisReport& report,
+                              const model::State& state) {
+  if (report.tables.empty() && report.shapes.empty()) return;
+  on_root(system_.comm(), [&] {
+    files_->recorder.write_results(results_of(system_.model(), name, report));
+    const auto written = write_analysis_files(system_.model(), name, report, state,
+                                              settings_.folder, settings_.pictures);
+    analysis_files_.insert(analysis_files_.end(), written.begin(), written.end());
+  });
 }
 
 void ResultFiles::finish(const std::string& report,
@@ -256,7 +143,10 @@ void ResultFiles::finish(const std::string& report,
 
 std::vector<std::filesystem::path> ResultFiles::paths() const {
   std::vector<std::filesystem::path> paths;
-  for (const char* name : {"run.h5", "run.xdmf", "history.csv", "run.pvd", "run_skin.pvd"}) {
+  std::vector<std::filesystem::path> names = {"run.h5", "run.xdmf", "history.csv", "run.pvd",
+                                              "run_skin.pvd"};
+  names.insert(names.end(), analysis_files_.begin(), analysis_files_.end());
+  for (const auto& name : names) {
     const std::filesystem::path path = settings_.folder / name;
     // pictures are written on demand, and skins only where there are outlines
     if (system_.comm().is_root() && std::filesystem::exists(path)) paths.push_back(path);

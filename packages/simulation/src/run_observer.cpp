@@ -107,7 +107,12 @@ void RunObserver::restore(const Snapshot& snapshot) {
   }
 }
 
-void RunObserver::finish_analysis(const analysis::AnalysisReport& report) {
+void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
+                                  const model::State& state) {
+  {
+    const Ledger::Scope scope(context_.ledger, output_effect_);
+    files_.add_results(name_, report, state);
+  }
   certificates_ += report.text;
   const bool is_first = numbers_.empty();
   for (const auto& [name, value] : report.numbers) {

@@ -31,7 +31,7 @@ class RunObserver final : public analysis::Observer {
   void step(const analysis::StepReport& report, model::State& state) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
   void write_checkpoint(model::State& state);
-  void finish_analysis(const analysis::AnalysisReport& report);
+  void finish_analysis(const analysis::AnalysisReport& report, const model::State& state);
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
   /// Results, ledger and convergence of the run, for the user.

@@ -96,7 +96,7 @@ void Simulation::run_analyses(analysis::Context& context, model::State& state,
     try {
       const auto report = resumes ? analysis->resume(context, state, observer, *from)
                                   : analysis->run(context, state, observer);
-      observer.finish_analysis(report);
+      observer.finish_analysis(report, state);
     } catch (const Error& error) {
       // other tolerances or steps may find the way that these did not
       if (is_numerical(error)) write_last_checkpoint(state, observer);

@@ -1,6 +1,7 @@
 /// What every analysis shares.
 #pragma once
 
+#include <culm/analysis/shape.hpp>
 #include <culm/base/log.hpp>
 #include <culm/base/snapshot.hpp>
 #include <culm/solver/newton_solver.hpp>
@@ -39,10 +40,20 @@ struct Context {
   const Log& log;
 };
 
+/// Numbers in rows for result files.
+struct ReportTable {
+  std::string name;
+  std::vector<std::string> columns;  ///< names with units
+  std::vector<std::vector<double>> rows;
+  std::vector<std::string> remarks;  ///< one per row, or none
+};
+
 /// What an analysis says at its end, beside its steps.
 struct AnalysisReport {
   std::string text;
   std::vector<std::pair<std::string, double>> numbers;
+  std::vector<ReportTable> tables = {};
+  std::vector<Shape> shapes = {};  ///< about the state at the end
 };
 
 /// Makes the new equilibrium the start of the next step.

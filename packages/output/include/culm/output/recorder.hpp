@@ -1,5 +1,6 @@
 #pragma once
 
+#include <culm/output/analysis_results.hpp>
 #include <culm/output/picture_mesh.hpp>
 #include <culm/output/recorded.hpp>
 
@@ -25,6 +26,8 @@ struct RunInfo {
 ///     topology /steps/000000/<structure>   position, displacement, director1..3, resultants, node
 ///     and cell arrays /history/values   one row per add_history(); attributes names, units; first
 ///     column time /report   text, scalars/<name>
+///     /analyses/<analysis>   one table per name, attributes names, remarks; shapes/<structure>
+///     (shape, node, displacement and rotation), imaginary parts in shapes_imaginary/<structure>
 ///
 /// and per step whatever Frame::arrays holds in /steps/000000/%arrays. In names the characters / :
 /// % | are written as %XX.
@@ -56,6 +59,9 @@ class Recorder {
   /// @param time    s
   /// @param values  one per column given to the constructor
   void add_history(double time, std::span<const double> values);
+
+  /// Writes what an analysis found beside its steps, or replaces it.
+  void write_results(const AnalysisResults& results);
 
   /// Writes the final report, or replaces the one that is there.
   void write_report(const std::string& text, std::span<const NamedScalar> scalars);

@@ -1,7 +1,7 @@
 /// Everything a run leaves on disk.
 #pragma once
 
-#include <culm/assembly/system.hpp>
+#include <culm/analysis/analysis.hpp>
 #include <culm/base/snapshot.hpp>
 #include <culm/output/history_csv.hpp>
 #include <culm/output/recorder.hpp>
@@ -60,6 +60,10 @@ class ResultFiles {
   bool is_due(int step) const { return step % settings_.every == 0; }
   /// Records a whole state.
   void record(double time, model::State& state);
+  /// Records what an analysis says at its end; its pictures and tables go to a folder of its name.
+  /// @param state up to date on all ranks
+  void add_results(const std::string& name, const analysis::AnalysisReport& report,
+                   const model::State& state);
   /// Ends the files with the report of the run.
   void finish(const std::string& report, const std::vector<output::NamedScalar>& scalars);
   /// Paths of the files that a user opens.
@@ -76,14 +80,13 @@ class ResultFiles {
 
   void open();
   void reopen();
-  std::vector<output::StructureMesh> meshes() const;
   std::vector<output::HistoryColumn> columns() const;
-  output::Frame frame(double time, const model::State& state) const;
 
   assembly::System& system_;
   ResultSettings settings_;
   const std::vector<WatchedQuantity>& watched_;
   std::unique_ptr<Files> files_;
+  std::vector<std::filesystem::path> analysis_files_;  ///< for paths(); on rank 0
   std::size_t frames_ = 0;
   std::size_t rows_ = 0;  ///< of the history
 };

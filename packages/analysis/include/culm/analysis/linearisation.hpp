@@ -1,0 +1,26 @@
+/// The equations linearised about a state.
+#pragma once
+
+#include <culm/analysis/analysis.hpp>
+
+namespace culm::analysis {
+
+/// Tangent and mass about a state, in the unknowns of the system; rows and columns of constraints
+/// border the tangent and are zero in the mass.
+struct Linearisation {
+  Teuchos::RCP<const assembly::CrsMatrix> stiffness;
+  Teuchos::RCP<const assembly::CrsMatrix> mass;
+  double asymmetry = 0.0;      ///< of the stiffness, as solver::asymmetry
+  bool is_equilibrium = true;  ///< but for rounding
+  double residual = 0.0;       ///< largest force residual over the force scale
+};
+
+/// About state.next, at the loads of state.time, without inertia; warns where it is no equilibrium.
+/// Throws NonFiniteError. Collective.
+Linearisation linearise(Context& context, const model::State& state);
+
+/// Typical squared frequency of the displacement of single nodes, the geometric mean of K_ii / M_ii
+/// [1/s^2]: orders of magnitude above the first of a structure.
+double typical_eigenvalue(const Linearisation& linear, const assembly::System& system);
+
+}  // namespace culm::analysis

@@ -1,0 +1,90 @@
+#include <culm/analysis/linearisation.hpp>
+#include <culm/base/error.hpp>
+#include <culm/solver/eigen_solver.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace culm::analysis {
+namespace {
+
+using assembly::CrsMatrix;
+
+// Want::mass borders the mass by the constraint Jacobian; it has no part in inertia.
+void remove_border(const assembly::System& system, CrsMatrix& mass) {
+  std::vector<bool> is_multiplier;  // by local column
+  for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
+    const model::Block& block = system.model().unknowns().block(local.block);
+    const auto end = static_cast<std::size_t>(local.first_column + block.shape.active);
+    if (is_multiplier.size() < end) is_multiplier.resize(end, false);
+    if (block.kind != model::BlockKind::multipliers) continue;
+    for (auto i = static_cast<std::size_t>(local.first_column); i < end; ++i) {
+      is_multiplier[i] = true;
+    }
+  }
+  const auto matrix = mass.getLocalMatrixHost();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(matrix.numRows()); ++row) {
+    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
+      const auto column = static_cast<std::size_t>(matrix.graph.entries(k));
+      if (is_multiplier[row] || is_multiplier[column]) matrix.values(k) = 0.0;
+    }
+  }
+}
+
+}  // namespace
+
+Linearisation linearise(Context& context, const model::State& state) {
+  assembly::System& system = context.system;
+  const Stencil stencil = Stencil::statics();
+  system.begin_step(state, stencil);
+  system.choose_multiplier_scale(state, stencil);
+  const assembly::Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
+  Linearisation linear;
+  linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+  const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
+  const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+  remove_border(system, *mass);
+  linear.mass = mass;
+  if (worse(found.verdict, inertia.verdict) != Verdict::ok) {
+    throw NonFiniteError(
+        "Stiffness or mass is not finite where the equations are linearised.\n"
+        "Try: check units and load functions.");
+  }
+  linear.asymmetry = solver::asymmetry(linear.stiffness, system.comm());
+  if (found.force_scale > 0.0) linear.residual = found.force_residual / found.force_scale;
+  linear.is_equilibrium =
+      linear.residual < 1e-6 || found.force_residual < 1e3 * found.round_off_force;
+  if (!linear.is_equilibrium) {
+    context.log.warning(fmt::format(
+        "the state is no equilibrium: forces are out of balance by {:.2g} of the largest one. "
+        "A static analysis before this one finds the equilibrium",
+        linear.residual));
+  }
+  return linear;
+}
+
+double typical_eigenvalue(const Linearisation& linear, const assembly::System& system) {
+  assembly::Vector stiffness(linear.stiffness->getRowMap());
+  assembly::Vector mass(linear.stiffness->getRowMap());
+  linear.stiffness->getLocalDiagCopy(stiffness);
+  linear.mass->getLocalDiagCopy(mass);
+  const auto k = assembly::values_of(stiffness);
+  const auto m = assembly::values_of(mass);
+  double sums[2] = {0.0, 0.0};  // of logarithms, and their number
+  for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
+    const model::Block& block = system.model().unknowns().block(local.block);
+    if (!local.owned || block.kind != model::BlockKind::node) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (block.shape.position[i] < 0) continue;
+      const auto row = static_cast<std::size_t>(local.first_column + block.shape.position[i]);
+      if (!(k[row] > 0.0 && m[row] > 0.0)) continue;
+      sums[0] += std::log(k[row] / m[row]);
+      sums[1] += 1.0;
+    }
+  }
+  system.comm().sum(sums);
+  return sums[1] > 0.0 ? std::exp(sums[0] / sums[1]) : 1.0;
+}
+
+}  // namespace culm::analysis

@@ -1,0 +1,97 @@
+#include "analysis_files.hpp"
+
+#include <culm/base/error.hpp>
+#include <culm/output/file_part.hpp>
+#include <culm/output/vtu.hpp>
+
+#include "picture_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace culm::simulation {
+namespace {
+
+// Of one period, evenly spaced; the end of the period would repeat the start.
+constexpr int frames_per_period = 16;
+
+void animate(const model::Model& model, const analysis::Shape& shape, const std::string& stem,
+             const model::State& state, const std::filesystem::path& folder) {
+  output::Pictures pictures(folder, stem, meshes_of(model, {}));
+  const double factor = analysis::visible_factor(model, shape);
+  for (int i = 0; i < frames_per_period; ++i) {
+    const double part = static_cast<double>(i) / frames_per_period;
+    model::Coordinates q = state.next;
+    analysis::displace(model, shape, factor, 2.0 * std::numbers::pi * part, q);
+    output::Frame frame = frame_of(model, {}, q);
+    frame.index = i;
+    frame.time = part;
+    pictures.add(frame);
+  }
+  pictures.write();
+}
+
+void append_rows(std::vector<double>& all, const std::vector<int>& nodes,
+                 const std::vector<Vec6>& motions) {
+  for (int node : nodes) {
+    const Vec6& motion = motions[static_cast<std::size_t>(node)];
+    all.insert(all.end(), motion.data(), motion.data() + 6);
+  }
+}
+
+}  // namespace
+
+output::AnalysisResults results_of(const model::Model& model, const std::string& name,
+                                   const analysis::AnalysisReport& report) {
+  output::AnalysisResults results;
+  results.name = name;
+  for (const analysis::ReportTable& table : report.tables) {
+    results.tables.push_back({table.name, table.columns, table.rows, table.remarks});
+  }
+  if (report.shapes.empty()) return results;
+  for (const analysis::Shape& shape : report.shapes) results.shape_names.push_back(shape.name);
+  const bool is_complex = std::any_of(report.shapes.begin(), report.shapes.end(),
+                                      [](const auto& shape) { return !shape.imaginary.empty(); });
+  const std::vector<Vec6> nothing(static_cast<std::size_t>(model.nodes().size()), Vec6::Zero());
+  for (const model::Structure& structure : model.structures()) {
+    output::StructureShapes shapes;
+    shapes.structure = structure.name;
+    shapes.shapes = report.shapes.size();
+    shapes.nodes = structure.nodes.size();
+    for (const analysis::Shape& shape : report.shapes) {
+      append_rows(shapes.real, structure.nodes, shape.real);
+      if (!is_complex) continue;
+      append_rows(shapes.imaginary, structure.nodes,
+                  shape.imaginary.empty() ? nothing : shape.imaginary);
+    }
+    results.shapes.push_back(std::move(shapes));
+  }
+  return results;
+}
+
+std::vector<std::filesystem::path> write_analysis_files(
+    const model::Model& model, const std::string& name, const analysis::AnalysisReport& report,
+    const model::State& state, const std::filesystem::path& folder, bool pictures) {
+  const std::filesystem::path own = std::filesystem::path("analyses") / output::file_part(name);
+  std::error_code failure;
+  std::filesystem::remove_all(folder / own, failure);  // of an earlier run with other modes
+  if (!failure) std::filesystem::create_directories(folder / own, failure);
+  if (failure) throw FileError((folder / own).string(), failure.message());
+  std::vector<std::filesystem::path> files;
+  for (const analysis::ReportTable& table : report.tables) {
+    files.push_back(own / (table.name + ".csv"));
+    output::write_csv(folder / files.back(),
+                      {table.name, table.columns, table.rows, table.remarks});
+  }
+  if (!pictures) return files;
+  for (std::size_t i = 0; i < report.shapes.size(); ++i) {
+    const std::string stem = fmt::format("shape_{:02}", i + 1);
+    animate(model, report.shapes[i], stem, state, folder / own);
+    if (i == 0) files.push_back(own / (stem + ".pvd"));
+  }
+  return files;
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,137 @@
+#include "picture_frames.hpp"
+
+#include <culm/model/layer_source.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace culm::simulation {
+namespace {
+
+using model::NodeTable;
+
+void read_nodes(const model::Structure& structure, const model::Coordinates& q,
+                std::vector<Vec3>& positions, std::vector<Mat3>& triads) {
+  const bool is_shell = !structure.faces.empty();
+  for (int node : structure.nodes) {
+    const auto slots = NodeTable::slots(q, node);
+    positions.emplace_back(slots.col(0));
+    triads.emplace_back(slots.rightCols<3>());
+    // the one director of a shell node points through the thickness: pictures expect it as d3
+    if (is_shell) triads.back().col(2).swap(triads.back().col(0));
+  }
+}
+
+output::CellType cell_type(std::size_t nodes, bool is_shell) {
+  if (is_shell) return output::CellType::quad4;
+  return nodes == 1 ? output::CellType::vertex : output::CellType::line;
+}
+
+output::StructureMesh mesh_of(const model::Structure& structure,
+                              const model::Coordinates& reference) {
+  output::StructureMesh mesh;
+  mesh.name = structure.name;
+  const bool is_shell = !structure.faces.empty();
+  mesh.type = is_shell ? "Shell" : structure.nodes.size() == 1 ? "Body" : "Beam";
+  if (is_shell) mesh.directors = output::Directors::single;
+  mesh.outlines = structure.outlines;
+  read_nodes(structure, reference, mesh.positions, mesh.triads);
+  std::unordered_map<int, int> number;  // of a node within the structure
+  for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
+  for (const model::Cell& cell : structure.cells) {
+    output::Cell picture;
+    picture.type = cell_type(cell.nodes.size(), is_shell);
+    for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
+    mesh.cells.push_back(picture);
+    if (cell.source != nullptr) mesh.resultant_names = cell.source->resultant_names();
+  }
+  return mesh;
+}
+
+std::vector<int> shown_layers(const model::Structure& structure, const LayerSettings& settings) {
+  std::vector<int> shown;
+  const bool wanted = settings.stresses || settings.strains;
+  for (int layer = 0; wanted && structure.layers != nullptr && layer < structure.layers->layers();
+       ++layer) {
+    const auto& chosen = settings.layers;
+    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), layer) != chosen.end()) {
+      shown.push_back(layer);
+    }
+  }
+  return shown;
+}
+
+std::vector<output::CellArray> layer_arrays(const model::Structure& structure,
+                                            const LayerSettings& settings) {
+  std::vector<output::CellArray> arrays;
+  for (int layer : shown_layers(structure, settings)) {
+    for (const char* height : model::layer_heights) {
+      const auto add = [&](const char* what) {
+        arrays.push_back({fmt::format("{} layer {} {}", what, layer, height),
+                          {"11", "22", "33", "23", "13", "12"}});
+      };
+      if (settings.stresses) add("stress");
+      if (settings.strains) add("strain");
+    }
+  }
+  return arrays;
+}
+
+// The numbers of those arrays.
+std::vector<std::vector<double>> layer_values(const model::Structure& structure,
+                                              const LayerSettings& settings,
+                                              const model::Coordinates& q) {
+  const std::vector<int> shown = shown_layers(structure, settings);
+  std::vector<std::vector<double>> values;
+  if (shown.empty()) return values;
+  values.resize(layer_arrays(structure, settings).size());
+  for (std::size_t cell = 0; cell < structure.cells.size(); ++cell) {
+    const std::vector<model::LayerState> states =
+        structure.layers->states(static_cast<int>(cell), q);
+    auto array = values.begin();
+    const auto add = [&](const Vec6& v) {
+      array->insert(array->end(), v.begin(), v.end()), ++array;
+    };
+    for (int layer : shown) {
+      for (std::size_t height = 0; height < model::layer_heights.size(); ++height) {
+        const model::LayerState& state =
+            states[static_cast<std::size_t>(layer) * model::layer_heights.size() + height];
+        if (settings.stresses) add(state.stress);
+        if (settings.strains) add(state.strain);
+      }
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<output::StructureMesh> meshes_of(const model::Model& model,
+                                             const LayerSettings& layers) {
+  std::vector<output::StructureMesh> meshes;
+  for (const model::Structure& structure : model.structures()) {
+    meshes.push_back(mesh_of(structure, model.nodes().reference()));
+    meshes.back().cell_arrays = layer_arrays(structure, layers);
+  }
+  return meshes;
+}
+
+output::Frame frame_of(const model::Model& model, const LayerSettings& layers,
+                       const model::Coordinates& q) {
+  output::Frame frame;
+  for (const model::Structure& structure : model.structures()) {
+    output::StructureState s;
+    read_nodes(structure, q, s.positions, s.triads);
+    for (const model::Cell& cell : structure.cells) {
+      s.resultants.emplace_back();
+      if (cell.source != nullptr) cell.source->resultants(cell.item, q, s.resultants.back());
+    }
+    s.cell_values = layer_values(structure, layers, q);
+    frame.structures.push_back(std::move(s));
+  }
+  return frame;
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,178 @@
+#include <culm/base/error.hpp>
+#include <culm/solver/eigen_solver.hpp>
+
+#include <Eigen/Dense>
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace culm::solver {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::GlobalIndex;
+using assembly::Map;
+
+// Chains of unit masses and springs side by side, all alike, so that every value is multiple. One
+// end is held: by nothing, or by a constraint with a multiplier, which is the last unknown of a
+// chain.
+struct Chains {
+  int count = 1;
+  int length = 8;
+  bool held = true;
+
+  int chain_size() const { return length + (held ? 1 : 0); }
+  int size() const { return count * chain_size(); }
+
+  Eigen::MatrixXd stiffness() const {
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(size(), size());
+    for (int first = 0; first < size(); first += chain_size()) {
+      for (int i = first; i + 1 < first + length; ++i) {
+        K.block<2, 2>(i, i) += (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+      }
+      if (held) K(first, first + length) = K(first + length, first) = 1.0;
+    }
+    return K;
+  }
+  Eigen::MatrixXd mass() const {
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(size(), size());
+    for (int i = 0; i < size(); ++i) M(i, i) = i % chain_size() < length ? 1.0 : 0.0;
+    return M;
+  }
+  // omega^2 of one chain with a held or with two free ends
+  double value(int mode) const {
+    const double angle = held ? (2.0 * mode + 1.0) * std::numbers::pi / (2.0 * (2.0 * length - 1.0))
+                              : mode * std::numbers::pi / (2.0 * length);
+    return 4.0 * std::pow(std::sin(angle), 2);
+  }
+};
+
+class Pencil {
+ public:
+  explicit Pencil(const Chains& chains) : chains_(chains) {
+    std::vector<GlobalIndex> rows;
+    for (int i = comm_.rank(); i < chains.size(); i += comm_.size()) rows.push_back(i);
+    const auto mpi = Teuchos::rcp(new Teuchos::MpiComm<int>(comm_.handle()));
+    const auto map =
+        Teuchos::rcp(new Map(chains.size(), Teuchos::arrayViewFromVector(rows), 0, mpi));
+    pencil_ = {fill(map, chains.stiffness()), fill(map, chains.mass())};
+  }
+
+  EigenPairs solve(EigenSettings settings) const {
+    return solve_eigenproblem(pencil_, settings, comm_);
+  }
+  const SymmetricPencil& matrices() const { return pencil_; }
+  const parallel::Comm& comm() const { return comm_; }
+
+  void expect_right(const EigenPairs& pairs, int count) const {
+    const Eigen::MatrixXd K = chains_.stiffness();
+    const Eigen::MatrixXd M = chains_.mass();
+    ASSERT_EQ(static_cast<int>(pairs.values.size()), count);
+    for (int i = 0; i < count; ++i) {
+      EXPECT_NEAR(pairs.values[static_cast<std::size_t>(i)], chains_.value(i / chains_.count),
+                  1e-12);
+      const Eigen::VectorXd x = pairs.vectors.col(i);
+      EXPECT_LT((K * x - pairs.values[static_cast<std::size_t>(i)] * M * x).norm(), 1e-10);
+    }
+    const Eigen::MatrixXd unit = pairs.vectors.transpose() * M * pairs.vectors;
+    EXPECT_LT((unit - Eigen::MatrixXd::Identity(count, count)).norm(), 1e-10);
+  }
+
+ private:
+  // all entries that either matrix has, so that both have one graph
+  Teuchos::RCP<const CrsMatrix> fill(const Teuchos::RCP<const Map>& map,
+                                     const Eigen::MatrixXd& dense) const {
+    const Eigen::MatrixXd K = chains_.stiffness();
+    const auto matrix = Teuchos::rcp(new CrsMatrix(map, static_cast<std::size_t>(chains_.size())));
+    for (std::size_t row = 0; row < map->getNodeNumElements(); ++row) {
+      const GlobalIndex i = map->getGlobalElement(static_cast<int>(row));
+      std::vector<GlobalIndex> columns;
+      std::vector<double> values;
+      for (int j = 0; j < chains_.size(); ++j) {
+        if (K(i, j) == 0.0 && i != j) continue;
+        columns.push_back(j);
+        values.push_back(dense(i, j));
+      }
+      matrix->insertGlobalValues(i, Teuchos::arrayViewFromVector(columns),
+                                 Teuchos::arrayViewFromVector(values));
+    }
+    matrix->fillComplete();
+    return matrix;
+  }
+
+  Chains chains_;
+  parallel::Comm comm_;
+  SymmetricPencil pencil_;
+};
+
+class EachEigenSolver : public testing::TestWithParam<std::string> {
+ protected:
+  EigenSettings settings(int count, double shift) const {
+    return {GetParam(), "KLU2", count, shift};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(EigenSolver, EachEigenSolver,
+                         testing::ValuesIn(std::next(eigen_solver_names().begin()),
+                                           eigen_solver_names().end()),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(EachEigenSolver, FindsTheLowestValuesBesideConstraints) {
+  const Pencil pencil({1, 40, true});
+  pencil.expect_right(pencil.solve(settings(6, -1e-3)), 6);
+}
+
+TEST_P(EachEigenSolver, FindsAllCopiesOfMultipleValues) {
+  const Pencil pencil({3, 30, true});
+  pencil.expect_right(pencil.solve(settings(9, -1e-3)), 9);
+}
+
+TEST_P(EachEigenSolver, FindsRigidMotionsAtZero) {
+  const Pencil pencil({2, 30, false});
+  const EigenPairs pairs = pencil.solve(settings(6, -1e-3));
+  pencil.expect_right(pairs, 6);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_LT(std::abs(pairs.values[static_cast<std::size_t>(i)]),
+              4.0 * pairs.rounding[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_GT(pairs.values[2], 1e6 * pairs.rounding[2]);
+}
+
+TEST_P(EachEigenSolver, FindsTheValuesNextToAShift) {
+  const Chains chains{1, 40, true};
+  const Pencil pencil(chains);
+  const double shift = 0.7 * chains.value(20) + 0.3 * chains.value(21);
+  const EigenPairs pairs = pencil.solve(settings(3, shift));
+  ASSERT_EQ(pairs.values.size(), 3U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(pairs.values[static_cast<std::size_t>(i)], chains.value(19 + i), 1e-11);
+  }
+}
+
+TEST(EigenSolver, GivesAsManyAsThereAre) {
+  const Pencil pencil({1, 4, true});
+  EXPECT_EQ(pencil.solve({"Automatic", "KLU2", 10, -1e-3}).values.size(), 3U);
+}
+
+TEST(EigenSolver, RefusesAShiftThatIsAnEigenvalue) {
+  const Pencil pencil({1, 40, false});
+  EXPECT_THROW(pencil.solve({"Spectra", "KLU2", 3, 0.0}), NumericalError);
+}
+
+TEST(EigenSolver, MeasuresAsymmetry) {
+  const Pencil pencil({1, 10, true});
+  EXPECT_EQ(asymmetry(pencil.matrices().A, pencil.comm()), 0.0);
+  const auto skew = Teuchos::rcp(new CrsMatrix(*pencil.matrices().A, Teuchos::Copy));
+  const auto local = skew->getLocalMatrixHost();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(local.numRows()); ++row) {
+    if (skew->getRowMap()->getGlobalElement(static_cast<int>(row)) != 3) continue;
+    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      if (skew->getColMap()->getGlobalElement(local.graph.entries(k)) == 4) local.values(k) += 1e-4;
+    }
+  }
+  EXPECT_NEAR(asymmetry(skew, pencil.comm()), 0.5e-4, 1e-8);  // the largest entry of a row is 2
+}
+
+}  // namespace
+}  // namespace culm::solver
