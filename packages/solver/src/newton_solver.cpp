@@ -14,6 +14,9 @@ namespace {
 // step on the same side, and balances over many steps would see it.
 constexpr double modified_newton_share = 0.01;
 
+// Share of a residual at the start of a step that does not count at its end.
+constexpr double negligible = 1e-6;
+
 // Judges force and constraint rows separately, each relative to what it is made of.
 class BalanceTest final : public NOX::StatusTest::Generic {
  public:
@@ -38,6 +41,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const bool forces = e.force_residual <= tolerance * e.force_scale ||
                         is_rounding(e.force_residual, e.round_off_force);
     previous_residual_ = e.force_residual;
+    if (history_.size() == 1) first_residual_ = e.force_residual;
     const bool constraints = e.constraint_violation <= settings.constraint_tolerance;
     status_ = forces && constraints ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
     if (is_hopeless(e)) status_ = NOX::StatusTest::Failed;
@@ -47,14 +51,18 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   std::ostream& print(std::ostream& stream, int) const override { return stream; }
 
  private:
-  // Rounding can cause about a tenth of the bound on it. Between that and the bound a residual that
-  // still falls is worth another iteration. With old factors it creeps, so it must have stopped.
+  // Below the bound that rounding can explain a force may also be a small load on a structure that
+  // is stiff elsewhere. So it must be negligible beside what was out of balance at first, or have
+  // stopped falling. Rounding itself causes about a tenth of the bound. With old factors a residual
+  // creeps, so it must have stopped.
   bool is_rounding(double residual, double bound) const {
+    if (residual == 0.0) return true;
+    if (history_.size() < 2 || residual > bound) return false;
     if (problem_.settings.refresh == Refresh::on_slow_convergence) {
-      return residual <= bound && history_.size() > 1 && residual > 0.2 * previous_residual_;
+      return residual > 0.2 * previous_residual_;
     }
-    return residual <= 0.1 * bound ||
-           (residual <= bound && history_.size() > 1 && residual > 0.1 * previous_residual_);
+    return residual > 0.1 * previous_residual_ ||
+           (residual <= 0.1 * bound && residual <= negligible * first_residual_);
   }
   // an increment of thousands of model lengths or hundreds of turns will not come back
   bool is_hopeless(const assembly::Evaluation& e) const {
@@ -65,6 +73,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   const NewtonProblem& problem_;
   std::vector<IterationRecord> history_;
   double previous_residual_ = 0.0;
+  double first_residual_ = 0.0;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
