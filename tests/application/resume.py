@@ -157,6 +157,7 @@ PARTS = {
         *settings("Analyses/motion/End Time=0.05"),
     ],
     "statics": [INPUTS / "beam/lee_frame.xml", "--quiet", *settings("Analyses/loading/Steps=4")],
+    "path": [INPUTS / "beam/lee_frame_path.xml", "--quiet", *settings("Analyses/loading/Steps=70")],
     "adaptive steps": TORSION + settings("Analyses/motion/Adaptive/Tolerance=1e-4"),
     "modified newton": TORSION + settings("Analyses/motion/Newton/Refresh=On Slow Convergence"),
     "modified newton in statics": [

@@ -41,16 +41,26 @@ def scales(history, size, force, stress):
     return {**by_unit, "m": size, "rad": 1.0, "N": force, "N m": force * size, "J": force * size}
 
 
+def is_path(history):
+    return any(b < a for a, b in zip(history.levels, history.levels[1:]))
+
+
 def compare(one, other, scale, tolerance, what):
-    """Complaints about differences between two histories at the levels they share."""
+    """Complaints about differences between two histories at the levels they share; on a path, whose
+    level goes up and down, between all rows."""
     shared = 0
     worst = (0.0, "")
+    if is_path(one) and len(one.levels) != len(other.levels):
+        return [f"{what}: {len(one.levels)} and {len(other.levels)} rows"]
     for j, level in enumerate(other.levels):
         try:
-            i = one.row(level)
+            i = j if is_path(one) else one.row(level)
         except KeyError:
             continue
-        shared += level > 0.0
+        shared += j > 0
+        if is_path(one):
+            difference = abs(one.levels[i] - level) / max(map(abs, one.levels))
+            worst = max(worst, (difference, f"level {level:g}"))
         for name in one.names:
             difference = abs(one.column(name)[i] - other.column(name)[j]) / scale[unit_of(name)]
             worst = max(worst, (difference, f"'{name}' at level {level:g}"))
@@ -79,11 +89,15 @@ def compare_tables(one, other, what):
 
 
 def find_value(run, value):
-    """What was found, and where: in a row of a table, or at a level of the history."""
+    """What was found, and where: in a row of a table, or at a level or a step of the history."""
     column = value.get("column")
     if value.get("table"):
         row = int(value.get("row"))
         return run.tables[value.get("table")].at(row, column), f"row {row} of {value.get('table')}"
+    if value.get("step"):
+        row = int(value.get("step"))
+        values = run.history.levels if column == "level" else run.history.column(column)
+        return values[row], f"step {row}"
     level = float(value.get("level", 1.0))
     return run.history.at(level, column), f"level {level:g}"
 
@@ -144,7 +158,8 @@ def check_deck(culm, deck, expected):
             complaints.append(f"{what}\n{multipliers.errors}")
             continue
         what = "null space and multipliers"
-        complaints += compare(runs[1].history, multipliers.history, scale, FORMS_TOLERANCE, what)
+        tolerance = float(forms.get("tolerance", FORMS_TOLERANCE))
+        complaints += compare(runs[1].history, multipliers.history, scale, tolerance, what)
         complaints += compare_tables(runs[1].tables, multipliers.tables, what)
     for failure in expected.findall("Fails"):
         complaints += check_failure(culm, deck, failure, ranks=1)

@@ -208,6 +208,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
     report.accepted = report.outcome.converged();
     if (report.accepted) {
       report.step = ++steps_;
+      report.is_last = state.time >= end_time;
       control_->accept(state, taken);
       scheme_->finish(state, taken);
       if (model::VelocityDissipation* dissipation = system.velocity_dissipation()) {

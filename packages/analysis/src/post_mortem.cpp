@@ -412,6 +412,7 @@ std::string PostMortem::worst_rows() const {
 
 std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
   if (level_step_ == 0.0) return dynamic_cause();
+  if (!std::isfinite(attempts_.back().final_time)) return path_cause();
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;
   if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
@@ -437,6 +438,16 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
       100.0 * remaining);
 }
 
+std::string PostMortem::path_cause() const {
+  if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
+    return "Likely cause: an element turns too far.\nTry: more elements.";
+  }
+  return "Likely cause: the path bends more sharply than the shortest step can follow, crosses\n"
+         "another path, or ends where loads or prescribed motions do.\n"
+         "Try: a smaller 'Smallest Length' or 'First Increment', another 'Control', or a small\n"
+         "imperfection.";
+}
+
 std::string PostMortem::dynamic_cause() const {
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
     return "Likely cause: an element turns too far in a step.\nTry: a smaller step, more elements.";
@@ -450,8 +461,11 @@ std::string PostMortem::dynamic_cause() const {
 
 void PostMortem::give_up(model::State& state, const Stencil& stencil) {
   const StepReport& last = attempts_.back();
-  std::string text = fmt::format("No equilibrium beyond {} {:.8g} of {:.8g}: {}.\n", time_word(),
-                                 state.time, last.final_time, solver::describe(last.outcome.end));
+  const bool end_is_known = std::isfinite(last.final_time);
+  std::string text =
+      fmt::format("No equilibrium beyond {} {:.8g}{}: {}.\n", time_word(), state.time,
+                  end_is_known ? fmt::format(" of {:.8g}", last.final_time) : std::string(),
+                  solver::describe(last.outcome.end));
   text += history() + worst_rows();
   const bool not_finite = last.outcome.end == solver::StepEnd::not_finite;
   if (not_finite) {

@@ -1,5 +1,6 @@
 #include <culm/analysis/dynamics.hpp>
 #include <culm/analysis/modal.hpp>
+#include <culm/analysis/path_following.hpp>
 #include <culm/analysis/register_analysis.hpp>
 #include <culm/analysis/statics.hpp>
 
@@ -7,6 +8,7 @@ namespace culm::analysis {
 
 void register_analyses(AnalysisRegistry& registry) {
   registry.add("Static", Statics::schema(), Statics::make);
+  registry.add("Path", PathFollowing::schema(), PathFollowing::make);
   registry.add("Dynamic", Dynamics::schema(), Dynamics::make);
   registry.add("Modal", Modal::schema(), Modal::make);
 }

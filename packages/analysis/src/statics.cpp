@@ -118,6 +118,7 @@ AnalysisReport Statics::advance(Context& context, model::State& state, Observer&
                       taken,  true,       newton_->solve(state, stencil)};
     report.accepted = report.outcome.converged();
     if (report.accepted) report.step = ++steps_;
+    report.is_last = report.accepted && state.time >= settings_.final_level;
     post_mortem_->record(report);
     if (report.accepted) {
       accept(state);

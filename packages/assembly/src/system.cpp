@@ -84,6 +84,8 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     if (batch->has_tangent()) entry.entries_per_iteration = entries_of(*batch, unknowns);
     effects_.push_back(ledger.add(entry));
   }
+  for (const auto& batch : model.constraint_batches()) driven_.push_back(batch.get());
+  for (const auto& batch : model.loads()) driven_.push_back(batch.get());
   for (int node = 0; node < model.nodes().size(); ++node) {
     if (model.nodes().is_slave(node)) slaves_.push_back(node);
   }
@@ -127,6 +129,31 @@ void System::begin_step(const model::State& state, const Stencil& stencil) {
   }
   size_ = comm_.max(size_);
   for (model::Batch* batch : batches_) batch->begin_step(state, stencil);
+}
+
+void System::change_level(const model::State& state, const Stencil& stencil) {
+  for (model::Batch* batch : driven_) batch->begin_step(state, stencil);
+}
+
+void System::level_gradient(model::State& state, const Stencil& stencil, double step,
+                            Vector& gradient) {
+  model::Target target;
+  target.row_begin = row_begin_;
+  target.multiplier_scale = multiplier_scale_;
+  target.residual = values_of(gradient);
+  gradient.putScalar(0.0);
+  const double level = state.time;
+  for (const double end : {level, level + step}) {
+    state.time = end;
+    gradient.scale(-1.0);
+    for (model::Batch* batch : driven_) {
+      batch->begin_step(state, stencil);
+      batch->assemble(state, stencil, Want::residual, target);
+    }
+  }
+  gradient.scale(1.0 / step);
+  state.time = level;
+  change_level(state, stencil);
 }
 
 Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
@@ -197,8 +224,8 @@ void System::move(model::State& state, const Vector& increment, double factor) {
   if (velocity_dissipation_ != nullptr) complete(state.next);
 }
 
-void System::extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
-                         double factor) {
+const model::Coordinates& System::linear_motion(const model::State& state, const Vector& increment,
+                                                double factor) {
   const std::span<const double> dx = values_of(import(increment));
   const model::UnknownTable& unknowns = model_.unknowns();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
@@ -210,9 +237,15 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
   }
   // an eliminated node is linear in its master, so its increment follows in the same way
   for (int slave : slaves_) model_.nodes().follow_master(slave, linear_increment_);
+  return linear_increment_;
+}
+
+void System::extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
+                         double factor) {
+  const model::Coordinates& motion = linear_motion(state, increment, factor);
   for (std::size_t b = 0; b < batches_.size(); ++b) {
     const Ledger::Scope scope(ledger_, effects_[b]);
-    batches_[b]->extrapolate(state, stencil, linear_increment_);
+    batches_[b]->extrapolate(state, stencil, motion);
   }
 }
 

@@ -48,14 +48,14 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
     const Ledger::Scope scope(context_.ledger, output_effect_);
     files_.add_history(report.time, state);
-    is_recorded_ = files_.is_due(accepted_) || report.time >= report.final_time;
+    is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) files_.record(report.time, state);
   } else {
     ++rejected_;
   }
   progress_.show(report);
   const Checkpoints::Demand demand = checkpoints_.demand();
-  const bool ends = is_last_ && report.accepted && report.time >= report.final_time;
+  const bool ends = is_last_ && report.is_last;
   if (demand == Checkpoints::Demand::none && !ends) return;
   write_checkpoint(state);
   if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());

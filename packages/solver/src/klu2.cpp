@@ -32,6 +32,20 @@ namespace {
 // solution grows by as much, and Newton's method bears far more.
 constexpr double largest_growth = 1e4;
 
+// 1 or -1 for an even or odd permutation
+int parity(std::span<const int> permutation) {
+  std::vector<bool> seen(permutation.size(), false);
+  int sign = 1;
+  for (std::size_t first = 0; first < permutation.size(); ++first) {
+    // a cycle of k elements is k - 1 transpositions
+    for (std::size_t k = first; !seen[k]; k = static_cast<std::size_t>(permutation[k])) {
+      seen[k] = true;
+      if (static_cast<std::size_t>(permutation[k]) != first) sign = -sign;
+    }
+  }
+  return sign;
+}
+
 }  // namespace
 
 // KLU2 stores by columns; rows of the matrix are columns to it, and it solves with the transpose.
@@ -125,6 +139,18 @@ void Klu2::solve(std::span<double> x) {
   KLU2::klu_tsolve<double, int>(p.symbolic, p.numeric, static_cast<int>(x.size()), 1, x.data(),
                                 &p.common);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale_[i];
+}
+
+Determinant Klu2::determinant() const {
+  const Parts& p = *parts_;
+  const auto n = static_cast<std::size_t>(p.symbolic->n);
+  Determinant d{parity({p.numeric->Pnum, n}) * parity({p.symbolic->Q, n}), 0.0};
+  const auto* pivots = static_cast<const double*>(p.numeric->Udiag);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (pivots[k] < 0.0) d.sign = -d.sign;
+    d.log_size += std::log(std::abs(pivots[k])) - std::log(scale_[k]);
+  }
+  return d;
 }
 
 std::vector<int> Klu2::pivots() const {

@@ -2,7 +2,7 @@
 /// that it has.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
+#include <culm/solver/linear_solver.hpp>
 
 #include <memory>
 #include <span>
@@ -31,6 +31,9 @@ class Klu2 {
   bool kept_pivots() const { return kept_pivots_; }
   /// Puts A^-1 x into x with the last factors.
   void solve(std::span<double> x);
+
+  /// Of the matrix that was factored last.
+  Determinant determinant() const;
 
   /// Which unknown is eliminated with which row, as numbers for set_pivots of the same matrix
   /// pattern; empty without factors.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace culm::solver {
@@ -21,8 +22,15 @@ enum Control {
   distribution = 18,
   null_pivots = 24,
   analysis = 28,
+  determinant_wanted = 33,
 };
-enum Info { status = 1, status_detail = 2, null_pivot_count = 28 };
+enum Info {
+  status = 1,
+  status_detail = 2,
+  null_pivot_count = 28,
+  determinant_exponent = 34,  // of two
+};
+constexpr int determinant_mantissa = 12;  // in RINFOG
 
 constexpr int largest_workspace_increase = 10000;
 
@@ -45,6 +53,7 @@ Mumps::Mumps(const assembly::CrsMatrix& pattern, std::vector<int> place, const p
   control(mumps_, ordering) = 1;  // ours: MUMPS of Debian has neither METIS nor Scotch
   control(mumps_, distribution) = 3;
   control(mumps_, null_pivots) = 1;
+  control(mumps_, determinant_wanted) = 1;
   control(mumps_, root_on_one_rank) = 1;  // ScaLAPACK would not report null pivots
 
   const auto graph = pattern.getLocalMatrixHost().graph;
@@ -86,6 +95,13 @@ bool Mumps::factor(const assembly::CrsMatrix& matrix) {
   if (info(mumps_, status) == singular) return false;
   if (info(mumps_, status) < 0) throw_error();
   return info(mumps_, null_pivot_count) == 0;
+}
+
+Determinant Mumps::determinant() const {
+  const double mantissa = mumps_.rinfog[determinant_mantissa - 1];
+  return {mantissa > 0.0 ? 1 : (mantissa < 0.0 ? -1 : 0),
+          std::log(std::abs(mantissa)) +
+              std::log(2.0) * static_cast<double>(info(mumps_, determinant_exponent))};
 }
 
 void Mumps::solve(std::span<double> b) {

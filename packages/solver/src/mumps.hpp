@@ -1,8 +1,8 @@
 /// One instance of MUMPS, through its C interface.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
+#include <culm/solver/linear_solver.hpp>
 
 #include <dmumps_c.h>
 
@@ -24,6 +24,8 @@ class Mumps {
   /// Factors the values of a matrix with the pattern; analyses it first if that is still to do.
   /// @return false if a pivot is zero. Throws NumericalError if the memory does not suffice.
   bool factor(const assembly::CrsMatrix& matrix);
+  /// Of the matrix that was factored last.
+  Determinant determinant() const;
   /// Replaces b by A^-1 b, whole and in global order, on the root.
   void solve(std::span<double> b);
 

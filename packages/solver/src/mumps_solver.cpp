@@ -50,6 +50,8 @@ class MumpsSolver final : public LinearSolver {
     return achieved;
   }
 
+  Determinant determinant() override { return mumps_.determinant(); }
+
   double weakest_direction(Vector& v) override {
     v.putScalar(0.0);
     const double largest = size();

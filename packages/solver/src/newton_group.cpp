@@ -17,6 +17,7 @@ double relative_residual(const assembly::Evaluation& e) {
 }  // namespace
 
 using assembly::values_of;
+using assembly::Vector;
 
 NewtonGroup::NewtonGroup(std::shared_ptr<NewtonProblem> problem)
     : problem_(std::move(problem)),
@@ -35,17 +36,21 @@ NewtonGroup::NewtonGroup(const NewtonGroup& other, NOX::CopyType type)
 void NewtonGroup::start() {
   next_ = problem_->state->next;
   multipliers_ = problem_->state->multipliers;
+  level_ = problem_->state->time;
+  level_increment_ = 0.0;
   forget_results();
 }
 
 void NewtonGroup::finish() {
   problem_->state->next = next_;
   problem_->state->multipliers = multipliers_;
+  problem_->state->time = level_;
 }
 
 void NewtonGroup::swap_with_state() {
   problem_->state->next.swap(next_);
   problem_->state->multipliers.swap(multipliers_);
+  std::swap(problem_->state->time, level_);
 }
 
 void NewtonGroup::forget_results() { has_residual_ = has_tangent_ = has_newton_ = false; }
@@ -54,6 +59,8 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   if (this == &other) return *this;
   next_ = other.next_;
   multipliers_ = other.multipliers_;
+  level_ = other.level_;
+  level_increment_ = other.level_increment_;
   evaluation_ = other.evaluation_;
   x_ = other.x_;
   has_residual_ = other.has_residual_;
@@ -76,6 +83,7 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
   const auto& increment = NewtonVector::cast(direction);
   next_ = origin.next_;
   multipliers_ = origin.multipliers_;
+  level_ = origin.level_ + step * origin.level_increment_;
   x_.update(1.0, origin.x_, step, increment, 0.0);
   swap_with_state();
   NewtonProblem& p = *problem_;
@@ -83,6 +91,7 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
     p.system.extrapolate(*p.state, p.stencil, increment.get(), step);
   }
   p.system.move(*p.state, increment.get(), step);
+  if (p.condition != nullptr) p.system.change_level(*p.state, p.stencil);
   swap_with_state();
   forget_results();
 }
@@ -105,6 +114,10 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
       p.settings.refresh == Refresh::on_slow_convergence && p.has_factors && !tangent_wanted_;
   evaluation_ =
       p.system.evaluate(*p.state, p.stencil, reuse ? Want::residual : Want::residual_and_tangent);
+  if (p.condition != nullptr && evaluation_.verdict == Verdict::ok) {
+    evaluation_.constraint_violation =
+        std::max(evaluation_.constraint_violation, p.condition->violation(*p.state));
+  }
   swap_with_state();
   f_.get().assign(p.system.residual());
   has_residual_ = evaluation_.verdict == Verdict::ok;
@@ -129,6 +142,8 @@ bool NewtonGroup::solve_linear() {
     p.has_factors = !p.singular;
     p.factored_inertia = p.stencil.inertia;
     if (p.singular) return false;
+    const bool is_start = p.last_residual == 0.0;
+    if (is_start && p.stencil.inertia == 0.0) p.start = p.linear.determinant();
   }
   const Ledger::Scope scope(p.ledger, p.solve_effect);
   const double residual = p.linear.solve(f_.get(), newton_.get());
@@ -138,12 +153,31 @@ bool NewtonGroup::solve_linear() {
   return !p.singular;
 }
 
+bool NewtonGroup::solve_level() {
+  NewtonProblem& p = *problem_;
+  Vector& gradient = *p.level_gradient;
+  Vector& flexibility = *p.level_flexibility;
+  swap_with_state();
+  p.system.level_gradient(*p.state, p.stencil, p.condition->level_difference(), gradient);
+  {
+    const Ledger::Scope scope(p.ledger, p.solve_effect);
+    p.linear.solve(gradient, flexibility);
+  }
+  flexibility.scale(-1.0);
+  level_increment_ = p.condition->level_increment(*p.state, newton_.get(), flexibility);
+  swap_with_state();
+  if (!std::isfinite(level_increment_)) return false;
+  newton_.get().update(level_increment_, flexibility, 1.0);
+  return true;
+}
+
 NOX::Abstract::Group::ReturnType NewtonGroup::computeNewton(Teuchos::ParameterList&) {
   if (has_newton_) return Ok;
   if (!solve_linear()) return Failed;
   NewtonProblem& p = *problem_;
   p.last_residual = relative_residual(evaluation_);
   newton_.get().scale(-1.0);
+  if (p.condition != nullptr && !solve_level()) return Failed;
   p.largest_increment = newton_.get().normInf();
   has_newton_ = std::isfinite(p.largest_increment);
   p.not_finite = !has_newton_;

@@ -24,6 +24,10 @@ struct NewtonProblem {
   Ledger::Id solve_effect;
   model::State* state = nullptr;
   Stencil stencil;
+  LevelCondition* condition = nullptr;                    ///< none: the level is given
+  Teuchos::RCP<assembly::Vector> level_gradient = {};     ///< dR/dlevel; made with a condition
+  Teuchos::RCP<assembly::Vector> level_flexibility = {};  ///< likewise
+  Determinant start = {};                                 ///< of the first tangent of a static step
   bool has_factors = false;       ///< the linear solver holds factors of a tangent of this analysis
   double factored_inertia = 0.0;  ///< Stencil::inertia of that tangent
   double last_residual = 0.0;     ///< relative one of the iteration before; 0 before the first
@@ -74,10 +78,14 @@ class NewtonGroup final : public NOX::Abstract::Group {
   bool needs_tangent() const;
   /// Solves with new or old factors. @return false if the result is of no use
   bool solve_linear();
+  /// Adds the share of the level to the Newton direction. @return false if there is none
+  bool solve_level();
 
   std::shared_ptr<NewtonProblem> problem_;
   model::Coordinates next_;
   std::vector<double> multipliers_;
+  double level_ = 0.0;
+  double level_increment_ = 0.0;  ///< belongs to newton_
   assembly::Evaluation evaluation_;
   NewtonVector x_;
   NewtonVector f_;

@@ -130,6 +130,8 @@ std::string describe(StepEnd end) {
       return "an element turned beyond its range or a law left its domain";
     case StepEnd::turned_too_far:
       return "a node turned too far in one step";
+    case StepEnd::off_path:
+      return "the solution does not continue the path";
     case StepEnd::inaccurate:
       return "the error of the step is far above the tolerance";
   }
@@ -157,10 +159,17 @@ NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
 
 NewtonSolver::~NewtonSolver() = default;
 
-StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
+StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
+                                LevelCondition* condition) {
   Nox& nox = *nox_;
   nox.problem->state = &state;
   nox.problem->stencil = stencil;
+  nox.problem->condition = condition;
+  if (condition != nullptr && nox.problem->level_gradient.is_null()) {
+    nox.problem->level_gradient = Teuchos::rcp(new assembly::Vector(nox.origin->get().getMap()));
+    nox.problem->level_flexibility = Teuchos::rcp(new assembly::Vector(nox.origin->get().getMap()));
+  }
+  nox.problem->start = {};
   nox.problem->singular = nox.problem->not_finite = false;
   nox.problem->largest_increment = nox.problem->last_residual = 0.0;
   nox.balance->reset();
@@ -183,6 +192,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil) {
   outcome.history = nox.balance->history();
   outcome.iterations = std::max(0, static_cast<int>(outcome.history.size()) - 1);
   outcome.last = nox.group->evaluation();
+  outcome.start = nox.problem->start;
   if (!outcome.converged()) nox.problem->has_factors = false;
   nox.group->finish();
   return outcome;

@@ -5,6 +5,7 @@
 #include "rooted_matrix.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -49,6 +50,13 @@ class RootedKlu2 final : public LinearSolver {
     }
     rooted_.scatter_solution(x);
     return comm_.max(relative);
+  }
+
+  Determinant determinant() override {
+    const Determinant d = klu_ ? klu_->determinant() : Determinant{};
+    std::array<double, 2> both = {static_cast<double>(d.sign), d.log_size};
+    comm_.sum(both);  // other ranks have zeros
+    return {static_cast<int>(both[0]), both[1]};
   }
 
   double weakest_direction(Vector& v) override {

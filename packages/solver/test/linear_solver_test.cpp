@@ -117,6 +117,21 @@ TEST_P(EachLinearSolver, SolvesUnsymmetricSystemsOnAnyNumberOfRanks) {
   EXPECT_LT(system.difference(solution, x), 1e-12);
 }
 
+TEST_P(EachLinearSolver, KnowsTheDeterminant) {
+  for (const int exchanged : {0, 1, 7}) {
+    Eigen::MatrixXd dense = band_with_far_entries(31);
+    for (int i = 0; i < exchanged; ++i) dense.row(3 * i).swap(dense.row(30 - 2 * i));
+    dense.row(5) *= -1e3;
+    const ScatteredSystem other(dense);
+    const auto solver = make(GetParam(), other);
+    ASSERT_TRUE(solver->factor());
+    const Determinant found = solver->determinant();
+    const double exact = dense.determinant();
+    EXPECT_EQ(found.sign, exact > 0.0 ? 1 : -1) << exchanged;
+    EXPECT_NEAR(found.log_size, std::log(std::abs(exact)), 1e-10);
+  }
+}
+
 TEST_P(EachLinearSolver, NewValuesReplaceOldFactors) {
   const auto solver = make(GetParam(), system);
   ASSERT_TRUE(solver->factor());

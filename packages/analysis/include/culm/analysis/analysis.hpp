@@ -15,12 +15,13 @@ namespace culm::analysis {
 
 /// One step as seen from outside.
 struct StepReport {
-  int step = 0;       ///< accepted steps so far, this one included
-  double time = 0.0;  ///< load level in statics [-], time in dynamics [s]
-  double final_time = 0.0;
+  int step = 0;             ///< accepted steps so far, this one included
+  double time = 0.0;        ///< load level in statics [-], time in dynamics [s]
+  double final_time = 0.0;  ///< infinite where nobody knows
   double increment = 0.0;
   bool accepted = true;  ///< false: the step is tried again with a smaller increment
   solver::StepOutcome outcome;
+  bool is_last = false;  ///< accepted, and the end of the analysis
 };
 
 /// Whoever wants to see each step: results, progress, a coupling harness.

@@ -61,6 +61,7 @@ class PostMortem {
   std::string history() const;
   std::string worst_rows() const;
   std::string cause(model::State& state, const Stencil& stencil);
+  std::string path_cause() const;
   std::string dynamic_cause() const;
   std::string singular_cause(const model::State& state, const assembly::Vector& direction) const;
   std::string redundant_constraints(const assembly::Vector& multipliers) const;

@@ -35,11 +35,20 @@ class System {
 
   /// Once per step, with the accepted state in state.prev.
   void begin_step(const model::State& state, const Stencil& stencil);
+  /// Tells loads and constraints of another end of the step, state.time; elements do not know it.
+  void change_level(const model::State& state, const Stencil& stencil);
+  /// Derivative of the residual by state.time: a difference over `step`, exact where loads are
+  /// linear in time. Needs begin_step; changes neither residual() nor reactions.
+  void level_gradient(model::State& state, const Stencil& stencil, double step, Vector& gradient);
   /// Residual, and the tangent when wanted.
   Evaluation evaluate(const model::State& state, const Stencil& stencil, Want want);
   /// Moves state.next by the solution of the linear system, factor included: nodes
   /// multiplicatively, eliminated nodes after their masters, multipliers additively.
   void move(model::State& state, const Vector& increment, double factor);
+  /// How the slots of all nodes that this rank needs move with an increment at state.next, to first
+  /// order. @return valid until the next call and the next extrapolate
+  const model::Coordinates& linear_motion(const model::State& state, const Vector& increment,
+                                          double factor);
   /// Predicts stresses for the next tangent from the same increment, before move.
   void extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
                    double factor);
@@ -111,6 +120,7 @@ class System {
   Ledger& ledger_;
   Layout layout_;
   std::vector<model::Batch*> batches_;
+  std::vector<model::Batch*> driven_;  ///< those that depend on time itself
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
   model::VelocityDissipation* velocity_dissipation_ = nullptr;  ///< needs all nodes on all ranks

@@ -16,6 +16,12 @@ namespace culm::solver {
 
 using assembly::Vector;
 
+/// A determinant, too large or too small for one number.
+struct Determinant {
+  int sign = 0;           ///< 0 if unknown
+  double log_size = 0.0;  ///< natural logarithm of the absolute value
+};
+
 /// Solves with one matrix whose pattern never changes and whose values do.
 class LinearSolver {
  public:
@@ -26,6 +32,8 @@ class LinearSolver {
   /// x = A^-1 b with the last factors. @return |b - A x| over the largest sum of terms of a row, in
   /// the maximum norm, the same on all ranks; above 1e-8 the factors are useless
   virtual double solve(const Vector& b, Vector& x) = 0;
+  /// Of the matrix that was factored last, from its pivots; the same on all ranks.
+  virtual Determinant determinant() = 0;
   /// Approximates the direction in which A is weakest by inverse iteration on a slightly shifted
   /// copy. @return |A v| / |A| for the returned v of unit maximum norm; zero with v = 0 if not even
   /// the copy has factors, as with numbers that are not finite or differ too much in size

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/assembly/system.hpp>
+#include <culm/solver/level_condition.hpp>
 #include <culm/solver/linear_solver.hpp>
 
 #include <memory>
@@ -35,6 +36,7 @@ enum class StepEnd {
   not_finite,      ///< NaN or infinity
   out_of_range,    ///< an element or law left its domain
   turned_too_far,  ///< solved, but a node turned too far to be trusted
+  off_path,        ///< solved, but not by a point that continues the path
   inaccurate,      ///< solved, but with an error far above the tolerance
 };
 
@@ -50,6 +52,9 @@ struct StepOutcome {
   int iterations = 0;
   std::vector<IterationRecord> history;
   assembly::Evaluation last;
+  /// Of the tangent at the start, where a static step begins at an equilibrium that of its own;
+  /// unknown in dynamics and where old factors served.
+  Determinant start;
   bool converged() const { return end == StepEnd::converged; }
 };
 
@@ -66,7 +71,9 @@ class NewtonSolver {
   /// Solves for state.next and the multipliers, starting from their values.
   /// begin_step of the system must have been called for the step. On failure state holds the last
   /// iterate.
-  StepOutcome solve(model::State& state, const Stencil& stencil);
+  /// @param condition makes the level an unknown, too; none: it stays as it is
+  StepOutcome solve(model::State& state, const Stencil& stencil,
+                    LevelCondition* condition = nullptr);
 
   /// What the linear solver keeps, and the tangent whose factors serve on, if there is one, under
   /// "newton/". Collective; the snapshot is complete on the root.

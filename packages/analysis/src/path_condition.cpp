@@ -1,0 +1,198 @@
+#include <culm/analysis/path_condition.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace culm::analysis {
+
+using assembly::Vector;
+
+PathCondition::PathCondition(assembly::System& system, PathControl control,
+                             const std::optional<WatchedMotion>& watched, double level_difference)
+    : system_(system),
+      control_(control),
+      watched_(watched),
+      level_difference_(level_difference),
+      present_(control) {
+  const model::UnknownTable& unknowns = system.model().unknowns();
+  const std::vector<int>& owners = system.layout().owners();
+  const int count = system.model().nodes().size();
+  for (int node = 0; node < count; ++node) {
+    const auto block = static_cast<std::size_t>(unknowns.node_block(node));
+    if (owners[block] == system.comm().rank()) nodes_.push_back(node);
+  }
+  for (Motion* motion : {&direction_, &flexibility_, &response_, &way_}) {
+    motion->setZero(3, count);
+  }
+}
+
+void PathCondition::begin(double size) {
+  present_ = control_;
+  size_ = size;
+  first_increment_.reset();
+  has_begun_ = false;
+  tangent_.reset();
+}
+
+void PathCondition::begin_first(double level_increment) {
+  begin(0.0);
+  first_increment_ = level_increment;
+}
+
+void PathCondition::begin_to_displacement(double distance) {
+  present_ = PathControl::displacement;
+  size_ = distance;
+}
+
+double PathCondition::begin_branch(const model::State& state, const Vector& motion, double size) {
+  begin(std::abs(size));
+  present_ = PathControl::normal_plane;
+  has_begun_ = true;
+  read_positions(system_.linear_motion(state, motion, 1.0), direction_);
+  const double norm = std::sqrt(dot(direction_, direction_));
+  direction_ *= std::copysign(1.0, size) / norm;
+  return size / norm;
+}
+
+// Each value from the rank that has it: sums over nodes are then the same for any number of ranks.
+void PathCondition::complete(Motion& motion) const {
+  if (system_.comm().size() == 1) return;
+  system_.comm().sum(std::span(motion.data(), static_cast<std::size_t>(motion.size())));
+}
+
+void PathCondition::read_positions(const model::Coordinates& q, Motion& motion) const {
+  motion.setZero();
+  for (const int node : nodes_) motion.col(node) = model::NodeTable::slots(q, node).col(0);
+  complete(motion);
+}
+
+void PathCondition::read_way(const model::State& state) {
+  way_.setZero();
+  for (const int node : nodes_) {
+    way_.col(node) = model::NodeTable::slots(state.next, node).col(0) -
+                     model::NodeTable::slots(state.prev, node).col(0);
+  }
+  complete(way_);
+}
+
+double PathCondition::dot(const Motion& a, const Motion& b) {
+  return a.cwiseProduct(b).sum() / static_cast<double>(a.cols());
+}
+
+double PathCondition::watched_part(const Motion& motion) const {
+  return watched_ ? watched_->direction.dot(motion.col(watched_->node)) : 0.0;
+}
+
+double PathCondition::watched_displacement(const model::Coordinates& q) const {
+  if (!watched_) return 0.0;
+  Vec3 displacement = Vec3::Zero();
+  if (std::find(nodes_.begin(), nodes_.end(), watched_->node) != nodes_.end()) {
+    const model::Coordinates& reference = system_.model().nodes().reference();
+    displacement = model::NodeTable::slots(q, watched_->node).col(0) -
+                   model::NodeTable::slots(reference, watched_->node).col(0);
+  }
+  system_.comm().sum(std::span(displacement.data(), 3));
+  return watched_->direction.dot(displacement);
+}
+
+// From a = flexibility_: of the two senses of the path the one in which the last step went.
+void PathCondition::set_tangent() {
+  const double size = std::sqrt(dot(flexibility_, flexibility_));
+  double sense = level_difference_;
+  if (!previous_.size() == 0) {
+    sense = dot(flexibility_, previous_);
+  } else if (present_ == PathControl::displacement) {
+    sense = size_ * watched_part(flexibility_);
+  }
+  const double rate = std::copysign(1.0, sense) / size;
+  tangent_ = PathTangent{rate, rate * watched_part(flexibility_)};
+  direction_ = rate * flexibility_;
+}
+
+void PathCondition::find_tangent(const model::State& state, const Vector& flexibility) {
+  read_positions(system_.linear_motion(state, flexibility, 1.0), flexibility_);
+  set_tangent();
+}
+
+double PathCondition::predict() {
+  set_tangent();
+  if (first_increment_) size_ = std::abs(*first_increment_ / tangent_->level);
+  first_increment_.reset();
+  if (present_ == PathControl::displacement) return correct();
+  return size_ * tangent_->level;
+}
+
+double PathCondition::correct() const {
+  const auto &a = flexibility_, &b = response_, &d = way_;
+  switch (present_) {
+    case PathControl::displacement:
+      return (size_ - watched_part(d) - watched_part(b)) / watched_part(a);
+    case PathControl::normal_plane:
+      return (size_ - dot(direction_, d) - dot(direction_, b)) / dot(direction_, a);
+    case PathControl::sphere: {
+      // |d + b + x a|^2 = l^2; of the two roots the one that goes on in the direction of d
+      const double aa = dot(a, a);
+      const double half = dot(d, a) + dot(b, a);
+      const double rest = dot(d, d) + 2.0 * dot(d, b) + dot(b, b) - size_ * size_;
+      const double root = half * half - aa * rest;
+      if (root >= 0.0) return (-half + std::copysign(std::sqrt(root), dot(a, d))) / aa;
+      break;  // no real root: linearised
+    }
+    case PathControl::linearised_sphere:
+      break;
+  }
+  return -(dot(d, b) + 0.5 * (dot(d, d) - size_ * size_)) / dot(d, a);
+}
+
+double PathCondition::level_increment(const model::State& state, const Vector& response,
+                                      const Vector& flexibility) {
+  read_positions(system_.linear_motion(state, response, 1.0), response_);
+  read_positions(system_.linear_motion(state, flexibility, 1.0), flexibility_);
+  read_way(state);
+  if (has_begun_) return correct();
+  has_begun_ = true;
+  return predict();
+}
+
+double PathCondition::violation(const model::State& state) {
+  // before the first iteration nothing is known but that there is a way to go
+  if (first_increment_) return 1.0;
+  read_way(state);
+  double gone = 0.0;
+  if (present_ == PathControl::displacement) {
+    gone = watched_part(way_);
+  } else if (present_ == PathControl::normal_plane) {
+    gone = has_begun_ ? dot(direction_, way_) : 0.0;
+  } else {
+    gone = std::sqrt(dot(way_, way_));
+  }
+  return std::abs(gone - size_) / system_.model().length();
+}
+
+double PathCondition::length(const model::State& state) {
+  read_way(state);
+  return std::sqrt(dot(way_, way_));
+}
+
+double PathCondition::straightness(const model::State& state) {
+  read_way(state);
+  return dot(direction_, way_) / std::sqrt(dot(way_, way_));
+}
+
+void PathCondition::accept(const model::State& state) {
+  read_way(state);
+  previous_ = way_;
+}
+
+void PathCondition::save(Snapshot& snapshot) const {
+  snapshot.set("path/increment", {previous_.data(), previous_.data() + previous_.size()});
+}
+
+void PathCondition::restore(const Snapshot& snapshot) {
+  const std::vector<double>& increment = snapshot.numbers("path/increment");
+  previous_ = Eigen::Map<const Motion>(increment.data(), 3,
+                                       static_cast<Eigen::Index>(increment.size() / 3));
+}
+
+}  // namespace culm::analysis
