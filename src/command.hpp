@@ -1,6 +1,7 @@
 /// The verbs of the application, one file each.
 #pragma once
 
+#include <culm/openfast/import.hpp>
 #include <culm/parallel/comm.hpp>
 
 #include <filesystem>
@@ -31,6 +32,7 @@ struct ResumeArguments {
 struct ImportArguments {
   std::filesystem::path file;
   std::filesystem::path deck;  ///< to write; name of the file with .xml if empty
+  openfast::TurbineOptions turbine;
   bool quiet = false;
 };
 

@@ -57,7 +57,7 @@ void import_openfast(const parallel::Comm& comm, const ImportArguments& argument
   report_path.replace_extension(".report.txt");
   refuse_existing(deck_path);
   refuse_existing(report_path);
-  openfast::Imported imported = openfast::import_file(arguments.file);
+  openfast::Imported imported = openfast::import_file(arguments.file, arguments.turbine);
   // What is written is a deck that builds; its masses belong to the report.
   const simulation::Catalogue catalogue;
   const simulation::DeckSource source{{{deck_path.string(), imported.deck}}, {}};

@@ -76,10 +76,20 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
       [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.deck); }; });
   CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");
   import->require_subcommand(1);
-  CLI::App* openfast = import->add_subcommand("openfast", "A blade of BeamDyn");
-  openfast->add_option("file", arguments.import.file, "Driver or primary file")->required();
+  CLI::App* openfast =
+      import->add_subcommand("openfast", "A blade of BeamDyn, a turbine of ElastoDyn");
+  openfast
+      ->add_option("file", arguments.import.file,
+                   "Driver or primary file of BeamDyn, main file of ElastoDyn")
+      ->required();
   openfast->add_option("--output", arguments.import.deck,
                        "Deck to write; here, with the name of the file and .xml, if not given");
+  openfast->add_option("--blade", arguments.import.turbine.blade,
+                       "Primary file of BeamDyn, for the blades of a turbine");
+  openfast
+      ->add_option("--blade-mass", arguments.import.turbine.blade_mass,
+                   "Mass to which each blade of a turbine is scaled [kg]")
+      ->check(CLI::PositiveNumber);
   openfast->add_flag("--quiet", arguments.import.quiet, "Do not print the report");
   openfast->callback([&] {
     action = [&](const Comm& comm) { culm::app::import_openfast(comm, arguments.import); };

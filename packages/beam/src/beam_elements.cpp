@@ -40,7 +40,16 @@ struct Stretch {
   std::array<Mat3, Points> masses(const SectionTable& sections) const {
     std::array<Mat3, Points> result;
     const auto rule = gauss_legendre(Points);
-    for (std::size_t g = 0; g < Points; ++g) result[g] = section_at(sections, rule[g].xi).mass;
+    double sampled = 0.0;
+    for (std::size_t g = 0; g < Points; ++g) {
+      result[g] = section_at(sections, rule[g].xi).mass;
+      sampled += 0.5 * rule[g].weight * result[g](0, 0);
+    }
+    // Tables that kink or jump within the element: it weighs what they say.
+    if (sampled > 0.0) {
+      const double factor = sections.mean_mass(spans[0], spans[order]) / sampled;
+      for (Mat3& mass : result) mass *= factor;
+    }
     return result;
   }
 

@@ -18,6 +18,20 @@ material::Section SectionTable::at(double span) const {
   return material::interpolate(sections_[place.first], sections_[place.second], place.t);
 }
 
+// Of a linear piece the mean is the value in its middle.
+double SectionTable::mean_mass(double from, double to) const {
+  std::vector<double> ends{from};
+  for (const double position : positions_) {
+    if (position > from && position < to && position > ends.back()) ends.push_back(position);
+  }
+  ends.push_back(to);
+  double integral = 0.0;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    integral += (ends[i + 1] - ends[i]) * at(0.5 * (ends[i] + ends[i + 1])).mass(0, 0);
+  }
+  return integral / (to - from);
+}
+
 void add_section_fields(Schema& schema) {
   schema.add(text("Section", "Section all along, by its name in Sections.").optional())
       .add(texts("Sections", "Sections along the axis, by their names in Sections, instead of one.")

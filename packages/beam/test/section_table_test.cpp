@@ -37,6 +37,16 @@ TEST(SectionTable, JumpsWhereTwoPositionsAreEqual) {
   EXPECT_EQ(stiffness_at(table, 0.5), 4.0);
 }
 
+material::Section mass(double rhoA) { return {Mat6::Identity(), rhoA * Mat3::Identity(), {}}; }
+
+TEST(SectionTable, MeanMassIsExactAcrossKinksAndJumps) {
+  const SectionTable kinked({mass(1.0), mass(3.0), mass(2.0)}, {0.0, 0.5, 1.0});
+  EXPECT_NEAR(kinked.mean_mass(0.0, 1.0), 2.25, 1e-15);
+  EXPECT_NEAR(kinked.mean_mass(0.25, 0.75), 0.5 * (2.5 + 2.75), 1e-15);
+  const SectionTable jumping({mass(1.0), mass(1.0), mass(4.0), mass(4.0)}, {0.0, 0.5, 0.5, 1.0});
+  EXPECT_NEAR(jumping.mean_mass(0.4, 0.8), (0.1 * 1.0 + 0.3 * 4.0) / 0.4, 1e-14);
+}
+
 class SectionFields : public testing::Test {
  protected:
   SectionFields() { add_section_fields(schema_); }

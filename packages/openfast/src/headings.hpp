@@ -8,6 +8,7 @@ inline constexpr const char* conventions = "conventions";
 inline constexpr const char* assumed = "assumed";
 inline constexpr const char* checked = "checked";
 inline constexpr const char* masses = "masses";
+inline constexpr const char* frequencies = "first frequencies";
 inline constexpr const char* not_used = "not used";
 inline constexpr const char* unknown = "unknown or contradictory";
 

@@ -20,6 +20,8 @@ class SectionTable {
 
   /// Section at a span in [0, 1].
   material::Section at(double span) const;
+  /// Mean of the mass per length between two spans, exact [kg/m]. @pre from < to
+  double mean_mass(double from, double to) const;
 
  private:
   std::vector<material::Section> sections_;

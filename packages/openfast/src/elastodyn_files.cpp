@@ -1,0 +1,379 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
+#include <culm/openfast/elastodyn.hpp>
+#include <culm/openfast/input_file.hpp>
+
+#include "headings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+namespace culm::openfast {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double percent = 0.01;
+
+// A table whose first header line names the columns.
+class NamedTable {
+ public:
+  NamedTable(InputFile& file, const std::string& heading, const std::string& count)
+      : file_(file), heading_(heading) {
+    const auto names = file.columns_below(heading);
+    for (std::size_t i = 0; i < names.size(); ++i) columns_[to_lower(names[i])] = i;
+    rows_ = file.numbers_below(heading);
+    if (static_cast<int>(rows_.size()) != file.integer(count) || rows_.size() < 2) {
+      throw InputError(file.where(count),
+                       fmt::format("announces {} lines (at least 2), but below {} there are {}",
+                                   file.integer(count), heading, rows_.size()));
+    }
+  }
+  std::size_t size() const { return rows_.size(); }
+  bool has(const std::string& column) const { return columns_.contains(to_lower(column)); }
+  double at(std::size_t row, const std::string& column) const {
+    const auto found = columns_.find(to_lower(column));
+    if (found == columns_.end()) {
+      throw InputError(file_.where(0, heading_), "has no column '" + column + "'");
+    }
+    const NumberRow& numbers = rows_[row];
+    if (found->second >= numbers.values.size()) {
+      throw InputError(file_.where(numbers.line, column),
+                       fmt::format("is missing: the line has {} numbers", numbers.values.size()));
+    }
+    return numbers.values[found->second];
+  }
+  std::optional<double> find(std::size_t row, const std::string& column) const {
+    return has(column) ? std::optional(at(row, column)) : std::nullopt;
+  }
+  /// Throws InputError unless the column rises from 0 to 1.
+  void check_places(const std::string& column) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      const double place = at(i, column);
+      const bool ends = (i == 0 && place != 0.0) || (i + 1 == size() && place != 1.0);
+      if (ends || (i > 0 && place <= at(i - 1, column))) {
+        throw InputError(file_.where(rows_[i].line, column),
+                         fmt::format("places must rise from 0 to 1, got {:g}", place));
+      }
+    }
+  }
+  /// Throws InputError unless the value is positive.
+  double positive(std::size_t row, const std::string& column) const {
+    const double value = at(row, column);
+    if (!(value > 0.0)) {
+      throw InputError(file_.where(rows_[row].line, column),
+                       fmt::format("must be positive, got {:g}", value));
+    }
+    return value;
+  }
+
+ private:
+  const InputFile& file_;
+  std::string heading_;
+  std::map<std::string, std::size_t> columns_;
+  std::vector<NumberRow> rows_;
+};
+
+FileMode read_mode(InputFile& file, const std::string& name, const std::string& shape,
+                   const std::string& damping) {
+  FileMode mode{name, {}, percent * file.number(damping)};
+  for (int k = 0; k < 5; ++k) {
+    mode.coefficients[static_cast<std::size_t>(k)] =
+        file.number(fmt::format("{}({})", shape, k + 2));
+  }
+  return mode;
+}
+
+void report_tuners(InputFile& file, const std::vector<std::string>& tuners, Report& report) {
+  for (const std::string& tuner : tuners) {
+    if (file.number(tuner, 1.0) != 1.0) {
+      report.add(unknown, to_string(file.where(tuner)) +
+                              ": changes single modes of ElastoDyn, which "
+                              "culm does not have: left out");
+    }
+  }
+}
+
+// ElastoDyn's blade neither stretches nor shears nor twists: stiff enough here to act alike, soft
+// enough to be computed with. A factor of 1e4 over the length squared puts EA of usual blades at
+// about five times its value.
+struct Assumed {
+  double stretch;
+  double shear;
+  double torsion;
+};
+Assumed assume_stiffness(double flap, double edge, double length) {
+  constexpr double factor = 1e4;
+  const double stretch = factor * (flap + edge) / (length * length);
+  return {stretch, stretch / 2.6, flap + edge};
+}
+
+BladeStation make_station(const NamedTable& table, std::size_t i, double length, double mass_factor,
+                          double flap_factor, double edge_factor) {
+  const double m = mass_factor * table.positive(i, "BMassDen");
+  const double flap = flap_factor * table.positive(i, "FlpStff");
+  const double edge = edge_factor * table.positive(i, "EdgStff");
+  const Assumed assumed = assume_stiffness(flap, edge, length);
+  const double stretch = table.find(i, "EAStff").value_or(assumed.stretch);
+  const double torsion = table.find(i, "GJStff").value_or(assumed.torsion);
+  // sections of even density have the same radius in mass and stiffness
+  const double edge_inertia = table.find(i, "EdgIner").value_or(m * edge / stretch);
+  const double flap_inertia = table.find(i, "FlpIner").value_or(m * flap / stretch);
+  BladeStation station{table.at(i, "BlFract"), Mat6::Zero(), Mat6::Zero(), 0};
+  station.stiffness.diagonal() << stretch / 2.6, stretch / 2.6, stretch, edge, flap, torsion;
+  station.mass.diagonal() << m, m, m, edge_inertia, flap_inertia, edge_inertia + flap_inertia;
+  return station;
+}
+
+ElastoDynBlade read_blade(const std::filesystem::path& path, double length, Report& report) {
+  InputFile file(path);
+  const NamedTable table(file, "DISTRIBUTED BLADE", "NBlInpSt");
+  table.check_places("BlFract");
+  ElastoDynBlade blade;
+  blade.beam.path = path;
+  blade.beam.title = file.title();
+  blade.beam.blade.path = path;
+  blade.beam.blade.title = file.title();
+  const double mass_factor = file.number("AdjBlMs");
+  const double flap_factor = file.number("AdjFlSt");
+  const double edge_factor = file.number("AdjEdSt");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    blade.beam.blade.stations.push_back(
+        make_station(table, i, length, mass_factor, flap_factor, edge_factor));
+    blade.beam.key_points.push_back(
+        {Vec3(0.0, 0.0, length * table.at(i, "BlFract")), degree * table.at(i, "StrcTwst")});
+  }
+  blade.flap = read_mode(file, "flap", "BldFl1Sh", "BldFlDmp(1)");
+  blade.edge = read_mode(file, "edge", "BldEdgSh", "BldEdDmp(1)");
+  report_tuners(file, {"FlStTunr(1)", "FlStTunr(2)"}, report);
+  file.ignore({"FlStTunr(1)", "FlStTunr(2)", "BldFlDmp(2)", "CalcBMode", "BldFl2Sh(2)",
+               "BldFl2Sh(3)", "BldFl2Sh(4)", "BldFl2Sh(5)", "BldFl2Sh(6)"});
+  report.add(read, fmt::format("{}: ElastoDyn blade, {} stations, masses times {:g}; '{}'",
+                               path.string(), table.size(), mass_factor, file.title()));
+  if (!table.has("EAStff") || !table.has("GJStff")) {
+    report.add(assumed,
+               "blades: ElastoDyn has no stretch, shear and torsion: EA = 1e4 (EI_flap + "
+               "EI_edge) / length^2, GA = EA / 2.6, GJ = EI_flap + EI_edge; BeamDyn's blade "
+               "can be given with --blade");
+  }
+  if (!table.has("FlpIner")) {
+    report.add(assumed, "blades: rotary inertia m EI / EA, that of sections of even density");
+  }
+  report.add(unknown, file.unread());
+  return blade;
+}
+
+ElastoDynTower read_tower(const std::filesystem::path& path, Report& report) {
+  InputFile file(path);
+  const NamedTable table(file, "DISTRIBUTED TOWER", "NTwInpSt");
+  table.check_places("HtFract");
+  ElastoDynTower tower{path, file.title(), {}, {}, {}};
+  const double mass_factor = file.number("AdjTwMa");
+  const double fa_factor = file.number("AdjFASt");
+  const double ss_factor = file.number("AdjSSSt");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    tower.stations.push_back({table.at(i, "HtFract"), mass_factor * table.positive(i, "TMassDen"),
+                              fa_factor * table.positive(i, "TwFAStif"),
+                              ss_factor * table.positive(i, "TwSSStif"), table.find(i, "TwGJStif"),
+                              table.find(i, "TwEAStif"), table.find(i, "TwFAIner"),
+                              table.find(i, "TwSSIner")});
+  }
+  tower.fore_aft = read_mode(file, "fore-aft", "TwFAM1Sh", "TwrFADmp(1)");
+  tower.side_side = read_mode(file, "side-to-side", "TwSSM1Sh", "TwrSSDmp(1)");
+  const std::vector<std::string> tuners{"FAStTunr(1)", "FAStTunr(2)", "SSStTunr(1)", "SSStTunr(2)"};
+  report_tuners(file, tuners, report);
+  file.ignore(tuners);
+  file.ignore({"TwrFADmp(2)", "TwrSSDmp(2)", "CalcTMode"});
+  for (int k = 2; k <= 6; ++k) {
+    file.ignore({fmt::format("TwFAM2Sh({})", k), fmt::format("TwSSM2Sh({})", k)});
+  }
+  report.add(read, fmt::format("{}: ElastoDyn tower, {} stations; '{}'", path.string(),
+                               table.size(), file.title()));
+  report.add(unknown, file.unread());
+  return tower;
+}
+
+// What a rigid model of three blades cannot do, if the file asks for it.
+void refuse(InputFile& file) {
+  if (file.has("Furling") && file.flag("Furling")) {
+    throw InputError(file.where("Furling"), "furling turbines cannot be imported");
+  }
+  for (const char* offset : {"UndSling", "Delta3"}) {
+    if (file.number("NumBl") == 2 && file.number(offset, 0.0) != 0.0) {
+      throw InputError(file.where(offset), "teetering rotors cannot be imported");
+    }
+  }
+}
+
+void ignore_rest(InputFile& file) {
+  file.ignore({"Echo",
+               "Method",
+               "DT",
+               "FlapDOF1",
+               "FlapDOF2",
+               "EdgeDOF",
+               "PitchDOF",
+               "TeetDOF",
+               "DrTrDOF",
+               "GenDOF",
+               "YawDOF",
+               "TwFADOF1",
+               "TwFADOF2",
+               "TwSSDOF1",
+               "TwSSDOF2",
+               "PtfmSgDOF",
+               "PtfmSwDOF",
+               "PtfmHvDOF",
+               "PtfmRDOF",
+               "PtfmPDOF",
+               "PtfmYDOF",
+               "OoPDefl",
+               "IPDefl",
+               "TeetDefl",
+               "NacYaw",
+               "TTDspFA",
+               "TTDspSS",
+               "PtfmSurge",
+               "PtfmSway",
+               "PtfmHeave",
+               "PtfmRoll",
+               "PtfmPitch",
+               "PtfmYaw",
+               "UndSling",
+               "Delta3",
+               "ShftGagL",
+               "NcIMUxn",
+               "NcIMUyn",
+               "NcIMUzn",
+               "HubIner_Teeter",
+               "TeetMod",
+               "TeetDmpP",
+               "TeetDmp",
+               "TeetCDmp",
+               "TeetSStP",
+               "TeetHStP",
+               "TeetSSSp",
+               "TeetHSSp",
+               "YawFrctMod",
+               "M_CSmax",
+               "M_FCSmax",
+               "M_MCSmax",
+               "M_CD",
+               "M_FCD",
+               "M_MCD",
+               "sig_v",
+               "sig_v2",
+               "OmgCut",
+               "GBoxEff",
+               "Furling",
+               "FurlFile",
+               "TwrNodes",
+               "SumPrint",
+               "OutFile",
+               "TabDelim",
+               "OutFmt",
+               "TStart",
+               "DecFact",
+               "NTwGages",
+               "TwrGagNd",
+               "NBlGages",
+               "BldGagNd",
+               "BldNd_BladesOut",
+               "BldNd_BlOutNd",
+               "Gravity"});
+  for (int i = 1; i <= 3; ++i) {
+    file.ignore({fmt::format("PBrIner({})", i), fmt::format("BlPIner({})", i),
+                 fmt::format("BldFile({})", i), fmt::format("PreCone({})", i),
+                 fmt::format("BlPitch({})", i), fmt::format("TipMass({})", i)});
+  }
+}
+
+void read_rotor(InputFile& file, ElastoDyn& turbine) {
+  const int blades = file.integer("NumBl");
+  if (blades < 1 || blades > 3) {
+    throw InputError(file.where("NumBl"), fmt::format("must be 1, 2 or 3, got {}", blades));
+  }
+  turbine.tip_radius = file.number("TipRad");
+  turbine.hub_radius = file.number("HubRad");
+  if (!(turbine.tip_radius > turbine.hub_radius)) {
+    throw InputError(file.where("TipRad"), fmt::format("must be above HubRad, {:g}, got {:g}",
+                                                       turbine.hub_radius, turbine.tip_radius));
+  }
+  for (int i = 1; i <= blades; ++i) {
+    turbine.cones.push_back(degree * file.number(fmt::format("PreCone({})", i)));
+    turbine.pitches.push_back(degree * file.number(fmt::format("BlPitch({})", i)));
+    turbine.tip_masses.push_back(file.number(fmt::format("TipMass({})", i), 0.0));
+  }
+  turbine.azimuth = degree * (file.number("Azimuth") - file.number("AzimB1Up", 0.0));
+  turbine.rotor_speed = file.number("RotSpeed") * std::numbers::pi / 30.0;
+  turbine.hub_centre = file.number("HubCM");
+  turbine.hub_mass = file.number("HubMass");
+  turbine.hub_inertia = file.number("HubIner");
+  turbine.blade_nodes = file.integer("BldNodes");
+}
+
+void read_nacelle(InputFile& file, ElastoDyn& turbine) {
+  turbine.tower_top = file.number("TowerHt");
+  turbine.tower_base = file.number("TowerBsHt", 0.0);
+  const char* axes[] = {"xn", "yn", "zn"};
+  for (int i = 0; i < 3; ++i) {
+    turbine.nacelle_centre[i] = file.number(std::string("NacCM") + axes[i]);
+  }
+  turbine.shaft_height = file.number("Twr2Shft");
+  turbine.overhang = file.number("OverHang");
+  turbine.tilt = degree * file.number("ShftTilt");
+  turbine.nacelle_mass = file.number("NacMass");
+  turbine.nacelle_inertia = file.number("NacYIner");
+  turbine.yaw_bearing_mass = file.number("YawBrMass", 0.0);
+  turbine.generator_inertia = file.number("GenIner");
+  turbine.gear_ratio = file.number("GBRatio");
+  turbine.shaft_stiffness = file.number("DTTorSpr");
+  turbine.shaft_damping = file.number("DTTorDmp");
+}
+
+void report_left_out(InputFile& file, Report& report) {
+  for (const char* entry : {"NacYaw", "PtfmMass", "PtfmRoll", "PtfmPitch", "PtfmYaw", "OoPDefl",
+                            "IPDefl", "TTDspFA", "TTDspSS", "PBrIner(1)", "BlPIner(1)"}) {
+    if (file.number(entry, 0.0) != 0.0) {
+      report.add(not_used,
+                 fmt::format("{} = {:g}", to_string(file.where(entry)), file.number(entry)));
+    }
+  }
+  file.ignore({"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
+               "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefxt", "PtfmRefyt",
+               "PtfmRefzt"});
+  report.add(not_used,
+             fmt::format("{}: degrees of freedom, platform, teeter, yaw friction, outputs: "
+                         "the tower is clamped, yaw and pitch are locked",
+                         file.path().string()));
+}
+
+}  // namespace
+
+ElastoDyn read_elastodyn(const std::filesystem::path& path, Report& report) {
+  InputFile file(path);
+  report.add(read, fmt::format("{}: ElastoDyn; '{}'", path.string(), file.title()));
+  refuse(file);
+  ElastoDyn turbine;
+  turbine.path = path;
+  turbine.title = file.title();
+  read_rotor(file, turbine);
+  read_nacelle(file, turbine);
+  const double length = turbine.tip_radius - turbine.hub_radius;
+  std::map<std::filesystem::path, ElastoDynBlade> blades;
+  for (std::size_t i = 1; i <= turbine.cones.size(); ++i) {
+    const auto blade_path = file.file(fmt::format("BldFile({})", i));
+    if (!blades.contains(blade_path)) blades[blade_path] = read_blade(blade_path, length, report);
+    turbine.blades.push_back(blades[blade_path]);
+  }
+  turbine.tower = read_tower(file.file("TwrFile"), report);
+  report_left_out(file, report);
+  ignore_rest(file);
+  report.add(unknown, file.unread());
+  return turbine;
+}
+
+}  // namespace culm::openfast

@@ -1,0 +1,491 @@
+#include "turbine_deck.hpp"
+
+#include <culm/math/quadrature.hpp>
+#include <culm/math/rotation.hpp>
+#include <culm/openfast/deck_writer.hpp>
+
+#include "blade_lists.hpp"
+#include "headings.hpp"
+#include "rayleigh.hpp"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace culm::openfast {
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr BladeMesh blade_mesh{17, 1};
+constexpr int tower_elements = 10;
+constexpr double gravity = 9.80665;
+
+// Where things are.
+struct Layout {
+  Vec3 top;    // of the tower
+  Vec3 shaft;  // direction, downwind
+  Vec3 place;  // of the shaft at the yaw axis
+  Vec3 apex;
+  std::vector<Placement> roots;
+
+  explicit Layout(const ElastoDyn& turbine)
+      : top(0.0, 0.0, turbine.tower_top),
+        shaft(std::cos(turbine.tilt), 0.0, std::sin(turbine.tilt)),
+        place(top + Vec3(0.0, 0.0, turbine.shaft_height)),
+        apex(place + turbine.overhang * shaft) {
+    const Mat3 upright = (Mat3() << shaft, Vec3::UnitY(), shaft.cross(Vec3::UnitY())).finished();
+    for (std::size_t i = 0; i < turbine.cones.size(); ++i) {
+      const double step = two_pi / static_cast<double>(turbine.cones.size());
+      const double azimuth = turbine.azimuth + static_cast<double>(i) * step;
+      // azimuth about the shaft, then the cone about y, then the pitch about -z
+      const Mat3 axes = exp_rotation(azimuth * shaft) * upright *
+                        exp_rotation(turbine.cones[i] * Vec3::UnitY()) *
+                        exp_rotation(-turbine.pitches[i] * Vec3::UnitZ());
+      roots.push_back({apex + turbine.hub_radius * axes.col(2), axes});
+    }
+  }
+};
+
+// Linear between stations.
+template <class Station, class Place, class Value>
+std::function<double(double)> along(const std::vector<Station>& stations, Place place,
+                                    Value value) {
+  return [=](double x) {
+    std::size_t i = 1;
+    while (i + 1 < stations.size() && place(stations[i]) < x) ++i;
+    const double a = place(stations[i - 1]);
+    const double t = (x - a) / (place(stations[i]) - a);
+    return (1.0 - t) * value(stations[i - 1]) + t * value(stations[i]);
+  };
+}
+
+double span_of(const BladeStation& station) { return station.span; }
+double height_of(const TowerStation& station) { return station.height; }
+
+Cantilever blade_cantilever(const BeamDyn& beam, int bending) {
+  Cantilever cantilever;
+  cantilever.length = (beam.key_points.back().position - beam.key_points.front().position).norm();
+  for (const BladeStation& station : beam.blade.stations) cantilever.places.push_back(station.span);
+  cantilever.mass = along(beam.blade.stations, span_of,
+                          [](const BladeStation& station) { return station.mass(0, 0); });
+  cantilever.stiffness = along(beam.blade.stations, span_of, [=](const BladeStation& station) {
+    return station.stiffness(bending, bending);
+  });
+  return cantilever;
+}
+
+double blade_mass(const BeamDyn& beam) {
+  return integrate_mass(BladeAxis(beam.key_points), beam.blade.stations).mass;
+}
+
+// What stands on the tower.
+double head_mass(const ElastoDyn& turbine) {
+  double mass = turbine.yaw_bearing_mass + turbine.nacelle_mass + turbine.hub_mass;
+  for (const ElastoDynBlade& blade : turbine.blades) mass += blade_mass(blade.beam);
+  for (const double tip : turbine.tip_masses) mass += tip;
+  return mass;
+}
+
+Cantilever tower_cantilever(const ElastoDyn& turbine, double TowerStation::*stiffness) {
+  Cantilever cantilever;
+  cantilever.length = turbine.tower_top - turbine.tower_base;
+  for (const TowerStation& station : turbine.tower.stations) {
+    cantilever.places.push_back(station.height);
+  }
+  cantilever.mass = along(turbine.tower.stations, height_of,
+                          [](const TowerStation& station) { return station.mass; });
+  cantilever.stiffness = along(turbine.tower.stations, height_of,
+                               [=](const TowerStation& station) { return station.*stiffness; });
+  cantilever.tip_mass = head_mass(turbine);
+  return cantilever;
+}
+
+// The time by which stress runs ahead of strain, so that a mode has its damping: zeta = eta omega
+// / 2.
+double find_damping(const Cantilever& cantilever, const FileMode& mode, const std::string& what,
+                    Report& report) {
+  const double omega = rayleigh(cantilever, mode);
+  const double eta = 2.0 * mode.damping / omega;
+  report.add(frequencies, fmt::format("{}, {}: {:.4f} Hz; damping {:.4g} of the critical one, "
+                                      "eta = {:.4g} s",
+                                      what, mode.name, omega / two_pi, mode.damping, eta));
+  return eta;
+}
+
+void find_blade_damping(ElastoDyn& turbine, Report& report) {
+  report.add(frequencies,
+             "Rayleigh quotients of the mode shapes in the files, without rotation and "
+             "weight; blades clamped, tower with the mass of its head");
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    ElastoDynBlade& blade = turbine.blades[i];
+    const std::string name = fmt::format("blade {}", i + 1);
+    const double edge = find_damping(blade_cantilever(blade.beam, 3), blade.edge, name, report);
+    const double flap = find_damping(blade_cantilever(blade.beam, 4), blade.flap, name, report);
+    auto& damping = blade.beam.blade.damping;
+    const bool given =
+        std::any_of(damping.begin(), damping.end(), [](double d) { return d != 0.0; });
+    if (!given) damping = {0.0, 0.0, 0.0, edge, flap, 0.0};
+  }
+}
+
+double find_tower_damping(const ElastoDyn& turbine, Report& report) {
+  const auto& tower = turbine.tower;
+  const double fa = find_damping(tower_cantilever(turbine, &TowerStation::fore_aft), tower.fore_aft,
+                                 "tower", report);
+  const double ss = find_damping(tower_cantilever(turbine, &TowerStation::side_side),
+                                 tower.side_side, "tower", report);
+  report.add(assumed, fmt::format("tower: one factor of damping, {:.4g} s, fits the first modes; "
+                                  "higher ones are damped in proportion to their frequency",
+                                  std::min(fa, ss)));
+  return std::min(fa, ss);
+}
+
+// A thin steel tube of this mass and bending stiffness where the file does not say more: the report
+// of the 5 MW turbine has E = 210 GPa, 8500 kg/m^3 with paint, bolts, welds and flanges.
+constexpr double steel = 210e9 / 8500.0;
+constexpr double nu = 0.3;
+// times the torsion stiffness: as good as rigid
+constexpr double stiff = 100.0;
+
+void write_tower_sections(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
+  deck.comment({"Stations of the tower file; d1 is downwind, so EI2 bends along the wind."});
+  for (std::size_t i = 0; i < turbine.tower.stations.size(); ++i) {
+    const TowerStation& station = turbine.tower.stations[i];
+    const double stretch = station.stretch.value_or(station.mass * steel);
+    const double shear = stretch / (2.0 * (1.0 + nu)) / 2.0;
+    const double torsion =
+        station.torsion.value_or((station.fore_aft + station.side_side) / (2.0 * (1.0 + nu)));
+    deck.open(fmt::format("tower {}", i + 1), "Stiffness Values");
+    deck.set("EA", stretch);
+    deck.set("GA1", shear);
+    deck.set("GA2", shear);
+    deck.set("EI1", station.side_side);
+    deck.set("EI2", station.fore_aft);
+    deck.set("GIp", fmt::format("torsion*{:.12g}", torsion));
+    deck.set("rhoA", station.mass);
+    deck.set("rhoI1", station.inertia_ss.value_or(station.mass * station.side_side / stretch));
+    deck.set("rhoI2", station.inertia_fa.value_or(station.mass * station.fore_aft / stretch));
+    deck.close();
+  }
+  if (!turbine.tower.stations.front().stretch) {
+    report.add(assumed,
+               "tower: a thin tube of steel, E / rho = 210e9 / 8500 m^2/s^2, nu = 0.3: EA = "
+               "mass E / rho, GA = EA / 5.2, GJ = (EI_fa + EI_ss) / 2.6, rotary inertia "
+               "mass EI / EA");
+  }
+  report.add(assumed,
+             fmt::format("tower: that of ElastoDyn does not twist: GJ times {:g}, the variable "
+                         "'torsion' of the deck; 1 lets it twist",
+                         stiff));
+}
+
+// Blades of one file share their sections.
+std::string sections_of(const ElastoDyn& turbine, std::size_t blade) {
+  const auto& path = turbine.blades[blade].beam.blade.path;
+  std::size_t first = 0;
+  while (turbine.blades[first].beam.blade.path != path) ++first;
+  return first == 0 ? "blade station" : fmt::format("blade {} station", first + 1);
+}
+
+void write_sections_list(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
+  deck.open("Sections");
+  write_tower_sections(turbine, report, deck);
+  deck.comment(
+      {"Stations of the blades. Order: shear x, shear y, stretch, bending about x (edge) and y",
+       "(flap), twist; upper triangle by rows."});
+  std::vector<std::string> written;
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    const std::string name = sections_of(turbine, i);
+    if (std::find(written.begin(), written.end(), name) != written.end()) continue;
+    write_sections(name, turbine.blades[i].beam.blade, deck);
+    written.push_back(name);
+  }
+  deck.close();
+}
+
+void write_body(const std::string& name, const Vec3& position, const Mat3& directors, double mass,
+                const Vec3& centre, const Vec3& inertia, DeckWriter& deck) {
+  deck.open(name, "Rigid Body");
+  deck.set("Position", position);
+  if (!directors.isIdentity(0.0)) {
+    deck.set("Directors", std::vector<double>(directors.data(), directors.data() + 9));
+  }
+  deck.set("Mass", mass);
+  if (!centre.isZero(0.0)) deck.set("Centre", centre);
+  deck.set("Inertia", inertia);
+  deck.close();
+}
+
+// Generator: a disc on the slow shaft, whose inertia is that of the fast one times the square of
+// the ratio. A disc is the slimmest body that has it; what it adds across is taken from the
+// nacelle.
+void write_bodies(const ElastoDyn& turbine, const Layout& layout, Report& report,
+                  DeckWriter& deck) {
+  const double generator = turbine.generator_inertia * turbine.gear_ratio * turbine.gear_ratio;
+  const Vec3& centre = turbine.nacelle_centre;
+  const double about_centre =
+      turbine.nacelle_inertia - turbine.nacelle_mass * centre.head<2>().squaredNorm();
+  // a body has extent in all directions
+  const double least = 0.01 * std::max(about_centre, 0.0) + turbine.nacelle_mass * 1e-3;
+  const double own = std::max(least, about_centre - 0.5 * generator);
+  constexpr double token = 1.0;  // a body must weigh something
+  const Mat3 along_shaft = triad_along(layout.shaft, Vec3::UnitY());
+  write_body("nacelle", layout.top, Mat3::Identity(), turbine.nacelle_mass - token, centre,
+             {least, own, own}, deck);
+  write_body("generator", layout.place, along_shaft, token, Vec3::Zero(),
+             {0.5 * generator, 0.5 * generator, generator}, deck);
+  write_body("hub", layout.apex, along_shaft, turbine.hub_mass, {0.0, 0.0, turbine.hub_centre},
+             Vec3::Constant(turbine.hub_inertia), deck);
+  report.add(assumed,
+             fmt::format("generator: {:.6g} kg m^2 about the slow shaft (ratio squared), a "
+                         "disc of {:g} kg taken from the nacelle, as far as half of it "
+                         "across the shaft",
+                         generator, token));
+  report.add(assumed,
+             fmt::format("nacelle: {:.6g} kg m^2 about its centre from NacYIner; {:.6g} are "
+                         "left beside the generator, for pitch as for yaw, 1 % of it for roll",
+                         about_centre, own));
+  report.add(assumed, "hub: HubIner for all axes");
+}
+
+void write_structures(const ElastoDyn& turbine, const Layout& layout, double tower_damping,
+                      Report& report, DeckWriter& deck) {
+  deck.open("Structures");
+  deck.open("tower", "Beam");
+  std::vector<std::string> names;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < turbine.tower.stations.size(); ++i) {
+    names.push_back(fmt::format("tower {}", i + 1));
+    heights.push_back(turbine.tower.stations[i].height);
+  }
+  deck.set("Sections", names);
+  deck.set("Section Positions", heights);
+  if (tower_damping > 0.0) deck.set("Damping", tower_damping);
+  deck.open("Curve", "Line");
+  deck.set("From", Vec3(0.0, 0.0, turbine.tower_base));
+  deck.set("To", layout.top);
+  deck.set("Up", Vec3(Vec3::UnitX()));
+  deck.set("Elements", tower_elements);
+  deck.close();
+  deck.close();
+  write_bodies(turbine, layout, report, deck);
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    write_beam(fmt::format("blade {}", i + 1), sections_of(turbine, i), turbine.blades[i].beam,
+               layout.roots[i], blade_mesh, deck);
+  }
+  deck.close();
+}
+
+void write_masses(const ElastoDyn& turbine, DeckWriter& deck) {
+  std::vector<std::pair<std::string, double>> found;
+  if (turbine.yaw_bearing_mass > 0.0) found.emplace_back("tower/last", turbine.yaw_bearing_mass);
+  for (std::size_t i = 0; i < turbine.tip_masses.size(); ++i) {
+    if (turbine.tip_masses[i] > 0.0) {
+      found.emplace_back(fmt::format("blade {}/last", i + 1), turbine.tip_masses[i]);
+    }
+  }
+  if (found.empty()) return;
+  deck.open("Masses");
+  for (const auto& [node, mass] : found) {
+    deck.open("at " + node, "Point Mass");
+    deck.set("Node", node);
+    deck.set("Mass", mass);
+    deck.close();
+  }
+  deck.close();
+}
+
+void write_follower(const std::string& name, const std::string& node, const std::string& master,
+                    DeckWriter& deck) {
+  deck.open(name, "Rigid Connection");
+  deck.set("Node", node);
+  deck.set("Master", master);
+  deck.close();
+}
+
+// Entries between two nodes about the shaft.
+void open_about_shaft(const std::string& name, const std::string& type, const std::string& first,
+                      const std::string& second, const Layout& layout, DeckWriter& deck) {
+  deck.open(name, type);
+  deck.set("First", first);
+  deck.set("Second", second);
+  deck.set("Axis", layout.shaft);
+}
+
+void write_constraints(const ElastoDyn& turbine, const Layout& layout, DeckWriter& deck) {
+  deck.open("Constraints");
+  deck.open("foundation", "Rigid Support");
+  deck.set("Node", "tower/first");
+  deck.close();
+  write_follower("yaw bearing", "nacelle", "tower/last", deck);
+  open_about_shaft("bearing", "Revolute Joint", "nacelle", "generator", layout, deck);
+  deck.close();
+  deck.comment({"The generator is locked; with an angle and a function it turns as prescribed."});
+  open_about_shaft("generator", "Joint Angle", "nacelle", "generator", layout, deck);
+  deck.set("Angle", 0.0);
+  deck.close();
+  if (turbine.shaft_stiffness > 0.0) {
+    open_about_shaft("shaft", "Revolute Joint", "generator", "hub", layout, deck);
+    deck.close();
+  } else {
+    write_follower("shaft", "hub", "generator", deck);
+  }
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    const std::string name = fmt::format("blade {}", i + 1);
+    write_follower(name, name + "/first", "hub", deck);
+  }
+  deck.close();
+}
+
+void write_loads(const ElastoDyn& turbine, const Layout& layout, DeckWriter& deck) {
+  deck.open("Loads");
+  deck.open("weight", "Gravity");
+  deck.set("Acceleration", Vec3(0.0, 0.0, -gravity));
+  deck.close();
+  if (turbine.shaft_stiffness > 0.0) {
+    open_about_shaft("shaft", "Torsion Spring", "generator", "hub", layout, deck);
+    deck.set("Stiffness", turbine.shaft_stiffness);
+    deck.close();
+  }
+  if (turbine.shaft_stiffness > 0.0 && turbine.shaft_damping > 0.0) {
+    open_about_shaft("shaft damper", "Torsion Damper", "generator", "hub", layout, deck);
+    deck.set("Damping", turbine.shaft_damping);
+    deck.close();
+  }
+  deck.close();
+}
+
+void write_history(const std::string& name, const std::string& type, const std::string& node,
+                   DeckWriter& deck) {
+  deck.open(name, type);
+  deck.set("Node", node);
+  deck.close();
+}
+
+void write_output(const ElastoDyn& turbine, const Layout& layout, DeckWriter& deck) {
+  deck.open("Output");
+  deck.open("History");
+  write_history("tower top", "Displacement", "tower/last", deck);
+  write_history("tower base", "Reaction", "tower/first", deck);
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    const std::string name = fmt::format("blade {}", i + 1);
+    write_history(name + " tip", "Displacement", name + "/last", deck);
+  }
+  open_about_shaft("rotor", "Joint Angle", "nacelle", "hub", layout, deck);
+  deck.close();
+  deck.open("energy", "Energy");
+  deck.close();
+  deck.close();
+  deck.close();
+}
+
+void report_masses(const ElastoDyn& turbine, Report& report) {
+  double rotor = turbine.hub_mass;
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    rotor += blade_mass(turbine.blades[i].beam) + turbine.tip_masses[i];
+  }
+  const auto mass = along(turbine.tower.stations, height_of,
+                          [](const TowerStation& station) { return station.mass; });
+  double tower = 0.0;
+  double moment = 0.0;
+  const double height = turbine.tower_top - turbine.tower_base;
+  const auto& stations = turbine.tower.stations;
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+    const double half = 0.5 * (stations[i + 1].height - stations[i].height);
+    for (const QuadraturePoint& point : gauss_legendre(2)) {  // exact for the moment
+      const double x = stations[i].height + half * (1.0 + point.xi);
+      tower += half * point.weight * height * mass(x);
+      moment += half * point.weight * height * height * x * mass(x);
+    }
+  }
+  report.add(masses, fmt::format("tower: {:.6g} kg, centre {:.5g} m above its base", tower,
+                                 moment / tower));
+  report.add(masses,
+             fmt::format("nacelle {:g} kg, hub {:g} kg, rotor {:.6g} kg, head of the tower "
+                         "{:.6g} kg",
+                         turbine.nacelle_mass, turbine.hub_mass, rotor, head_mass(turbine)));
+}
+
+// ElastoDyn adds up the masses at the middles of equal parts, which makes the mass that its factor
+// was chosen for.
+void report_midpoint_mass(const ElastoDyn& turbine, Report& report) {
+  for (std::size_t i = 0; i < turbine.blades.size() && turbine.blade_nodes > 0; ++i) {
+    const Cantilever blade = blade_cantilever(turbine.blades[i].beam, 3);
+    double sum = 0.0;
+    for (int node = 0; node < turbine.blade_nodes; ++node) {
+      sum += blade.mass((node + 0.5) / turbine.blade_nodes) * blade.length / turbine.blade_nodes;
+    }
+    report.add(masses, fmt::format("blade {}: ElastoDyn's sum over {} midpoints is {:.6g} kg",
+                                   i + 1, turbine.blade_nodes, sum));
+  }
+}
+
+}  // namespace
+
+void scale_blades(ElastoDyn& turbine, double mass, Report& report) {
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    BeamDyn& beam = turbine.blades[i].beam;
+    const double factor = mass / blade_mass(beam);
+    for (BladeStation& station : beam.blade.stations) station.mass *= factor;
+    report.add(assumed,
+               fmt::format("blade {}: masses times {:.6g}, for {:g} kg", i + 1, factor, mass));
+  }
+}
+
+void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report) {
+  const double length = BladeAxis(blade.key_points).curve.length();
+  const double wanted = turbine.tip_radius - turbine.hub_radius;
+  report.add(assumed,
+             "blades: those of BeamDyn; what ElastoDyn's blade files say is left out but for "
+             "the mode shapes");
+  if (std::abs(length - wanted) > 1e-3 * wanted) {
+    report.add(unknown, fmt::format("{}: the blade is {:.6g} m long, TipRad - HubRad is {:.6g} m",
+                                    blade.path.string(), length, wanted));
+  }
+  for (ElastoDynBlade& one : turbine.blades) one.beam = blade;
+}
+
+std::string write_deck(ElastoDyn turbine, Report& report) {
+  report_conventions(report);
+  report.add(conventions,
+             "turbine: x downwind, z up; azimuth and generator turn about the shaft, "
+             "clockwise seen from upwind; pitch turns about -z of the blade, cone about y");
+  find_blade_damping(turbine, report);
+  const double tower_damping = find_tower_damping(turbine, report);
+  report.add(assumed, fmt::format("mesh: {} elements per blade, {} in the tower, of order {}",
+                                  blade_mesh.elements, tower_elements, blade_mesh.order));
+  report.add(assumed,
+             fmt::format("gravity {:g} m/s^2, which ElastoDyn's files do not have", gravity));
+  report_masses(turbine, report);
+  report_midpoint_mass(turbine, report);
+  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
+    if (i == 0 || sections_of(turbine, i) != sections_of(turbine, 0)) {
+      report_blade(turbine.blades[i].beam, report);
+    }
+  }
+  const Layout layout(turbine);
+  DeckWriter deck(turbine.title,
+                  {"Shows: a wind turbine under its weight, generator locked.",
+                   "Imported from " + turbine.path.filename().string() + " of OpenFAST.",
+                   "x downwind, z up; origin at the foot of the tower. SI units."});
+  deck.variable("torsion", stiff,
+                "times GJ of the tower, which does not twist in ElastoDyn; 1: it does");
+  write_sections_list(turbine, report, deck);
+  write_structures(turbine, layout, tower_damping, report, deck);
+  write_masses(turbine, deck);
+  write_constraints(turbine, layout, deck);
+  write_loads(turbine, layout, deck);
+  deck.open("Analyses");
+  deck.open("weight", "Static");
+  deck.set("Steps", 2);
+  deck.close();
+  deck.close();
+  write_output(turbine, layout, deck);
+  return deck.text();
+}
+
+}  // namespace culm::openfast

@@ -1,0 +1,20 @@
+/// Decks of turbines.
+#pragma once
+
+#include <culm/openfast/elastodyn.hpp>
+#include <culm/openfast/report.hpp>
+
+#include <string>
+
+namespace culm::openfast {
+
+/// Scales the mass of each blade to `mass` [kg], the inertia of its sections with it.
+void scale_blades(ElastoDyn& turbine, double mass, Report& report);
+
+/// Takes this blade for all of a turbine.
+void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report);
+
+/// A turbine on a clamped tower, generator and pitch locked, under its weight.
+std::string write_deck(ElastoDyn turbine, Report& report);
+
+}  // namespace culm::openfast
