@@ -145,6 +145,17 @@ class Culm:
             raise RunFailed(f"{deck} {list(settings)}: exit code {run.exit}\n{run.errors}")
         return run
 
+    def check(self, deck):
+        """What culm check prints."""
+        return subprocess.run(
+            [self.program, "check", str(INPUTS / deck)],
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=TIME_LIMIT,
+            env={**os.environ, **MPI_ENVIRONMENT},
+        ).stdout
+
     def history(self, deck, settings=(), ranks=1):
         return self.succeed(deck, settings, ranks).history
 

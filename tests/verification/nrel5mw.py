@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""NREL 5 MW: the blade by BeamDyn's examples. Page: doc/verification/nrel5mw.md."""
+"""NREL 5 MW: the blade by BeamDyn's examples, the turbine. Page: doc/verification/nrel5mw.md."""
 
 import functools
 import math
 import pathlib
+import re
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -12,6 +13,7 @@ from verify import figure, main, richardson, save
 
 INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs/turbine/nrel5mw"
 STATIC, DYNAMIC = "turbine/nrel5mw/blade_static.xml", "turbine/nrel5mw/blade_dynamic.xml"
+STANDSTILL = "turbine/nrel5mw/turbine_modes.xml"
 LENGTH, ROOT, SPEED = 61.5, 1.0, 1.0006
 # BeamDyn at 0.01 s: r-test of OpenFAST, bd_5MW_dynamic_gravity_Az90; blade horizontal, at rest,
 # gravity along -y, mu = 1e-3. Tip displacement x, y, z in the axes of the root.
@@ -30,6 +32,25 @@ AT_REST = [
     "Initial Conditions/spin/Angular Velocity={0, 0, 0}",
     "Structures/blade/Damping=0.001",
 ]
+
+# Name, FAST, ADAMS (NREL/TP-500-38060, table 9-1), DeSiO (workshop of May 2021, slide 54) [Hz]
+MODES = [
+    ("tower fore-aft 1", 0.3240, 0.3195, 0.310),
+    ("tower side-to-side 1", 0.3120, 0.3164, 0.314),
+    ("drive-train torsion", 0.6205, 0.6094, 0.620),
+    ("flap 1, yaw", 0.6664, 0.6296, 0.673),
+    ("flap 1, pitch", 0.6675, 0.6686, 0.681),
+    ("flap 1, collective", 0.6993, 0.7019, 0.918),
+    ("edge 1, pitch", 1.0793, 1.0740, 1.047),
+    ("edge 1, yaw", 1.0898, 1.0877, 1.081),
+    ("flap 2, yaw", 1.9337, 1.6507, 1.925),
+    ("flap 2, pitch", 1.9223, 1.8558, 1.926),
+    ("flap 2, collective", 2.0205, 1.9601, None),
+    ("tower fore-aft 2", 2.9003, 2.8590, None),
+    ("tower side-to-side 2", 2.9361, 2.9408, None),
+]
+MASSES = {"tower": 347460.0, "nacelle": 239999.0, "generator": 1.0, "hub": 56780.0,
+          "blade 1": 17740.0, "blade 2": 17740.0, "blade 3": 17740.0}
 
 
 def mesh(elements, order=2):
@@ -136,13 +157,47 @@ def verify_dynamic(culm, report):
         report.check(f"BeamDyn at {time} s", tip, list(wanted), 0.02)
 
 
+def find_modes(culm, settings=()):
+    """Frequencies in the order of MODES, told apart by effective masses and inertias."""
+    table = culm.run(STANDSTILL, settings).tables["modes/modes"]
+    frequency = table.column("frequency [Hz]")
+    mass = {axis: table.column(f"effective mass {axis} [kg]") for axis in "xy"}
+    yaw = table.column("effective inertia z [kg m^2]")
+    fore_aft, side = sorted((0, 1), key=lambda i: -mass["x"][i])
+    pitch_1, yaw_1 = sorted((3, 4), key=lambda i: yaw[i])
+    pitch_2, yaw_2 = sorted((8, 9), key=lambda i: yaw[i])
+    high = range(11, 15)
+    fore_aft_2 = max(high, key=lambda i: mass["x"][i])
+    side_2 = max(i for i in high if mass["y"][i] > 0.02 * sum(MASSES.values()))
+    rows = [fore_aft, side, 2, yaw_1, pitch_1, 5, 6, 7, yaw_2, pitch_2, 10, fore_aft_2, side_2]
+    return [frequency[i] for i in rows]
+
+
+def verify_modes(culm, report):
+    report.title("Masses [kg]")
+    masses = culm.check(STANDSTILL).split("inertia about the centre")[0]
+    found = dict(re.findall(r"^(\w+(?: \d)?) +\d+ +\d+ +([\d.e+]+)", masses, re.M))
+    for name, wanted in MASSES.items():
+        report.relative(name, float(found[name]), wanted, 1e-3)
+    report.title("Modes at standstill [Hz] (MO-1); tower rigid in torsion as in FAST, and not, as in ADAMS")
+    rigid, soft = find_modes(culm), find_modes(culm, ["torsion=1"])
+    report.note(f"{'':22} {'FAST':>8} {'ADAMS':>8} {'DeSiO':>8} {'culm':>8} {'torsion':>8}")
+    for (name, *printed), a, b in zip(MODES, rigid, soft):
+        cells = [f"{v:8.4f}" if v else f"{'-':>8}" for v in (*printed, a, b)]
+        report.note(f"{name:22} " + " ".join(cells))
+    for (name, fast, adams, _), a, b in zip(MODES, rigid, soft):
+        report.relative(f"{name}, FAST", a, fast, 5e-2)
+        report.relative(f"{name}, ADAMS", b, adams, 5e-2)
+
+
 def verify(culm, report):
     verify_static(culm, report)
     verify_dynamic(culm, report)
+    verify_modes(culm, report)
 
 
 def plot(culm, path):
-    fig, (left, right) = figure(2)
+    fig, (left, right, modes) = figure(3)
     limit = integrate(2)
     for order, counts in [(1, (12, 24, 48, 96, 192)), (2, (6, 12, 24, 48, 96)), (3, (4, 8, 16, 32, 64))]:
         errors = [math.dist(culm.history(STATIC, mesh(n, order)).vector("tip"), limit)
@@ -157,6 +212,15 @@ def plot(culm, path):
                    label="BeamDyn" if c == 0 else None)
     right.set(xlabel="time [s]", ylabel="tip [m]", title="Released horizontally")
     right.legend(fontsize=7)
+    rigid, soft = find_modes(culm), find_modes(culm, ["torsion=1"])
+    places = np.arange(len(MODES))
+    for i, (label, marker) in enumerate((("FAST", "ks"), ("ADAMS", "kD"), ("DeSiO", "k^"))):
+        modes.plot(places, [m[i + 1] or np.nan for m in MODES], marker, mfc="none", ms=5, label=label)
+    modes.plot(places, rigid, "_", ms=11, mew=2, label="culm")
+    modes.plot(places, soft, "_", ms=11, mew=2, label="culm, tower twists")
+    modes.set_xticks(places, [m[0] for m in MODES], rotation=60, ha="right", fontsize=6)
+    modes.set(ylabel="frequency [Hz]", title="Modes at standstill")
+    modes.legend(fontsize=7)
     save(fig, path)
 
 
