@@ -5,7 +5,9 @@ import math
 import tempfile
 
 import numpy as np
-from verify import figure, main, mesh_axis, romberg, save
+from verify import figure, main, mesh_axis, romberg, save  # puts culm_runs on the path
+
+import culm_runs
 
 SHELL = "Structures/shell"
 PLAIN = [f"{SHELL}/Assumed Strains=false", f"{SHELL}/Enhanced Membrane=None",
@@ -327,6 +329,76 @@ def verify_sandwich(culm, report):
         found[shear] = -1e3 * history.vector("centre")[2]
         report.relative(f"{name}: series", found[shear], sandwich_series(shear), 0.01)
     report.relative("core carries the shear: NAFEMS R0031(3)", found[1.0], 3.1242, 0.02)
+    history = culm.history("shell/sandwich_plate.xml",
+                           ["N=16", "G=12927.67", f"{SHELL}/Shear Correction=Equilibrium"])
+    report.relative("true data with shear correction: NAFEMS", -1e3 * history.vector("centre")[2],
+                    3.1242, 0.02)
+
+
+# Kim, Thai, Lee (2009), first-order shear theory: aspect b/a, slenderness a/h, 100 w E2 h^3 / (q a^4)
+ANGLE_PLY = [(1, 4, 1.1576), (1, 10, 0.5773), (1, 100, 0.4678), (3, 4, 3.3814), (3, 10, 2.2784),
+             (3, 100, 2.0674)]
+
+
+def angle_ply_deflection(culm, aspect, slenderness, n=16):
+    """Centre of a [45/-45] plate of n x n elements under q sin(pi x / a) sin(pi y / b)."""
+    h, q = 1.0 / slenderness, 1e-6 / slenderness**3
+
+    def lumped(i, side):  # what a node of linear elements gets of a sine
+        width = math.pi / n
+        return math.sin(i * width) * side / n * (math.sin(0.5 * width) / (0.5 * width))**2
+
+    nodes = first_rows(n) | {(i, j): grid_node(n, i, j) for i in range(n) for j in range(2, n)}
+    loads = "".join(
+        f"""
+    <ParameterList name="load {i} {j}">
+      <Parameter name="Type" value="Force"/>
+      <Parameter name="Node" value="{nodes[i, j]}"/>
+      <Parameter name="Force" value="{{0, 0, {q * lumped(i, 1.0) * lumped(j, aspect)!r}}}"/>
+    </ParameterList>"""
+        for i in range(1, n) for j in range(1, n))
+    deck = (culm_runs.INPUTS / "shell/angle_ply.xml").read_text()
+    start = deck.index('<ParameterList name="Loads">')
+    end = deck.index("</ParameterList>\n  <ParameterList name=\"Analyses\"")
+    with tempfile.NamedTemporaryFile("w", suffix=".xml") as file:
+        file.write(deck[:start] + '<ParameterList name="Loads">' + loads + "\n  " + deck[end:])
+        file.flush()
+        history = culm.history(file.name, [f"N={n}", f"b={aspect}", f"h={h!r}",
+                                           f"Output/History/centre/Node={grid_node(n, n // 2, n // 2)}"])
+    return history.vector("centre")[2] * 100.0 * h**3 / q
+
+
+def first_rows(n):
+    """Nodes of rows 0 and 1 of a patch, numbered element by element."""
+    nodes = {}
+    for i in range(n):
+        for corner in ((i, 0), (i + 1, 0), (i + 1, 1), (i, 1)):
+            nodes.setdefault(corner, len(nodes))
+    return {place: f"shell/{number}" for place, number in nodes.items()}
+
+
+def verify_angle_ply(culm, report):
+    report.title("SS-10: angle-ply plate [45/-45] under a sine, 16 x 16, 100 w E2 h^3 / (q a^4)")
+    for aspect, slenderness, reference in ANGLE_PLY:
+        report.relative(f"b/a = {aspect}, a/h = {slenderness}",
+                        angle_ply_deflection(culm, aspect, slenderness), reference, 0.01)
+
+
+def verify_transition(culm, report):
+    report.title("Tube bent by an end force: half shell, half beam against shells all along")
+    history = culm.history("hybrid/tube_transition.xml", ["N=24", "M=32"])
+    deflection = history.vector("full")[0]
+    for name, across in (("rigid", 0.3), ("soft", 0.1)):
+        report.relative(f"{name} transition: deflection of the tip", history.vector(name)[0],
+                        deflection, 1e-2)
+        for place in ("clamp", "middle", "last row"):
+            axial = history.vector(f"full {place}")[0]
+            report.relative(f"axial stress, {place}", history.vector(f"{name} {place}")[0], axial,
+                            2e-3)
+        # how far the transition holds the width of the tube: at most nu times the axial stress
+        report.check("stress around in the last row over the axial one",
+                     history.vector(f"{name} last row")[1] / axial,
+                     history.vector("full last row")[1] / axial, across)
 
 
 def verify_z_section(culm, report):
@@ -437,6 +509,8 @@ def verify(culm, report):
     verify_cylinder(culm, report)
     verify_roof(culm, report)
     verify_sandwich(culm, report)
+    verify_angle_ply(culm, report)
+    verify_transition(culm, report)
     verify_z_section(culm, report)
     verify_layers(culm, report)
     verify_uniaxial(culm, report)

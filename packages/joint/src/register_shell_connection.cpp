@@ -1,6 +1,7 @@
 #include <culm/joint/shell_connection.hpp>
 
 #include "shell_pairs.hpp"
+#include "supports.hpp"
 
 #include <Eigen/Geometry>
 
@@ -138,6 +139,16 @@ void build_inextensible(const std::string& type, const Options& options,
   }
 }
 
+void build_director_support(const std::string& type, const Options& options,
+                            model::BuildContext& context) {
+  const auto nodes = model::select_nodes(options, "Node", context);
+  if (!are_shells(nodes, "Node", options, context)) return;
+  for (int node : nodes) {
+    add_named(director_support(context.model.nodes(), node, read_direction(options, "Direction")),
+              type, options, node, context);
+  }
+}
+
 void build_soft(const std::string& type, const Options& options, model::BuildContext& context) {
   const auto nodes = model::select_nodes(options, "Node", context);
   const auto masters = model::select_nodes(options, "Master", context);
@@ -203,6 +214,11 @@ void register_shell_connections(model::BuilderRegistry& registry) {
                   "shell node.")
                .add(model::node_field()),
            build_inextensible);
+  add_type(registry,
+           directed_schema("Director Support",
+                           "Holds the component of the director of a shell node in one direction.",
+                           "Direction", "Direction in space, of any length.", model::node_field()),
+           build_director_support);
   add_type(registry,
            Schema("Soft Transition",
                   "Ties shell nodes to a node of a beam or "

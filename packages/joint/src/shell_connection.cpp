@@ -1,6 +1,8 @@
 #include <culm/joint/shell_connection.hpp>
 #include <culm/math/rotation.hpp>
 
+#include "supports.hpp"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -86,6 +88,17 @@ Constraint inextensible_director(const NodeTable& nodes, int node) {
   constraint.is_internal = true;
   add_length_row(0, 1, reference(nodes, constraint), constraint);
   return constraint;
+}
+
+Constraint director_support(const NodeTable& nodes, int node, const Vec3& direction) {
+  Constraint support;
+  support.nodes = {node};
+  support.rows = {model::linear_row(direction, attached_vector(0, 1, Vec3::UnitX()),
+                                    reference(nodes, support))};
+  if (const auto axis = coordinate_axis(direction)) {
+    support.fix = {node, std::bitset<6>().set(3 + *axis)};
+  }
+  return support;
 }
 
 Constraint soft_transition(const NodeTable& nodes, int shell_node, int master) {

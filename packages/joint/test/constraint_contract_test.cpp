@@ -247,6 +247,13 @@ struct Inextensible : ShellCase<false> {
   static Constraint make(const NodeTable& n) { return inextensible_director(n, 0); }
 };
 
+struct DirectorAlongAxis : ShellCase<true> {
+  static Constraint make(const NodeTable& n) { return director_support(n, 0, Vec3::UnitY()); }
+};
+struct DirectorOblique : ShellCase<false> {
+  static Constraint make(const NodeTable& n) { return director_support(n, 0, oblique); }
+};
+
 struct ShellPair : ShellCase<false> {
   static constexpr int num_nodes = 2;
 };
@@ -290,7 +297,7 @@ using ShellCases =
     testing::Types<RigidShell, RigidShellMoving, SphericalShell, SphericalShellWithOffset,
                    SimpleShell, SimpleShellWithOffset, SymmetryShell, SymmetryShellOblique,
                    RevoluteShell, RevoluteShellOblique, ShellHinge, ShellFold, InextensibleFold,
-                   Layers>;
+                   Layers, DirectorAlongAxis, DirectorOblique>;
 using ShellJoints = testing::Types<Inextensible, Soft, RigidTransition>;
 
 using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded, Angle, BallBetween,

@@ -96,7 +96,7 @@ TEST_F(Joints, EveryPairJointBuildsFromItsSchema) {
   build("Joint Angle", with({{"Axis", z}, {"Angle", 0.5}}));
   EXPECT_THAT(messages(), ElementsAre());
   // the supports above, angular velocities, and what joins shells
-  EXPECT_EQ(model.constraints().size() + 18U, registry.names().size());
+  EXPECT_EQ(model.constraints().size() + 19U, registry.names().size());
   std::vector<std::size_t> rows;
   for (const model::Constraint& c : model.constraints()) {
     rows.push_back(c.rows.size());

@@ -1,9 +1,12 @@
 #include <culm/base/error.hpp>
 #include <culm/material/layup.hpp>
+#include <culm/math/quadrature.hpp>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -50,7 +53,86 @@ std::vector<Layer> stack(std::vector<Layer> layers, int repeat, const std::strin
   return layers;
 }
 
+Mat6& modulus(Layer& layer) { return std::get<StVenantKirchhoff>(layer.material.law).C; }
+const Mat6& modulus(const Layer& layer) {
+  return std::get<StVenantKirchhoff>(layer.material.law).C;
+}
+
+// Stress along an axis under a strain along it alone, free of stress across the thickness.
+double axial_modulus(const Layer& layer, double angle_to_fibre) {
+  const Mat6& C = modulus(layer);
+  const double c = std::cos(angle_to_fibre);
+  const double s = std::sin(angle_to_fibre);
+  const Vec6 along = (Vec6() << c * c, s * s, 0.0, 0.0, 0.0, 2.0 * c * s).finished();
+  const Vec6 stress = C * along - C.col(2) * (C.row(2).dot(along) / C(2, 2));
+  return along.dot(stress);
+}
+
+// Transverse shear stiffness along axes 1, 2 of the layup.
+Mat<2, 2> transverse_shear(const Layer& layer) {
+  const Mat6& C = modulus(layer);
+  const Mat<2, 2> G = (Mat<2, 2>() << C(4, 4), C(4, 3), C(3, 4), C(3, 3)).finished();
+  const Eigen::Rotation2Dd turn(layer.angle);
+  return turn.toRotationMatrix() * G * turn.toRotationMatrix().transpose();
+}
+
+double shear_factor(const Layup& layup, int axis) {
+  const double right_angle = 1.5707963267948966;
+  struct Ply {
+    double below, above, E, G;
+  };
+  std::vector<Ply> plies;
+  double stretch = 0.0;  // integrals of E, E z, G
+  double moment = 0.0;
+  double shear = 0.0;
+  double z = -0.5 * layup.thickness();
+  for (const Layer& layer : layup.layers) {
+    const double above = z + layer.thickness;
+    plies.push_back({z, above, axial_modulus(layer, axis * right_angle - layer.angle),
+                     transverse_shear(layer)(axis, axis)});
+    stretch += plies.back().E * layer.thickness;
+    moment += 0.5 * plies.back().E * (above * above - z * z);
+    shear += plies.back().G * layer.thickness;
+    z = above;
+  }
+  const double neutral = moment / stretch;
+  double bending = 0.0;
+  double flexibility = 0.0;
+  double first_moment = 0.0;  // g at the lower side of the ply
+  for (const Ply& ply : plies) {
+    const double half = 0.5 * (ply.above - ply.below);
+    const double low = ply.below - neutral;
+    // g is quadratic in z
+    for (const QuadraturePoint& point : gauss_legendre(3)) {
+      const double at = low + half * (1.0 + point.xi);
+      const double g = first_moment + 0.5 * ply.E * (at * at - low * low);
+      bending += half * point.weight * ply.E * at * at;
+      flexibility += half * point.weight * g * g / ply.G;
+    }
+    const double high = ply.above - neutral;
+    first_moment += 0.5 * ply.E * (high * high - low * low);
+  }
+  return bending * bending / (shear * flexibility);
+}
+
 }  // namespace
+
+Vec<2> shear_factors(const Layup& layup) {
+  return {shear_factor(layup, 0), shear_factor(layup, 1)};
+}
+
+Layup with_shear_factors(Layup layup, const Vec<2>& factors) {
+  for (Layer& layer : layup.layers) {
+    // as roots on both sides, turned to the axes of the layer, so that it stays symmetric
+    const Eigen::Rotation2Dd turn(-layer.angle);
+    const Mat<2, 2> root = turn.toRotationMatrix() * Mat<2, 2>(factors.cwiseSqrt().asDiagonal()) *
+                           turn.toRotationMatrix().transpose();
+    Mat6 scale = Mat6::Identity();  // components 23, 13 are along axes 2, 1
+    scale.block<2, 2>(3, 3) << root(1, 1), root(1, 0), root(0, 1), root(0, 0);
+    modulus(layer) = scale * modulus(layer) * scale;
+  }
+  return layup;
+}
 
 double Layup::thickness() const {
   double sum = 0.0;
@@ -96,6 +178,11 @@ Schema layup_schema() {
                   "Whether the layers are mirrored upward: all of them, [a b b a], or with the "
                   "last one in the middle, [a b a].")
                .optional("None"))
+      .add(choice("Shear Correction", {"None", "Equilibrium"},
+                  "Factors on the transverse shear stiffness along axes 1 and 2: none, or those by "
+                  "which a straight director stores the energy of the shear stresses of "
+                  "cylindrical bending; 5/6 for a uniform wall.")
+               .optional("None"))
       .check(check_lists);
   return schema;
 }
@@ -128,7 +215,14 @@ Layup read_layup(const Options& options, const std::map<std::string, Material>& 
                        "the materials of one layup must have the same Dissipation and Damping");
     }
   }
-  return {stack(std::move(layers), options.integer("Repeat"), options.text("Symmetric"))};
+  Layup layup{stack(std::move(layers), options.integer("Repeat"), options.text("Symmetric"))};
+  if (options.text("Shear Correction") == "None") return layup;
+  if (!layup.is_linear()) {
+    throw InputError(options.where("Shear Correction"),
+                     "belongs to layers whose stress is proportional to strain");
+  }
+  const Vec<2> factors = shear_factors(layup);
+  return with_shear_factors(std::move(layup), factors);
 }
 
 }  // namespace culm::material

@@ -40,6 +40,42 @@ TEST(IsotropicMaterial, IsOrthotropicWithEqualConstants) {
   EXPECT_LT(kit::relative_difference(C, IsotropicMaterial::law(210.0, 0.3).C), 1e-14);
 }
 
+TEST(ShearFactors, AreFiveSixthsOfAUniformWall) {
+  const Material steel{IsotropicMaterial::law(210.0, 0.3)};
+  EXPECT_LT((shear_factors(single_layer(steel, 0.1)) - Vec<2>(5.0 / 6.0, 5.0 / 6.0)).norm(), 1e-14);
+  const Layup two{{{steel, 0.03, 0.4}, {steel, 0.07, -1.2}}};
+  EXPECT_LT((shear_factors(two) - Vec<2>(5.0 / 6.0, 5.0 / 6.0)).norm(), 1e-14);
+}
+
+// Thin faces: the core alone carries the shear, by a stress that is nearly constant.
+TEST(ShearFactors, OfASandwichLeaveItToTheCore) {
+  const Material face{IsotropicMaterial::law(70000.0, 0.3)};
+  const Material core{IsotropicMaterial::law(50.0, 0.3)};
+  const Layup sandwich{{{face, 0.5, 0.0}, {core, 20.0, 0.0}, {face, 0.5, 0.0}}};
+  const double G = 50.0 / 2.6;
+  const double whole = G * 20.0 + 70000.0 / 2.6;
+  // G (core + face)^2 / core, Allen, Analysis and Design of Structural Sandwich Panels (1969)
+  const double wanted = G * 20.5 * 20.5 / 20.0 / whole;
+  EXPECT_NEAR(shear_factors(sandwich)[0] / wanted, 1.0, 0.01);
+}
+
+TEST(ShearFactors, ScaleTheStiffnessAlongTheAxesOfTheLayup) {
+  const OrthotropicConstants c{100.0, 10.0, 12.0, 0.3, 0.25, 0.4, 5.0, 4.0, 3.0};
+  const Material ply{OrthotropicMaterial::law(c)};
+  const double right = std::acos(0.0);
+  const Layup layup{{{ply, 0.1, 0.0}, {ply, 0.1, right}}};
+  const Layup scaled = with_shear_factors(layup, {0.5, 0.8});
+  const auto C = [&](std::size_t layer) {
+    return std::get<StVenantKirchhoff>(scaled.layers[layer].material.law).C;
+  };
+  EXPECT_NEAR(C(0)(4, 4), 0.5 * 4.0, 1e-14);  // G13 along axis 1
+  EXPECT_NEAR(C(0)(3, 3), 0.8 * 3.0, 1e-14);
+  EXPECT_NEAR(C(1)(4, 4), 0.8 * 4.0, 1e-14);  // of the turned layer along axis 2
+  EXPECT_NEAR(C(1)(3, 3), 0.5 * 3.0, 1e-14);
+  EXPECT_NEAR(C(1)(3, 4), 0.0, 1e-14);
+  EXPECT_NEAR(C(1)(0, 0), std::get<StVenantKirchhoff>(ply.law).C(0, 0), 1e-14);
+}
+
 TEST(OrthotropicMaterial, TensionAlongAFibreContractsAcrossIt) {
   const OrthotropicConstants c{100.0, 10.0, 12.0, 0.3, 0.25, 0.4, 5.0, 4.0, 3.0};
   EXPECT_TRUE(OrthotropicMaterial::mistakes(c).empty());

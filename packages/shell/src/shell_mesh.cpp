@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -130,6 +131,9 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
     }
   }
   Union corners(4 * facets.quads.size());
+  Union lines(facets.points.size());
+  std::set<int> folded;  // points
+  double smallest_fold_angle = std::numeric_limits<double>::max();
   const auto corner_at = [&](std::size_t quad, std::size_t side, int end) {
     return at(quad, side) == end ? side : (side + 1) % 4;
   };
@@ -141,8 +145,13 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
           const std::size_t b = corner_at(users[j].first, users[j].second, end);
           const Vec3& normal_a = facets.normals[users[i].first][a];
           const Vec3& normal_b = facets.normals[users[j].first][b];
-          if (angle_between(normal_a, normal_b) <= fold_angle) {
+          const double angle = angle_between(normal_a, normal_b);
+          if (angle <= fold_angle) {
             corners.join(4 * users[i].first + a, 4 * users[j].first + b);
+          } else {
+            lines.join(index(ends.first), index(ends.second));
+            folded.insert(end);
+            smallest_fold_angle = std::min(smallest_fold_angle, angle);
           }
         }
       }
@@ -170,6 +179,12 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
   for (auto& [place, nodes] : nodes_at) {
     if (nodes.size() > 1) mesh.folds.push_back(std::move(nodes));
   }
+  if (!mesh.folds.empty()) mesh.smallest_fold_angle = smallest_fold_angle;
+  std::set<std::size_t> fold_lines;
+  for (const auto& [place, nodes] : nodes_at) {
+    if (folded.contains(place)) fold_lines.insert(lines.find(index(place)));
+  }
+  mesh.fold_lines = static_cast<int>(fold_lines.size());
   for (const auto& [name, along] : facets.edges) {
     std::vector<int>& nodes = mesh.edges[name];
     for (const Corner& c : along) {

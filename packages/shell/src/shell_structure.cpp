@@ -21,6 +21,8 @@ constexpr double degree = 0.017453292519943295;
 // Beyond these, elements still work but are poor.
 constexpr double poor_aspect = 20.0;
 constexpr double poor_angle = 20.0 * degree;
+// Folds below this may be curved surfaces with few elements.
+constexpr double flat_fold = 50.0 * degree;
 
 MeshRegistry meshes() {
   MeshRegistry registry;
@@ -75,10 +77,16 @@ void check_quality(const ShellMesh& mesh, const Options& options, const Log& log
   const std::string where = to_string(options.where());
   log.info(
       fmt::format("{}: {} nodes, {} elements, aspect up to {:.3g}, angles {:.0f} to {:.0f} "
-                  "degrees, warp up to {:.2g} degrees, {} folded nodes",
+                  "degrees, warp up to {:.2g} degrees, {} folds at {} places",
                   options.name(), mesh.size(), mesh.quads.size(), quality.largest_aspect,
                   quality.smallest_angle / degree, quality.largest_angle / degree,
-                  quality.largest_warp / degree, mesh.folds.size()));
+                  quality.largest_warp / degree, mesh.fold_lines, mesh.folds.size()));
+  if (mesh.fold_lines > 0 && mesh.smallest_fold_angle < flat_fold) {
+    log.info(
+        fmt::format("{}: folds of only {:.0f} degrees; if a curved surface is meant, use smaller "
+                    "elements or a larger 'Fold Angle'",
+                    options.name(), mesh.smallest_fold_angle / degree));
+  }
   if (!quality.turned.empty()) {
     log.warning(
         fmt::format("{}: element {} and {} others have their normal on the other side than "

@@ -140,6 +140,44 @@ TEST_F(ShellStructure, ElementWithoutVolumeIsNamed) {
                InputError);
 }
 
+// A roof of two squares that meet at `angle`.
+GivenValues roof(double angle) {
+  const double c = std::cos(angle);
+  const double s = -std::sin(angle);
+  return {{"Points", Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1 + c, 0, s, 1 + c, 1, s}},
+          {"Quads", Integers{0, 1, 2, 3, 1, 4, 5, 2}}};
+}
+
+TEST_F(ShellStructure, WallsThatMeetAtAFoldAreJoined) {
+  add("Quads", roof(1.2));
+  ASSERT_EQ(model.constraints().size(), 2u);
+  for (const model::Constraint& joint : model.constraints()) {
+    EXPECT_EQ(joint.type, "Fold");
+    EXPECT_EQ(joint.rows.size(), 4u);  // place and angle
+    ASSERT_EQ(joint.nodes.size(), 2u);
+    const auto slots = [&](int node) {
+      return model::NodeSlots(model::NodeTable::slots(model.nodes().reference(), node));
+    };
+    const auto first = slots(joint.nodes[0]);
+    const auto second = slots(joint.nodes[1]);
+    EXPECT_EQ(Vec3(first.col(0)), Vec3(second.col(0)));
+    EXPECT_NEAR(first.col(1).dot(second.col(1)), std::cos(1.2), 1e-14);
+  }
+  EXPECT_THAT(printed.str(), HasSubstr("1 folds at 2 places"));
+  EXPECT_THAT(printed.str(), testing::Not(HasSubstr("if a curved surface is meant")));
+}
+
+TEST_F(ShellStructure, FlatFoldsAreNoted) {
+  add("Quads", roof(0.5));
+  EXPECT_EQ(model.constraints().size(), 2u);
+  EXPECT_THAT(printed.str(), HasSubstr("folds of only 29 degrees"));
+}
+
+TEST_F(ShellStructure, FlatRoofHasNoFold) {
+  add("Quads", roof(0.3));
+  EXPECT_TRUE(model.constraints().empty());
+}
+
 TEST_F(ShellStructure, QualityIsReported) {
   add_plane();
   EXPECT_THAT(printed.str(), HasSubstr("12 nodes, 6 elements, aspect up to 1, angles 90 to 90"));

@@ -21,12 +21,17 @@ model::Constraint layer_connection(const model::NodeTable& nodes, int first, int
                                    double first_thickness, double second_thickness);
 /// 1/2 d . d: one row.
 model::Constraint inextensible_director(const model::NodeTable& nodes, int node);
+/// n . d: one row, by elimination along coordinate axes. Held along an edge it keeps the wall from
+/// turning in the plane of edge and thickness ("hard" simple support).
+/// @param direction  of unit length
+model::Constraint director_support(const model::NodeTable& nodes, int node, const Vec3& direction);
 /// Lets the shell node move along its director and stretch, not slide across it nor tilt:
 /// u(tau_k) . (x_s - x_m) and u(tau_k) . d_s with two vectors tau_k fixed to the master, normal to
 /// d_s in the reference: four rows. @source formulation 2.6
 model::Constraint soft_transition(const model::NodeTable& nodes, int shell_node, int master);
 
-/// Smooth, Fold, Hinge and Layer Connection, Inextensible Director, Soft Transition.
+/// Smooth, Fold, Hinge and Layer Connection, Inextensible Director, Director Support, Soft
+/// Transition.
 void register_shell_connections(model::BuilderRegistry& registry);
 
 }  // namespace culm::joint

@@ -4,6 +4,7 @@
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
 #include <culm/material/material.hpp>
+#include <culm/math/types.hpp>
 
 #include <map>
 #include <string>
@@ -30,11 +31,24 @@ struct Layup {
   bool is_linear() const;
 };
 
+/// Factors of the transverse shear stiffness along axes 1 and 2 by which a director that stays
+/// straight stores the energy of the shear stresses that equilibrium asks for in cylindrical
+/// bending about the other axis: (int E z^2)^2 / (int G int g^2 / G), g the first moment of E below
+/// z about the neutral plane. 5/6 for a uniform wall.
+/// @pre layup.is_linear()
+/// @source Vlachoutsis, Int. J. Numer. Meth. Eng. 33 (1992) 1537-1546
+Vec<2> shear_factors(const Layup& layup);
+
+/// A layup whose layers have their transverse shear stiffness multiplied by factors along axes
+/// 1, 2.
+/// @pre layup.is_linear()
+Layup with_shear_factors(Layup layup, const Vec<2>& factors);
+
 /// One layer all through.
 Layup single_layer(Material material, double thickness);
 
 /// Fields that state a layup: `Material` or `Materials`, `Thickness` or `Thicknesses`, `Angles`,
-/// `Repeat`, `Symmetric`, and the rules between them.
+/// `Repeat`, `Symmetric`, `Shear Correction`, and the rules between them.
 Schema layup_schema();
 /// The layup that the fields describe. Throws InputError for names that are not among `materials`
 /// and for layers that do not go together.

@@ -38,6 +38,8 @@ struct ShellMesh {
   std::map<std::string, std::vector<int>> parts;  ///< elements by name
   /// Nodes at one place with different directors, at folds and where more than two walls meet.
   std::vector<std::vector<int>> folds;
+  int fold_lines = 0;              ///< lines of edges along them that hang together
+  double smallest_fold_angle = 0;  ///< between normals at a folded edge [rad]; 0 without folds
 
   int size() const { return static_cast<int>(positions.size()); }
   /// x, d of the nodes of an element
