@@ -2,11 +2,16 @@
 #include <culm/openfast/import.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/simulation.hpp>
+#include <culm/simulation/stop_request.hpp>
 
 #include "command.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -47,10 +52,67 @@ void write_both(const NewFile& deck, const NewFile& report) {
   }
 }
 
+// A folder that vanishes; the same on all ranks.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const parallel::Comm& comm) : comm_(comm) {
+    const auto name = "culm import " + std::to_string(getpid());
+    path_ = comm.broadcast((std::filesystem::temp_directory_path() / name).string());
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (comm_.is_root()) std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  parallel::Comm comm_;
+  std::filesystem::path path_;
+};
+
+// First two columns of the table of modes.
+std::string read_frequencies(const std::filesystem::path& table) {
+  std::ifstream stream(table);
+  std::string text;
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    std::istringstream cells(line);
+    std::string mode;
+    std::string frequency;
+    std::getline(cells, mode, ',');
+    std::getline(cells, frequency, ',');
+    text += fmt::format("  mode {:>2}: {:>9.5g} Hz\n", mode, std::stod(frequency));
+  }
+  return text;
+}
+
+// Runs the deck, for the frequencies of its modes.
+std::string find_frequencies(const parallel::Comm& comm, simulation::Simulation& model) {
+  const TemporaryFolder folder(comm);
+  const simulation::StopRequest request;
+  try {
+    model.run({folder.path(), true, false}, request);
+  } catch (const NumericalError& error) {
+    return std::string("  not found, because the deck does not solve: ") + error.what() + "\n";
+  }
+  return read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv");
+}
+
+bool has_modes(const Options& deck) {
+  for (const Options& analysis : deck.list("Analyses").entries()) {
+    if (analysis.text("Type") == "Modal") return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void import_openfast(const parallel::Comm& comm, const ImportArguments& arguments) {
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
+  const Log silent(LogLevel::quiet, comm.rank());
   const std::filesystem::path deck_path =
       arguments.deck.empty() ? arguments.file.filename().replace_extension(".xml") : arguments.deck;
   std::filesystem::path report_path = deck_path;
@@ -58,12 +120,15 @@ void import_openfast(const parallel::Comm& comm, const ImportArguments& argument
   refuse_existing(deck_path);
   refuse_existing(report_path);
   openfast::Imported imported = openfast::import_file(arguments.file, arguments.turbine);
-  // What is written is a deck that builds; its masses belong to the report.
+  // What is written is a deck that builds; its masses and modes belong to the report.
   const simulation::Catalogue catalogue;
   const simulation::DeckSource source{{{deck_path.string(), imported.deck}}, {}};
   const Options deck = simulation::read_deck(catalogue, source);
-  const simulation::Simulation model(comm, catalogue, deck, source, log);
+  simulation::Simulation model(comm, catalogue, deck, source, silent);
   imported.report += "\nthe model\n" + model.summary();
+  if (has_modes(deck)) {
+    imported.report += "\nfrequencies of the model\n" + find_frequencies(comm, model);
+  }
   if (comm.is_root()) write_both({deck_path, imported.deck}, {report_path, imported.report});
   log.info(imported.report + "\nwritten: " + deck_path.string() + ", " + report_path.string());
 }

@@ -62,11 +62,17 @@ void write_output(bool dynamic, int every, DeckWriter& deck) {
   deck.close();
 }
 
-void write_static(DeckWriter& deck) {
+// The load, and the modes about the state that it makes.
+void write_static(bool modes, DeckWriter& deck) {
   deck.open("Analyses");
   deck.open("bending", "Static");
   deck.set("Steps", 4);
   deck.close();
+  if (modes) {
+    deck.open("modes", "Modal");
+    deck.set("Modes", 10);
+    deck.close();
+  }
   deck.close();
 }
 
@@ -178,8 +184,8 @@ std::string write_deck(const BeamDyn& beam, Report& report) {
   report.add(assumed,
              "the primary file has no loads: the blade is clamped at its root and lies "
              "horizontally, x downwards, under its own weight");
-  DeckWriter deck(beam.title,
-                  heading("a blade under its own weight, x downwards.", beam.path, beam));
+  DeckWriter deck(beam.title, heading("a blade under its own weight, x downwards, and its modes.",
+                                      beam.path, beam));
   write_blade(beam, {}, deck);
   write_clamp(deck);
   deck.open("Loads");
@@ -187,7 +193,7 @@ std::string write_deck(const BeamDyn& beam, Report& report) {
   deck.set("Acceleration", Vec3(9.80665, 0.0, 0.0));
   deck.close();
   deck.close();
-  write_static(deck);
+  write_static(true, deck);
   write_output(false, 1, deck);
   return deck.text();
 }
@@ -218,7 +224,7 @@ std::string write_deck(const BeamDynDriver& driver, Report& report) {
     constexpr double pictures = 100.0;
     every = std::max(1, static_cast<int>((driver.end - driver.start) / driver.step / pictures));
   } else {
-    write_static(deck);
+    write_static(false, deck);
   }
   write_output(driver.dynamic, every, deck);
   return deck.text();

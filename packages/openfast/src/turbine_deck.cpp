@@ -322,14 +322,14 @@ void write_constraints(const ElastoDyn& turbine, const Layout& layout, DeckWrite
   deck.set("Node", "tower/first");
   deck.close();
   write_follower("yaw bearing", "nacelle", "tower/last", deck);
-  open_about_shaft("bearing", "Revolute Joint", "nacelle", "generator", layout, deck);
+  open_about_shaft("generator bearing", "Revolute Joint", "nacelle", "generator", layout, deck);
   deck.close();
   deck.comment({"The generator is locked; with an angle and a function it turns as prescribed."});
   open_about_shaft("generator", "Joint Angle", "nacelle", "generator", layout, deck);
   deck.set("Angle", 0.0);
   deck.close();
   if (turbine.shaft_stiffness > 0.0) {
-    open_about_shaft("shaft", "Revolute Joint", "generator", "hub", layout, deck);
+    open_about_shaft("shaft bearing", "Revolute Joint", "generator", "hub", layout, deck);
     deck.close();
   } else {
     write_follower("shaft", "hub", "generator", deck);
@@ -347,7 +347,7 @@ void write_loads(const ElastoDyn& turbine, const Layout& layout, DeckWriter& dec
   deck.set("Acceleration", Vec3(0.0, 0.0, -gravity));
   deck.close();
   if (turbine.shaft_stiffness > 0.0) {
-    open_about_shaft("shaft", "Torsion Spring", "generator", "hub", layout, deck);
+    open_about_shaft("shaft spring", "Torsion Spring", "generator", "hub", layout, deck);
     deck.set("Stiffness", turbine.shaft_stiffness);
     deck.close();
   }
@@ -469,7 +469,7 @@ std::string write_deck(ElastoDyn turbine, Report& report) {
   }
   const Layout layout(turbine);
   DeckWriter deck(turbine.title,
-                  {"Shows: a wind turbine under its weight, generator locked.",
+                  {"Shows: a wind turbine under its weight, generator locked, and its modes.",
                    "Imported from " + turbine.path.filename().string() + " of OpenFAST.",
                    "x downwind, z up; origin at the foot of the tower. SI units."});
   deck.variable("torsion", stiff,
@@ -482,6 +482,9 @@ std::string write_deck(ElastoDyn turbine, Report& report) {
   deck.open("Analyses");
   deck.open("weight", "Static");
   deck.set("Steps", 2);
+  deck.close();
+  deck.open("modes", "Modal");
+  deck.set("Modes", 15);
   deck.close();
   deck.close();
   write_output(turbine, layout, deck);
