@@ -18,13 +18,6 @@ void Report::add(const std::string& heading, const std::vector<InputIssue>& issu
   for (const InputIssue& issue : issues) add(heading, to_string(issue));
 }
 
-const std::vector<std::string>& Report::lines(const std::string& heading) const {
-  static const std::vector<std::string> none;
-  const auto found = std::find_if(parts_.begin(), parts_.end(),
-                                  [&](const Part& part) { return part.heading == heading; });
-  return found == parts_.end() ? none : found->lines;
-}
-
 std::string Report::text(const std::string& title) const {
   std::string text = title + "\n";
   for (const Part& part : parts_) {

@@ -460,6 +460,8 @@ std::string write_deck(ElastoDyn turbine, Report& report) {
                                   blade_mesh.elements, tower_elements, blade_mesh.order));
   report.add(assumed,
              fmt::format("gravity {:g} m/s^2, which ElastoDyn's files do not have", gravity));
+  report.add(not_used,
+             fmt::format("RotSpeed, {:.5g} rad/s: the rotor stands still", turbine.rotor_speed));
   report_masses(turbine, report);
   report_midpoint_mass(turbine, report);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {

@@ -16,8 +16,6 @@ class Report {
   /// Adds places with their messages below a heading.
   void add(const std::string& heading, const std::vector<InputIssue>& issues);
 
-  /// Lines below a heading; empty if there is none.
-  const std::vector<std::string>& lines(const std::string& heading) const;
   /// The whole as text.
   std::string text(const std::string& title) const;
 
