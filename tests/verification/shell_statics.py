@@ -298,6 +298,60 @@ def verify_hook(culm, report):
         report.check(f"{across} elements across", hook_ratio(culm, across), 1.0, tolerance)
 
 
+def full_hemisphere(n, radius=10.0):
+    """Gmsh file of a quarter hemisphere: three patches of n x n that meet in its middle."""
+
+    def unit(v):
+        return tuple(c / math.hypot(*v) for c in v)
+
+    def between(a, b, s):  # on the great circle
+        angle = math.acos(sum(p * q for p, q in zip(a, b)))
+        return unit([math.sin((1.0 - s) * angle) * p + math.sin(s * angle) * q
+                     for p, q in zip(a, b)])
+
+    numbers, points = {}, []
+
+    def node(p):
+        key = tuple(round(c, 9) + 0.0 for c in p)
+        if key not in numbers:
+            points.append(p)
+            numbers[key] = len(points)
+        return numbers[key]
+
+    X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    middle, quads = unit((1.0, 1.0, 1.0)), []
+    for a, b, c in ((X, Y, Z), (Y, Z, X), (Z, X, Y)):
+        right, left = between(a, b, 0.5), between(c, a, 0.5)
+        grid = [[node(between(between(a, right, i / n), between(left, middle, i / n), j / n))
+                 for j in range(n + 1)] for i in range(n + 1)]
+        quads += [(grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1])
+                  for i in range(n) for j in range(n)]
+    cells = [f"15 2 {group} {group} {node(p)}" for group, p in enumerate((X, Y, Z), 1)]
+    for group, axis in ((4, 1), (5, 0)):
+        side = sorted((k for k, p in enumerate(points, 1) if abs(p[axis]) < 1e-9),
+                      key=lambda k: points[k - 1][2])
+        cells += [f"1 2 {group} {group} {p} {q}" for p, q in zip(side, side[1:])]
+    cells += [f"3 2 6 6 {' '.join(map(str, quad))}" for quad in quads]
+    nodes = [f"{k} " + " ".join(f"{radius * c:.12g}" for c in p) for k, p in enumerate(points, 1)]
+    return "\n".join([
+        "$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "6", '0 1 "x"', '0 2 "y"',
+        '0 3 "pole"', '1 4 "plane y"', '1 5 "plane x"', '2 6 "shell"', "$EndPhysicalNames",
+        "$Nodes", str(len(nodes)), *nodes, "$EndNodes", "$Elements", str(len(cells)),
+        *(f"{k + 1} {cell}" for k, cell in enumerate(cells)), "$EndElements", ""])
+
+
+def verify_full_hemisphere(culm, report):
+    report.title("SS-9: full hemisphere, ratio to 0.0924 (MITC4+ on 16 x 16: 0.996)")
+    for n, wanted, tolerance in ((8, 0.996, 0.02), (16, 1.0, 0.01)):
+        with tempfile.NamedTemporaryFile("w", suffix=".msh") as file:
+            file.write(full_hemisphere(n))
+            file.flush()
+            history = culm.history("shell/full_hemisphere.xml",
+                                   [f"{SHELL}/Mesh/File Name={file.name}"])
+        report.check(f"{2 * n} elements along a quarter of the equator",
+                     history.vector("outward")[0] / 0.01 / 0.0924, wanted, tolerance)
+
+
 def sandwich_series(face_shear, side=254.0, face=0.7112, core=19.05, pressure=0.689476, terms=80):
     """Deflection [mm] of the plate's centre by first-order shear theory, Navier's double series."""
     e1, e2, g12, nu, soft = 68947.57, 27579.03, 12927.67, 0.3, 0.7
@@ -502,6 +556,7 @@ def verify(culm, report):
     verify_locking(culm, report)
     verify_thickness(culm, report)
     verify_hook(culm, report)
+    verify_full_hemisphere(culm, report)
     verify_free_cylinder(culm, report)
     verify_shear(culm, report)
     verify_moment(culm, report)
