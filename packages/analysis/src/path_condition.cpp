@@ -50,7 +50,13 @@ double PathCondition::begin_branch(const model::State& state, const Vector& moti
   present_ = PathControl::normal_plane;
   has_begun_ = true;
   read_positions(system_.linear_motion(state, motion, 1.0), direction_);
-  const double norm = std::sqrt(dot(direction_, direction_));
+  // a direction has no sense: the watched displacement grows, or else the largest of all
+  Eigen::Index row = 0, node = 0;
+  const double largest = direction_.cwiseAbs().maxCoeff(&row, &node);
+  const double watched = watched_part(direction_);
+  const bool is_watched = std::abs(watched) > 1e-3 * largest;
+  const double sense = std::copysign(1.0, is_watched ? watched : direction_(row, node));
+  const double norm = sense * std::sqrt(dot(direction_, direction_));
   direction_ *= std::copysign(1.0, size) / norm;
   return size / norm;
 }

@@ -133,10 +133,13 @@ Schema PathFollowing::schema() {
                   "What to do where another path crosses: report it, end, or go on on the first "
                   "one that does.")
                .optional("Report"))
-      .add(number("Branch Amplitude", "m",
-                  "First distance from the old path when another is followed, a root mean square "
-                  "over all nodes, with a sign; the length of a step if absent.")
-               .optional())
+      .add(
+          number(
+              "Branch Amplitude", "m",
+              "First distance from the old path when another is followed, a root mean square "
+              "over all nodes; a negative one makes the watched displacement fall. The length of a "
+              "step if absent.")
+              .optional())
       .list("Watch", watch_schema(), Presence::optional)
       .list("Newton", newton_schema(), Presence::defaulted)
       .check(check_path);
@@ -316,6 +319,26 @@ bool PathFollowing::examine(Context& context, const PathTangent& tangent,
   return ends || (settings_.limit_points && limits >= *settings_.limit_points);
 }
 
+// Where a function of loads or motions ends, the path does.
+void PathFollowing::refuse_end_of_loads(Context& context, model::State& state) const {
+  const Stencil stencil = Stencil::statics();
+  Vector above(context.system.layout().row_map());
+  Vector below(above.getMap());
+  const double step = 10.0 * condition_->level_difference();
+  context.system.begin_step(state, stencil);
+  context.system.level_gradient(state, stencil, step, above);
+  context.system.level_gradient(state, stencil, -step, below);
+  const double size = std::max(above.normInf(), below.normInf());
+  above.update(-1.0, below, 1.0);
+  if (above.normInf() < 0.5 * size) return;
+  throw NumericalError(
+      fmt::format("The path ends at level {:.6g}: the growth of loads or prescribed motions with "
+                  "the level changes abruptly there.\n"
+                  "Try: functions without corners. The default 'Ramp' is held below level 0 and "
+                  "above level 1; 'Linear' goes on.",
+                  state.time));
+}
+
 void PathFollowing::take(Context& context, model::State& state, StepReport& report,
                          Observer& observer) {
   const solver::StepOutcome& outcome = report.outcome;
@@ -349,6 +372,7 @@ void PathFollowing::take(Context& context, model::State& state, StepReport& repo
   observer.step(report, state);
   const bool is_exhausted = std::abs(size_) < settings_.smallest_length * std::abs(first_size_);
   if (!report.accepted && (outcome.end == StepEnd::not_finite || is_exhausted)) {
+    refuse_end_of_loads(context, state);
     post_mortem_->give_up(state, Stencil::statics());
   }
 }
@@ -385,7 +409,7 @@ AnalysisReport PathFollowing::advance(Context& context, model::State& state, Obs
   while (!is_at_end(context, state)) {
     StepReport report = attempt(context, state);
     if (!is_examined_ && condition_->tangent()) {
-      const bool ends = examine(context, *condition_->tangent(), report.outcome.start);
+      const bool ends = examine(context, *condition_->tangent(), report.outcome.first_determinant);
       if (ends || wants_branch_) reject(state);
       if (ends) break;
       if (wants_branch_) {

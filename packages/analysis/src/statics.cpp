@@ -87,6 +87,8 @@ void Statics::start(Context& context, model::State& state) {
   state.time = state.time_prev = 0.0;
   increment_ = settings_.increment;
   steps_ = 0;
+  determinant_sign_ = 0;
+  crossings_.clear();
   context.system.begin_step(state, stencil);
   context.system.choose_multiplier_scale(state, stencil);
   post_mortem_.emplace(context, state, stencil, next_level(0.0, increment_));
@@ -96,6 +98,8 @@ void Statics::start(Context& context, model::State& state) {
 void Statics::save(const Context&, Snapshot& snapshot) const {
   snapshot.set("statics/increment", increment_);
   snapshot.set("statics/steps", steps_);
+  snapshot.set("statics/determinant sign", determinant_sign_);
+  snapshot.set("statics/crossings", crossings_);
   newton_->save(snapshot);
   post_mortem_->save(snapshot);
 }
@@ -103,9 +107,25 @@ void Statics::save(const Context&, Snapshot& snapshot) const {
 void Statics::restore(Context& context, const Snapshot& snapshot) {
   increment_ = snapshot.number("statics/increment");
   steps_ = snapshot.integer("statics/steps");
+  determinant_sign_ = snapshot.integer("statics/determinant sign");
+  crossings_ = snapshot.numbers("statics/crossings");
   newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
   newton_->restore(snapshot);
   post_mortem_.emplace(context, snapshot);
+}
+
+void Statics::watch_stability(const Context& context, const StepReport& report) {
+  const auto& outcome = report.outcome;
+  if (outcome.last_determinant.sign == 0) return;
+  if (determinant_sign_ == 0) determinant_sign_ = outcome.first_determinant.sign;
+  if (outcome.last_determinant.sign == determinant_sign_) return;
+  determinant_sign_ = outcome.last_determinant.sign;
+  crossings_.push_back(report.time);
+  context.log.warning(fmt::format(
+      "between the levels {:.6g} and {:.6g} the determinant of the stiffness changes its sign: a "
+      "limit point or a bifurcation was passed, and the equilibrium that was found may be unstable "
+      "or lie on another path; an analysis of type 'Path' shows what is there",
+      report.time - report.increment, report.time));
 }
 
 AnalysisReport Statics::advance(Context& context, model::State& state, Observer& observer) {
@@ -121,6 +141,7 @@ AnalysisReport Statics::advance(Context& context, model::State& state, Observer&
     report.is_last = report.accepted && state.time >= settings_.final_level;
     post_mortem_->record(report);
     if (report.accepted) {
+      watch_stability(context, report);
       accept(state);
       if (report.outcome.iterations <= settings_.easy_iterations && taken >= increment_) {
         increment_ = std::min(1.5 * increment_, settings_.largest_increment);
@@ -136,7 +157,16 @@ AnalysisReport Statics::advance(Context& context, model::State& state, Observer&
       post_mortem_->give_up(state, stencil);
     }
   }
-  return {};
+  AnalysisReport report;
+  for (const double level : crossings_) {
+    report.text += fmt::format(
+        "the determinant of the stiffness changed its sign in the step to level {:.6g}\n", level);
+  }
+  if (!crossings_.empty()) {
+    report.numbers.emplace_back("sign changes of the determinant",
+                                static_cast<double>(crossings_.size()));
+  }
+  return report;
 }
 
 }  // namespace culm::analysis

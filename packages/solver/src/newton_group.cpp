@@ -143,7 +143,7 @@ bool NewtonGroup::solve_linear() {
     p.factored_inertia = p.stencil.inertia;
     if (p.singular) return false;
     const bool is_start = p.last_residual == 0.0;
-    if (is_start && p.stencil.inertia == 0.0) p.start = p.linear.determinant();
+    if (is_start && p.stencil.inertia == 0.0) p.first_determinant = p.linear.determinant();
   }
   const Ledger::Scope scope(p.ledger, p.solve_effect);
   const double residual = p.linear.solve(f_.get(), newton_.get());

@@ -27,7 +27,7 @@ struct NewtonProblem {
   LevelCondition* condition = nullptr;                    ///< none: the level is given
   Teuchos::RCP<assembly::Vector> level_gradient = {};     ///< dR/dlevel; made with a condition
   Teuchos::RCP<assembly::Vector> level_flexibility = {};  ///< likewise
-  Determinant start = {};                                 ///< of the first tangent of a static step
+  Determinant first_determinant = {};                     ///< of the first tangent of a static step
   bool has_factors = false;       ///< the linear solver holds factors of a tangent of this analysis
   double factored_inertia = 0.0;  ///< Stencil::inertia of that tangent
   double last_residual = 0.0;     ///< relative one of the iteration before; 0 before the first

@@ -169,7 +169,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
     nox.problem->level_gradient = Teuchos::rcp(new assembly::Vector(nox.origin->get().getMap()));
     nox.problem->level_flexibility = Teuchos::rcp(new assembly::Vector(nox.origin->get().getMap()));
   }
-  nox.problem->start = {};
+  nox.problem->first_determinant = {};
   nox.problem->singular = nox.problem->not_finite = false;
   nox.problem->largest_increment = nox.problem->last_residual = 0.0;
   nox.balance->reset();
@@ -192,7 +192,10 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   outcome.history = nox.balance->history();
   outcome.iterations = std::max(0, static_cast<int>(outcome.history.size()) - 1);
   outcome.last = nox.group->evaluation();
-  outcome.start = nox.problem->start;
+  outcome.first_determinant = nox.problem->first_determinant;
+  if (outcome.first_determinant.sign != 0 && outcome.converged()) {
+    outcome.last_determinant = nox.problem->linear.determinant();
+  }
   if (!outcome.converged()) nox.problem->has_factors = false;
   nox.group->finish();
   return outcome;

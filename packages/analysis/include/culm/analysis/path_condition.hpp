@@ -47,7 +47,8 @@ class PathCondition final : public solver::LevelCondition {
   /// `distance` [m] in the step.
   void begin_to_displacement(double distance);
   /// The attempt leaves the path: in the direction of `motion` it goes by `size` [m], from a state
-  /// that has been moved there. @return factor of `motion` that makes it such a move
+  /// that has been moved there. With a positive size the watched displacement grows. @return factor
+  /// of `motion` that makes it such a move
   double begin_branch(const model::State& state, const assembly::Vector& motion, double size);
 
   double level_difference() const override { return level_difference_; }

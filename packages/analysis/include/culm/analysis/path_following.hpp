@@ -64,6 +64,8 @@ class PathFollowing final : public Analysis {
   std::pair<PathTangent, solver::Determinant> find_tangent(Context& context, model::State& state);
   /// Throws NumericalError if nothing changes with the level.
   void refuse_idle_level(const model::State& state) const;
+  /// Throws NumericalError if loads stop growing with the level at this one.
+  void refuse_end_of_loads(Context& context, model::State& state) const;
   bool is_at_end(const Context& context, const model::State& state) const;
   StepReport attempt(Context& context, model::State& state);
   /// Where an attempt went beyond the end of the path, goes back to it.

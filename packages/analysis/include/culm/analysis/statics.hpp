@@ -37,10 +37,14 @@ class Statics final : public Analysis {
   void restore(Context& context, const Snapshot& snapshot) override;
   AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
   double next_level(double level, double increment) const;
+  /// Warns where the structure lost or regained its stability in an accepted step.
+  void watch_stability(const Context& context, const StepReport& report);
 
   StaticsSettings settings_;
   double increment_ = 0.0;
   int steps_ = 0;
+  int determinant_sign_ = 0;       ///< of the tangent at the last equilibrium; 0 if unknown
+  std::vector<double> crossings_;  ///< levels of the steps in which it changed
   std::optional<solver::NewtonSolver> newton_;
   std::optional<PostMortem> post_mortem_;
 };

@@ -52,9 +52,10 @@ struct StepOutcome {
   int iterations = 0;
   std::vector<IterationRecord> history;
   assembly::Evaluation last;
-  /// Of the tangent at the start, where a static step begins at an equilibrium that of its own;
-  /// unknown in dynamics and where old factors served.
-  Determinant start;
+  /// Of the first and of the last tangent of a static step: that at the equilibrium from which it
+  /// starts, and one close to that at which it ends. Unknown in dynamics and where old factors
+  /// served.
+  Determinant first_determinant, last_determinant;
   bool converged() const { return end == StepEnd::converged; }
 };
 

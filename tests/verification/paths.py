@@ -1,0 +1,381 @@
+#!/usr/bin/python3
+"""Equilibrium paths: SB-4, HY-8, SB-6, SB-7, SS-6, SS-8. Page: doc/verification/paths.md."""
+
+import math
+import re
+from typing import NamedTuple
+
+import numpy as np
+from lee_frame import TABLE, mesh
+from verify import figure, main, save
+
+# force over 3000, deflection of the centre; Sze, Liu, Lo (2004), 3.8, by way of a test file
+ROOF_THICK = [
+    (0.0877, 0.693), (0.198, 1.638), (0.3473, 3.087), (0.4686, 4.477), (0.5647, 5.802),
+    (0.6381, 7.057), (0.6908, 8.237), (0.7246, 9.339), (0.7412, 10.358), (0.7421, 11.293),
+    (0.7286, 12.141), (0.7023, 12.903), (0.6649, 13.583), (0.6182, 14.188), (0.5643, 14.728),
+    (0.5055, 15.217), (0.4442, 15.676), (0.383, 16.125), (0.3245, 16.59), (0.2717, 17.094),
+    (0.2272, 17.657), (0.194, 18.299), (0.175, 19.028), (0.1729, 19.852), (0.1905, 20.771),
+    (0.2303, 21.78), (0.295, 22.875), (0.3871, 24.049), (0.4443, 24.663), (0.5093, 25.293),
+    (0.5826, 25.94), (0.6644, 26.601), (0.7551, 27.276), (0.8549, 27.964), (0.9643, 28.663),
+    (1.0835, 29.374),
+]
+ROOF_THIN = [
+    (0.0517, 1.846), (0.1182, 5.271), (0.1583, 8.257), (0.1837, 10.799), (0.1914, 11.904),
+    (0.1953, 12.892), (0.195, 13.752), (0.1901, 14.472), (0.1806, 15.05), (0.1671, 15.501),
+    (0.1323, 16.145), (0.0923, 16.602), (0.0504, 16.915), (0.0083, 17.008), (-0.0312, 16.697),
+    (-0.0622, 15.78), (-0.0739, 15.206), (-0.0861, 14.767), (-0.1001, 14.52), (-0.1142, 14.451),
+    (-0.1247, 14.862), (-0.1288, 15.778), (-0.1271, 16.961), (-0.1196, 18.32),
+    (-0.1055, 19.817), (-0.0825, 21.42), (-0.0484, 23.1), (-0.0006, 24.824), (0.0626, 26.565),
+    (0.1427, 28.302), (0.2403, 30.023), (0.3559, 31.72), (0.4898, 33.388), (0.6417, 35.024),
+    (0.8114, 36.626), (1.0313, 38.45),
+]
+# force over 12000, deflection under it, bulge of the side; the same, 3.6
+CYLINDER = [
+    (0.05, 9.561, -0.233), (0.075, 15.648, -0.922), (0.1, 23.164, -2.391),
+    (0.125, 29.375, -3.872), (0.15, 36.208, -2.154), (0.175, 51.499, 6.792),
+    (0.2, 56.373, 10.448), (0.25, 61.877, 14.905), (0.3, 65.498, 17.979),
+    (0.35, 68.229, 20.365), (0.4, 70.424, 22.321), (0.45, 72.204, 23.916), (0.5, 73.79, 25.381),
+    (0.55, 75.139, 26.631), (0.6, 76.331, 27.735), (0.65, 77.472, 28.843),
+    (0.7, 78.451, 29.772), (0.75, 79.339, 30.604), (0.8, 80.218, 31.471),
+    (0.85, 81.045, 32.299), (0.9, 81.766, 32.989), (0.95, 82.435, 33.619), (1.0, 83.102, 34.272),
+]
+
+
+class Frame(NamedTuple):
+    """Two bars of one length at a right angle, hinged at both ends, a force on the second one."""
+
+    length: float
+    place: float
+    EA: float
+    GA: float
+    EI: float
+
+
+LEE = Frame(120.0, 24.0, 4320.0, math.inf, 1440.0)
+HALF = Frame(120.0, 20.0, 7.2e6 * 6, 2.77e6 * 6, 7.2e6 * 4.5)
+
+
+def integrate_bar(frame, state, force, length, steps):
+    """x, y, angle, moment along a bar; the force carried is constant."""
+
+    def rate(q):
+        c, s = math.cos(q[2]), math.sin(q[2])
+        stretch = 1.0 + (force[0] * c + force[1] * s) / frame.EA
+        shear = (force[1] * c - force[0] * s) / frame.GA
+        dx, dy = stretch * c - shear * s, stretch * s + shear * c
+        return np.array([dx, dy, q[3] / frame.EI, dy * force[0] - dx * force[1]])
+
+    h = length / steps
+    for _ in range(steps):
+        k1 = rate(state)
+        k2 = rate(state + 0.5 * h * k1)
+        k3 = rate(state + 0.5 * h * k2)
+        k4 = rate(state + h * k3)
+        state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    return state
+
+
+def rod_path(frame, points=260):
+    """Load, u and v of the loaded point along the path, by shooting and pseudo-arc length.
+
+    Unknown: angle and force at the foot, load; wanted: the far hinge in its place, free of moment.
+    """
+    unit = frame.EI / frame.length**2
+    scale = np.array([1.0, unit, unit, unit])
+
+    def miss(x):
+        angle, fx, fy, load = x * scale
+        force = np.array([fx, fy])
+        corner = integrate_bar(frame, np.array([0.0, 0.0, angle, 0.0]), force, frame.length, 60)
+        corner[2] -= 0.5 * math.pi
+        point = integrate_bar(frame, corner, force, frame.place, 12)
+        end = integrate_bar(frame, point, force + [0.0, load], frame.length - frame.place, 48)
+        error = [end[0] / frame.length - 1.0, end[1] / frame.length - 1.0]
+        error.append(end[3] / (unit * frame.length))
+        return np.array(error), (load, point[0] - frame.place, point[1] - frame.length)
+
+    def jacobian(x):
+        columns = [(miss(x + h)[0] - miss(x - h)[0]) / 2e-6 for h in 1e-6 * np.eye(4)]
+        return np.column_stack(columns)
+
+    x, step, path = np.array([0.5 * math.pi, 0.0, 0.0, 0.0]), 0.25, []
+    direction = np.array([0.0, 0.0, 0.0, 1.0])
+    for _ in range(points):
+        tangent = np.linalg.svd(jacobian(x))[2][-1]
+        tangent *= math.copysign(1.0, tangent @ direction)
+        y = x + step * tangent
+        for _ in range(12):
+            rest = np.append(miss(y)[0], tangent @ (y - x) - step)
+            if np.abs(rest).max() < 1e-11:
+                break
+            y = y - np.linalg.solve(np.vstack([jacobian(y), tangent]), rest)
+        else:
+            raise ArithmeticError(f"no frame found after {len(path)} points")
+        direction, x = y - x, y
+        path.append(miss(x)[1])
+    return np.array(path)
+
+
+def peak(values):
+    """The largest inner maximum, from the parabola through three points."""
+    inner = [k for k in range(1, len(values) - 1) if values[k] >= max(values[k - 1], values[k + 1])]
+    i = max(inner, key=lambda k: values[k])
+    slope = 0.5 * (values[i + 1] - values[i - 1])
+    return values[i] - 0.5 * slope**2 / (values[i + 1] - 2.0 * values[i] + values[i - 1])
+
+
+def follow(culm, deck, settings=()):
+    """History and events of a path; events as kind, level, displacement."""
+    run = culm.run(deck, list(settings), quiet=False)
+    if run.exit != 0:
+        raise ArithmeticError(run.errors)
+    pattern = r"^  (limit point|turning point|bifurcation) at level ([^ ,]+), .* (\S+) m$"
+    found = re.findall(pattern, run.output, re.MULTILINE)
+    return run.history, [(kind, float(level), float(u)) for kind, level, u in found]
+
+
+def levels_of(events, kind):
+    return [level for what, level, _ in events if what == kind]
+
+
+def curve_of(history, *columns, sign=1):
+    """Levels and columns as points."""
+    return np.column_stack([history.levels, *(sign * np.array(history.column(c)) for c in columns)])
+
+
+def distance(points, curve, size=None):
+    """Largest distance of points (n, 2) from a polyline; over the ranges of the points."""
+    size = np.ptp(points, axis=0) if size is None else np.array(size)
+    p, c = points / size, curve / size
+    a, d = c[:-1], np.diff(c, axis=0)
+    worst = 0.0
+    for one in p:
+        t = np.clip(((one - a) * d).sum(1) / np.maximum((d * d).sum(1), 1e-300), 0.0, 1.0)
+        worst = max(worst, np.linalg.norm(a + t[:, None] * d - one, axis=1).min())
+    return worst
+
+
+LEE_DECK, HALF_DECK = "beam/lee_frame_path.xml", "beam/half_frame.xml"
+CONTROLS = ("Linearised Sphere", "Normal Plane", "Sphere")
+
+
+def frame_path(culm, deck, settings=(), largest=2):
+    """P, u, v of the loaded point, and the events."""
+    steps = [f"Analyses/loading/Largest Length={largest}", "Analyses/loading/Steps=2000"]
+    history, events = follow(culm, deck, [*steps, *settings])
+    return curve_of(history, "load point ux [m]", "load point uy [m]"), events
+
+
+def verify_lee(culm, report):
+    report.title("SB-4: Lee's frame, order 2, 2 x 20 elements; collection 0.2 %, own shooting 1e-4")
+    path, events = frame_path(culm, LEE_DECK, mesh(20, order=2))
+    own = rod_path(LEE)
+    high, low = levels_of(events, "limit point")
+    report.relative("limit load", high, 1.85568, 2e-3)
+    report.relative("lowest load", low, -0.94139, 2e-3)
+    report.relative("limit load, shooting", high, peak(own[:, 0]), 1e-4)
+    report.relative("lowest load, shooting", low, -peak(-own[:, 0]), 1e-4)
+    turns = [v for what, _, v in events if what == "turning point"]
+    report.relative("v at its turning points", turns, [-61.003, -50.746], 2e-3)
+    for down, (load, side) in TABLE.items():
+        gap = distance(np.array([[load, side]]), path[:, :2], (1.85, 90.0))
+        report.holds(f"-v = {down}: distance of ({load}, {side}) from the path", gap, 2e-3)
+    gap = distance(own[own[:, 1] < 90.0][:, :2], path[:, :2])
+    report.holds("distance of the shot path, P and u, over the ranges", gap, 1e-3)
+
+
+def verify_controls(culm, report):
+    for deck in (LEE_DECK, HALF_DECK):
+        report.title(f"{deck}: the three arc lengths, with two lengths, trace one path")
+        fine_path, _ = frame_path(culm, deck, largest=0.5)
+        for control in CONTROLS:
+            for largest in (5, 10):
+                path, _ = frame_path(culm, deck, [f"Analyses/loading/Control={control}"], largest)
+                for k, name in ((1, "u"), (2, "v")):
+                    gap = distance(path[:, (0, k)], fine_path[:, (0, k)])
+                    report.holds(f"{control}, {largest}: P and {name}", gap, 1e-4)
+
+
+def verify_half(culm, report):
+    report.title("HY-8: half frame, 2 x 12 elements of order 2; shooting, 0.2 %")
+    _, events = frame_path(culm, HALF_DECK)
+    own = rod_path(HALF)
+    wanted = (42705.6, -18912.9)
+    shot = (peak(own[:, 0]), -peak(-own[:, 0]))
+    for k, name in enumerate(("limit load", "lowest load")):
+        report.relative(name, 1e5 * levels_of(events, "limit point")[k], wanted[k], 2e-3)
+        report.relative(f"{name}, own shooting", shot[k], wanted[k], 1e-4)
+
+
+FRAME_DECK = "beam/right_angle_frame.xml"
+BUCKLING = ((1, 1.08752), (-1, 0.68043))
+
+
+def buckling(culm, force):
+    settings = [f"F={force}", "Analyses/loading/Bifurcation=Stop"]
+    settings += ["Analyses/loading/First Increment=0.02", "Analyses/loading/Largest Length=1"]
+    return levels_of(follow(culm, FRAME_DECK, settings)[1], "bifurcation")[0]
+
+
+def sideways(culm, force, skew):
+    """Levels and displacement across; a skew load pushes to the side that is watched."""
+    history, _ = follow(culm, FRAME_DECK, [f"F={force}", f"skew={skew * force}"])
+    return curve_of(history, "tip uz [m]")
+
+
+def verify_lateral(culm, report):
+    report.title("SB-6: right-angle frame, order 2, 10 elements per leg; 1 %")
+    for force, wanted in BUCKLING:
+        name = f"F = {force}"
+        report.relative(f"{name}: bifurcation", buckling(culm, force), wanted, 0.01)
+        branch, skew = sideways(culm, force, 0.0), sideways(culm, force, 1e-3)
+        first = next(level for level, z in branch if z > 1e-4)
+        report.relative(f"{name}: where the crossing path is entered", first, wanted, 0.01)
+        report.holds(f"{name}: way to the end", abs(branch[-1, 1] - 0.06), 1e-9)
+        at = [np.interp(0.04, path[:, 1], path[:, 0]) for path in (skew, branch)]
+        report.relative(f"{name}: load at 40 mm, with a skew load and without", at[0], at[1], 0.01)
+
+
+RING_DECK = "beam/foldable_ring.xml"
+
+
+def verify_ring(culm, report):
+    report.title("SB-7: foldable ring, 48 elements of order 2; exact at 2 pi and 4 pi, 1 %")
+    once, events = follow(culm, RING_DECK)
+    twice, _ = follow(culm, RING_DECK, ["Analyses/folding/Final Level=2"])
+    moment = max(map(abs, once.column("drive Mx [N m]")))
+    report.relative("2 pi: displacement of B", once.vector("B")[0], -0.16, 0.01)
+    report.holds("2 pi: moment over its peak", abs(once.vector("drive")[3]) / moment, 1e-8)
+    report.holds("4 pi: displacement over R", abs(twice.vector("B")[0]) / 0.12, 1e-8)
+    report.holds("4 pi: moment over its peak", abs(twice.vector("drive")[3]) / moment, 1e-8)
+    report.relative("largest displacement, read from a slide", events[0][2], 0.041, 0.03)
+
+
+ROOF = "shell/hinged_roof_path.xml"
+ROOFS = (("SS-8a, 12.7 thick", 12.7, ROOF_THICK), ("SS-8d, 6.35 thick", 6.35, ROOF_THIN))
+
+
+def roof(culm, thickness, n, largest=2, control="Linearised Sphere"):
+    settings = [f"N={n}", f"t={thickness}", f"Analyses/snap/Control={control}"]
+    settings += ["Analyses/snap/Final Level=1.1", "Analyses/snap/Steps=3000"]
+    history, events = follow(culm, ROOF, [*settings, f"Analyses/snap/Largest Length={largest}"])
+    return curve_of(history, "centre uy [m]", sign=-1), events
+
+
+def verify_roofs(culm, report):
+    for name, thickness, points in ROOFS:
+        report.title(f"{name}: hinged roof, whole path, 16 x 16; Sze et al., 1 %")
+        path, events = roof(culm, thickness, 16)
+        gap = distance(np.array(points), path)
+        report.holds("distance of the points from the path, over the ranges", gap, 0.01)
+        high, low = levels_of(events, "limit point")
+        half = len(points) // 2
+        first, last = [p for p, _ in points[:half]], [p for p, _ in points[half:]]
+        report.relative("limit load", high, max(first), 0.01)
+        report.check("lowest load", low, min(last), 0.01 * max(first))
+        fine_path, _ = roof(culm, thickness, 8, largest=0.5)
+        for control in CONTROLS:
+            gap = distance(roof(culm, thickness, 8, largest=4, control=control)[0], fine_path)
+            report.holds(f"{control}, 8 x 8: distance from the path in short steps", gap, 1e-3)
+
+
+CYLINDER_DECK = "shell/pinched_cylinder_path.xml"
+CYLINDER_COLUMNS = (("load uy [m]", 1, -1), ("side ux [m]", 2, 1))
+
+
+def cylinder(culm):
+    settings = ["N=40", "Analyses/pinch/Final Level=1", "Analyses/pinch/Largest Length=6"]
+    return follow(culm, CYLINDER_DECK, settings)[0]
+
+
+def verify_cylinder(culm, report):
+    report.title("SS-6: pinched cylinder, whole path, 40 x 40 as in the source; Sze et al., 2 %")
+    history = cylinder(culm)
+    size = np.ptp(np.array(CYLINDER)[:, :2], axis=0)  # U is small beside W: compared with it
+    for column, k, sign in CYLINDER_COLUMNS:
+        points = np.array([(row[0], row[k]) for row in CYLINDER])
+        gap = distance(points, curve_of(history, column, sign=sign), size)
+        report.holds(f"{column}: distance of the points from the path", gap, 0.02)
+
+
+def verify(culm, report):
+    verify_lee(culm, report)
+    verify_controls(culm, report)
+    verify_half(culm, report)
+    verify_lateral(culm, report)
+    verify_ring(culm, report)
+    verify_roofs(culm, report)
+
+
+def fine(culm, report):
+    verify_cylinder(culm, report)
+
+
+def plot_frames(culm, axes):
+    path, _ = frame_path(culm, LEE_DECK)
+    own = rod_path(LEE)
+    for k, sign, name in ((1, 1, "u"), (2, -1, "–v")):
+        line = axes.plot(sign * path[:, k], path[:, 0], label=name)[0]
+        dots = own[own[:, 0] < 2.5][::6]
+        axes.plot(sign * dots[:, k], dots[:, 0], "o", color=line.get_color(), markersize=3)
+    axes.set(title="SB-4 Lee's frame; dots shooting", xlabel="displacement", ylabel="P")
+    axes.legend()
+
+
+def plot_lateral(culm, axes):
+    for color, (force, wanted) in zip(("C0", "C1"), BUCKLING):
+        for skew, style in ((0.0, "-"), (1e-3, "--")):
+            path = sideways(culm, force, skew)
+            label = f"F = {force}" + (", skew load" if skew else "")
+            axes.plot(1e3 * path[:, 1], path[:, 0], style, color=color, label=label)
+        axes.plot([0], [wanted], "o", color=color)
+    axes.set(title="SB-6 right-angle frame; dots reference", xlabel="sideways [mm]",
+             ylabel="force [N]")
+    axes.legend(fontsize=7)
+
+
+def plot_ring(culm, axes):
+    path = curve_of(follow(culm, RING_DECK)[0], "B ux [m]", "drive Mx [N m]")
+    axes.plot(1e3 * path[:, 1], path[:, 2])
+    axes.plot([0, -160], [0, 0], "o")
+    axes.set(title="SB-7 foldable ring, 0 to 2π; dots exact", xlabel="displacement of B [mm]",
+             ylabel="moment [N m]")
+
+
+def plot_roof(culm, axes, name, thickness, points):
+    for n, style in ((8, ":"), (16, "-")):
+        path, _ = roof(culm, thickness, n)
+        axes.plot(path[:, 1], path[:, 0], style, color="C0", label=f"{n} x {n}")
+    axes.plot([w for _, w in points], [p for p, _ in points], "o", color="C1", markersize=3)
+    axes.set(title=f"{name}; dots Sze et al.", xlabel="deflection of the centre",
+             ylabel="force / 3000")
+    axes.legend(fontsize=7)
+
+
+def plot_cylinder(culm, axes):
+    history = cylinder(culm)
+    for column, k, sign in CYLINDER_COLUMNS:
+        path = curve_of(history, column, sign=sign)
+        line = axes.plot(path[:, 1], path[:, 0])[0]
+        axes.plot([row[k] for row in CYLINDER], [row[0] for row in CYLINDER], "o",
+                  color=line.get_color(), markersize=3)
+    axes.set(title="SS-6 pinched cylinder; dots Sze et al.", ylabel="force / 12000",
+             xlabel="–W under the force, U of the side")
+
+
+def plot(culm, path):
+    fig, _ = figure(2, 9.6)
+    fig.clf()
+    panels = fig.subplots(3, 2).ravel()
+    plot_frames(culm, panels[0])
+    plot_lateral(culm, panels[1])
+    plot_ring(culm, panels[2])
+    plot_cylinder(culm, panels[3])
+    for axes, (name, thickness, points) in zip(panels[4:], ROOFS):
+        plot_roof(culm, axes, name, thickness, points)
+    save(fig, path)
+
+
+if __name__ == "__main__":
+    main(verify, plot, fine)
