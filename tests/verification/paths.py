@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Equilibrium paths: SB-4, HY-8, SB-6, SB-7, SS-6, SS-8. Page: doc/verification/paths.md."""
+"""Equilibrium paths: SB-4, HY-7, HY-8, SB-6, SB-7, SS-6, SS-8. Page: doc/verification/paths.md."""
 
 import math
 import re
@@ -54,6 +54,7 @@ class Frame(NamedTuple):
 
 LEE = Frame(120.0, 24.0, 4320.0, math.inf, 1440.0)
 HALF = Frame(120.0, 20.0, 7.2e6 * 6, 2.77e6 * 6, 7.2e6 * 4.5)
+WALLS = Frame(60.0, 1.0, 7.2e6 * 4, 7.2e6 / 2.6, 7.2e6 * 3.396)  # of the hybrid, as rods
 
 
 def integrate_bar(frame, state, force, length, steps):
@@ -208,6 +209,34 @@ def verify_half(culm, report):
         report.relative(f"{name}, own shooting", shot[k], wanted[k], 1e-4)
 
 
+HYBRID_DECK = "hybrid/half_frame.xml"
+
+
+def hybrid(culm, n):
+    """Level, u, v of the loaded point, and the events."""
+    settings = [f"n={n}", "Analyses/snap/Largest Length=60", "Analyses/snap/Limit Points=3"]
+    settings += ["Analyses/snap/Steps=90", "Solver/Linear Solver=MUMPS"]
+    history, events = follow(culm, HYBRID_DECK, settings)
+    return curve_of(history, "load point uz [m]", "load point uy [m]"), events
+
+
+def verify_hybrid(culm, report):
+    report.title("HY-7: half frame of beams and walls; load over 175 kN")
+    limit = 0.0
+    for n in (1, 2):
+        path, events = hybrid(culm, n)
+        limit, lowest = levels_of(events, "limit point")[:2]
+        report.note(f"refinement {n}: limit {limit:.4f}, lowest {lowest:.4f}")
+    shot = peak(rod_path(WALLS, 180)[:, 0]) / 175e3
+    report.relative("limit, planar rod by shooting", limit, shot, 0.02)
+    report.check("limit, read off the slide", limit, 0.85, 0.05)
+    report.check("lowest, read off the slide", lowest, -0.2, 0.05)
+    bottom = path[:, 0].argmin()
+    top, low = path[path[:bottom, 0].argmax()], path[bottom]
+    report.check("u, v at the limit, slide", [top[1], -top[2]], [12.0, 23.0], 2.0)
+    report.check("u, v at the lowest load, slide", [low[1], -low[2]], [47.0, 31.0], 4.0)
+
+
 FRAME_DECK = "beam/right_angle_frame.xml"
 BUCKLING = ((1, 1.08752), (-1, 0.68043))
 
@@ -249,7 +278,13 @@ def verify_ring(culm, report):
     report.holds("2 pi: moment over its peak", abs(once.vector("drive")[3]) / moment, 1e-8)
     report.holds("4 pi: displacement over R", abs(twice.vector("B")[0]) / 0.12, 1e-8)
     report.holds("4 pi: moment over its peak", abs(twice.vector("drive")[3]) / moment, 1e-8)
-    report.relative("largest displacement, read from a slide", events[0][2], 0.041, 0.03)
+    report.relative("largest displacement, read off a slide", events[0][2], 0.041, 0.03)
+    path = curve_of(once, "B ux [m]", "drive Mx [N m]")
+    at_peak = path[path[:, 2].argmax(), 1]
+    falls = path[path[:, 2].argmax() : path[:, 2].argmin()]
+    crossing = np.interp(0.0, -falls[:, 2], falls[:, 1])
+    report.check("displacement at the largest moment, slide, mm", 1e3 * at_peak, 27.0, 3.0)
+    report.check("displacement where the moment is zero, slide, mm", 1e3 * crossing, -130.0, 4.0)
 
 
 ROOF = "shell/hinged_roof_path.xml"
@@ -303,6 +338,7 @@ def verify(culm, report):
     verify_lee(culm, report)
     verify_controls(culm, report)
     verify_half(culm, report)
+    verify_hybrid(culm, report)
     verify_lateral(culm, report)
     verify_ring(culm, report)
     verify_roofs(culm, report)
@@ -312,15 +348,28 @@ def fine(culm, report):
     verify_cylinder(culm, report)
 
 
-def plot_frames(culm, axes):
-    path, _ = frame_path(culm, LEE_DECK)
-    own = rod_path(LEE)
+def plot_frames(culm, axes, deck, frame, unit):
+    path, _ = frame_path(culm, deck)
+    own = rod_path(frame) / [unit, 1.0, 1.0]
     for k, sign, name in ((1, 1, "u"), (2, -1, "–v")):
         line = axes.plot(sign * path[:, k], path[:, 0], label=name)[0]
-        dots = own[own[:, 0] < 2.5][::6]
+        dots = own[own[:, 0] < path[-1, 0]][::6]
         axes.plot(sign * dots[:, k], dots[:, 0], "o", color=line.get_color(), markersize=3)
-    axes.set(title="SB-4 Lee's frame; dots shooting", xlabel="displacement", ylabel="P")
+    title = "SB-4 Lee's frame" if frame == LEE else "HY-8 half frame"
+    axes.set(title=f"{title}; dots shooting", xlabel="displacement", ylabel=f"force / {unit:g}")
     axes.legend()
+
+
+def plot_hybrid(culm, axes):
+    shot = rod_path(WALLS, 240)
+    for k, sign, name in ((1, 1, "u"), (2, -1, "–v")):
+        for n, style in ((1, ":"), (2, "-")):
+            path, _ = hybrid(culm, n)
+            axes.plot(sign * path[:, k], path[:, 0], style, color=f"C{k - 1}", label=f"{name}, {n}")
+        axes.plot(sign * shot[::12, k], shot[::12, 0] / 175e3, "o", color=f"C{k - 1}", markersize=3)
+    axes.set(title="HY-7 beams and walls; dots rods", xlabel="displacement",
+             ylabel="force / 175 kN", ylim=(-0.3, 1.2), xlim=(0, 60))
+    axes.legend(fontsize=7)
 
 
 def plot_lateral(culm, axes):
@@ -365,14 +414,16 @@ def plot_cylinder(culm, axes):
 
 
 def plot(culm, path):
-    fig, _ = figure(2, 9.6)
+    fig, _ = figure(2, 12.8)
     fig.clf()
-    panels = fig.subplots(3, 2).ravel()
-    plot_frames(culm, panels[0])
-    plot_lateral(culm, panels[1])
-    plot_ring(culm, panels[2])
-    plot_cylinder(culm, panels[3])
-    for axes, (name, thickness, points) in zip(panels[4:], ROOFS):
+    panels = fig.subplots(4, 2).ravel()
+    plot_frames(culm, panels[0], LEE_DECK, LEE, 1.0)
+    plot_frames(culm, panels[1], HALF_DECK, HALF, 1e5)
+    plot_lateral(culm, panels[2])
+    plot_hybrid(culm, panels[3])
+    plot_ring(culm, panels[4])
+    plot_cylinder(culm, panels[5])
+    for axes, (name, thickness, points) in zip(panels[6:], ROOFS):
         plot_roof(culm, axes, name, thickness, points)
     save(fig, path)
 
