@@ -972,7 +972,7 @@ EQUATIONS.append(
             "\nLast steps:\n  level 0.66",
             "\nLargest residuals of the last attempt:\n  beam/",
             "\nLikely cause: a limit point. At level 0.66",
-            "\nTry: end below this level, or prescribe a displacement instead of the load.\n",
+            "\nTry: an analysis of type 'Path', which goes on beyond, or end below this level.\n",
         ],
         last_level=None,
         check=ends_at_limit_point,

@@ -419,7 +419,7 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
     return fmt::format(
         "Likely cause: a limit point. At level {:.6g} the structure keeps {:.1f} % of its initial\n"
         "stiffness against this load; the load cannot grow further on this path.\n"
-        "Try: end below this level, or prescribe a displacement instead of the load.",
+        "Try: an analysis of type 'Path', which goes on beyond, or end below this level.",
         state.time, 100.0 * remaining);
   }
   Vector direction(context_.system.layout().row_map());
