@@ -83,7 +83,7 @@ class Table:
 
 class Run:
     """Exit code, what was printed, the history if one was written, and the tables by their paths
-    below analyses/, such as 'modes/modes'."""
+    below analyses/, such as 'modes/modes', the text of MatrixMarket files by their names."""
 
     def drift(self, what):
         """A number of the certificate, such as 'energy balance'; the run must not be quiet."""
@@ -109,6 +109,10 @@ class Run:
         self.output = process.stdout
         history = pathlib.Path(folder) / "history.csv"
         self.history = History(history) if history.exists() else None
+        self.matrices = {
+            path.stem: path.read_text()
+            for path in sorted(pathlib.Path(folder).glob("analyses/*/*.mtx"))
+        }
         self.tables = {
             f"{path.parent.name}/{path.stem}": Table(path)
             for path in sorted(pathlib.Path(folder).glob("analyses/*/*.csv"))

@@ -19,7 +19,7 @@ RANKS = (1, 2, 3)
 RANKS_TOLERANCE = 1e-12
 FORMS_TOLERANCE = 1e-9
 # of eigenvalues: rounding counts in proportion to the highest one of the model
-TABLES_TOLERANCE = 1e-7
+TABLES_TOLERANCE = 1e-6
 COMPARED_COLUMNS = ("frequency [Hz]", "factor")
 
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace culm::analysis {
@@ -32,6 +33,32 @@ void remove_border(const assembly::System& system, CrsMatrix& mass) {
   }
 }
 
+// Velocities are differences of coordinates over the step, so the damping is what of the tangent
+// falls as 1 / step. Everything else is the same to the last bit.
+Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::State& state) {
+  Teuchos::RCP<CrsMatrix> damping;
+  for (const double step : {1.0, 0.5}) {
+    const Stencil stencil{step, 1.0, 1.0, 0.0};
+    system.begin_step(state, stencil);
+    system.evaluate(state, stencil, Want::residual_and_tangent);
+    const auto tangent = system.matrix()->getLocalMatrixHost().values;
+    if (damping.is_null()) {
+      damping = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+      continue;
+    }
+    const auto values = damping->getLocalMatrixHost().values;
+    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = tangent(k) - values(k);
+  }
+  remove_border(system, *damping);
+  const auto values = damping->getLocalMatrixHost().values;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < values.extent(0); ++k) {
+    largest = std::max(largest, std::abs(values(k)));
+  }
+  if (system.comm().max(largest) == 0.0) return Teuchos::null;
+  return damping;
+}
+
 }  // namespace
 
 Linearisation linearise(Context& context, const model::State& state) {
@@ -42,6 +69,8 @@ Linearisation linearise(Context& context, const model::State& state) {
   const assembly::Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
   Linearisation linear;
   linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+  linear.damping = find_damping(system, state);
+  system.begin_step(state, stencil);
   const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
   const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
   remove_border(system, *mass);

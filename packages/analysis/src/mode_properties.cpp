@@ -47,33 +47,55 @@ ModeMasses::ModeMasses(const model::Model& model, const model::State& state)
   }
 }
 
-ModeProperties ModeMasses::properties(const std::vector<Vec6>& motions) const {
+ModeProperties ModeMasses::properties(const Shape& shape) const {
   ModeProperties result;
-  const Coordinates slots = slot_motions(model_, state_, motions);
-  const Coordinates inertia = model_.mass_times(slots);
-  for (int i = 0; i < 6; ++i)
-    result.participation[i] = dot(slots, rigid_[static_cast<std::size_t>(i)]);
-  double displacement = 0.0;
+  result.energy.assign(model_.structures().size(), 0.0);
+  std::vector<double> displacement(shape.real.size(), 0.0);  // squares, per node
   double rotation = 0.0;
-  for (const Vec6& motion : motions) {
-    displacement = std::max(displacement, motion.head<3>().norm());
-    rotation = std::max(rotation, motion.tail<3>().norm());
-  }
-  // a motion that only turns displaces nothing but by rounding
-  if (displacement > 1e-9 * rotation * model_.length()) {
-    result.modal_mass = dot(slots, inertia) / (displacement * displacement);
-  }
-  double sum = 0.0;
-  for (const model::Structure& structure : model_.structures()) {
-    double energy = 0.0;
-    for (int node : structure.nodes) {
-      energy += NodeTable::slots(slots, node).cwiseProduct(NodeTable::slots(inertia, node)).sum();
+  double mass = 0.0;
+  for (const std::vector<Vec6>* part : {&shape.real, &shape.imaginary}) {
+    if (part->empty()) continue;
+    const Coordinates slots = slot_motions(model_, state_, *part);
+    const Coordinates inertia = model_.mass_times(slots);
+    mass += dot(slots, inertia);
+    for (int i = 0; i < 6; ++i) {
+      const double projected = dot(slots, rigid_[static_cast<std::size_t>(i)]);
+      result.participation[i] =
+          shape.imaginary.empty() ? projected : std::hypot(result.participation[i], projected);
     }
-    result.energy.push_back(energy);
-    sum += energy;
+    for (std::size_t node = 0; node < part->size(); ++node) {
+      displacement[node] += (*part)[node].head<3>().squaredNorm();
+      rotation = std::max(rotation, (*part)[node].tail<3>().norm());
+    }
+    for (std::size_t s = 0; s < result.energy.size(); ++s) {
+      for (int node : model_.structures()[s].nodes) {
+        result.energy[s] +=
+            NodeTable::slots(slots, node).cwiseProduct(NodeTable::slots(inertia, node)).sum();
+      }
+    }
   }
+  const double largest = std::sqrt(*std::max_element(displacement.begin(), displacement.end()));
+  // a motion that only turns displaces nothing but by rounding
+  if (largest > 1e-9 * rotation * model_.length()) result.modal_mass = mass / (largest * largest);
+  const double sum = std::accumulate(result.energy.begin(), result.energy.end(), 0.0);
   for (double& energy : result.energy) energy /= sum;
   return result;
+}
+
+double modal_assurance(const model::Model& model, const model::State& state, const Shape& one,
+                       const Shape& other) {
+  const auto slots = [&](const std::vector<Vec6>& part) {
+    return part.empty() ? Coordinates(state.next.size(), 0.0) : slot_motions(model, state, part);
+  };
+  const Coordinates a[2] = {slots(one.real), slots(one.imaginary)};
+  const Coordinates b[2] = {slots(other.real), slots(other.imaginary)};
+  const Coordinates Ma[2] = {model.mass_times(a[0]), model.mass_times(a[1])};
+  const Coordinates Mb[2] = {model.mass_times(b[0]), model.mass_times(b[1])};
+  const double real = dot(Ma[0], b[0]) + dot(Ma[1], b[1]);
+  const double imaginary = dot(Ma[0], b[1]) - dot(Ma[1], b[0]);
+  const double squares =
+      (dot(Ma[0], a[0]) + dot(Ma[1], a[1])) * (dot(Mb[0], b[0]) + dot(Mb[1], b[1]));
+  return (real * real + imaginary * imaginary) / squares;
 }
 
 std::string describe_shares(const model::Model& model, const std::vector<double>& shares) {

@@ -1,4 +1,7 @@
+#include <culm/analysis/buckling.hpp>
+#include <culm/analysis/campbell.hpp>
 #include <culm/analysis/dynamics.hpp>
+#include <culm/analysis/matrices.hpp>
 #include <culm/analysis/modal.hpp>
 #include <culm/analysis/path_following.hpp>
 #include <culm/analysis/register_analysis.hpp>
@@ -11,6 +14,9 @@ void register_analyses(AnalysisRegistry& registry) {
   registry.add("Path", PathFollowing::schema(), PathFollowing::make);
   registry.add("Dynamic", Dynamics::schema(), Dynamics::make);
   registry.add("Modal", Modal::schema(), Modal::make);
+  registry.add("Buckling", Buckling::schema(), Buckling::make);
+  registry.add("Campbell", Campbell::schema(), Campbell::make);
+  registry.add("Matrices", Matrices::schema(), Matrices::make);
 }
 
 }  // namespace culm::analysis

@@ -14,6 +14,8 @@ void register_surface_force(model::BuilderRegistry& registry);  // Surface Force
 void register_director_force(model::BuilderRegistry& registry);  // Director Force
 void register_gravity(model::BuilderRegistry& registry);         // Gravity
 
+void register_rotating_frame(model::BuilderRegistry& registry);  // Rotating Frame
+
 // … Spring and … Damper, all of them
 void register_spring(model::BuilderRegistry& registry);
 void register_directed_spring(model::BuilderRegistry& registry);

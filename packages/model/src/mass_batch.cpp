@@ -69,6 +69,10 @@ void MassBatch::add_mass_times(const Coordinates& acceleration, Coordinates& for
   }
 }
 
+void MassBatch::visit_masses(const MassVisitor& visit) const {
+  for (const Item& item : items_) visit(std::span(&item.node, 1), item.mass);
+}
+
 void MassBatch::add_momentum(const Coordinates& q, const Coordinates& velocity,
                              Momentum& momentum) const {
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {

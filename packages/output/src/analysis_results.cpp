@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 namespace culm::output {
 
 void write_csv(const std::filesystem::path& path, const NamedTable& table) {
@@ -14,6 +16,16 @@ void write_csv(const std::filesystem::path& path, const NamedTable& table) {
     text += fmt::format("{:.17g}", fmt::join(table.rows[i], ","));
     if (!table.remarks.empty()) text += fmt::format(",\"{}\"", table.remarks[i]);
     text += '\n';
+  }
+  replace_file(path, text);
+}
+
+void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix) {
+  std::string text = fmt::format("%%MatrixMarket matrix coordinate real general\n{} {} {}\n",
+                                 matrix.rows, matrix.columns, matrix.value.size());
+  for (std::size_t k = 0; k < matrix.value.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{} {} {:.17g}\n", matrix.row[k] + 1,
+                   matrix.column[k] + 1, matrix.value[k]);
   }
   replace_file(path, text);
 }

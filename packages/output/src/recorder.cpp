@@ -224,6 +224,14 @@ class Recorder::File {
       if (!table.remarks.empty()) file_.set_attribute(dataset.id(), "remarks", table.remarks);
     }
     if (!results.shapes.empty()) write_shapes(group.id(), results);
+    for (const SparseMatrix& matrix : results.matrices) {
+      const Handle entries = file_.make_group(group.id(), link_name(matrix.name));
+      file_.set_attribute(entries.id(), "rows", matrix.rows);
+      file_.set_attribute(entries.id(), "columns", matrix.columns);
+      file_.write(entries.id(), "row", matrix.row);
+      file_.write(entries.id(), "column", matrix.column);
+      file_.write(entries.id(), "value", matrix.value, {matrix.value.size()});
+    }
     file_.flush();
   }
 

@@ -50,6 +50,9 @@ output::AnalysisResults results_of(const model::Model& model, const std::string&
   for (const analysis::ReportTable& table : report.tables) {
     results.tables.push_back({table.name, table.columns, table.rows, table.remarks});
   }
+  for (const analysis::ReportMatrix& m : report.matrices) {
+    results.matrices.push_back({m.name, m.rows, m.columns, m.row, m.column, m.value});
+  }
   if (report.shapes.empty()) return results;
   for (const analysis::Shape& shape : report.shapes) results.shape_names.push_back(shape.name);
   const bool is_complex = std::any_of(report.shapes.begin(), report.shapes.end(),
@@ -84,6 +87,11 @@ std::vector<std::filesystem::path> write_analysis_files(
     files.push_back(own / (table.name + ".csv"));
     output::write_csv(folder / files.back(),
                       {table.name, table.columns, table.rows, table.remarks});
+  }
+  for (const analysis::ReportMatrix& m : report.matrices) {
+    files.push_back(own / (m.name + ".mtx"));
+    output::write_matrix_market(folder / files.back(),
+                                {m.name, m.rows, m.columns, m.row, m.column, m.value});
   }
   if (!pictures) return files;
   for (std::size_t i = 0; i < report.shapes.size(); ++i) {

@@ -122,7 +122,7 @@ void ResultFiles::record(double time, model::State& state) {
 
 void ResultFiles::add_results(const std::string& name, const analysis::AnalysisReport& report,
                               const model::State& state) {
-  if (report.tables.empty() && report.shapes.empty()) return;
+  if (report.tables.empty() && report.shapes.empty() && report.matrices.empty()) return;
   on_root(system_.comm(), [&] {
     files_->recorder.write_results(results_of(system_.model(), name, report));
     const auto written = write_analysis_files(system_.model(), name, report, state,

@@ -1,10 +1,27 @@
-/// The methods behind solve_eigenproblem. Each finds eigenvalues nu of (A - shift B)^-1 B, hence
-/// lambda = shift + 1 / nu, largest |nu| first.
+/// The methods behind the eigensolvers: large eigenvalues nu of an operator that inverts.
 #pragma once
 
 #include "shift_invert.hpp"
 
+#include <functional>
+
 namespace culm::solver {
+
+/// Below it whole matrices cost less than a Krylov space.
+constexpr int small_problem = 250;
+
+/// The name of the method in place of `Automatic`.
+inline std::string method(const EigenSettings& settings, int size) {
+  if (settings.solver != "Automatic") return settings.solver;
+  return size <= small_problem || 6 * settings.count > size ? "Dense" : "Spectra";
+}
+
+/// (A - shift B)^-1 B of a symmetric pencil, hence nu = 1 / (lambda - shift).
+struct ShiftedPencil {
+  ShiftInvert& inverse;
+  const SymmetricPencil& pencil;
+  double shift;
+};
 
 /// Some nu with vectors, columns with x^T B x = 1.
 struct InvertedPairs {
@@ -12,12 +29,31 @@ struct InvertedPairs {
   Eigen::MatrixXd vectors;
 };
 
-/// All of them, but for those that are zero. (A - shift B)^-1 between the range of B is a symmetric
+/// All of them, but for those that are zero. The operator between the range of B is a symmetric
 /// matrix, whatever border A has.
-InvertedPairs solve_dense(ShiftInvert& op);
+InvertedPairs solve_dense(const ShiftedPencil& op);
 
-/// The first `count` in the B-orthogonal complement of the columns of `found`: implicitly restarted
-/// Lanczos of Spectra, alike on all ranks.
-InvertedPairs solve_spectra(ShiftInvert& op, int count, const Eigen::MatrixXd& found);
+/// The first `count` by size in the B-orthogonal complement of the columns of `found`: implicitly
+/// restarted Lanczos of Spectra, alike on all ranks.
+InvertedPairs solve_lanczos(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found);
+
+/// Any real operator: y = T x.
+struct Operator {
+  int size = 0;
+  std::function<void(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y)>
+      apply;
+};
+
+struct GeneralPairs {
+  Eigen::VectorXcd nu;
+  Eigen::MatrixXcd vectors;
+};
+
+/// All of them, from the matrix of the operator; by size, largest first, without those that are
+/// zero.
+GeneralPairs solve_dense(const Operator& op);
+
+/// The first `count` by size: implicitly restarted Arnoldi of Spectra, alike on all ranks.
+GeneralPairs solve_arnoldi(const Operator& op, int count);
 
 }  // namespace culm::solver

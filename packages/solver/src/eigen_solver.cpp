@@ -1,4 +1,3 @@
-#include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
 #include "eigen_methods.hpp"
@@ -11,9 +10,6 @@
 namespace culm::solver {
 namespace {
 
-// Below it whole matrices cost less than a Krylov space.
-constexpr int small = 250;
-
 void append(InvertedPairs& all, const InvertedPairs& more, Eigen::Index count) {
   const Eigen::Index before = all.nu.size();
   all.nu.conservativeResize(before + count);
@@ -23,13 +19,14 @@ void append(InvertedPairs& all, const InvertedPairs& more, Eigen::Index count) {
 }
 
 // Values in the complement of those that are found, until they are all further from the shift.
-InvertedPairs search(ShiftInvert& op, int count) {
+InvertedPairs search(const ShiftedPencil& op, int count) {
   constexpr int probes = 2;
-  InvertedPairs all = solve_spectra(op, count, Eigen::MatrixXd(op.size(), 0));
+  const int size = op.inverse.size();
+  InvertedPairs all = solve_lanczos(op, count, Eigen::MatrixXd(size, 0));
   const auto least = [&] { return all.nu.cwiseAbs().minCoeff(); };
-  const Eigen::Index most = std::min<Eigen::Index>(op.size() / 3, 4 * count);
+  const Eigen::Index most = std::min<Eigen::Index>(size / 3, 4 * count);
   while (all.nu.size() < most) {
-    const InvertedPairs more = solve_spectra(op, probes, all.vectors);
+    const InvertedPairs more = solve_lanczos(op, probes, all.vectors);
     const Eigen::Index missed = (more.nu.array().abs() > (1.0 - 1e-8) * least()).count();
     if (missed == 0) break;
     append(all, more, missed);
@@ -48,11 +45,11 @@ void sort_by_size(InvertedPairs& pairs) {
 }
 
 // One more application of the operator takes away what has no B in a vector and is no part of it.
-void finish(ShiftInvert& op, Eigen::Ref<Eigen::VectorXd> x) {
-  Eigen::VectorXd Bx(op.size());
-  op.multiply_B(x, Bx);
-  op.solve(Bx, x);
-  op.multiply_B(x, Bx);
+void finish(const ShiftedPencil& op, Eigen::Ref<Eigen::VectorXd> x) {
+  Eigen::VectorXd Bx(x.size());
+  op.inverse.multiply(*op.pencil.B, x, Bx);
+  op.inverse.solve(Bx, x);
+  op.inverse.multiply(*op.pencil.B, x, Bx);
   x /= std::sqrt(x.dot(Bx));
 }
 
@@ -65,36 +62,36 @@ const std::vector<std::string>& eigen_solver_names() {
 
 EigenPairs solve_eigenproblem(const SymmetricPencil& pencil, const EigenSettings& settings,
                               const parallel::Comm& comm) {
-  ShiftInvert op(pencil, settings, comm);
+  ShiftInvert inverse(combine({{1.0, pencil.A}, {-settings.shift, pencil.B}}),
+                      settings.linear_solver, comm);
+  const ShiftedPencil op{inverse, pencil, settings.shift};
   EigenPairs result;
-  result.solver = settings.solver;
-  if (result.solver == "Automatic") {
-    result.solver = op.size() <= small || 6 * settings.count > op.size() ? "Dense" : "Spectra";
-  }
+  result.solver = method(settings, inverse.size());
   InvertedPairs pairs = result.solver == "Dense" ? solve_dense(op) : search(op, settings.count);
   sort_by_size(pairs);
   const auto count = std::min<Eigen::Index>(pairs.nu.size(), settings.count);
 
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  Eigen::VectorXd Ax(op.size()), Bx(op.size());
   struct Found {
     double value, rounding;
     Eigen::Index column;
   };
   std::vector<Found> found;
+  Eigen::VectorXd Ax(inverse.size()), Bx(inverse.size());
   for (Eigen::Index i = 0; i < count; ++i) {
     Eigen::Ref<Eigen::VectorXd> x = pairs.vectors.col(i);
     finish(op, x);
-    op.multiply_A(x, Ax);
-    op.multiply_B(x, Bx);
+    inverse.multiply(*pencil.A, x, Ax);
+    inverse.multiply(*pencil.B, x, Bx);
+    const Eigen::VectorXd terms = inverse.absolute(*pencil.A, x);
     const double value = x.dot(Ax);  // Rayleigh quotient
-    found.push_back({value, eps * op.size_of_A(x), i});
-    const double terms = Ax.norm() + (std::abs(value) + std::abs(op.shift())) * Bx.norm();
-    result.worst_residual = std::max(result.worst_residual, (Ax - value * Bx).norm() / terms);
+    found.push_back({value, eps * x.cwiseAbs().dot(terms), i});
+    result.worst_residual = std::max(
+        result.worst_residual, (Ax - value * Bx).lpNorm<Eigen::Infinity>() / terms.maxCoeff());
   }
   std::sort(found.begin(), found.end(),
             [](const Found& a, const Found& b) { return a.value < b.value; });
-  result.vectors.resize(op.size(), count);
+  result.vectors.resize(inverse.size(), count);
   for (std::size_t i = 0; i < found.size(); ++i) {
     result.values.push_back(found[i].value);
     result.rounding.push_back(found[i].rounding);

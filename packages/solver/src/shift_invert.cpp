@@ -2,8 +2,6 @@
 
 #include <culm/base/error.hpp>
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace culm::solver {
@@ -14,36 +12,37 @@ namespace {
 
 constexpr double useless = 1e-8;  // residual of a solution, as LinearSolver measures it
 
-Teuchos::RCP<CrsMatrix> combine(const SymmetricPencil& pencil, double shift) {
-  const auto sum = Teuchos::rcp(new CrsMatrix(*pencil.A, Teuchos::Copy));
-  const auto values = sum->getLocalMatrixHost().values;
-  const auto b = pencil.B->getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= shift * b(k);
-  return sum;
-}
-
-[[noreturn]] void refuse(double shift) {
+[[noreturn]] void refuse() {
   throw NumericalError(
-      fmt::format("The eigenproblem cannot be solved: the stiffness, shifted by {:.6g} times the "
-                  "mass, is singular.\nLikely cause: a motion that has neither stiffness nor mass, "
-                  "or a shift that is an eigenvalue.\nTry: another shift; density, mass or rotary "
-                  "inertia for every structure.",
-                  shift));
+      "The eigenproblem cannot be solved: its matrix is singular at the shift.\n"
+      "Likely cause: a motion that has neither stiffness nor mass, or a shift that is an "
+      "eigenvalue; in\nbuckling, a structure that can move freely or has lost its stiffness.\n"
+      "Try: another shift; density or rotary inertia for every structure; supports.");
 }
 
 }  // namespace
 
-ShiftInvert::ShiftInvert(const SymmetricPencil& pencil, const EigenSettings& settings,
+Teuchos::RCP<CrsMatrix> combine(
+    const std::vector<std::pair<double, Teuchos::RCP<const CrsMatrix>>>& terms) {
+  const auto sum = Teuchos::rcp(new CrsMatrix(*terms.front().second, Teuchos::Copy));
+  const auto values = sum->getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) *= terms.front().first;
+  for (std::size_t i = 1; i < terms.size(); ++i) {
+    const auto more = terms[i].second->getLocalMatrixHost().values;
+    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) += terms[i].first * more(k);
+  }
+  return sum;
+}
+
+ShiftInvert::ShiftInvert(const Teuchos::RCP<CrsMatrix>& factored, const std::string& linear_solver,
                          const parallel::Comm& comm)
-    : pencil_(pencil),
-      comm_(comm),
-      shift_(settings.shift),
-      whole_(*pencil.A->getRowMap(), comm),
-      shifted_(combine(pencil, settings.shift)),
-      linear_(choose_linear_solver(settings.linear_solver, shifted_, comm).solver),
-      in_(pencil.A->getRowMap()),
-      out_(pencil.A->getRowMap()) {
-  if (!linear_->factor()) refuse(shift_);
+    : comm_(comm),
+      whole_(*factored->getRowMap(), comm),
+      factored_(factored),
+      linear_(choose_linear_solver(linear_solver, factored_, comm).solver),
+      in_(factored->getRowMap()),
+      out_(factored->getRowMap()) {
+  if (!linear_->factor()) refuse();
 }
 
 void ShiftInvert::multiply(const CrsMatrix& matrix, const ConstColumn& x, Column y) const {
@@ -55,23 +54,24 @@ void ShiftInvert::multiply(const CrsMatrix& matrix, const ConstColumn& x, Column
 void ShiftInvert::solve(const ConstColumn& x, Column y) {
   whole_.take(x, in_);
   const double residual = linear_->solve(in_, out_);
-  if (!(residual <= useless)) refuse(shift_);
+  if (!(residual <= useless)) refuse();
   whole_.join(out_, y);
 }
 
-double ShiftInvert::size_of_A(const ConstColumn& x) const {
-  const auto matrix = pencil_.A->getLocalMatrixHost();
-  const auto& columns = *pencil_.A->getColMap();
-  double size = 0.0;
-  for (std::size_t row = 0; row < whole_.rows().size(); ++row) {
+Eigen::VectorXd ShiftInvert::absolute(const CrsMatrix& matrix, const Eigen::VectorXd& x) const {
+  const auto local = matrix.getLocalMatrixHost();
+  const auto& columns = *matrix.getColMap();
+  const auto out = assembly::values_of(out_);
+  for (std::size_t row = 0; row < out.size(); ++row) {
     double sum = 0.0;
-    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
-      const auto column = columns.getGlobalElement(matrix.graph.entries(k));
-      sum += std::abs(matrix.values(k) * x[column]);
+    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      sum += std::abs(local.values(k) * x[columns.getGlobalElement(local.graph.entries(k))]);
     }
-    size += std::abs(x[whole_.rows()[row]]) * sum;
+    out[row] = sum;
   }
-  return comm_.sum(size);
+  Eigen::VectorXd all(size());
+  whole_.join(out_, all);
+  return all;
 }
 
 Eigen::MatrixXd ShiftInvert::dense(const CrsMatrix& matrix) const {

@@ -107,6 +107,14 @@ class Pencil {
   SymmetricPencil pencil_;
 };
 
+// Copies of matrices keep their graph; Tpetra scales only while it is being filled.
+Teuchos::RCP<CrsMatrix> scaled(const CrsMatrix& matrix, double factor) {
+  const auto copy = Teuchos::rcp(new CrsMatrix(matrix, Teuchos::Copy));
+  const auto values = copy->getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) *= factor;
+  return copy;
+}
+
 class EachEigenSolver : public testing::TestWithParam<std::string> {
  protected:
   EigenSettings settings(int count, double shift) const {
@@ -158,6 +166,52 @@ TEST(EigenSolver, GivesAsManyAsThereAre) {
 TEST(EigenSolver, RefusesAShiftThatIsAnEigenvalue) {
   const Pencil pencil({1, 40, false});
   EXPECT_THROW(pencil.solve({"Spectra", "KLU2", 3, 0.0}), NumericalError);
+}
+
+TEST_P(EachEigenSolver, FindsBucklingFactorsOfBothSignsWithCopies) {
+  // K + mu D is singular at mu = -omega^2 of K x = omega^2 M x, so D = -M gives factors omega^2
+  const Chains chains{2, 30, true};
+  const Pencil pencil(chains);
+  const auto D = scaled(*pencil.matrices().B, -1.0);
+  const EigenPairs pairs =
+      solve_buckling({pencil.matrices().A, D, true}, settings(6, 0.0), pencil.comm());
+  ASSERT_EQ(pairs.values.size(), 6U);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(pairs.values[static_cast<std::size_t>(i)], chains.value(i / 2), 1e-11);
+  }
+  EXPECT_LT(pairs.worst_residual, 1e-12);
+  const EigenPairs reversed = solve_buckling({pencil.matrices().A, pencil.matrices().B, true},
+                                             settings(2, 0.0), pencil.comm());
+  EXPECT_NEAR(reversed.values.front(), -chains.value(0), 1e-11);
+}
+
+TEST_P(EachEigenSolver, FindsDampedAndGyroscopicValues) {
+  // C = a M + b K: lambda^2 + (a + b omega^2) lambda + omega^2 = 0
+  const Chains chains{1, 40, true};
+  const Pencil pencil(chains);
+  const double a = 0.01, b = 0.3;
+  const auto C = scaled(*pencil.matrices().B, a);
+  const auto values = C->getLocalMatrixHost().values;
+  const auto K = pencil.matrices().A->getLocalMatrixHost();
+  const auto& columns = *pencil.matrices().A->getColMap();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(K.numRows()); ++row) {
+    for (auto k = K.graph.row_map(row); k < K.graph.row_map(row + 1); ++k) {
+      const bool border =
+          columns.getGlobalElement(K.graph.entries(k)) == 40 ||
+          pencil.matrices().A->getRowMap()->getGlobalElement(static_cast<int>(row)) == 40;
+      if (!border) values(k) += b * K.values(k);
+    }
+  }
+  const ComplexPairs pairs = solve_quadratic({pencil.matrices().A, C, pencil.matrices().B},
+                                             settings(4, 1e-3), pencil.comm());
+  ASSERT_EQ(pairs.values.size(), 4U);
+  for (int i = 0; i < 4; ++i) {
+    const double square = chains.value(i);
+    const double half = 0.5 * (a + b * square);
+    const std::complex<double> wanted(-half, std::sqrt(square - half * half));
+    EXPECT_LT(std::abs(pairs.values[static_cast<std::size_t>(i)] - wanted), 1e-10);
+  }
+  EXPECT_LT(pairs.worst_residual, 1e-12);
 }
 
 TEST(EigenSolver, MeasuresAsymmetry) {

@@ -49,12 +49,23 @@ struct ReportTable {
   std::vector<std::string> remarks;  ///< one per row, or none
 };
 
+/// A sparse matrix by its entries, whole on rank 0 and empty elsewhere.
+struct ReportMatrix {
+  std::string name;
+  int rows = 0;
+  int columns = 0;
+  std::vector<int> row;  ///< of each entry, from 0
+  std::vector<int> column;
+  std::vector<double> value;
+};
+
 /// What an analysis says at its end, beside its steps.
 struct AnalysisReport {
   std::string text;
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<ReportTable> tables = {};
   std::vector<Shape> shapes = {};  ///< about the state at the end
+  std::vector<ReportMatrix> matrices = {};
 };
 
 /// Makes the new equilibrium the start of the next step.

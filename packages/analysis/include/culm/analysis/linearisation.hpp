@@ -10,10 +10,15 @@ namespace culm::analysis {
 struct Linearisation {
   Teuchos::RCP<const assembly::CrsMatrix> stiffness;
   Teuchos::RCP<const assembly::CrsMatrix> mass;
+  /// Of dampers, viscous materials and rotating frames; null where there is none.
+  Teuchos::RCP<const assembly::CrsMatrix> damping;
   double asymmetry = 0.0;      ///< of the stiffness, as solver::asymmetry
   bool is_equilibrium = true;  ///< but for rounding
   double residual = 0.0;       ///< largest force residual over the force scale
 };
+
+/// Below it a tangent counts as symmetric: what static analyses leave unbalanced is less.
+constexpr double largest_asymmetry = 1e-7;
 
 /// About state.next, at the loads of state.time, without inertia; warns where it is no equilibrium.
 /// Throws NonFiniteError. Collective.

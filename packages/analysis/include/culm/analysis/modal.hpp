@@ -1,21 +1,15 @@
 /// Natural frequencies and mode shapes.
 #pragma once
 
-#include <culm/analysis/analysis.hpp>
+#include <culm/analysis/find_modes.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
-#include <culm/solver/eigen_solver.hpp>
-
-#include <optional>
 
 namespace culm::analysis {
 
-/// Which modes.
-struct ModalSettings {
-  int modes = 10;
-  std::optional<double> near;  ///< frequency next to which modes are looked for [Hz]; the lowest
-  std::string solver = "Automatic";  ///< one of solver::eigen_solver_names()
-};
+/// What a deck says about modes: Modes, Near, Damping, Solver.
+Schema& add_modal_fields(Schema& schema);
+ModalSettings read_modal_settings(const Options& options);
 
 /// Small vibrations about the present state, which stays as it is. @source formulation 5.4
 class Modal final : public Analysis {

@@ -5,6 +5,9 @@
 #include <culm/model/scatter.hpp>
 #include <culm/model/state.hpp>
 
+#include <Eigen/Core>
+
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -90,6 +93,9 @@ class MassSource {
   virtual ~MassSource() = default;
   /// force += M acceleration over all items, both in director coordinates.
   virtual void add_mass_times(const Coordinates& acceleration, Coordinates& force) const = 0;
+  /// Hands out every item: its nodes, and its mass between their slots, four per node in memory.
+  using MassVisitor = std::function<void(std::span<const int> nodes, const Eigen::MatrixXd& mass)>;
+  virtual void visit_masses(const MassVisitor& visit) const = 0;
   /// Adds what the owned items contribute at a configuration and its velocity.
   virtual void add_momentum(const Coordinates& q, const Coordinates& velocity,
                             Momentum& momentum) const = 0;

@@ -164,6 +164,19 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
   }
 
+  void visit_masses(const MassVisitor& visit) const override {
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(4 * N, 4 * N);
+    for (int item = 0; item < size(); ++item) {
+      const SlotMatrix<S> scalars = element(item).mass();
+      for (int a = 0; a < N; ++a) {
+        for (int b = 0; b < N; ++b) {
+          mass.block<K, K>(4 * a, 4 * b) = scalars.template block<K, K>(K * a, K * b);
+        }
+      }
+      visit(nodes(item), mass);
+    }
+  }
+
   void add_momentum(const Coordinates& q, const Coordinates& velocity,
                     Momentum& momentum) const override {
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {

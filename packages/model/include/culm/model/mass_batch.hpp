@@ -31,6 +31,7 @@ class MassBatch final : public Batch, public MassSource {
   double stored_energy(const Coordinates&) const override { return 0.0; }
   StepWork step_work(const State&, const Stencil&) const override { return {}; }
   void add_mass_times(const Coordinates& acceleration, Coordinates& force) const override;
+  void visit_masses(const MassVisitor& visit) const override;
   void add_momentum(const Coordinates& q, const Coordinates& velocity,
                     Momentum& momentum) const override;
 

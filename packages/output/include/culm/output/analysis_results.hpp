@@ -24,16 +24,30 @@ struct StructureShapes {
   std::vector<double> imaginary;  ///< the same, or empty
 };
 
+/// A sparse matrix by its entries.
+struct SparseMatrix {
+  std::string name;
+  int rows = 0;
+  int columns = 0;
+  std::vector<int> row;  ///< of each entry, from 0
+  std::vector<int> column;
+  std::vector<double> value;
+};
+
 /// All of one analysis.
 struct AnalysisResults {
   std::string name;
   std::vector<NamedTable> tables;
   std::vector<std::string> shape_names;
   std::vector<StructureShapes> shapes;
+  std::vector<SparseMatrix> matrices;
 };
 
 /// Writes a table as text: a line of names, then one per row; numbers have 17 digits and read back
 /// exactly, remarks are quoted. Throws FileError.
 void write_csv(const std::filesystem::path& path, const NamedTable& table);
+
+/// Writes a matrix in MatrixMarket's coordinate format, numbers as in write_csv. Throws FileError.
+void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix);
 
 }  // namespace culm::output

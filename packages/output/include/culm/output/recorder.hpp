@@ -27,7 +27,8 @@ struct RunInfo {
 ///     and cell arrays /history/values   one row per add_history(); attributes names, units; first
 ///     column time /report   text, scalars/<name>
 ///     /analyses/<analysis>   one table per name, attributes names, remarks; shapes/<structure>
-///     (shape, node, displacement and rotation), imaginary parts in shapes_imaginary/<structure>
+///     (shape, node, displacement and rotation), imaginary parts in shapes_imaginary/<structure>;
+///     matrices by their entries row, column, value
 ///
 /// and per step whatever Frame::arrays holds in /steps/000000/%arrays. In names the characters / :
 /// % | are written as %XX.

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct EigenPairs {
   std::vector<double> values;
   Eigen::MatrixXd vectors;       ///< columns with x^T B x = 1; all unknowns in global order
   std::vector<double> rounding;  ///< what rounding of A alone may do to a value: eps |x|^T |A| |x|
-  double worst_residual = 0.0;   ///< |A x - lambda B x| over the sum of the sizes of the two terms
+  double worst_residual = 0.0;   ///< largest |A x - lambda B x| over the largest | |A| |x| |
   std::string solver;            ///< that did it
 };
 
@@ -46,6 +47,41 @@ const std::vector<std::string>& eigen_solver_names();
 /// the iteration does not converge. Collective.
 EigenPairs solve_eigenproblem(const SymmetricPencil& pencil, const EigenSettings& settings,
                               const parallel::Comm& comm);
+
+/// (K + mu D) x = 0: loads that grow until a structure has no stiffness left against x. Matrices of
+/// one graph; both may be bordered by constraints. @source formulation 5.5
+struct BucklingPencil {
+  Teuchos::RCP<const assembly::CrsMatrix> K;
+  Teuchos::RCP<const assembly::CrsMatrix> D;
+  bool is_symmetric = true;  ///< then copies of multiple values are found, too
+};
+
+/// The values mu next to zero of both signs, by their size; vectors with |x^T K x| = 1. K must have
+/// an inverse. Complex values are left out. Settings as in solve_eigenproblem, with shift 0.
+EigenPairs solve_buckling(const BucklingPencil& pencil, const EigenSettings& settings,
+                          const parallel::Comm& comm);
+
+/// (lambda^2 M + lambda C + K) x = 0 with any real K and C, bordered as in SymmetricPencil.
+struct QuadraticPencil {
+  Teuchos::RCP<const assembly::CrsMatrix> K;
+  Teuchos::RCP<const assembly::CrsMatrix> C;
+  Teuchos::RCP<const assembly::CrsMatrix> M;
+};
+
+/// Finite eigenvalues with their vectors, by their size; of conjugate pairs the one above the real
+/// axis. The same on all ranks.
+struct ComplexPairs {
+  std::vector<std::complex<double>> values;
+  Eigen::MatrixXcd vectors;      ///< columns with x^H M x = 1
+  std::vector<double> rounding;  ///< what rounding of K may do to lambda^2: eps |x|^T |K| |x|
+  double worst_residual = 0.0;   ///< largest residual over the largest | |K| |x| |
+  std::string solver;
+};
+
+/// The eigenvalues next to the shift, a real number >= 0, by the linearised problem of twice the
+/// size and Arnoldi's method. @source formulation 5.4
+ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
+                             const parallel::Comm& comm);
 
 /// Largest |A_ij - A_ji| over the root of the product of the largest entries of rows i and j: what
 /// is left of symmetry. Collective.

@@ -1,0 +1,175 @@
+#include <culm/analysis/buckling.hpp>
+#include <culm/base/error.hpp>
+#include <culm/solver/eigen_solver.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::analysis {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::Vector;
+
+// Loads that follow the structure leave a tenth and more; a small difference of large tangents has
+// more rounding than a tangent.
+constexpr double largest_asymmetry_of_change = 1e-3;
+
+// The linear response to the loads of another level. The matrix of the system is the tangent then.
+Vector linear_step(Context& context, model::State at, double level) {
+  assembly::System& system = context.system;
+  const Stencil stencil = Stencil::statics();
+  const double present = at.time;
+  at.prev = at.next;
+  at.time = at.time_prev = level;
+  system.begin_step(at, stencil);
+  system.evaluate(at, stencil, Want::residual);
+  Vector load(system.residual(), Teuchos::Copy);
+  at.time = at.time_prev = present;
+  system.begin_step(at, stencil);
+  const assembly::Evaluation found = system.evaluate(at, stencil, Want::residual_and_tangent);
+  load.update(1.0, system.residual(), -1.0);
+  const double size = system.comm().max(load.normInf());
+  if (size <= 1e-12 * found.force_scale || size == 0.0) {
+    throw NumericalError(
+        fmt::format("There is no reference load: loads at level {:g} are those at level {:g}.\n"
+                    "Try: a 'Reference Level' at which the functions of the loads differ.",
+                    level, present));
+  }
+  Vector step(load.getMap());
+  if (!context.linear.factor() || context.linear.solve(load, step) > 1e-8) {
+    throw NumericalError(
+        "The tangent at the present state is singular, so there is no linear response to the "
+        "reference load.\nTry: supports that hold the structure, or a state before the limit "
+        "point.");
+  }
+  return step;
+}
+
+// What the linear step adds to the tangent, all of it linear in the step: stresses where the
+// structure is, multipliers, loads.
+Teuchos::RCP<const CrsMatrix> stress_stiffness(Context& context, model::State at, double level,
+                                               const Vector& step, const CrsMatrix& tangent) {
+  assembly::System& system = context.system;
+  const Stencil stencil = Stencil::statics();
+  const model::Coordinates q = at.next;
+  at.time = at.time_prev = level;
+  system.begin_step(at, stencil);
+  system.extrapolate(at, stencil, step, 1.0);
+  system.move(at, step, 1.0);
+  at.next = q;
+  system.evaluate(at, stencil, Want::residual_and_tangent);
+  const auto change = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+  const auto values = change->getLocalMatrixHost().values;
+  const auto before = tangent.getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= before(k);
+  return change;
+}
+
+// A largest displacement of 1 m, or a largest rotation of 1 rad where nothing is displaced.
+void normalise(Shape& shape) {
+  double displacement = 0.0;
+  double rotation = 0.0;
+  double signed_displacement = 1.0;
+  for (const Vec6& motion : shape.real) {
+    rotation = std::max(rotation, motion.tail<3>().norm());
+    // of nodes that move alike the first decides on the sign
+    if (motion.head<3>().norm() <= 1.001 * displacement) continue;
+    displacement = motion.head<3>().norm();
+    Eigen::Index axis = 0;
+    motion.head<3>().cwiseAbs().maxCoeff(&axis);
+    signed_displacement = std::copysign(displacement, motion[axis]);
+  }
+  const double scale = displacement > 1e-9 * rotation ? signed_displacement : rotation;
+  for (Vec6& motion : shape.real) motion /= scale;
+}
+
+}  // namespace
+
+Schema Buckling::schema() {
+  const BucklingSettings defaults;
+  return Schema("Buckling",
+                "Linear buckling about the present state, which stays as it is: factors of the "
+                "reference load at which the structure loses its stiffness against a shape.")
+      .add(integer("Modes", "How many factors to find, of both signs, next to zero.")
+               .at_least(1)
+               .optional(defaults.modes))
+      .add(number("Reference Level", "1",
+                  "The reference load is the load at this level less the present one. If absent, "
+                  "level 1, or level 0 where 1 is reached.")
+               .optional())
+      .add(choice("Solver", solver::eigen_solver_names(),
+                  "Of the eigenproblem: Spectra for large models; Dense reduces whole matrices, "
+                  "best for small ones and to check; Automatic decides.")
+               .optional(defaults.solver));
+}
+
+std::unique_ptr<Analysis> Buckling::make(const Options& options) {
+  BucklingSettings settings;
+  settings.modes = options.integer("Modes");
+  if (options.has("Reference Level")) settings.reference_level = options.number("Reference Level");
+  settings.where = options.where("Reference Level");
+  settings.solver = options.text("Solver");
+  return std::make_unique<Buckling>(std::move(settings));
+}
+
+double Buckling::reference_level(const model::State& state) const {
+  const double level = settings_.reference_level.value_or(state.time < 1.0 ? 1.0 : 0.0);
+  if (level == state.time) {
+    throw InputError(settings_.where,
+                     fmt::format("the state is at level {:g}; the reference load is the difference "
+                                 "to another level",
+                                 level));
+  }
+  return level;
+}
+
+AnalysisReport Buckling::advance(Context& context, model::State& state, Observer&) {
+  const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
+  assembly::System& system = context.system;
+  const double level = reference_level(state);
+  const Linearisation linear = linearise(context, state);
+  const Vector step = linear_step(context, state, level);
+  const auto change = stress_stiffness(context, state, level, step, *linear.stiffness);
+  const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
+                            solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
+  if (!is_symmetric) {
+    context.log.warning(
+        "the tangent is not symmetric, as with loads that follow the structure: it may become "
+        "unstable by flutter before it buckles, which a modal analysis shows");
+  }
+  solver::EigenSettings settings;
+  settings.solver = settings_.solver;
+  settings.linear_solver = context.linear.name();
+  settings.count = settings_.modes;
+  const solver::EigenPairs pairs =
+      solver::solve_buckling({linear.stiffness, change, is_symmetric}, settings, system.comm());
+
+  system.synchronise(state);
+  AnalysisReport report;
+  ReportTable table{"buckling", {"mode", "factor", "critical level"}, {}, {}};
+  report.text = fmt::format(
+      "buckling under the load of level {:g} less that of level {:g}\n{:>5} {:>14} {:>15}\n", level,
+      state.time, "mode", "factor", "critical level");
+  for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+    const double factor = pairs.values[i];
+    const double critical = state.time + factor * (level - state.time);
+    const auto number = static_cast<double>(i + 1);
+    table.rows.push_back({number, factor, critical});
+    report.text += fmt::format("{:>5} {:>14.8g} {:>15.8g}\n", i + 1, factor, critical);
+    Shape shape{fmt::format("mode {}, factor {:.5g}", i + 1, factor),
+                node_motions(system, state, pairs.vectors.col(static_cast<Eigen::Index>(i))),
+                {}};
+    normalise(shape);
+    report.shapes.push_back(std::move(shape));
+  }
+  if (pairs.values.empty()) report.text += "  none: the load cannot make the structure buckle\n";
+  report.text +=
+      fmt::format("eigensolver: {}, largest residual {:.1e}\n", pairs.solver, pairs.worst_residual);
+  report.tables.push_back(std::move(table));
+  return report;
+}
+
+}  // namespace culm::analysis

@@ -1,0 +1,168 @@
+#include <culm/analysis/find_modes.hpp>
+#include <culm/solver/eigen_solver.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace culm::analysis {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Eigenvalues below so many times their rounding are zero; found ones are a tenth of it.
+constexpr double zero_bound = 4.0;
+// The same for lambda^2 of the quadratic problem, where a double zero is not exact to rounding.
+constexpr double quadratic_zero_bound = 1e3;
+
+// Multiplies a vector, whose factor is arbitrary, so that the largest displacement, or else the
+// largest rotation, is positive and real. Of components that differ by rounding the first decides.
+void fix_phase(Shape& shape) {
+  const auto at = [&](std::size_t node, int i) {
+    return Complex(shape.real[node][i], shape.imaginary.empty() ? 0.0 : shape.imaginary[node][i]);
+  };
+  const auto largest = [&](int first) {
+    double size = 0.0;
+    for (std::size_t node = 0; node < shape.real.size(); ++node) {
+      for (int i = first; i < first + 3; ++i) size = std::max(size, std::abs(at(node, i)));
+    }
+    return size;
+  };
+  const double displacement = largest(0);
+  const double rotation = largest(3);
+  const int first = displacement > 1e-6 * rotation ? 0 : 3;
+  const double size = first == 0 ? displacement : rotation;
+  Complex factor = 1.0;
+  for (std::size_t node = 0; node < shape.real.size() && factor == 1.0; ++node) {
+    for (int i = first; i < first + 3; ++i) {
+      if (std::abs(at(node, i)) < 0.999 * size) continue;
+      factor = std::conj(at(node, i)) / std::abs(at(node, i));
+      break;
+    }
+  }
+  for (std::size_t node = 0; node < shape.real.size(); ++node) {
+    if (shape.imaginary.empty()) {
+      shape.real[node] *= factor.real();
+      continue;
+    }
+    const Vec6 real = factor.real() * shape.real[node] - factor.imag() * shape.imaginary[node];
+    shape.imaginary[node] =
+        factor.real() * shape.imaginary[node] + factor.imag() * shape.real[node];
+    shape.real[node] = real;
+  }
+}
+
+std::string name_of(std::size_t number, const Mode& mode) {
+  if (mode.is_zero()) return fmt::format("mode {}, 0 Hz", number);
+  if (mode.frequency() == 0.0) {
+    return fmt::format("mode {}, {}", number,
+                       mode.eigenvalue.real() > 0.0 ? "unstable" : "overdamped");
+  }
+  return fmt::format("mode {}, {:.4g} Hz", number, mode.frequency());
+}
+
+class Finder {
+ public:
+  Finder(Context& context, model::State& state, const ModalSettings& settings)
+      : context_(context), state_(state), settings_(settings), linear_(linearise(context, state)) {
+    context.system.synchronise(state);
+    solver_.solver = settings.solver;
+    solver_.linear_solver = context.linear.name();
+    solver_.count = settings.modes;
+  }
+
+  ModeSet find() {
+    set_.is_complex =
+        linear_.asymmetry > largest_asymmetry || (settings_.damping && !linear_.damping.is_null());
+    if (!linear_.damping.is_null() && !settings_.damping) {
+      context_.log.info(
+          "note: modes are those without damping and gyroscopic forces; 'Damping' = true counts "
+          "them");
+    }
+    set_.is_complex ? find_complex() : find_real();
+    const ModeMasses masses(context_.system.model(), state_);
+    set_.total = masses.total();
+    for (std::size_t i = 0; i < set_.modes.size(); ++i) {
+      Mode& mode = set_.modes[i];
+      fix_phase(mode.shape);
+      mode.shape.name = name_of(i + 1, mode);
+      mode.properties = masses.properties(mode.shape);
+    }
+    return std::move(set_);
+  }
+
+ private:
+  // Just below zero, so that free bodies have factors, too.
+  double lowest_shift() const { return -1e-10 * typical_eigenvalue(linear_, context_.system); }
+
+  std::vector<Vec6> motions(const Eigen::VectorXd& unknowns) const {
+    return node_motions(context_.system, state_, unknowns);
+  }
+
+  void find_real() {
+    solver_.shift =
+        settings_.near ? std::pow(2.0 * std::numbers::pi * *settings_.near, 2) : lowest_shift();
+    const auto pairs = solver::solve_eigenproblem({linear_.stiffness, linear_.mass}, solver_,
+                                                  context_.system.comm());
+    for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+      const double square = pairs.values[i];
+      Mode mode;
+      if (std::abs(square) > zero_bound * pairs.rounding[i]) {
+        mode.eigenvalue = square > 0.0 ? Complex(0.0, std::sqrt(square)) : std::sqrt(-square);
+      }
+      mode.shape.real = motions(pairs.vectors.col(static_cast<Eigen::Index>(i)));
+      set_.modes.push_back(std::move(mode));
+    }
+    set_.solver = pairs.solver;
+    set_.worst_residual = pairs.worst_residual;
+  }
+
+  void find_complex() {
+    Teuchos::RCP<const assembly::CrsMatrix> damping = linear_.damping;
+    if (damping.is_null() || !settings_.damping) {
+      const auto none = Teuchos::rcp(new assembly::CrsMatrix(*linear_.mass, Teuchos::Copy));
+      const auto values = none->getLocalMatrixHost().values;
+      for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = 0.0;
+      damping = none;
+    }
+    solver_.shift =
+        settings_.near ? 2.0 * std::numbers::pi * *settings_.near : std::sqrt(-lowest_shift());
+    const auto pairs = solver::solve_quadratic({linear_.stiffness, damping, linear_.mass}, solver_,
+                                               context_.system.comm());
+    for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+      Mode mode;
+      if (std::norm(pairs.values[i]) > quadratic_zero_bound * pairs.rounding[i]) {
+        mode.eigenvalue = pairs.values[i];
+        // a real value has no frequency but for rounding
+        if (mode.eigenvalue.imag() < 1e-9 * std::abs(mode.eigenvalue)) mode.eigenvalue.imag(0.0);
+      }
+      const Eigen::VectorXcd x = pairs.vectors.col(static_cast<Eigen::Index>(i));
+      mode.shape.real = motions(x.real());
+      mode.shape.imaginary = motions(x.imag());
+      set_.modes.push_back(std::move(mode));
+    }
+    set_.solver = pairs.solver;
+    set_.worst_residual = pairs.worst_residual;
+  }
+
+  Context& context_;
+  model::State& state_;
+  const ModalSettings& settings_;
+  Linearisation linear_;
+  solver::EigenSettings solver_;
+  ModeSet set_;
+};
+
+}  // namespace
+
+double Mode::frequency() const { return eigenvalue.imag() / (2.0 * std::numbers::pi); }
+
+double Mode::damping() const { return is_zero() ? 0.0 : -eigenvalue.real() / std::abs(eigenvalue); }
+
+ModeSet find_modes(Context& context, model::State& state, const ModalSettings& settings) {
+  return Finder(context, state, settings).find();
+}
+
+}  // namespace culm::analysis

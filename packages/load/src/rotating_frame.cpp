@@ -1,0 +1,166 @@
+#include <culm/base/error.hpp>
+#include <culm/load/rotating_frame.hpp>
+#include <culm/model/item_motion.hpp>
+
+#include "both_frames.hpp"
+#include "slot_kernel.hpp"
+#include "types.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace culm::load {
+namespace {
+
+using Motion = model::ItemMotion<RotatingFrame::max_nodes>;
+
+// Acceleration of the slots of an item in the frame at rest.
+Motion::Slots accelerations(const Motion& motion, const std::vector<int>& nodes,
+                            const model::State& state, const Stencil& stencil, const Vec3& omega,
+                            const Vec3& point) {
+  Motion::Slots a = motion.mid;
+  for (int s = 0; s < a.cols(); s += 4) a.col(s) -= point;
+  const Mat3 turn = skew(omega);
+  a = (turn * (turn * a)).eval();
+  if (stencil.step > 0.0) {
+    for (int s = 0; s < a.cols(); ++s) {
+      const auto prev = model::NodeTable::slots(state.prev, nodes[static_cast<std::size_t>(s / 4)]);
+      a.col(s) += 2.0 / stencil.step * turn * (motion.next.col(s) - prev.col(s % 4));
+    }
+  }
+  return a;
+}
+
+void build(const Options& options, model::BuildContext& context) {
+  const auto function = model::find_function(options, context);
+  if (!function) return;
+  const Vec3 axis = model::vector(options, "Axis");
+  if (axis.norm() == 0.0) {
+    context.issues.add(options.where("Axis"), "must not be zero");
+    return;
+  }
+  if (context.model.mass() == 0.0) {
+    context.issues.add(options.where(), "acts on nothing: no structure has mass");
+    return;
+  }
+  auto load = std::make_unique<RotatingFrame>(
+      effect_name("Rotating Frame", options), context.model.nodes(), *function,
+      options.number("Speed") * axis.normalized(), model::vector(options, "Point"));
+  for (const auto& batch : context.model.element_batches()) {
+    if (const auto* source = dynamic_cast<const model::MassSource*>(batch.get())) {
+      source->visit_masses([&](std::span<const int> nodes, const Eigen::MatrixXd& mass) {
+        if (!mass.isZero(0.0)) load->add(nodes, mass);
+      });
+    }
+  }
+  context.model.add_load(std::move(load));
+}
+
+}  // namespace
+
+void RotatingFrame::add(std::span<const int> nodes, const Eigen::MatrixXd& mass) {
+  internal_check(nodes.size() <= max_nodes, "a mass couples more nodes than RotatingFrame allows");
+  items_.push_back({{nodes.begin(), nodes.end()}, mass});
+}
+
+std::vector<int> RotatingFrame::blocks(int item, const model::UnknownTable& unknowns) const {
+  std::vector<int> result;
+  for (int node : items_[static_cast<std::size_t>(item)].nodes) {
+    result.push_back(unknowns.node_block(node));
+  }
+  return result;
+}
+
+void RotatingFrame::place(model::Placement placement, model::Form form) {
+  placement_ = std::move(placement);
+  form_ = form;
+}
+
+Verdict RotatingFrame::assemble(const model::State& state, const Stencil& stencil, Want want,
+                                model::Target& target) {
+  if (want == Want::mass) return Verdict::ok;
+  const bool tangent = want == Want::residual_and_tangent;
+  Verdict verdict = Verdict::ok;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const Verdict one = form_ == model::Form::null_space
+                            ? assemble_item<model::NullSpace>(i, state, stencil, tangent, target)
+                            : assemble_item<model::FullSpace>(i, state, stencil, tangent, target);
+    verdict = worse(verdict, one);
+  }
+  return verdict;
+}
+
+template <class Space>
+Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
+                                     const Stencil& stencil, bool tangent,
+                                     model::Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const int n = static_cast<int>(item.nodes.size());
+  const Vec3 omega = amplitude_.in_step(state, stencil) * omega_;
+  const Motion motion(nodes_, item.nodes, state, stencil.theta);
+  const Motion::Slots r =
+      accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
+  if (!std::isfinite(r.sum())) return Verdict::not_finite;
+  for (int a = 0; a < n; ++a) {
+    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
+    Vec<W> residual;
+    Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    placement_.scatter.add_residual(i, a, residual.data(), target);
+  }
+  if (!tangent) return Verdict::ok;
+
+  const Mat3 turn = skew(omega);
+  Mat3 derivative = stencil.theta * turn * turn;
+  if (stencil.step > 0.0) derivative += 2.0 / stencil.step * turn;
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      Mat<12, 12> K;
+      for (int s = 0; s < 4; ++s) {
+        for (int t = 0; t < 4; ++t) {
+          K.block<3, 3>(3 * s, 3 * t) = item.mass(4 * a + s, 4 * b + t) * derivative;
+        }
+      }
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      const model::Arms<4>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
+      add_slot_tangent<Space>(K, motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
+      if (a == b) {
+        Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
+      }
+      placement_.scatter.add_tangent(i, a, b, block, target);
+    }
+  }
+  return Verdict::ok;
+}
+
+model::StepWork RotatingFrame::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  const Vec3 omega = amplitude_.in_step(state, stencil) * omega_;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const Motion motion(nodes_, item.nodes, state, stencil.theta);
+    const Motion::Slots f =
+        -accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
+    add_item_work(f, motion, item.nodes, state, true, work);
+  }
+  return work;
+}
+
+void register_rotating_frame(model::BuilderRegistry& registry) {
+  Schema schema("Rotating Frame",
+                "Centrifugal and Coriolis forces on all masses: the model is described in a frame "
+                "that turns steadily.");
+  schema
+      .add(model::vector_field("Axis", "1",
+                               "Direction of the axis; the frame turns about it by "
+                               "the right-hand rule."))
+      .add(model::vector_field("Point", "m", "A point of the axis.").optional({0.0, 0.0, 0.0}))
+      .add(number("Speed", "rad/s", "Angular velocity at function value 1."))
+      .add(model::function_field("Ramp"));
+  registry.add("Rotating Frame", schema, build);
+}
+
+}  // namespace culm::load

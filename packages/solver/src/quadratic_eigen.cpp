@@ -1,0 +1,114 @@
+#include <culm/solver/eigen_solver.hpp>
+
+#include "eigen_methods.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace culm::solver {
+namespace {
+
+using Complex = std::complex<double>;
+
+// y = A x of a real matrix.
+Eigen::VectorXcd product(const ShiftInvert& inverse, const assembly::CrsMatrix& A,
+                         const Eigen::VectorXcd& x) {
+  Eigen::VectorXd real(x.size()), imaginary(x.size());
+  inverse.multiply(A, Eigen::VectorXd(x.real()), real);
+  inverse.multiply(A, Eigen::VectorXd(x.imag()), imaginary);
+  return real + Complex(0.0, 1.0) * imaginary;
+}
+
+// With z = (x, lambda x): (z', lambda z') = 1 / (lambda - s) in
+//   -(K + s C + s^2 M) x' = M z_2 + (C + s M) z_1,   z_2' = z_1 + s x'
+class Linearised {
+ public:
+  Linearised(const QuadraticPencil& pencil, const EigenSettings& settings,
+             const parallel::Comm& comm)
+      : pencil_(pencil),
+        shift_(settings.shift),
+        inverse_(combine({{1.0, pencil.K},
+                          {settings.shift, pencil.C},
+                          {settings.shift * settings.shift, pencil.M}}),
+                 settings.linear_solver, comm),
+        mass_(inverse_.size()),
+        damping_(inverse_.size()),
+        sum_(inverse_.size()) {}
+
+  int size() const { return inverse_.size(); }
+  const ShiftInvert& inverse() const { return inverse_; }
+
+  void apply(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> result) {
+    const Eigen::Index n = size();
+    sum_ = z.tail(n) + shift_ * z.head(n);
+    inverse_.multiply(*pencil_.M, sum_, mass_);
+    inverse_.multiply(*pencil_.C, z.head(n), damping_);
+    sum_ = -mass_ - damping_;
+    inverse_.solve(sum_, result.head(n));
+    result.tail(n) = z.head(n) + shift_ * result.head(n);
+  }
+
+  // One more application takes away what has neither mass nor damping in a vector.
+  Eigen::VectorXcd finish(const Eigen::VectorXcd& x, Complex value) {
+    Eigen::VectorXd part(2 * size()), result(2 * size());
+    Eigen::VectorXcd finished(size());
+    part << x.real(), (value * x).real();
+    apply(part, result);
+    finished.real() = result.head(size());
+    part << x.imag(), (value * x).imag();
+    apply(part, result);
+    finished.imag() = result.head(size());
+    const double mass = finished.dot(product(inverse_, *pencil_.M, finished)).real();
+    return finished / std::sqrt(mass);
+  }
+
+ private:
+  const QuadraticPencil& pencil_;
+  double shift_;
+  ShiftInvert inverse_;
+  Eigen::VectorXd mass_, damping_, sum_;
+};
+
+}  // namespace
+
+ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
+                             const parallel::Comm& comm) {
+  Linearised problem(pencil, settings, comm);
+  const int n = problem.size();
+  const Operator op{2 * n, [&](const auto& z, auto result) { problem.apply(z, result); }};
+  ComplexPairs result;
+  result.solver = method(settings, 2 * n);
+  // both of a pair, and one more so that none is cut
+  const GeneralPairs pairs = result.solver == "Dense"
+                                 ? solve_dense(op)
+                                 : solve_arnoldi(op, std::min(2 * settings.count + 2, 2 * n - 2));
+  std::vector<std::pair<Complex, Eigen::Index>> found;
+  for (Eigen::Index i = 0; i < pairs.nu.size(); ++i) {
+    const Complex value = settings.shift + 1.0 / pairs.nu[i];
+    if (value.imag() >= -1e-9 * std::abs(value)) found.emplace_back(value, i);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.first) < std::abs(b.first);
+  });
+  found.resize(std::min(found.size(), static_cast<std::size_t>(settings.count)));
+
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  result.vectors.resize(n, static_cast<Eigen::Index>(found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto [value, column] = found[i];
+    const Eigen::VectorXcd x = problem.finish(pairs.vectors.col(column).head(n), value);
+    const Eigen::VectorXcd rest = product(problem.inverse(), *pencil.K, x) +
+                                  value * product(problem.inverse(), *pencil.C, x) +
+                                  value * value * product(problem.inverse(), *pencil.M, x);
+    const Eigen::VectorXd terms = problem.inverse().absolute(*pencil.K, x.cwiseAbs());
+    result.worst_residual =
+        std::max(result.worst_residual, rest.lpNorm<Eigen::Infinity>() / terms.maxCoeff());
+    result.values.push_back(value);
+    result.rounding.push_back(eps * x.cwiseAbs().dot(terms));
+    result.vectors.col(static_cast<Eigen::Index>(i)) = x;
+  }
+  return result;
+}
+
+}  // namespace culm::solver
