@@ -14,6 +14,7 @@ from verify import figure, main, richardson, save
 INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs/turbine/nrel5mw"
 STATIC, DYNAMIC = "turbine/nrel5mw/blade_static.xml", "turbine/nrel5mw/blade_dynamic.xml"
 STANDSTILL = "turbine/nrel5mw/turbine_modes.xml"
+CAMPBELL = "turbine/nrel5mw/blade_campbell.xml"
 LENGTH, ROOT, SPEED = 61.5, 1.0, 1.0006
 # BeamDyn at 0.01 s: r-test of OpenFAST, bd_5MW_dynamic_gravity_Az90; blade horizontal, at rest,
 # gravity along -y, mu = 1e-3. Tip displacement x, y, z in the axes of the root.
@@ -190,10 +191,20 @@ def verify_modes(culm, report):
         report.relative(f"{name}, ADAMS", b, adams, 5e-2)
 
 
+def verify_rotating(culm, report):
+    report.title("Modes of the blade at 12.1 rpm [Hz]; 3 %")
+    table = culm.run(CAMPBELL).tables["campbell/campbell"]
+    still, turning = ([table.at(row, f"frequency {i} [Hz]") for i in (1, 2, 3)] for row in (1, 5))
+    report.note("at rest: " + ", ".join(f"{f:.4f}" for f in still))
+    for name, found, wanted in zip(("flap 1", "edge 1", "flap 2"), turning, (0.7343, 1.1083, 2.0177)):
+        report.relative(name, found, wanted, 3e-2)
+
+
 def verify(culm, report):
     verify_static(culm, report)
     verify_dynamic(culm, report)
     verify_modes(culm, report)
+    verify_rotating(culm, report)
 
 
 def plot(culm, path):
