@@ -160,6 +160,7 @@ void Dynamics::start(Context& context, model::State& state) {
   }
   fit_motion(context, state);
   scheme_->start(state);
+  system.drop_residual();
   control_.emplace(system, settings_.steps, scheme_->error_constant());
   steps_ = 0;
   const Stencil stencil = scheme_->begin(state, settings_.steps.step);
@@ -210,6 +211,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       report.step = ++steps_;
       report.is_last = state.time >= end_time;
       control_->accept(state, taken);
+      if (scheme_->conserves()) system.carry_residual(taken);
       scheme_->finish(state, taken);
       if (model::VelocityDissipation* dissipation = system.velocity_dissipation()) {
         dissipation->correct(state, taken);

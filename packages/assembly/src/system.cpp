@@ -174,6 +174,11 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     const Ledger::Scope scope(ledger_, effects_[b]);
     verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
   }
+  if (stencil.inertia != 0.0) {
+    for (std::size_t row = 0; row < carried_.size(); ++row) {
+      target.residual[row] += carried_[row] / stencil.step;
+    }
+  }
   double largest = 0.0;
   for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
     if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
@@ -184,6 +189,14 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
                      target.constraint_violation, rounding * stiffness_};
   comm_.max(found);
   return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3], found[4]};
+}
+
+void System::carry_residual(double time) {
+  const auto residual = values_of(static_cast<const Vector&>(*residual_));
+  carried_.assign(residual.size(), 0.0);
+  for (std::size_t row = 0; row < residual.size(); ++row) {
+    if (is_force_row_[row]) carried_[row] = time * residual[row];
+  }
 }
 
 double System::largest_diagonal() const {
@@ -283,6 +296,7 @@ void System::save(model::State& state, Snapshot& snapshot) {
   snapshot.set("state/multipliers", state.multipliers);
   snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
   snapshot.set("system/multiplier scale", multiplier_scale_);
+  snapshot.set("system/carried", gather_carried());
   std::vector<double> memory;
   for (const model::Batch* batch : batches_) {
     std::vector<double> part(batch->memory_size(), nothing);
@@ -302,12 +316,33 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
   state.multipliers_prev = state.multipliers;
   state.at_rest = snapshot.number("state/at rest") != 0.0;
   multiplier_scale_ = snapshot.number("system/multiplier scale");
+  restore_carried(snapshot.numbers("system/carried"));
   std::size_t size = 0;
   for (const model::Batch* batch : batches_) size += batch->memory_size();
   std::span<const double> memory = snapshot.numbers("system/batches", size);
   for (model::Batch* batch : batches_) {
     batch->restore(memory.first(batch->memory_size()));
     memory = memory.subspan(batch->memory_size());
+  }
+}
+
+// By global row, so that it does not depend on the number of ranks.
+std::vector<double> System::gather_carried() const {
+  if (carried_.empty()) return {};
+  std::vector<double> all(layout_.row_map()->getGlobalNumElements(), nothing);
+  for (std::size_t row = 0; row < carried_.size(); ++row) {
+    all[static_cast<std::size_t>(layout_.row_map()->getGlobalElement(static_cast<int>(row)))] =
+        carried_[row];
+  }
+  comm_.sum(all);
+  return all;
+}
+
+void System::restore_carried(const std::vector<double>& all) {
+  carried_.assign(all.empty() ? 0 : is_force_row_.size(), 0.0);
+  for (std::size_t row = 0; row < carried_.size(); ++row) {
+    carried_[row] =
+        all[static_cast<std::size_t>(layout_.row_map()->getGlobalElement(static_cast<int>(row)))];
   }
 }
 

@@ -66,6 +66,12 @@ class System {
   bool restore_matrix(const Snapshot& snapshot);
   /// Goes back to what save wrote; on any number of ranks. Throws FileError if it does not fit.
   void restore(const Snapshot& snapshot, model::State& state);
+  /// Remembers the impulse that the last evaluation left unbalanced over `time` [s] and lets it act
+  /// in the next step: what iteration and rounding leave then cancels from step to step instead of
+  /// adding up, and momenta do not drift.
+  void carry_residual(double time);
+  /// Forgets it.
+  void drop_residual() { carried_.clear(); }
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
@@ -112,6 +118,8 @@ class System {
  private:
   Vec6 equation_reaction(const std::string& constraint, int node, const model::State& state) const;
   double largest_diagonal() const;
+  std::vector<double> gather_carried() const;
+  void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);
   const Vector& import(const Vector& increment);
 
@@ -135,6 +143,7 @@ class System {
   std::vector<std::size_t> row_begin_;
   std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
+  std::vector<double> carried_;  ///< impulses by owned row [N s, N m s]; empty if there are none
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
   double stiffness_ = 0.0;  ///< largest diagonal entry of the force rows here, of the last tangent
