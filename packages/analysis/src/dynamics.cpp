@@ -162,6 +162,7 @@ void Dynamics::start(Context& context, model::State& state) {
   scheme_->start(state);
   system.drop_residual();
   control_.emplace(system, settings_.steps, scheme_->error_constant());
+  predictor_.emplace(system);
   steps_ = 0;
   const Stencil stencil = scheme_->begin(state, settings_.steps.step);
   system.begin_step(state, stencil);
@@ -176,6 +177,7 @@ void Dynamics::save(const Context& context, Snapshot& snapshot) const {
   snapshot.set("dynamics/steps", steps_);
   scheme_->save(context.system, snapshot);
   control_->save(snapshot);
+  predictor_->save(snapshot);
   newton_->save(snapshot);
   certificate_->save(snapshot);
   post_mortem_->save(snapshot);
@@ -186,7 +188,9 @@ void Dynamics::restore(Context& context, const Snapshot& snapshot) {
   steps_ = snapshot.integer("dynamics/steps");
   scheme_->restore(snapshot);
   control_.emplace(system, settings_.steps, scheme_->error_constant());
+  predictor_.emplace(system);
   control_->restore(snapshot);
+  predictor_->restore(snapshot);
   newton_.emplace(system, context.linear, settings_.newton, context.ledger);
   newton_->restore(snapshot);
   certificate_.emplace(system, scheme_->conserves());
@@ -203,7 +207,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
     const double taken = state.time - state.time_prev;
     const Stencil stencil = scheme_->begin(state, taken);
     system.begin_step(state, stencil);
-    system.coast(state, taken);
+    predictor_->predict(state, taken);
     StepReport report{steps_, state.time, end_time, taken, true, newton_->solve(state, stencil)};
     if (report.outcome.converged()) report.outcome.end = control_->judge(state, stencil);
     report.accepted = report.outcome.converged();
@@ -211,6 +215,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       report.step = ++steps_;
       report.is_last = state.time >= end_time;
       control_->accept(state, taken);
+      predictor_->accept(state, taken);
       if (scheme_->conserves()) system.carry_residual(taken);
       scheme_->finish(state, taken);
       if (model::VelocityDissipation* dissipation = system.velocity_dissipation()) {
@@ -223,6 +228,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       accept(state);
     } else {
       control_->reject(report.outcome.end, taken);
+      predictor_->reject();
       reject(state);
     }
     post_mortem_->record(report);
@@ -232,6 +238,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       post_mortem_->give_up(state, stencil);
     }
   }
+  system.drop_residual();
   measure_hidden_constraints(context, state);
   return {certificate_->text(), certificate_->numbers()};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/analysis.hpp>
+#include <culm/analysis/predictor.hpp>
 #include <culm/analysis/time_scheme.hpp>
 
 #include <culm_kit/chain_model.hpp>
@@ -36,7 +37,7 @@ class Motion {
     state.time = state.time_prev + h;
     stencil = scheme->begin(state, h);
     system->begin_step(state, stencil);
-    system->coast(state, h);
+    Predictor(*system).predict(state, h);
     return newton->solve(state, stencil);
   }
   void finish(double h) {

@@ -447,19 +447,61 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
   return comm_.max(largest);
 }
 
-void System::coast(model::State& state, double time) const {
-  const model::UnknownTable& unknowns = model_.unknowns();
+// Calls action(node, shape) for nodes here that have unknowns of their own.
+template <class Action>
+void System::each_moving_node(Action action) const {
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = unknowns.block(local.block);
-    if (block.kind != model::BlockKind::node || block.shape.active == 0) continue;
-    Vec6 u = time * velocity_of(model_.nodes(), state, block.owner);
-    for (int i = 0; i < 6 && block.shape.width == 6; ++i) {
-      if (block.shape.position[index(i)] < 0) u[i] = 0.0;
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (block.kind == model::BlockKind::node && block.shape.active > 0) {
+      action(block.owner, block.shape);
     }
-    model_.nodes().move(block.owner, u, state.next);
   }
+}
+
+System::Motions System::motions(const model::State& state) const {
+  Motions motions(index(model_.nodes().size()), Vec6::Zero());
+  each_moving_node([&](int node, const model::BlockShape&) {
+    motions[index(node)] = model_.nodes().motion(node, state.prev, state.next);
+  });
+  return motions;
+}
+
+System::Motions System::velocities(const model::State& state) const {
+  Motions velocities(index(model_.nodes().size()), Vec6::Zero());
+  each_moving_node([&](int node, const model::BlockShape&) {
+    velocities[index(node)] = velocity_of(model_.nodes(), state, node);
+  });
+  return velocities;
+}
+
+void System::move_nodes(model::State& state, const Motions& motions) const {
+  each_moving_node([&](int node, const model::BlockShape& shape) {
+    Vec6 u = motions[index(node)];
+    for (int i = 0; i < 6 && shape.width == 6; ++i) {
+      if (shape.position[index(i)] < 0) u[i] = 0.0;
+    }
+    model_.nodes().move(node, u, state.next);
+  });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
   if (velocity_dissipation_ != nullptr) complete(state.next);
+}
+
+std::vector<double> System::gather_motions(const Motions& motions) const {
+  std::vector<double> numbers;
+  for (int node = 0; node < model_.nodes().size(); ++node) {
+    const bool mine = layout_.owners()[index(model_.unknowns().node_block(node))] == comm_.rank();
+    for (int i = 0; i < 6; ++i) numbers.push_back(mine ? motions[index(node)][i] : nothing);
+  }
+  comm_.sum(numbers);
+  return numbers;
+}
+
+System::Motions System::spread_motions(const std::vector<double>& numbers) const {
+  Motions motions(index(model_.nodes().size()), Vec6::Zero());
+  each_moving_node([&](int node, const model::BlockShape&) {
+    motions[index(node)] = Eigen::Map<const Vec6>(numbers.data() + 6 * node);
+  });
+  return motions;
 }
 
 // dg/dt of all constraint rows at state.time: h = h_q - g, so g is what h loses while q stays.

@@ -59,6 +59,19 @@ void NodeTable::move(int node, const Vec6& increment, Coordinates& q) const {
   s.rightCols<3>() = polar_correction(turned);
 }
 
+Vec6 NodeTable::motion(int node, const Coordinates& from, const Coordinates& to) const {
+  const auto a = slots(from, node);
+  const auto b = slots(to, node);
+  Vec6 u;
+  u.head<3>() = b.col(0) - a.col(0);
+  if (kind(node) == NodeKind::node6) {
+    u.tail<3>() = b.col(1) - a.col(1);
+  } else {
+    u.tail<3>() = log_rotation(b.rightCols<3>() * a.rightCols<3>().transpose());
+  }
+  return u;
+}
+
 NodeSlots NodeTable::slot_motion(int node, const Vec6& u, const Coordinates& q) const {
   NodeSlots motion = NodeSlots::Zero();
   motion.col(0) = u.head<3>();

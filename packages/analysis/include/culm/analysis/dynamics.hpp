@@ -3,6 +3,7 @@
 
 #include <culm/analysis/certificate.hpp>
 #include <culm/analysis/post_mortem.hpp>
+#include <culm/analysis/predictor.hpp>
 #include <culm/analysis/step_control.hpp>
 #include <culm/analysis/time_scheme.hpp>
 #include <culm/base/options.hpp>
@@ -43,6 +44,7 @@ class Dynamics final : public Analysis {
   std::unique_ptr<TimeScheme> scheme_;
   int steps_ = 0;
   std::optional<StepControl> control_;
+  std::optional<Predictor> predictor_;
   std::optional<solver::NewtonSolver> newton_;
   std::optional<PostMortem> post_mortem_;
   std::optional<Certificate> certificate_;

@@ -76,9 +76,18 @@ class System {
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
 
-  /// Moves state.next on by `time` [s] with the velocity of the start of the step: the first guess
-  /// of a step.
-  void coast(model::State& state, double time) const;
+  /// Motions of the six unknowns of nodes, or their rates: of those that this rank needs, by node,
+  /// and zero for others and for eliminated ones.
+  using Motions = std::vector<Vec6>;
+  /// From the start of the step to state.next [m, rad].
+  Motions motions(const model::State& state) const;
+  /// At the start of the step [m/s, rad/s].
+  Motions velocities(const model::State& state) const;
+  /// Moves state.next by motions, except where supports hold it.
+  void move_nodes(model::State& state, const Motions& motions) const;
+  /// As numbers of all nodes, for checkpoints, and back; collective.
+  std::vector<double> gather_motions(const Motions& motions) const;
+  Motions spread_motions(const std::vector<double>& numbers) const;
   /// Makes the velocity follow from supports, links and constraints: the nearest one in the metric
   /// of the mass, H v = dg/dt. The speed of prescribed motions is found by differences over times
   /// up to `probe` [s]. `solve_mass` solves with the matrix as it stands when it is called.
@@ -121,6 +130,8 @@ class System {
   std::vector<double> gather_carried() const;
   void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);
+  template <class Action>
+  void each_moving_node(Action action) const;
   const Vector& import(const Vector& increment);
 
   model::Model& model_;

@@ -67,6 +67,9 @@ class NodeTable {
   /// Exp(dtheta) d_i, with one polar correction, so no rotation parameter is ever stored; a shell
   /// director changes by its increment. @source formulation 6.3
   void move(int node, const Vec6& increment, Coordinates& q) const;
+  /// The increment of the six unknowns of a node by which `move` takes it from one configuration to
+  /// another; rotations by less than pi.
+  Vec6 motion(int node, const Coordinates& from, const Coordinates& to) const;
   /// How the slots of a node move with its six unknowns at `q`, to first order: P u, shape (3, 4).
   NodeSlots slot_motion(int node, const Vec6& u, const Coordinates& q) const;
   /// The rates of the six unknowns that belong to slot rates `v` at `q`, for a triad v and

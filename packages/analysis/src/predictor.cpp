@@ -1,0 +1,85 @@
+#include <culm/analysis/predictor.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace culm::analysis {
+namespace {
+
+constexpr std::size_t most_points = 4;
+// A polynomial must be so much better than the velocity of the start to be trusted: vibrations that
+// steps do not resolve make it better now and far worse in the next step.
+constexpr double least_gain = 0.2;
+
+std::string name_of(std::size_t k) { return "predictor/" + std::to_string(k); }
+
+}  // namespace
+
+// Lagrange's polynomial through the last mean velocities, at a time.
+std::vector<double> Predictor::weights(int points, double time) const {
+  std::vector<double> result(static_cast<std::size_t>(points), 1.0);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t j = 0; j < result.size(); ++j) {
+      if (i != j) result[i] *= (time - past_[j].time) / (past_[i].time - past_[j].time);
+    }
+  }
+  return result;
+}
+
+void Predictor::predict(model::State& state, double step) const {
+  Motions motions = system_.velocities(state);
+  if (points_ > 0) {
+    const std::vector<double> w = weights(points_, state.time_prev + 0.5 * step);
+    for (std::size_t node = 0; node < motions.size(); ++node) {
+      motions[node].setZero();
+      for (std::size_t k = 0; k < w.size(); ++k) motions[node] += w[k] * past_[k].values[node];
+    }
+  }
+  for (Vec6& motion : motions) motion *= step;
+  system_.move_nodes(state, motions);
+}
+
+void Predictor::accept(const model::State& state, double step) {
+  MeanVelocity now{state.time_prev + 0.5 * step, system_.motions(state)};
+  for (Vec6& motion : now.values) motion /= step;
+  const Motions start = system_.velocities(state);
+  const double length = system_.model().length();
+  std::array<double, most_points + 1> errors{};
+  for (std::size_t points = 0; points <= past_.size(); ++points) {
+    const std::vector<double> w = weights(static_cast<int>(points), now.time);
+    for (std::size_t node = 0; node < now.values.size(); ++node) {
+      Vec6 error = -now.values[node];
+      if (points == 0) error += start[node];
+      for (std::size_t k = 0; k < points; ++k) error += w[k] * past_[k].values[node];
+      errors[points] = std::max({errors[points], error.head<3>().lpNorm<Eigen::Infinity>() / length,
+                                 error.tail<3>().lpNorm<Eigen::Infinity>()});
+    }
+  }
+  system_.comm().max(errors);
+  const auto known = errors.begin() + static_cast<std::ptrdiff_t>(past_.size()) + 1;
+  const auto best = std::min_element(errors.begin(), known);
+  points_ = *best < least_gain * errors[0] ? static_cast<int>(best - errors.begin()) : 0;
+  if (past_.size() == most_points) past_.pop_back();
+  past_.push_front(std::move(now));
+}
+
+void Predictor::save(Snapshot& snapshot) const {
+  snapshot.set("predictor/points", points_);
+  std::vector<double> times;
+  for (std::size_t k = 0; k < past_.size(); ++k) {
+    times.push_back(past_[k].time);
+    snapshot.set(name_of(k), system_.gather_motions(past_[k].values));
+  }
+  snapshot.set("predictor/times", std::move(times));
+}
+
+void Predictor::restore(const Snapshot& snapshot) {
+  points_ = snapshot.integer("predictor/points");
+  past_.clear();
+  for (const double time : snapshot.numbers("predictor/times")) {
+    past_.push_back({time, system_.spread_motions(snapshot.numbers(name_of(past_.size())))});
+  }
+}
+
+}  // namespace culm::analysis
