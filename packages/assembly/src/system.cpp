@@ -174,9 +174,9 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     const Ledger::Scope scope(ledger_, effects_[b]);
     verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
   }
-  if (stencil.inertia != 0.0) {
-    for (std::size_t row = 0; row < carried_.size(); ++row) {
-      target.residual[row] += carried_[row] / stencil.step;
+  if (stencil.inertia != 0.0 && carried_) {
+    for (std::size_t row = 0; row < carried_->size(); ++row) {
+      target.residual[row] += (*carried_)[row] / stencil.step;
     }
   }
   double largest = 0.0;
@@ -193,9 +193,9 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
 
 void System::carry_residual(double time) {
   const auto residual = values_of(static_cast<const Vector&>(*residual_));
-  carried_.assign(residual.size(), 0.0);
+  carried_.emplace(residual.size(), 0.0);
   for (std::size_t row = 0; row < residual.size(); ++row) {
-    if (is_force_row_[row]) carried_[row] = time * residual[row];
+    if (is_force_row_[row]) (*carried_)[row] = time * residual[row];
   }
 }
 
@@ -328,21 +328,21 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
 
 // By global row, so that it does not depend on the number of ranks.
 std::vector<double> System::gather_carried() const {
-  if (carried_.empty()) return {};
+  if (!carried_) return {};
   std::vector<double> all(layout_.row_map()->getGlobalNumElements(), nothing);
-  for (std::size_t row = 0; row < carried_.size(); ++row) {
-    all[static_cast<std::size_t>(layout_.row_map()->getGlobalElement(static_cast<int>(row)))] =
-        carried_[row];
+  for (std::size_t row = 0; row < carried_->size(); ++row) {
+    all[index(layout_.row_map()->getGlobalElement(static_cast<int>(row)))] = (*carried_)[row];
   }
   comm_.sum(all);
   return all;
 }
 
 void System::restore_carried(const std::vector<double>& all) {
-  carried_.assign(all.empty() ? 0 : is_force_row_.size(), 0.0);
-  for (std::size_t row = 0; row < carried_.size(); ++row) {
-    carried_[row] =
-        all[static_cast<std::size_t>(layout_.row_map()->getGlobalElement(static_cast<int>(row)))];
+  carried_.reset();
+  if (all.empty()) return;
+  carried_.emplace(is_force_row_.size());
+  for (std::size_t row = 0; row < carried_->size(); ++row) {
+    (*carried_)[row] = all[index(layout_.row_map()->getGlobalElement(static_cast<int>(row)))];
   }
 }
 

@@ -7,6 +7,8 @@
 #include <culm/model/velocity_dissipation.hpp>
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 namespace culm::assembly {
 
@@ -71,7 +73,7 @@ class System {
   /// adding up, and momenta do not drift.
   void carry_residual(double time);
   /// Forgets it.
-  void drop_residual() { carried_.clear(); }
+  void drop_residual() { carried_.reset(); }
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
@@ -154,7 +156,7 @@ class System {
   std::vector<std::size_t> row_begin_;
   std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
-  std::vector<double> carried_;  ///< impulses by owned row [N s, N m s]; empty if there are none
+  std::optional<std::vector<double>> carried_;  ///< impulses by owned row [N s, N m s]
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
   double stiffness_ = 0.0;  ///< largest diagonal entry of the force rows here, of the last tangent
