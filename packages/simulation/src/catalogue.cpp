@@ -101,6 +101,25 @@ Schema output_schema(const QuantityRegistry& quantities) {
 
 }  // namespace
 
+namespace {
+
+// What every analysis has.
+Variants with_common_fields(Variants analyses) {
+  for (auto& [type, schema] : analyses) {
+    schema
+        .add(text("Start From",
+                  "Where it starts: the name of an earlier analysis, 'Reference', or the results "
+                  "folder or checkpoint of another run with the same structures; the last state if "
+                  "absent.")
+                 .optional())
+        .add(texts("Inactive", "Loads and constraints that do not act in it, by name.")
+                 .optional(std::vector<std::string>{}));
+  }
+  return analyses;
+}
+
+}  // namespace
+
 Schema Catalogue::deck_schema() const {
   Variants all_structures = structures.variants();
   all_structures.merge(shells.variants());
@@ -138,7 +157,7 @@ Schema Catalogue::deck_schema() const {
       .list("Solver", solver_schema(), Presence::defaulted)
       .list("Analyses",
             Schema("Analyses", "What is done, in this order; each starts from the last state.")
-                .entries_by_type(analyses.variants()))
+                .entries_by_type(with_common_fields(analyses.variants())))
       .list("Output", output_schema(quantities), Presence::defaulted);
 }
 

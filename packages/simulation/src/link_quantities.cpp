@@ -79,6 +79,8 @@ class JointAngle final : public Quantity {
     angle_ += std::remainder(std::atan2(y[1], y[0]) - angle_, full);
     numbers.push_back(angle_);
   }
+  double memory() const override { return angle_; }
+  void restore(double memory) override { angle_ = memory; }
 
  private:
   static Mat3 directors(const Eigen::Matrix3Xd& q, int first) { return q.middleCols<3>(first + 1); }

@@ -1,8 +1,11 @@
 #include "model_builder.hpp"
 
+#include "silent_quantity.hpp"
+
 #include <algorithm>
 #include <map>
 #include <utility>
+#include <variant>
 
 namespace culm::simulation {
 namespace {
@@ -33,8 +36,10 @@ void build_one(const Registry<void, Context&>& registry, const Options& entry, C
 }
 
 void build_all(const model::BuilderRegistry& registry, const Options& list,
-               model::BuildContext& context) {
-  for (const Options& entry : list.entries()) build_one(registry, entry, context, context.issues);
+               model::BuildContext& context, const Inactive& inactive = {}) {
+  for (const Options& entry : list.entries()) {
+    if (!inactive.contains(entry.name())) build_one(registry, entry, context, context.issues);
+  }
 }
 
 // Beams want sections, shells materials, bodies neither; a deck lists them together and in any
@@ -99,10 +104,24 @@ void add_element_sets(const Options& list, model::BuildContext& context) {
   }
 }
 
+bool names_any(const Options& entry, const Inactive& names) {
+  const auto& parameters = entry.parameters();
+  return std::any_of(parameters.begin(), parameters.end(), [&](const auto& parameter) {
+    if (!parameter.value) return false;
+    const auto* text = std::get_if<std::string>(&*parameter.value);
+    return text != nullptr && names.contains(*text);
+  });
+}
+
 std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const Options& list,
+                                             const Inactive& inactive,
                                              model::BuildContext& context) {
   std::vector<WatchedQuantity> watched;
   for (const Options& entry : list.entries()) {
+    if (names_any(entry, inactive)) {
+      watched.push_back({entry.name(), std::make_unique<SilentQuantity>()});
+      continue;
+    }
     auto quantity = catalogue.quantities.make(entry.text("Type"), entry, context);
     if (quantity) watched.push_back({entry.name(), std::move(quantity)});
   }
@@ -112,7 +131,8 @@ std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const O
 }  // namespace
 
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
-                                         const Log& log, model::Model& model) {
+                                         const Inactive& inactive, const Log& log,
+                                         model::Model& model) {
   InputIssues issues;
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
@@ -126,10 +146,10 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   add_node_sets(deck.list("Node Sets"), context);
   add_element_sets(deck.list("Element Sets"), context);
   build_all(catalogue.masses, deck.list("Masses"), context);
-  build_all(catalogue.constraints, deck.list("Constraints"), context);
-  build_all(catalogue.loads, deck.list("Loads"), context);
+  build_all(catalogue.constraints, deck.list("Constraints"), context, inactive);
+  build_all(catalogue.loads, deck.list("Loads"), context, inactive);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
-  auto watched = make_quantities(catalogue, deck.list("Output").list("History"), context);
+  auto watched = make_quantities(catalogue, deck.list("Output").list("History"), inactive, context);
   issues.throw_if_any();
   const bool null_space = deck.list("Solver").text("Form") == "Null Space";
   for (const std::string& note :

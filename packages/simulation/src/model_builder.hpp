@@ -5,11 +5,14 @@
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
 
+#include "phase.hpp"
+
 namespace culm::simulation {
 
-/// Fills the model with all that the deck lists, and freezes it. Throws InputError with all
-/// mistakes. @return the quantities that the history watches
+/// Fills the model with all that the deck lists but what does not act, and freezes it. Throws
+/// InputError with all mistakes. @return the quantities that the history watches
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
-                                         const Log& log, model::Model& model);
+                                         const Inactive& inactive, const Log& log,
+                                         model::Model& model);
 
 }  // namespace culm::simulation

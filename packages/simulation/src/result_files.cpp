@@ -33,17 +33,31 @@ LayerSettings read_layer_settings(const Options& shell, const model::Model& mode
 
 ResultFiles::ResultFiles(assembly::System& system, ResultSettings settings,
                          const std::vector<WatchedQuantity>& watched, const Snapshot* from)
-    : system_(system), settings_(std::move(settings)), watched_(watched) {
+    : system_(&system), settings_(std::move(settings)), watched_(&watched) {
   if (from != nullptr) {
     frames_ = static_cast<std::size_t>(from->integer("output/states"));
     rows_ = static_cast<std::size_t>(from->integer("output/rows"));
+    const std::vector<double>& memories = from->numbers("output/memories", watched.size());
+    for (std::size_t i = 0; i < watched.size(); ++i) watched[i].quantity->restore(memories[i]);
   }
-  on_root(system_.comm(), [&] { from == nullptr ? open() : reopen(); });
+  on_root(system_->comm(), [&] { from == nullptr ? open() : reopen(); });
 }
 
 void ResultFiles::save(Snapshot& snapshot) const {
   snapshot.set("output/states", static_cast<double>(frames_));
   snapshot.set("output/rows", static_cast<double>(rows_));
+  std::vector<double> memories;
+  for (const WatchedQuantity& watched : *watched_) memories.push_back(watched.quantity->memory());
+  snapshot.set("output/memories", std::move(memories));
+}
+
+void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantity>& watched) {
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    if (&watched == watched_) break;
+    watched[i].quantity->restore((*watched_)[i].quantity->memory());
+  }
+  system_ = &system;
+  watched_ = &watched;
 }
 
 void ResultFiles::open() {
@@ -55,7 +69,7 @@ void ResultFiles::open() {
   const std::filesystem::path checkpoint = checkpoint_path(folder);
   std::filesystem::remove(checkpoint, failure);
   std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
-  const auto meshes = meshes_of(system_.model(), settings_.layers);
+  const auto meshes = meshes_of(system_->model(), settings_.layers);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
@@ -68,7 +82,7 @@ void ResultFiles::open() {
 // The result file is cut to the time of the checkpoint; the others are made again from it.
 void ResultFiles::reopen() {
   const std::filesystem::path& folder = settings_.folder;
-  const auto meshes = meshes_of(system_.model(), settings_.layers);
+  const auto meshes = meshes_of(system_->model(), settings_.layers);
   const auto recorded = output::find_recorded(folder / "run.h5", frames_, rows_);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), recorded);
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
@@ -85,7 +99,7 @@ void ResultFiles::reopen() {
 
 std::vector<output::HistoryColumn> ResultFiles::columns() const {
   std::vector<output::HistoryColumn> all;
-  for (const WatchedQuantity& watched : watched_) {
+  for (const WatchedQuantity& watched : *watched_) {
     for (output::HistoryColumn column : watched.quantity->columns()) {
       column.name = column.name.empty() ? watched.name : watched.name + " " + column.name;
       all.push_back(std::move(column));
@@ -95,12 +109,12 @@ std::vector<output::HistoryColumn> ResultFiles::columns() const {
 }
 
 void ResultFiles::add_history(double time, model::State& state) {
-  system_.synchronise(state);
+  system_->synchronise(state);
   std::vector<double> numbers;
-  for (const WatchedQuantity& watched : watched_) {
-    watched.quantity->evaluate(system_, state, numbers);
+  for (const WatchedQuantity& watched : *watched_) {
+    watched.quantity->evaluate(*system_, state, numbers);
   }
-  on_root(system_.comm(), [&] {
+  on_root(system_->comm(), [&] {
     files_->recorder.add_history(time, numbers);
     files_->history.add(time, numbers);
   });
@@ -108,9 +122,9 @@ void ResultFiles::add_history(double time, model::State& state) {
 }
 
 void ResultFiles::record(double time, model::State& state) {
-  system_.synchronise(state);
-  on_root(system_.comm(), [&] {
-    output::Frame f = frame_of(system_.model(), settings_.layers, state.next);
+  system_->synchronise(state);
+  on_root(system_->comm(), [&] {
+    output::Frame f = frame_of(system_->model(), settings_.layers, state.next);
     f.index = static_cast<int>(frames_);
     f.time = time;
     files_->recorder.record(f);
@@ -123,9 +137,9 @@ void ResultFiles::record(double time, model::State& state) {
 void ResultFiles::add_results(const std::string& name, const analysis::AnalysisReport& report,
                               const model::State& state) {
   if (report.tables.empty() && report.shapes.empty() && report.matrices.empty()) return;
-  on_root(system_.comm(), [&] {
-    files_->recorder.write_results(results_of(system_.model(), name, report));
-    const auto written = write_analysis_files(system_.model(), name, report, state,
+  on_root(system_->comm(), [&] {
+    files_->recorder.write_results(results_of(system_->model(), name, report));
+    const auto written = write_analysis_files(system_->model(), name, report, state,
                                               settings_.folder, settings_.pictures);
     analysis_files_.insert(analysis_files_.end(), written.begin(), written.end());
   });
@@ -133,7 +147,7 @@ void ResultFiles::add_results(const std::string& name, const analysis::AnalysisR
 
 void ResultFiles::finish(const std::string& report,
                          const std::vector<output::NamedScalar>& scalars) {
-  on_root(system_.comm(), [&] {
+  on_root(system_->comm(), [&] {
     files_->recorder.write_report(report, scalars);
     files_->recorder.close();
     files_->xdmf.write();
@@ -149,7 +163,7 @@ std::vector<std::filesystem::path> ResultFiles::paths() const {
   for (const auto& name : names) {
     const std::filesystem::path path = settings_.folder / name;
     // pictures are written on demand, and skins only where there are outlines
-    if (system_.comm().is_root() && std::filesystem::exists(path)) paths.push_back(path);
+    if (system_->comm().is_root() && std::filesystem::exists(path)) paths.push_back(path);
   }
   return paths;
 }

@@ -9,21 +9,24 @@
 
 namespace culm::simulation {
 
-RunObserver::RunObserver(analysis::Context& context, ResultFiles& files, Checkpoints& checkpoints,
-                         const DeckSource& source, std::string linear_solver, Progress progress)
-    : context_(context),
+RunObserver::RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
+                         const DeckSource& source, const EarlierStates& earlier, Progress progress)
+    : ledger_(ledger),
       files_(files),
       checkpoints_(checkpoints),
       source_(source),
-      linear_solver_(std::move(linear_solver)),
+      earlier_(earlier),
       progress_(std::move(progress)),
-      output_effect_(context.ledger.add("Output")) {
-  if (checkpoints_.are_active()) checkpoint_effect_ = context.ledger.add("Checkpoints");
+      output_effect_(ledger.add("Output")) {
+  if (checkpoints_.are_active()) checkpoint_effect_ = ledger.add("Checkpoints");
 }
 
 void RunObserver::begin(const std::string& name, std::size_t number, bool is_last,
-                        const analysis::Analysis& analysis) {
+                        const analysis::Analysis& analysis, analysis::Context& context,
+                        const std::string& linear_solver) {
   progress_.begin(name);
+  context_ = &context;
+  linear_solver_ = linear_solver;
   name_ = name;
   analysis_ = &analysis;
   number_ = number;
@@ -32,7 +35,7 @@ void RunObserver::begin(const std::string& name, std::size_t number, bool is_las
 }
 
 void RunObserver::start(model::State& state) {
-  const Ledger::Scope scope(context_.ledger, output_effect_);
+  const Ledger::Scope scope(ledger_, output_effect_);
   files_.add_history(state.time, state);
   files_.record(state.time, state);
 }
@@ -46,7 +49,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     most_iterations_ = std::max(most_iterations_, outcome.iterations);
     worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
-    const Ledger::Scope scope(context_.ledger, output_effect_);
+    const Ledger::Scope scope(ledger_, output_effect_);
     files_.add_history(report.time, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) files_.record(report.time, state);
@@ -63,11 +66,11 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
 
 void RunObserver::write_checkpoint(model::State& state) {
   if (!checkpoints_.are_active() || !has_stepped_) return;
-  const Ledger::Scope scope(context_.ledger, checkpoint_effect_);
+  const Ledger::Scope scope(ledger_, checkpoint_effect_);
   Snapshot snapshot;
   save(snapshot);
-  context_.system.save(state, snapshot);
-  analysis_->save(context_, snapshot);
+  context_->system.save(state, snapshot);
+  analysis_->save(*context_, snapshot);
   files_.save(snapshot);
   checkpoints_.write(snapshot);
 }
@@ -75,9 +78,10 @@ void RunObserver::write_checkpoint(model::State& state) {
 void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set("format", checkpoint_format);
   snapshot.set_text("run/version", std::string(version));
-  snapshot.set("run/ranks", context_.system.comm().size());
+  snapshot.set("run/ranks", context_->system.comm().size());
   snapshot.set("run/analysis", static_cast<double>(number_));
   source_.save(snapshot);
+  earlier_.save(snapshot);
   snapshot.set("run/counts",
                {static_cast<double>(accepted_), static_cast<double>(rejected_),
                 static_cast<double>(iterations_), static_cast<double>(most_iterations_),
@@ -110,7 +114,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
 void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
                                   const model::State& state) {
   {
-    const Ledger::Scope scope(context_.ledger, output_effect_);
+    const Ledger::Scope scope(ledger_, output_effect_);
     files_.add_results(name_, report, state);
   }
   certificates_ += report.text;
@@ -122,7 +126,7 @@ void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
 
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
-  const Ledger::Scope scope(context_.ledger, output_effect_);
+  const Ledger::Scope scope(ledger_, output_effect_);
   // a run that fails leaves its last accepted state
   if (!is_recorded_) files_.record(state.time, state);
   std::vector<output::NamedScalar> numbers = {
@@ -133,7 +137,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"worst constraint violation", "", worst_constraint_},
       {"final time", "", state.time}};
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
-  files_.finish(outcome + "\n\n" + certificates_ + convergence() + context_.ledger.report(),
+  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(),
                 numbers);
 }
 
@@ -149,7 +153,7 @@ std::string RunObserver::convergence() const {
 
 std::string RunObserver::closing_words() const {
   std::string text =
-      "\n" + context_.ledger.report() + "\n" + certificates_ + convergence() + "results:";
+      "\n" + ledger_.report() + "\n" + certificates_ + convergence() + "results:";
   for (const auto& path : files_.paths()) text += "\n  " + path.string();
   return text;
 }

@@ -6,6 +6,7 @@
 #include <culm/simulation/result_files.hpp>
 
 #include "checkpoints.hpp"
+#include "earlier_states.hpp"
 
 namespace culm::simulation {
 
@@ -14,9 +15,8 @@ class RunObserver final : public analysis::Observer {
   /// Version of what a checkpoint holds.
   static constexpr int checkpoint_format = 1;
 
-  /// @param linear_solver its name and why it was taken, for the report
-  RunObserver(analysis::Context& context, ResultFiles& files, Checkpoints& checkpoints,
-              const DeckSource& source, std::string linear_solver, Progress progress);
+  RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
+              const DeckSource& source, const EarlierStates& earlier, Progress progress);
 
   /// Records the reference state.
   void start(model::State& state);
@@ -25,8 +25,10 @@ class RunObserver final : public analysis::Observer {
   /// @param number   of the analysis in the deck, from 0
   /// @param is_last  of the deck: its end is a checkpoint, from which the run can go on to a later
   ///                 one
+  /// @param linear_solver its name and why it was taken, for the report
   void begin(const std::string& name, std::size_t number, bool is_last,
-             const analysis::Analysis& analysis);
+             const analysis::Analysis& analysis, analysis::Context& context,
+             const std::string& linear_solver);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
@@ -41,15 +43,17 @@ class RunObserver final : public analysis::Observer {
   void save(Snapshot& snapshot) const;
   std::string convergence() const;
 
-  analysis::Context& context_;
+  Ledger& ledger_;
   ResultFiles& files_;
   Checkpoints& checkpoints_;
   const DeckSource& source_;
+  const EarlierStates& earlier_;
   std::string linear_solver_;
   Progress progress_;
   Ledger::Id output_effect_;
   Ledger::Id checkpoint_effect_ = 0;
   const analysis::Analysis* analysis_ = nullptr;
+  analysis::Context* context_ = nullptr;  // of the analysis
   std::string name_;  // of the analysis
   std::size_t number_ = 0;
   bool is_last_ = false;

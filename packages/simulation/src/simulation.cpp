@@ -1,10 +1,12 @@
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/deck/resolved.hpp>
+#include <culm/simulation/resume.hpp>
 #include <culm/simulation/simulation.hpp>
 
-#include "model_builder.hpp"
+#include "earlier_states.hpp"
 #include "model_report.hpp"
+#include "phase.hpp"
 #include "run_observer.hpp"
 
 #include <fmt/format.h>
@@ -27,21 +29,17 @@ struct Simulation::Parts {
   Options deck;
   DeckSource source;
   Log log;
+  Phases phases;
+  EarlierStates earlier;
   Ledger ledger;
-  model::Model model;
-  std::vector<WatchedQuantity> watched;
-  std::unique_ptr<assembly::System> system;
-  solver::ChosenSolver linear;
+  std::size_t present = 0;  ///< the analysis whose phase the state belongs to
 };
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log)
-    : parts_(new Parts{comm, catalogue, deck, std::move(source), log, {}, {}, {}, {}, {}}) {
-  Parts& p = *parts_;
-  p.watched = build_model(catalogue, deck, log, p.model);
-  p.system = std::make_unique<assembly::System>(p.model, comm, p.ledger);
-  p.linear = solver::choose_linear_solver(deck.list("Solver").text("Linear Solver"),
-                                          p.system->matrix(), comm);
+    : parts_(new Parts{comm, catalogue, deck, std::move(source), log,
+                       Phases(catalogue, deck, log), EarlierStates(deck.list("Analyses")), {}}) {
+  parts_->phases.enter(0, comm, parts_->ledger);
 }
 
 Simulation::~Simulation() = default;
@@ -52,25 +50,28 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   const Options& output = p.deck.list("Output");
   Checkpoints checkpoints(p.comm, settings.folder, output.flag("Checkpoints"),
                           output.number("Checkpoint Interval"), request);
-  ResultFiles files(*p.system,
+  p.present = from == nullptr ? 0 : static_cast<std::size_t>(from->integer("run/analysis"));
+  Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);
+  ResultFiles files(*phase.system,
                     {settings.folder,
                      {p.deck.text("Title"), std::string(version), deck::resolved(p.deck)},
                      output.integer("Every"),
                      output.flag("Pictures"),
-                     read_layer_settings(output.list("Shell"), p.model)},
-                    p.watched, from);
-  analysis::Context context{*p.system, *p.linear.solver, p.ledger, p.log};
-  RunObserver observer(context, files, checkpoints, p.source, p.linear.reason,
+                     read_layer_settings(output.list("Shell"), phase.model)},
+                    phase.watched, from);
+  RunObserver observer(p.ledger, files, checkpoints, p.source, p.earlier,
                        Progress(p.log, settings.quiet, settings.terminal));
-  model::State state = p.model.initial_state();
+  model::State state = phase.model.initial_state();
   try {
     if (from == nullptr) {
       observer.start(state);
+      keep_state(EarlierStates::reference, state);
     } else {
-      p.system->restore(*from, state);
+      phase.system->restore(*from, state);
       observer.restore(*from);
+      p.earlier.restore(*from);
     }
-    run_analyses(context, state, observer, from);
+    run_analyses(state, observer, files, from);
   } catch (const Error& error) {
     try {
       observer.end(state, error.what());
@@ -84,15 +85,20 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   if (!settings.quiet) p.log.info(observer.closing_words());
 }
 
-void Simulation::run_analyses(analysis::Context& context, model::State& state,
-                              RunObserver& observer, const Snapshot* from) const {
-  const std::vector<Options>& entries = parts_->deck.list("Analyses").entries();
-  const auto first =
-      from == nullptr ? std::size_t{0} : static_cast<std::size_t>(from->integer("run/analysis"));
+void Simulation::run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
+                              const Snapshot* from) {
+  Parts& p = *parts_;
+  const std::vector<Options>& entries = p.deck.list("Analyses").entries();
+  const std::size_t first = p.present;
   for (std::size_t i = first; i < entries.size(); ++i) {
-    const auto analysis = parts_->catalogue.analyses.make(entries[i].text("Type"), entries[i]);
-    observer.begin(entries[i].name(), i, i + 1 == entries.size(), *analysis);
     const bool resumes = from != nullptr && i == first;
+    Phase& phase = p.phases.enter(i, p.comm, p.ledger);
+    if (!resumes) start_analysis(i, state);
+    files.use(*phase.system, phase.watched);
+    analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log};
+    const auto analysis = p.catalogue.analyses.make(entries[i].text("Type"), entries[i]);
+    observer.begin(entries[i].name(), i, i + 1 == entries.size(), *analysis, context,
+                   phase.linear.reason);
     try {
       const auto report = resumes ? analysis->resume(context, state, observer, *from)
                                   : analysis->run(context, state, observer);
@@ -102,7 +108,59 @@ void Simulation::run_analyses(analysis::Context& context, model::State& state,
       if (is_numerical(error)) write_last_checkpoint(state, observer);
       throw;
     }
+    keep_state(entries[i].name(), state);
   }
+}
+
+// Brings the state to where an analysis starts, in its phase.
+void Simulation::start_analysis(std::size_t number, model::State& state) {
+  Parts& p = *parts_;
+  const Options& entry = p.deck.list("Analyses").entries()[number];
+  const Phase& before = p.phases.of(p.present);
+  Phase& phase = p.phases.enter(number, p.comm, p.ledger);
+  p.present = number;
+  if (!entry.has("Start From")) {
+    if (&phase == &before) return;
+    Snapshot saved;
+    before.system->save(state, saved);
+    state = phase.model.initial_state();
+    phase.system->restore(hand_over(saved, before, phase), state);
+    return;
+  }
+  const std::string& name = entry.text("Start From");
+  state = phase.model.initial_state();
+  if (p.earlier.wants(name)) {
+    const EarlierStates::Kept& kept = p.earlier.find(name);
+    phase.system->restore(hand_over(kept.state, p.phases.of(kept.analysis), phase), state);
+  } else {
+    phase.system->restore(read_state(entry, phase, state), state);
+  }
+}
+
+// The nodes of a checkpoint of another run; multipliers and memories begin anew.
+Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::State& state) {
+  const std::string& path = analysis.text("Start From");
+  const FoundCheckpoint found = find_checkpoint(parts_->comm, path, parts_->log);
+  if (found.snapshot.numbers("state/position").size() != state.next.size()) {
+    throw InputError(analysis.where("Start From"),
+                     fmt::format("the run in '{}' has {} nodes, this model has {}", path,
+                                 found.snapshot.numbers("state/position").size() / 12,
+                                 state.next.size() / 12));
+  }
+  Snapshot snapshot;
+  phase.system->save(state, snapshot);
+  for (const char* name : {"state/position", "state/velocity", "state/time", "state/at rest"}) {
+    snapshot.set(name, found.snapshot.numbers(name));
+  }
+  return snapshot;
+}
+
+void Simulation::keep_state(const std::string& name, model::State& state) {
+  Parts& p = *parts_;
+  if (!p.earlier.wants(name)) return;
+  Snapshot snapshot;
+  p.phases.of(p.present).system->save(state, snapshot);
+  p.earlier.keep(name, p.present, std::move(snapshot));
 }
 
 void Simulation::write_last_checkpoint(model::State& state, RunObserver& observer) const {
@@ -114,14 +172,15 @@ void Simulation::write_last_checkpoint(model::State& state, RunObserver& observe
 }
 
 std::string Simulation::summary() const {
-  const model::Model& model = parts_->model;
-  const auto entries = parts_->system->matrix()->getGlobalNumEntries();
+  const Phase& phase = parts_->phases.of(0);
+  const model::Model& model = phase.model;
+  const auto entries = phase.system->matrix()->getGlobalNumEntries();
   std::string text = report_masses(model) + '\n';
   if (const std::string constraints = report_constraints(model); !constraints.empty()) {
     text += constraints + '\n';
   }
   text += report_unknowns(model) + fmt::format("matrix entries: {}\n", entries);
-  text += fmt::format("linear solver: {}\n\n", parts_->linear.reason);
+  text += fmt::format("linear solver: {}\n\n", phase.linear.reason);
   text +=
       fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
   const auto count = [](const std::optional<long long>& n) {

@@ -20,6 +20,9 @@ class Quantity {
   /// Appends the numbers. Called on all ranks, with state.next up to date on all of them.
   virtual void evaluate(const assembly::System& system, const model::State& state,
                         std::vector<double>& numbers) const = 0;
+  /// What it remembers of earlier states, such as turns that were counted.
+  virtual double memory() const { return 0.0; }
+  virtual void restore(double) {}
 };
 
 /// Makers report mistakes as issues and may then return nothing.

@@ -51,6 +51,9 @@ class ResultFiles {
   ResultFiles(assembly::System& system, ResultSettings settings,
               const std::vector<WatchedQuantity>& watched, const Snapshot* from);
 
+  /// Goes on with another system of the same structures, and its quantities of the same names.
+  void use(assembly::System& system, const std::vector<WatchedQuantity>& watched);
+
   /// How much there is, under "output/".
   void save(Snapshot& snapshot) const;
 
@@ -82,9 +85,9 @@ class ResultFiles {
   void reopen();
   std::vector<output::HistoryColumn> columns() const;
 
-  assembly::System& system_;
+  assembly::System* system_;
   ResultSettings settings_;
-  const std::vector<WatchedQuantity>& watched_;
+  const std::vector<WatchedQuantity>* watched_;
   std::unique_ptr<Files> files_;
   std::vector<std::filesystem::path> analysis_files_;  ///< for paths(); on rank 0
   std::size_t frames_ = 0;

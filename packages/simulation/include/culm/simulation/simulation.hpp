@@ -15,6 +15,8 @@
 
 namespace culm::simulation {
 
+struct Phase;
+class ResultFiles;
 class RunObserver;
 
 /// How a run talks and where it writes.
@@ -44,8 +46,11 @@ class Simulation {
   std::string summary() const;
 
  private:
-  void run_analyses(analysis::Context& context, model::State& state, RunObserver& observer,
-                    const Snapshot* from) const;
+  void run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
+                    const Snapshot* from);
+  void start_analysis(std::size_t number, model::State& state);
+  Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
+  void keep_state(const std::string& name, model::State& state);
   void write_last_checkpoint(model::State& state, RunObserver& observer) const;
 
   struct Parts;

@@ -1,0 +1,153 @@
+#include "phase.hpp"
+
+#include <culm/base/nearest.hpp>
+
+#include "model_builder.hpp"
+#include "silent_quantity.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace culm::simulation {
+namespace {
+
+// Names of a list of loads or constraints.
+void add_names(const Options& list, std::vector<std::string>& names) {
+  for (const Options& entry : list.entries()) names.push_back(entry.name());
+}
+
+Inactive read_inactive(const Options& deck, const Options& analysis) {
+  std::vector<std::string> known;
+  add_names(deck.list("Loads"), known);
+  add_names(deck.list("Constraints"), known);
+  Inactive inactive;
+  for (const std::string& name : analysis.texts("Inactive")) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(analysis.where("Inactive"), "there is no load or constraint '" + name + "'" +
+                                                       did_you_mean(name, known));
+    }
+    inactive.insert(name);
+  }
+  return inactive;
+}
+
+// Something that a name occurs several times with, such as the nodes of one support: name and count.
+using Occurrence = std::pair<std::string, int>;
+
+class Occurrences {
+ public:
+  Occurrence next(const std::string& name) { return {name, counts_[name]++}; }
+
+ private:
+  std::map<std::string, int> counts_;
+};
+
+struct Range {
+  std::size_t first = 0;
+  std::size_t size = 0;
+};
+
+std::map<Occurrence, Range> multipliers_of(const model::Model& model) {
+  std::map<Occurrence, Range> ranges;
+  Occurrences occurrences;
+  for (std::size_t i = 0; i < model.equations().size(); ++i) {
+    const model::UnknownTable& unknowns = model.unknowns();
+    const model::Block& block = unknowns.block(unknowns.constraint_block(static_cast<int>(i)));
+    ranges[occurrences.next(model.equations()[i].name)] = {
+        static_cast<std::size_t>(block.first_multiplier),
+        static_cast<std::size_t>(block.shape.width)};
+  }
+  return ranges;
+}
+
+std::map<Occurrence, Range> memories_of(const model::Model& model) {
+  std::map<Occurrence, Range> ranges;
+  Occurrences occurrences;
+  std::size_t first = 0;
+  for (const model::Batch* batch : model.batches()) {
+    ranges[occurrences.next(batch->effect())] = {first, batch->memory_size()};
+    first += batch->memory_size();
+  }
+  return ranges;
+}
+
+std::vector<double> move_ranges(const std::vector<double>& values,
+                                const std::map<Occurrence, Range>& from,
+                                const std::map<Occurrence, Range>& to) {
+  std::size_t size = 0;
+  for (const auto& [name, range] : to) size += range.size;
+  std::vector<double> moved(size, 0.0);
+  for (const auto& [name, range] : to) {
+    const auto found = from.find(name);
+    if (found == from.end() || found->second.size != range.size) continue;
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(found->second.first), range.size,
+                moved.begin() + static_cast<std::ptrdiff_t>(range.first));
+  }
+  return moved;
+}
+
+}  // namespace
+
+Phases::Phases(const Catalogue& catalogue, const Options& deck, const Log& log)
+    : linear_solver_(deck.list("Solver").text("Linear Solver")) {
+  for (const Options& analysis : deck.list("Analyses").entries()) {
+    by_analysis_.push_back(
+        &find_or_build(catalogue, deck, log, read_inactive(deck, analysis)));
+  }
+  complete_columns(deck.list("Output").list("History"));
+}
+
+Phase& Phases::find_or_build(const Catalogue& catalogue, const Options& deck, const Log& log,
+                             const Inactive& inactive) {
+  for (Phase& phase : phases_) {
+    if (phase.inactive == inactive) return phase;
+  }
+  Phase& phase = phases_.emplace_back();
+  phase.inactive = inactive;
+  phase.watched = build_model(catalogue, deck, inactive, log, phase.model);
+  return phase;
+}
+
+// Where a load does not act, the columns of its quantity are known from where it does.
+void Phases::complete_columns(const Options& history) {
+  InputIssues issues;
+  for (std::size_t i = 0; i < history.entries().size(); ++i) {
+    const Quantity* sounding = nullptr;
+    for (const Phase& phase : phases_) {
+      const Quantity* quantity = phase.watched[i].quantity.get();
+      if (dynamic_cast<const SilentQuantity*>(quantity) == nullptr) sounding = quantity;
+    }
+    if (sounding == nullptr) {
+      issues.add(history.entries()[i].where(), "watches what acts in none of the analyses");
+      continue;
+    }
+    for (Phase& phase : phases_) {
+      if (auto* silent = dynamic_cast<SilentQuantity*>(phase.watched[i].quantity.get())) {
+        silent->set_columns(sounding->columns());
+      }
+    }
+  }
+  issues.throw_if_any();
+}
+
+Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& ledger) {
+  Phase& phase = *by_analysis_[analysis];
+  if (phase.system == nullptr) {
+    phase.system = std::make_unique<assembly::System>(phase.model, comm, ledger);
+    phase.linear = solver::choose_linear_solver(linear_solver_, phase.system->matrix(), comm);
+  }
+  return phase;
+}
+
+Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to) {
+  Snapshot moved = saved;
+  moved.set("state/multipliers",
+            move_ranges(saved.numbers("state/multipliers"), multipliers_of(from.model),
+                        multipliers_of(to.model)));
+  moved.set("system/batches", move_ranges(saved.numbers("system/batches"), memories_of(from.model),
+                                          memories_of(to.model)));
+  moved.set("system/carried", std::vector<double>{});
+  return moved;
+}
+
+}  // namespace culm::simulation
