@@ -146,7 +146,7 @@ SHELL += settings("Analyses/fly/End Time=1.5", "Output/Every=3")
 
 # Decks with all that a run remembers: counted turns, drives, multipliers, cut-backs and growth of
 # load steps, memory of a scheme, errors of adaptive steps, factors that serve on, internal variables
-# of shells, damped velocities, several analyses.
+# of shells, damped velocities, several analyses with other loads and constraints and earlier states.
 PARTS = {
     "torsion": TORSION,
     "multipliers": TORSION + settings("Solver/Form=Multipliers"),
@@ -176,6 +176,11 @@ PARTS = {
     "two analyses": TORSION
     + settings("Analyses/more/Type=Dynamic", "Analyses/more/Step=0.02")
     + settings("Analyses/more/End Time=3", "Output/Every=7"),
+    "sequence": [
+        INPUTS / "sequence/release.xml",
+        "--quiet",
+        *settings("Analyses/released/Step=0.01", "Analyses/let down/Steps=3", "Output/Every=3"),
+    ],
 }
 
 

@@ -610,14 +610,14 @@ MECHANICS = [
         "load levels do not rise",
         STEPS,
         '<Parameter name="Levels" value="{0.5, 0.25}"/>',
-        "Analyses / bend / Levels: levels must rise from above 0 to at most the final level 1, "
+        "Analyses / bend / Levels: levels must rise from above the first level to at most the final level 1, "
         "got 0.25 after 0.5",
     ),
     wrong(
         "load level beyond the last",
         STEPS,
         '<Parameter name="Levels" value="{0.5, 1.25}"/>',
-        "Analyses / bend / Levels: levels must rise from above 0 to at most the final level 1, "
+        "Analyses / bend / Levels: levels must rise from above the first level to at most the final level 1, "
         "got 1.25 after 0.5",
     ),
     wrong(

@@ -8,6 +8,7 @@ file, and with each other; where the file says so, so are the two forms of the e
 """
 
 import argparse
+import math
 import pathlib
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -34,7 +35,7 @@ def scales(history, size, force, stress):
     by_unit = {"N/m^2": stress}
     for name in history.names:
         arm = {"N": 1.0, "N m": size, "J": size}.get(unit_of(name))
-        largest = max(abs(value) for value in history.column(name))
+        largest = max((abs(value) for value in history.column(name) if not math.isnan(value)), default=0.0)
         if arm:
             force = max(force, largest / arm)
         by_unit[unit_of(name)] = max(largest, by_unit.get(unit_of(name), 1e-300))
@@ -62,7 +63,12 @@ def compare(one, other, scale, tolerance, what):
             difference = abs(one.levels[i] - level) / max(map(abs, one.levels))
             worst = max(worst, (difference, f"level {level:g}"))
         for name in one.names:
-            difference = abs(one.column(name)[i] - other.column(name)[j]) / scale[unit_of(name)]
+            a, b = one.column(name)[i], other.column(name)[j]
+            if math.isnan(a) and math.isnan(b):  # of a load or constraint that does not act
+                continue
+            difference = abs(a - b) / scale[unit_of(name)]
+            if math.isnan(difference):
+                difference = math.inf
             worst = max(worst, (difference, f"'{name}' at level {level:g}"))
     print(f"{what}: largest relative difference {worst[0]:.1e} in {shared} steps")
     if shared == 0 and one.levels != [0.0]:  # analyses that make no steps

@@ -12,13 +12,20 @@ namespace {
 void check_levels(const Options& options, InputIssues& issues) {
   const std::vector<double>& levels = options.numbers("Levels");
   const double final_level = options.number("Final Level");
+  if (final_level <= options.number("Start Level")) {
+    issues.add(options.where("Final Level"),
+               fmt::format("must be above the first level {:g}, got {:g}",
+                           options.number("Start Level"), final_level));
+    return;
+  }
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double before = i == 0 ? 0.0 : levels[i - 1];
+    const double before = i == 0 ? options.number("Start Level") : levels[i - 1];
     if (levels[i] <= before || levels[i] > final_level) {
-      issues.add(options.where("Levels"),
-                 fmt::format("levels must rise from above 0 to at most the final level {:g}, got "
-                             "{:g} after {:g}",
-                             final_level, levels[i], before));
+      issues.add(
+          options.where("Levels"),
+          fmt::format("levels must rise from above the first level to at most the final level "
+                      "{:g}, got {:g} after {:g}",
+                      final_level, levels[i], before));
       return;
     }
   }
@@ -29,6 +36,10 @@ void check_levels(const Options& options, InputIssues& issues) {
 Schema Statics::schema() {
   const StaticsSettings defaults;
   return Schema("Static", "Equilibrium under loads that grow with the load level, by load control.")
+      .add(number("Start Level", "1",
+                  "Load level at the start; above 0 where loads of an analysis before still act.")
+               .at_least(0.0)
+               .optional(defaults.start_level))
       .add(number("Final Level", "1", "Load level at the end; load functions take it as time.")
                .positive()
                .optional(defaults.final_level))
@@ -55,7 +66,8 @@ Schema Statics::schema() {
 std::unique_ptr<Analysis> Statics::make(const Options& options) {
   StaticsSettings settings;
   settings.final_level = options.number("Final Level");
-  settings.increment = settings.final_level / options.integer("Steps");
+  settings.start_level = options.number("Start Level");
+  settings.increment = (settings.final_level - settings.start_level) / options.integer("Steps");
   settings.smallest_increment = options.number("Smallest Increment");
   settings.largest_increment =
       options.has("Largest Increment") ? options.number("Largest Increment") : settings.increment;
@@ -83,15 +95,14 @@ void Statics::start(Context& context, model::State& state) {
     context.log.warning(
         fmt::format("{} '{}' acts in dynamics only; statics knows no velocity", c.type, c.name));
   }
-  // levels start at zero for each analysis
-  state.time = state.time_prev = 0.0;
+  state.time = state.time_prev = settings_.start_level;
   increment_ = settings_.increment;
   steps_ = 0;
   determinant_sign_ = 0;
   crossings_.clear();
   context.system.begin_step(state, stencil);
   context.system.choose_multiplier_scale(state, stencil);
-  post_mortem_.emplace(context, state, stencil, next_level(0.0, increment_));
+  post_mortem_.emplace(context, state, stencil, next_level(state.time, increment_));
   newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
 }
 

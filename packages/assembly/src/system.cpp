@@ -14,6 +14,10 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+std::size_t global_index(const Map& map, std::size_t row) {
+  return static_cast<std::size_t>(map.getGlobalElement(static_cast<int>(row)));
+}
+
 // What a sum over ranks adds to a value without changing it: x + -0 is x also where x is a zero.
 constexpr double nothing = -0.0;
 
@@ -331,7 +335,7 @@ std::vector<double> System::gather_carried() const {
   if (!carried_) return {};
   std::vector<double> all(layout_.row_map()->getGlobalNumElements(), nothing);
   for (std::size_t row = 0; row < carried_->size(); ++row) {
-    all[index(layout_.row_map()->getGlobalElement(static_cast<int>(row)))] = (*carried_)[row];
+    all[global_index(*layout_.row_map(), row)] = (*carried_)[row];
   }
   comm_.sum(all);
   return all;
@@ -342,7 +346,7 @@ void System::restore_carried(const std::vector<double>& all) {
   if (all.empty()) return;
   carried_.emplace(is_force_row_.size());
   for (std::size_t row = 0; row < carried_->size(); ++row) {
-    (*carried_)[row] = all[index(layout_.row_map()->getGlobalElement(static_cast<int>(row)))];
+    (*carried_)[row] = all[global_index(*layout_.row_map(), row)];
   }
 }
 

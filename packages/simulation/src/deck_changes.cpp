@@ -104,7 +104,8 @@ void compare_analyses(const Options& before, const Options& now, std::size_t ana
       compare(old, present, {"Newton"}, issues);
       continue;
     }
-    for (const char* name : {"Type", "Scheme", "Spectral Radius", "Start Time", "Start From", "Inactive"}) {
+    for (const char* name :
+         {"Type", "Scheme", "Spectral Radius", "Start Time", "Start From", "Inactive"}) {
       compare_parameter(old, present, name, issues);
     }
     for (const char* name : {"End Time", "Final Level"}) {

@@ -17,7 +17,8 @@ class EarlierStates {
   /// What `Start From` may say instead of the name of an analysis.
   static constexpr const char* reference = "Reference";
 
-  /// @param analyses  the list of the deck. Throws InputError where an analysis starts from one that
+  /// @param analyses  the list of the deck. Throws InputError where an analysis starts from one
+  /// that
   ///                  does not come before it
   explicit EarlierStates(const Options& analyses);
 

@@ -23,15 +23,16 @@ Inactive read_inactive(const Options& deck, const Options& analysis) {
   Inactive inactive;
   for (const std::string& name : analysis.texts("Inactive")) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError(analysis.where("Inactive"), "there is no load or constraint '" + name + "'" +
-                                                       did_you_mean(name, known));
+      throw InputError(analysis.where("Inactive"),
+                       "there is no load or constraint '" + name + "'" + did_you_mean(name, known));
     }
     inactive.insert(name);
   }
   return inactive;
 }
 
-// Something that a name occurs several times with, such as the nodes of one support: name and count.
+// Something that a name occurs several times with, such as the nodes of one support: name and
+// count.
 using Occurrence = std::pair<std::string, int>;
 
 class Occurrences {
@@ -91,8 +92,7 @@ std::vector<double> move_ranges(const std::vector<double>& values,
 Phases::Phases(const Catalogue& catalogue, const Options& deck, const Log& log)
     : linear_solver_(deck.list("Solver").text("Linear Solver")) {
   for (const Options& analysis : deck.list("Analyses").entries()) {
-    by_analysis_.push_back(
-        &find_or_build(catalogue, deck, log, read_inactive(deck, analysis)));
+    by_analysis_.push_back(&find_or_build(catalogue, deck, log, read_inactive(deck, analysis)));
   }
   complete_columns(deck.list("Output").list("History"));
 }
@@ -141,9 +141,8 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
 
 Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to) {
   Snapshot moved = saved;
-  moved.set("state/multipliers",
-            move_ranges(saved.numbers("state/multipliers"), multipliers_of(from.model),
-                        multipliers_of(to.model)));
+  moved.set("state/multipliers", move_ranges(saved.numbers("state/multipliers"),
+                                             multipliers_of(from.model), multipliers_of(to.model)));
   moved.set("system/batches", move_ranges(saved.numbers("system/batches"), memories_of(from.model),
                                           memories_of(to.model)));
   moved.set("system/carried", std::vector<double>{});

@@ -25,7 +25,8 @@ struct Phase {
   solver::ChosenSolver linear;
 };
 
-/// The phases of a deck. Nodes are the same in all of them; unknowns, equations and batches are not.
+/// The phases of a deck. Nodes are the same in all of them; unknowns, equations and batches are
+/// not.
 class Phases {
  public:
   /// Builds all models. Throws InputError with all mistakes of the first one that has any.

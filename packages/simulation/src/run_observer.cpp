@@ -137,8 +137,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"worst constraint violation", "", worst_constraint_},
       {"final time", "", state.time}};
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
-  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(),
-                numbers);
+  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers);
 }
 
 std::string RunObserver::convergence() const {
@@ -152,8 +151,7 @@ std::string RunObserver::convergence() const {
 }
 
 std::string RunObserver::closing_words() const {
-  std::string text =
-      "\n" + ledger_.report() + "\n" + certificates_ + convergence() + "results:";
+  std::string text = "\n" + ledger_.report() + "\n" + certificates_ + convergence() + "results:";
   for (const auto& path : files_.paths()) text += "\n  " + path.string();
   return text;
 }

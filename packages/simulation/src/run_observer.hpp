@@ -54,7 +54,7 @@ class RunObserver final : public analysis::Observer {
   Ledger::Id checkpoint_effect_ = 0;
   const analysis::Analysis* analysis_ = nullptr;
   analysis::Context* context_ = nullptr;  // of the analysis
-  std::string name_;  // of the analysis
+  std::string name_;                      // of the analysis
   std::size_t number_ = 0;
   bool is_last_ = false;
   bool has_stepped_ = false;  // the analysis has something to save

@@ -37,8 +37,14 @@ struct Simulation::Parts {
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log)
-    : parts_(new Parts{comm, catalogue, deck, std::move(source), log,
-                       Phases(catalogue, deck, log), EarlierStates(deck.list("Analyses")), {}}) {
+    : parts_(new Parts{comm,
+                       catalogue,
+                       deck,
+                       std::move(source),
+                       log,
+                       Phases(catalogue, deck, log),
+                       EarlierStates(deck.list("Analyses")),
+                       {}}) {
   parts_->phases.enter(0, comm, parts_->ledger);
 }
 
@@ -142,10 +148,10 @@ Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::St
   const std::string& path = analysis.text("Start From");
   const FoundCheckpoint found = find_checkpoint(parts_->comm, path, parts_->log);
   if (found.snapshot.numbers("state/position").size() != state.next.size()) {
-    throw InputError(analysis.where("Start From"),
-                     fmt::format("the run in '{}' has {} nodes, this model has {}", path,
-                                 found.snapshot.numbers("state/position").size() / 12,
-                                 state.next.size() / 12));
+    throw InputError(
+        analysis.where("Start From"),
+        fmt::format("the run in '{}' has {} nodes, this model has {}", path,
+                    found.snapshot.numbers("state/position").size() / 12, state.next.size() / 12));
   }
   Snapshot snapshot;
   phase.system->save(state, snapshot);

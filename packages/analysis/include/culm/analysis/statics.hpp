@@ -12,6 +12,7 @@ namespace culm::analysis {
 
 /// How the load level is raised.
 struct StaticsSettings {
+  double start_level = 0.0;
   double final_level = 1.0;
   double increment = 0.1;  ///< first increment of the level
   double smallest_increment = 1e-6;
