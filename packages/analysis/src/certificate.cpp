@@ -113,7 +113,6 @@ double Certificate::angular_scale() const {
   return std::max(largest_angular_, system_.model().length() * linear_scale());
 }
 
-// Nothing holds the model from outside.
 bool Certificate::is_free() const {
   const auto& constraints = system_.model().constraints();
   return std::all_of(constraints.begin(), constraints.end(),

@@ -10,9 +10,9 @@
 namespace culm::solver {
 namespace {
 
-// Newton's method ends far below the tolerance; with old factors it ends just below, step after
-// step on the same side, and balances over many steps would see it.
-constexpr double modified_newton_share = 0.01;
+// Newton's method ends far below the tolerance; with old factors or from a good first guess it ends
+// just below, step after step on the same side, and what adds up over many steps would show it.
+constexpr double lasting_share = 0.01;
 
 // Share of a residual at the start of a step that does not count at its end.
 constexpr double negligible = 1e-6;
@@ -24,7 +24,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
 
   void reset() {
     history_.clear();
-    previous_residual_ = 0.0;
+    previous_residual_ = previous_violation_ = 0.0;
     status_ = NOX::StatusTest::Unevaluated;
   }
   const std::vector<IterationRecord>& history() const { return history_; }
@@ -36,13 +36,17 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const NewtonSettings& settings = problem_.settings;
     history_.push_back(
         {e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0, e.constraint_violation});
-    const bool modified = settings.refresh == Refresh::on_slow_convergence;
-    const double tolerance = settings.force_tolerance * (modified ? modified_newton_share : 1.0);
-    const bool forces = e.force_residual <= tolerance * e.force_scale ||
+    const bool lasts = settings.refresh == Refresh::on_slow_convergence || moves();
+    const double share = lasts ? lasting_share : 1.0;
+    const bool forces = e.force_residual <= share * settings.force_tolerance * e.force_scale ||
                         is_rounding(e.force_residual, e.round_off_force);
+    // far from the origin rounding may hold a violation above the share
+    const bool stalls = history_.size() > 1 && e.constraint_violation > 0.1 * previous_violation_;
+    const bool constraints =
+        e.constraint_violation <= (stalls ? 1.0 : share) * settings.constraint_tolerance;
     previous_residual_ = e.force_residual;
+    previous_violation_ = e.constraint_violation;
     if (history_.size() == 1) first_residual_ = e.force_residual;
-    const bool constraints = e.constraint_violation <= settings.constraint_tolerance;
     status_ = forces && constraints ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
     if (is_hopeless(e)) status_ = NOX::StatusTest::Failed;
     return status_;
@@ -51,10 +55,11 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   std::ostream& print(std::ostream& stream, int) const override { return stream; }
 
  private:
+  bool moves() const { return problem_.stencil.inertia != 0.0; }
   // Below the bound that rounding can explain a force may also be a small load on a structure that
   // is stiff elsewhere. So it must be negligible beside what was out of balance at first, or have
-  // stopped falling. Rounding itself causes about a tenth of the bound. With old factors a residual
-  // creeps, so it must have stopped.
+  // stopped falling. Rounding itself causes about a tenth of the bound. With old
+  // factors a residual creeps, so it must have stopped.
   bool is_rounding(double residual, double bound) const {
     if (residual == 0.0) return true;
     if (history_.size() < 2 || residual > bound) return false;
@@ -73,6 +78,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   const NewtonProblem& problem_;
   std::vector<IterationRecord> history_;
   double previous_residual_ = 0.0;
+  double previous_violation_ = 0.0;
   double first_residual_ = 0.0;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };

@@ -32,6 +32,9 @@ class Certificate {
   void save(Snapshot& snapshot) const;
   void restore(const Snapshot& snapshot);
 
+  /// Whether nothing holds the model from outside, so that its momenta are kept.
+  bool is_free() const;
+
   /// A table for the user: balances, drifts, verdicts.
   std::string text() const;
   /// The same as numbers.
@@ -43,7 +46,6 @@ class Certificate {
   double energy_scale() const;
   double linear_scale() const;
   double angular_scale() const;
-  bool is_free() const;
 
   const assembly::System& system_;
   bool promises_;
