@@ -151,7 +151,7 @@ def check_deck(culm, deck, expected):
     complaints = []
     runs = {}
     for ranks in RANKS:
-        run = culm.run(deck, ranks=ranks)
+        run = culm.run(deck, overrides(expected), ranks)
         if run.exit != 0 or not is_as_expected(run.errors, expected.get("warns")):
             return [f"{ranks} ranks: exit code {run.exit}\n{run.errors}"]
         runs[ranks] = run
@@ -165,7 +165,7 @@ def check_deck(culm, deck, expected):
             complaints += compare(runs[1].history, run.history, scale, RANKS_TOLERANCE, what)
             complaints += compare_tables(runs[1].tables, run.tables, what)
     for forms in expected.findall("Forms"):
-        settings = ["Solver/Form=Multipliers", *overrides(forms)]
+        settings = ["Solver/Form=Multipliers", *overrides(expected), *overrides(forms)]
         multipliers = culm.run(deck, settings)
         if multipliers.exit != 0:
             what = f"multiplier form: exit code {multipliers.exit}"

@@ -5,6 +5,7 @@ import functools
 import math
 import pathlib
 import re
+import time
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -15,6 +16,7 @@ INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs/turbine/nrel5mw"
 STATIC, DYNAMIC = "turbine/nrel5mw/blade_static.xml", "turbine/nrel5mw/blade_dynamic.xml"
 STANDSTILL = "turbine/nrel5mw/turbine_modes.xml"
 CAMPBELL = "turbine/nrel5mw/blade_campbell.xml"
+OPERATION = "turbine/nrel5mw/turbine_operation.xml"
 LENGTH, ROOT, SPEED = 61.5, 1.0, 1.0006
 # BeamDyn at 0.01 s: r-test of OpenFAST, bd_5MW_dynamic_gravity_Az90; blade horizontal, at rest,
 # gravity along -y, mu = 1e-3. Tip displacement x, y, z in the axes of the root.
@@ -25,6 +27,11 @@ BEAMDYN = {
     0.40: (3.92736638e-2, -8.03169376e-1, -6.42171223e-3),
     0.47: (7.90453386e-2, -8.74622779e-1, -7.91327186e-3),
 }
+BRAKE = 28116.2 * 97.0  # N m
+# About the shaft: blades by mass and moments about their roots (report, table 2-1), 1.5 m outside, coned
+# by 2.5 degrees; hub; generator times ratio squared [kg m^2]
+INERTIA = (3.0 * math.cos(math.radians(2.5)) ** 2 * (11776047.0 + 2.0 * 1.5 * 363231.0 + 1.5**2 * 17740.0)
+           + 115926.0 + 534.116 * 97.0**2)
 # Sections that kink between nodes make the error fall with the square of the mesh width, unevenly.
 MESHES = [(24, 1, 6e-3), (48, 1, 1.5e-3), (96, 1, 4e-4), (24, 2, 4e-4), (48, 2, 2e-4), (96, 2, 5e-5),
           (192, 2, 1e-5), (24, 3, 4e-4), (96, 3, 5e-5), (192, 3, 1e-5)]
@@ -200,11 +207,37 @@ def verify_rotating(culm, report):
         report.relative(name, found, wanted, 3e-2)
 
 
+def verify_operation(culm, report):
+    report.title("Start-up and emergency stop, 200 s in steps of 0.01 s")
+    start = time.perf_counter()
+    run = culm.run(OPERATION, quiet=False)
+    wall = time.perf_counter() - start
+    report.check("exit code", run.exit, 0, 0)
+    report.note(f"{wall:.1f} s for 200 s, output included: {200.0 / wall:.0f} times real time")
+    cuts = re.findall(r"steps accepted, (\d+) cut back", run.output)
+    report.check("steps cut back", [int(n) for n in cuts], [0] * len(cuts), 0)
+    for name, drift in zip(("start-up", "stop"), re.findall(r"energy balance +(\S+)", run.output)):
+        report.holds(f"{name}: energy balance", float(drift), 1e-8)
+    levels = run.history.levels
+    first = next(i for i in range(1, len(levels)) if levels[i] < levels[i - 1])  # after the weight
+    times = np.array(run.history.levels[first:])
+    angle = np.array(run.history.column("rotor [rad]")[first:])
+    speed = np.diff(angle) / np.diff(times)
+    operating = float(np.mean(speed[(times[1:] > 80.0) & (times[1:] < 100.0)]))
+    report.relative("speed from 80 to 100 s [rpm]", operating * 30.0 / math.pi, 12.1, 1e-3)
+    report.holds("largest speed over the last 50 s [rad/s]", float(np.max(np.abs(speed[-5000:]))), 1e-2)
+    # the brake takes the angular momentum at a constant rate until it creeps
+    below = float(times[1:][(times[1:] > 100.0) & (speed < 0.05)][0]) - 100.0
+    inertia = BRAKE * below / (operating - 0.05)
+    report.relative("inertia about the shaft from the time of braking [kg m^2]", inertia, INERTIA, 1e-2)
+
+
 def verify(culm, report):
     verify_static(culm, report)
     verify_dynamic(culm, report)
     verify_modes(culm, report)
     verify_rotating(culm, report)
+    verify_operation(culm, report)
 
 
 def plot(culm, path):
@@ -232,6 +265,25 @@ def plot(culm, path):
     modes.set_xticks(places, [m[0] for m in MODES], rotation=60, ha="right", fontsize=6)
     modes.set(ylabel="frequency [Hz]", title="Modes at standstill")
     modes.legend(fontsize=7)
+    save(fig, path)
+    plot_operation(culm, path.replace(".png", "_operation.png"))
+
+
+def plot_operation(culm, path):
+    history = culm.history(OPERATION)
+    first = next(i for i in range(1, len(history.levels))
+                 if history.levels[i] < history.levels[i - 1])
+    times = np.array(history.levels[first:])
+    angle = np.array(history.column("rotor [rad]")[first:])
+    fig, (left, middle, right) = figure(3)
+    left.plot(times[1:], np.diff(angle) / np.diff(times) * 30.0 / np.pi)
+    left.set(xlabel="time [s]", ylabel="speed of the rotor [rpm]", title="Start-up and emergency stop")
+    middle.plot(times, np.array(history.column("shaft M [N m]")[first:]) / 1e6)
+    middle.set(xlabel="time [s]", ylabel="moment in the shaft [MN m]")
+    for name in ("x", "y"):
+        right.plot(times, history.column(f"tower top u{name} [m]")[first:], lw=0.8, label=f"u{name}")
+    right.set(xlabel="time [s]", ylabel="top of the tower [m]")
+    right.legend(fontsize=7)
     save(fig, path)
 
 

@@ -120,12 +120,14 @@ void Dynamics::fit_motion(Context& context, model::State& state) const {
     close_joints(context, state);
   }
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
+  // what a motion ends with fulfils the constraints to the second order of its step only
+  const double tolerance = state.at_rest ? 1e-9 : 1e-4;
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
   const double change = context.system.project_velocity(state, 1e-4 * settings_.steps.step,
                                                         mass_solver(context, state));
-  if (change > 1e-9 * std::max(1.0, largest(state.velocity))) {
+  if (change > tolerance * std::max(1.0, largest(state.velocity))) {
     context.log.warning(fmt::format(
         "initial velocities were made to fit the constraints; largest change {:.3g}", change));
   }
