@@ -37,6 +37,7 @@ Options deck(double mass = 1.0,
   Options history("History", {"d.xml", 12, "Output / History"});
   Options output("Output", {"d.xml", 11, "Output"});
   output.set("Every", 1).add_list(history.declare_entries());
+  output.add_list(Options("Shell", {"d.xml", 13, "Output / Shell"}));
   root.add_list(structures).add_list(list).add_list(output);
   return root;
 }
