@@ -204,7 +204,8 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
   assembly::System& system = context.system;
   const double end_time = settings_.steps.end_time;
   const Ledger::Id certificate_effect = context.ledger.add("Certificate");
-  // where momenta are kept at all; what is carried moves stiff parts a little more than rounding does
+  // where momenta are kept at all; what is carried moves stiff parts a little more than rounding
+  // does
   const bool carries = scheme_->conserves() && certificate_->is_free();
   while (state.time < end_time) {
     state.time = control_->end_of_step(state.time_prev);

@@ -148,8 +148,9 @@ TEST_F(Loads, TheTypes) {
                   "Directed Spring", "Director Force", "Follower Force", "Follower Line Force",
                   "Follower Line Moment", "Follower Moment", "Force", "Gravity", "Ground Damper",
                   "Ground Spring", "Line Force", "Line Moment", "Moment", "Plane Ground Damper",
-                  "Plane Ground Spring", "Pressure", "Rotation Damper", "Rotation Damper Local",
-                  "Spring", "Surface Force", "Torsion Damper", "Torsion Drive", "Torsion Spring"));
+                  "Plane Ground Spring", "Pressure", "Rotating Frame", "Rotation Damper",
+                  "Rotation Damper Local", "Spring", "Surface Force", "Torsion Damper",
+                  "Torsion Drive", "Torsion Spring"));
 }
 
 TEST_F(Loads, VirtualWorkOfALineForceIsThatOfItsPoints) {

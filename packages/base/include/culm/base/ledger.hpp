@@ -28,8 +28,8 @@ class Ledger {
     long long calls = 0;
   };
 
-  /// Registers an effect; `seconds` and `calls` of the entry usually start at zero. One without items
-  /// that is registered again, by a later analysis, goes on.
+  /// Registers an effect; `seconds` and `calls` of the entry usually start at zero. One without
+  /// items that is registered again, by a later analysis, goes on.
   Id add(Entry entry);
   Id add(std::string name) { return add(Entry{std::move(name), {}, {}, {}, 0.0, 0}); }
 
