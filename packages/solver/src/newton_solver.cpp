@@ -36,7 +36,8 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const NewtonSettings& settings = problem_.settings;
     history_.push_back(
         {e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0, e.constraint_violation});
-    const bool lasts = settings.refresh == Refresh::on_slow_convergence || moves();
+    const bool at_once = problem_.stencil.inertia != 0.0 && history_.size() <= 2;
+    const bool lasts = settings.refresh == Refresh::on_slow_convergence || at_once;
     const double share = lasts ? lasting_share : 1.0;
     const bool forces = e.force_residual <= share * settings.force_tolerance * e.force_scale ||
                         is_rounding(e.force_residual, e.round_off_force);
@@ -55,7 +56,6 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   std::ostream& print(std::ostream& stream, int) const override { return stream; }
 
  private:
-  bool moves() const { return problem_.stencil.inertia != 0.0; }
   // Below the bound that rounding can explain a force may also be a small load on a structure that
   // is stiff elsewhere. So it must be negligible beside what was out of balance at first, or have
   // stopped falling. Rounding itself causes about a tenth of the bound. With old
