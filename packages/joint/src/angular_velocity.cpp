@@ -48,8 +48,7 @@ std::vector<int> AngularVelocity::blocks(int item, const model::UnknownTable& un
 }
 
 void AngularVelocity::place(model::Placement placement, model::Form form) {
-  placement_ = std::move(placement);
-  form_ = form;
+  MemorylessBatch::place(std::move(placement), form);
   const model::UnknownTable& unknowns = model_.unknowns();
   for (Item& item : items_) {
     const model::Block& block = unknowns.block(unknowns.constraint_block(equation_of(item)));
@@ -59,27 +58,25 @@ void AngularVelocity::place(model::Placement placement, model::Form form) {
 
 Verdict AngularVelocity::assemble(const model::State& state, const Stencil& stencil, Want want,
                                   model::Target& target) {
-  Verdict verdict = Verdict::ok;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (want == Want::mass || stencil.step == 0.0) {
+  if (want == Want::mass || stencil.step == 0.0) {
+    for (std::size_t i = 0; i < placement().items.size(); ++i) {
       assemble_rest(i, state, want, target);
-    } else if (form_ == model::Form::null_space) {
-      verdict = worse(verdict, assemble_item<model::NullSpace>(i, state, stencil, want, target));
-    } else {
-      verdict = worse(verdict, assemble_item<model::FullSpace>(i, state, stencil, want, target));
     }
+    return Verdict::ok;
   }
-  return verdict;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, want, target);
+  });
 }
 
 // lambda = 0
 void AngularVelocity::assemble_rest(std::size_t i, const model::State& state, Want want,
                                     model::Target& target) const {
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const double lambda = state.multipliers[item.multiplier];
-  placement_.scatter.add_residual(i, 1, &lambda, target);
+  placement().scatter.add_residual(i, 1, &lambda, target);
   if (want == Want::residual) return;
-  placement_.scatter.add_tangent(i, 1, 1, Mat<1, 1>(target.multiplier_scale), target);
+  placement().scatter.add_tangent(i, 1, 1, Mat<1, 1>(target.multiplier_scale), target);
 }
 
 template <class Space>
@@ -87,7 +84,7 @@ Verdict AngularVelocity::assemble_item(std::size_t i, const model::State& state,
                                        const Stencil& stencil, Want want,
                                        model::Target& target) const {
   constexpr int W = Space::width;
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const AxisTurn<Space> turn(item.axis, directors(state.prev, item.node),
                              directors(state.next, item.node), stencil.theta);
   const double lambda = state.multipliers[item.multiplier];
@@ -99,13 +96,13 @@ Verdict AngularVelocity::assemble_item(std::size_t i, const model::State& state,
   target.constraint_violation = std::max(target.constraint_violation, std::abs(h));
   const double scale = target.multiplier_scale;
   const double row = scale * h;
-  placement_.scatter.add_residual(i, 0, force.data(), target);
-  placement_.scatter.add_residual(i, 1, &row, target);
+  placement().scatter.add_residual(i, 0, force.data(), target);
+  placement().scatter.add_residual(i, 1, &row, target);
   if (want == Want::residual) return Verdict::ok;
-  placement_.scatter.add_tangent(i, 0, 0, RowMat<W, W>(lambda * turn.derivative), target);
-  placement_.scatter.add_tangent(i, 0, 1, Vec<W>(scale * turn.moment), target);
+  placement().scatter.add_tangent(i, 0, 0, RowMat<W, W>(lambda * turn.derivative), target);
+  placement().scatter.add_tangent(i, 0, 1, Vec<W>(scale * turn.moment), target);
   const Mat<1, W> gradient = scale * turn.gradient.transpose();
-  placement_.scatter.add_tangent(i, 1, 0, gradient, target);
+  placement().scatter.add_tangent(i, 1, 0, gradient, target);
   return Verdict::ok;
 }
 
@@ -113,9 +110,9 @@ model::StepWork AngularVelocity::step_work(const model::State& state,
                                            const Stencil& stencil) const {
   model::StepWork work;
   if (stencil.step == 0.0) return work;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     const AxisTurn<model::NullSpace> turn(item.axis, directors(state.prev, item.node),
                                           directors(state.next, item.node), stencil.theta);
     work.drives -= state.multipliers[item.multiplier] * turn.turn;

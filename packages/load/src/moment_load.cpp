@@ -24,7 +24,7 @@ Mat3 director_derivative(const Vec3& moment, const Vec3& d) {
 }  // namespace
 
 bool MomentLoad::has_tangent() const {
-  return frame_ == Frame::directors || form_ == model::Form::multipliers ||
+  return frame_ == Frame::directors || form() == model::Form::multipliers ||
          std::any_of(items_.begin(), items_.end(),
                      [this](const Item& item) { return on_shell(item); });
 }
@@ -33,29 +33,24 @@ std::vector<int> MomentLoad::blocks(int item, const model::UnknownTable& unknown
   return {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
 }
 
-void MomentLoad::place(model::Placement placement, model::Form form) {
-  placement_ = std::move(placement);
-  form_ = form;
-}
-
 Verdict MomentLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
                              model::Target& target) {
   const double factor = amplitude_.in_step(state, stencil);
   const bool tangent = want == Want::residual_and_tangent;
   Verdict verdict = Verdict::ok;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     if (on_shell(item)) {
       verdict = worse(
           verdict,
-          form_ == model::Form::null_space
+          form() == model::Form::null_space
               ? assemble_director<model::NullSpace>(i, state, stencil, factor, tangent, target)
               : assemble_director<model::FullSpace>(i, state, stencil, factor, tangent, target));
       continue;
     }
     const Motion now = motion(item, state, stencil.theta, factor);
     if (!std::isfinite(now.moment.sum())) return Verdict::not_finite;
-    if (form_ == model::Form::null_space) {
+    if (form() == model::Form::null_space) {
       assemble_reduced(i, now, stencil.theta, tangent, target);
     } else {
       assemble_full(i, now, stencil.theta, tangent, target);
@@ -81,11 +76,11 @@ void MomentLoad::assemble_reduced(std::size_t i, const Motion& motion, double th
   Vec6 residual;
   residual << Vec3::Zero(), -motion.moment;
   target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
-  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  placement().scatter.add_residual(i, 0, residual.data(), target);
   if (!tangent || frame_ == Frame::space) return;
   RowMat<6, 6> block = RowMat<6, 6>::Zero();
   block.bottomRightCorner<3, 3>() = theta * skew(motion.next * motion.components);
-  placement_.scatter.add_tangent(i, 0, 0, block, target);
+  placement().scatter.add_tangent(i, 0, 0, block, target);
 }
 
 // r_d_i = -mh x d_i      mh = Ac^-1 m      Ac = sum_i ( |d_i|^2 1 - d_i d_i^T )
@@ -99,7 +94,7 @@ void MomentLoad::assemble_full(std::size_t i, const Motion& motion, double theta
   Vec<12> residual = Vec<12>::Zero();
   for (int k = 0; k < 3; ++k) residual.segment<3>(3 + 3 * k) = -skew(mh) * d.col(k);
   target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
-  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  placement().scatter.add_residual(i, 0, residual.data(), target);
   if (!tangent) return;
   RowMat<12, 12> block = RowMat<12, 12>::Zero();
   for (int j = 0; j < 3; ++j) {
@@ -112,7 +107,7 @@ void MomentLoad::assemble_full(std::size_t i, const Motion& motion, double theta
     }
     block.block<3, 3>(3 + 3 * j, 3 + 3 * j) -= theta * skew(mh);
   }
-  placement_.scatter.add_tangent(i, 0, 0, block, target);
+  placement().scatter.add_tangent(i, 0, 0, block, target);
 }
 
 template <class Space>
@@ -120,7 +115,7 @@ Verdict MomentLoad::assemble_director(std::size_t i, const model::State& state,
                                       const Stencil& stencil, double factor, bool tangent,
                                       model::Target& target) const {
   constexpr int W = Space::width;
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const NodeMotion motion(nodes_, {item.node}, state, stencil.theta);
   const Vec3 m = -factor * item.components;
   const Vec3 d = motion.mid.col(1);
@@ -130,23 +125,23 @@ Verdict MomentLoad::assemble_director(std::size_t i, const model::State& state,
   Vec<W> residual;
   Space::reduce_rows(r, motion.arms_mid[0], residual);
   target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  placement().scatter.add_residual(i, 0, residual.data(), target);
   if (!tangent) return Verdict::ok;
   Mat<12, 12> K = Mat<12, 12>::Zero();
   K.block<3, 3>(3, 3) = stencil.theta * director_derivative(m, d);
   RowMat<W, W> block = RowMat<W, W>::Zero();
   add_slot_tangent<Space>(K, motion.arms_mid[0], motion.arms_next[0], block);
   Space::add_turning(r.reshaped<Eigen::ColMajor>(3, 4), motion.arms_next[0], stencil.theta, block);
-  placement_.scatter.add_tangent(i, 0, 0, block, target);
+  placement().scatter.add_tangent(i, 0, 0, block, target);
   return Verdict::ok;
 }
 
 model::StepWork MomentLoad::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
   const double factor = amplitude_.in_step(state, stencil);
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     if (on_shell(item)) {
       const NodeMotion now(nodes_, {item.node}, state, stencil.theta);
       NodeMotion::Slots forces = NodeMotion::Slots::Zero(3, 4);

@@ -60,16 +60,7 @@ Mat<12, 12> slot_block(const Mat3& K, double zeta) {
 }  // namespace
 
 std::vector<int> PressureLoad::blocks(int item, const model::UnknownTable& unknowns) const {
-  std::vector<int> result;
-  for (int node : items_[static_cast<std::size_t>(item)].nodes) {
-    result.push_back(unknowns.node_block(node));
-  }
-  return result;
-}
-
-void PressureLoad::place(model::Placement placement, model::Form form) {
-  placement_ = std::move(placement);
-  form_ = form;
+  return blocks_of(items_[static_cast<std::size_t>(item)].nodes, unknowns);
 }
 
 Verdict PressureLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -77,15 +68,9 @@ Verdict PressureLoad::assemble(const model::State& state, const Stencil& stencil
   if (want == Want::mass) return Verdict::ok;
   const double factor = amplitude_.in_step(state, stencil);
   const bool tangent = want == Want::residual_and_tangent;
-  Verdict verdict = Verdict::ok;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    const Verdict one =
-        form_ == model::Form::null_space
-            ? assemble_item<model::NullSpace>(i, state, stencil, factor, tangent, target)
-            : assemble_item<model::FullSpace>(i, state, stencil, factor, tangent, target);
-    verdict = worse(verdict, one);
-  }
-  return verdict;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, factor, tangent, target);
+  });
 }
 
 template <class Space>
@@ -93,7 +78,7 @@ Verdict PressureLoad::assemble_item(std::size_t i, const model::State& state,
                                     const Stencil& stencil, double factor, bool tangent,
                                     model::Target& target) const {
   constexpr int W = Space::width;
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const Corners X = corners(motion.mid, item.zeta);
   const double p = -factor * item.pressure;
@@ -104,7 +89,7 @@ Verdict PressureLoad::assemble_item(std::size_t i, const model::State& state,
     Vec<W> residual;
     Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
     target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement_.scatter.add_residual(i, a, residual.data(), target);
+    placement().scatter.add_residual(i, a, residual.data(), target);
   }
   if (!tangent) return Verdict::ok;
 
@@ -119,7 +104,7 @@ Verdict PressureLoad::assemble_item(std::size_t i, const model::State& state,
       if (a == b) {
         Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
       }
-      placement_.scatter.add_tangent(i, a, b, block, target);
+      placement().scatter.add_tangent(i, a, b, block, target);
     }
   }
   return Verdict::ok;
@@ -128,9 +113,9 @@ Verdict PressureLoad::assemble_item(std::size_t i, const model::State& state,
 model::StepWork PressureLoad::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
   const double factor = amplitude_.in_step(state, stencil);
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     const Motion motion(nodes_, item.nodes, state, stencil.theta);
     const Corners f = factor * item.pressure * area_vectors(corners(motion.mid, item.zeta));
     add_item_work(slot_forces(f, item.zeta), motion, item.nodes, state, true, work);

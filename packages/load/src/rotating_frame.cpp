@@ -65,30 +65,16 @@ void RotatingFrame::add(std::span<const int> nodes, const Eigen::MatrixXd& mass)
 }
 
 std::vector<int> RotatingFrame::blocks(int item, const model::UnknownTable& unknowns) const {
-  std::vector<int> result;
-  for (int node : items_[static_cast<std::size_t>(item)].nodes) {
-    result.push_back(unknowns.node_block(node));
-  }
-  return result;
-}
-
-void RotatingFrame::place(model::Placement placement, model::Form form) {
-  placement_ = std::move(placement);
-  form_ = form;
+  return blocks_of(items_[static_cast<std::size_t>(item)].nodes, unknowns);
 }
 
 Verdict RotatingFrame::assemble(const model::State& state, const Stencil& stencil, Want want,
                                 model::Target& target) {
   if (want == Want::mass) return Verdict::ok;
   const bool tangent = want == Want::residual_and_tangent;
-  Verdict verdict = Verdict::ok;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    const Verdict one = form_ == model::Form::null_space
-                            ? assemble_item<model::NullSpace>(i, state, stencil, tangent, target)
-                            : assemble_item<model::FullSpace>(i, state, stencil, tangent, target);
-    verdict = worse(verdict, one);
-  }
-  return verdict;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, tangent, target);
+  });
 }
 
 template <class Space>
@@ -96,7 +82,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
                                      const Stencil& stencil, bool tangent,
                                      model::Target& target) const {
   constexpr int W = Space::width;
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const int n = static_cast<int>(item.nodes.size());
   const Vec3 omega = amplitude_.in_step(state, stencil) * omega_;
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
@@ -108,7 +94,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
     Vec<W> residual;
     Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
     target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement_.scatter.add_residual(i, a, residual.data(), target);
+    placement().scatter.add_residual(i, a, residual.data(), target);
   }
   if (!tangent) return Verdict::ok;
 
@@ -129,7 +115,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
       if (a == b) {
         Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
       }
-      placement_.scatter.add_tangent(i, a, b, block, target);
+      placement().scatter.add_tangent(i, a, b, block, target);
     }
   }
   return Verdict::ok;
@@ -138,9 +124,9 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
 model::StepWork RotatingFrame::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
   const Vec3 omega = amplitude_.in_step(state, stencil) * omega_;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     const Motion motion(nodes_, item.nodes, state, stencil.theta);
     const Motion::Slots f =
         -accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);

@@ -15,15 +15,10 @@ std::vector<int> RotationDamper::blocks(int item, const model::UnknownTable& unk
   return {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
 }
 
-void RotationDamper::place(model::Placement placement, model::Form form) {
-  placement_ = std::move(placement);
-  form_ = form;
-}
-
 template <class Space>
 joint::AxisTurn<Space> RotationDamper::turn_of(std::size_t i, const model::State& state,
                                                const Stencil& stencil) const {
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const Mat3 prev = model::NodeTable::slots(state.prev, item.node).rightCols<3>();
   const Mat3 next = model::NodeTable::slots(state.next, item.node).rightCols<3>();
   return {item.axis, prev, next, stencil.theta};
@@ -33,14 +28,9 @@ Verdict RotationDamper::assemble(const model::State& state, const Stencil& stenc
                                  model::Target& target) {
   if (want == Want::mass || stencil.step == 0.0) return Verdict::ok;
   const bool tangent = want == Want::residual_and_tangent;
-  Verdict verdict = Verdict::ok;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    const Verdict one = form_ == model::Form::null_space
-                            ? assemble_item<model::NullSpace>(i, state, stencil, tangent, target)
-                            : assemble_item<model::FullSpace>(i, state, stencil, tangent, target);
-    verdict = worse(verdict, one);
-  }
-  return verdict;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, tangent, target);
+  });
 }
 
 template <class Space>
@@ -53,20 +43,20 @@ Verdict RotationDamper::assemble_item(std::size_t i, const model::State& state,
   const Vec<W> residual = moment_.value(rate) * turn.moment;
   if (!std::isfinite(residual.sum())) return Verdict::not_finite;
   target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-  placement_.scatter.add_residual(i, 0, residual.data(), target);
+  placement().scatter.add_residual(i, 0, residual.data(), target);
   if (!tangent) return Verdict::ok;
   const double slope = moment_.slope(rate) / stencil.step;
   const RowMat<W, W> block =
       moment_.value(rate) * turn.derivative + slope * turn.moment * turn.gradient.transpose();
-  placement_.scatter.add_tangent(i, 0, 0, block, target);
+  placement().scatter.add_tangent(i, 0, 0, block, target);
   return Verdict::ok;
 }
 
 model::StepWork RotationDamper::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
   if (stencil.step == 0.0) return work;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
     const auto turn = turn_of<model::NullSpace>(i, state, stencil);
     const double moment = moment_.value(turn.turn / stencil.step);
     work.damping += moment * turn.turn;

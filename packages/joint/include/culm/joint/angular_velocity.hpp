@@ -3,8 +3,8 @@
 
 #include <culm/joint/axis_turn.hpp>
 #include <culm/joint/prescribed.hpp>
-#include <culm/model/batch.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/model/memoryless_batch.hpp>
 #include <culm/model/reaction_source.hpp>
 
 #include <string>
@@ -19,11 +19,11 @@ namespace culm::joint {
 /// so the angle after any number of steps is the sum of dt Omega(t_1/2) exactly, and the drive does
 /// the work -lambda n . tau. Statics knows no velocity: the row is lambda = 0 there.
 /// @source formulation 2.4
-class AngularVelocity final : public model::Batch, public model::ReactionSource {
+class AngularVelocity final : public model::MemorylessBatch, public model::ReactionSource {
  public:
   /// @param model gives each item its multiplier, by the constraint that `add` puts there
   AngularVelocity(std::string effect, const model::Model& model)
-      : effect_(std::move(effect)), model_(model) {}
+      : MemorylessBatch(std::move(effect)), model_(model) {}
 
   /// The constraint of one multiplier that an item lives on; its own row says nothing.
   /// @param axis in the reference, unit length
@@ -34,16 +34,12 @@ class AngularVelocity final : public model::Batch, public model::ReactionSource 
     items_.push_back({node, axis, velocity, std::move(constraint), 0});
   }
 
-  const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
   void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
-  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
-  double stored_energy(const model::Coordinates&) const override { return 0.0; }
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
   /// The moment -lambda n of the drive, with the axis at the end of the step.
   Vec6 reaction(int node, const model::State& state, const std::string& constraint) const override;
@@ -64,11 +60,8 @@ class AngularVelocity final : public model::Batch, public model::ReactionSource 
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
                         model::Target& target) const;
 
-  std::string effect_;
   const model::Model& model_;
   std::vector<Item> items_;
-  model::Placement placement_;
-  model::Form form_ = model::Form::null_space;
 };
 
 /// Angular Velocity, Angular Velocity Local

@@ -3,7 +3,7 @@
 
 #include <culm/load/frame.hpp>
 #include <culm/model/amplitude.hpp>
-#include <culm/model/batch.hpp>
+#include <culm/model/memoryless_batch.hpp>
 #include <culm/model/node_table.hpp>
 
 #include <string>
@@ -19,11 +19,11 @@ namespace culm::load {
 /// hence both have the same solutions. On a shell node it is a couple on its director,
 ///   f_d = m x d / (d . d)
 /// in both forms; the part of m along d is not carried. @source formulation 3.1, 3.2
-class MomentLoad final : public model::Batch {
+class MomentLoad final : public model::MemorylessBatch {
  public:
   MomentLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
              Frame frame)
-      : effect_(std::move(effect)),
+      : MemorylessBatch(std::move(effect)),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
         frame_(frame) {}
@@ -31,17 +31,12 @@ class MomentLoad final : public model::Batch {
   /// @param components  of the moment [N m]; in space where the node is one of a shell
   void add_moment(int node, const Vec3& components) { items_.push_back({node, components}); }
 
-  const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   /// A moment fixed in space has no stiffness on triads in the null-space form.
   bool has_tangent() const override;
-  void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
-  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
-  double stored_energy(const model::Coordinates&) const override { return 0.0; }
   /// Work m . tau over the Cayley rotation vector of the step. @source formulation 3.1
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
@@ -68,13 +63,10 @@ class MomentLoad final : public model::Batch {
   Verdict assemble_director(std::size_t i, const model::State& state, const Stencil& stencil,
                             double factor, bool tangent, model::Target& target) const;
 
-  std::string effect_;
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
   Frame frame_;
   std::vector<Item> items_;
-  model::Placement placement_;
-  model::Form form_ = model::Form::multipliers;  // until placed, the one with more entries
 };
 
 }  // namespace culm::load

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <culm/model/amplitude.hpp>
-#include <culm/model/batch.hpp>
+#include <culm/model/memoryless_batch.hpp>
 #include <culm/model/projection.hpp>
 
 #include <array>
@@ -16,10 +16,10 @@ namespace culm::load {
 ///   f_x_a = a p int N_a g1 x g2 dxi deta      f_d_a = zeta f_x_a
 /// Taken at q_theta, so a step keeps the momentum balance, and a closed surface has no resultant.
 /// @source formulation 3.4
-class PressureLoad final : public model::Batch {
+class PressureLoad final : public model::MemorylessBatch {
  public:
   PressureLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude)
-      : effect_(std::move(effect)), nodes_(nodes), amplitude_(std::move(amplitude)) {}
+      : MemorylessBatch(std::move(effect)), nodes_(nodes), amplitude_(std::move(amplitude)) {}
 
   /// @param nodes  counter-clockwise seen from the side the directors point to
   /// @param zeta  of the loaded surface along the directors [m]
@@ -28,16 +28,11 @@ class PressureLoad final : public model::Batch {
     items_.push_back({{nodes.begin(), nodes.end()}, zeta, pressure});
   }
 
-  const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
-  void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
-  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
-  double stored_energy(const model::Coordinates&) const override { return 0.0; }
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
@@ -51,12 +46,9 @@ class PressureLoad final : public model::Batch {
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;
 
-  std::string effect_;
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
   std::vector<Item> items_;
-  model::Placement placement_;
-  model::Form form_ = model::Form::null_space;
 };
 
 }  // namespace culm::load

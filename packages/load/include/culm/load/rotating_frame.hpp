@@ -2,7 +2,7 @@
 #pragma once
 
 #include <culm/model/amplitude.hpp>
-#include <culm/model/batch.hpp>
+#include <culm/model/memoryless_batch.hpp>
 #include <culm/model/projection.hpp>
 
 #include <string>
@@ -16,14 +16,14 @@ namespace culm::load {
 ///   f_s = -sum_t M_st (omega x (omega x q_t) + 2 omega x v_t),
 /// exactly for any shape and rotation. Velocities are (q_next - q_prev) / step: zero in statics.
 /// The speed is taken as steady: there is no term with its rate. @source formulation 1.2
-class RotatingFrame final : public model::Batch {
+class RotatingFrame final : public model::MemorylessBatch {
  public:
   static constexpr int max_nodes = 4;
 
   /// @param omega [rad/s] @param point of the axis [m]
   RotatingFrame(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
                 const Vec3& omega, const Vec3& point)
-      : effect_(std::move(effect)),
+      : MemorylessBatch(std::move(effect)),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
         omega_(omega),
@@ -32,16 +32,11 @@ class RotatingFrame final : public model::Batch {
   /// @param mass between the slots of the nodes, four per node [kg, kg m, kg m^2]
   void add(std::span<const int> nodes, const Eigen::MatrixXd& mass);
 
-  const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
-  void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
-  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
-  double stored_energy(const model::Coordinates&) const override { return 0.0; }
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
@@ -54,14 +49,11 @@ class RotatingFrame final : public model::Batch {
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, model::Target& target) const;
 
-  std::string effect_;
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
   Vec3 omega_;
   Vec3 point_;
   std::vector<Item> items_;
-  model::Placement placement_;
-  model::Form form_ = model::Form::null_space;
 };
 
 }  // namespace culm::load

@@ -3,7 +3,7 @@
 
 #include <culm/joint/axis_turn.hpp>
 #include <culm/load/piecewise_linear.hpp>
-#include <culm/model/batch.hpp>
+#include <culm/model/memoryless_batch.hpp>
 
 #include <string>
 #include <utility>
@@ -14,24 +14,19 @@ namespace culm::load {
 /// Moments -F(omega_n) n on nodes with omega_n = n . tau / dt, tau the Cayley vector of the step:
 /// they take F omega_n dt >= 0 exactly, and are not there in statics.
 /// @source formulation 3.1, 3.6
-class RotationDamper final : public model::Batch {
+class RotationDamper final : public model::MemorylessBatch {
  public:
   /// @param moment F, with the sign of omega_n
   RotationDamper(std::string effect, const model::NodeTable& nodes, PiecewiseLinear moment)
-      : effect_(std::move(effect)), nodes_(nodes), moment_(std::move(moment)) {}
+      : MemorylessBatch(std::move(effect)), nodes_(nodes), moment_(std::move(moment)) {}
 
   void add(int node, const joint::TurnAxis& axis) { items_.push_back({node, axis}); }
 
-  const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
-  void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
-  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
-  double stored_energy(const model::Coordinates&) const override { return 0.0; }
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
@@ -46,12 +41,9 @@ class RotationDamper final : public model::Batch {
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, model::Target& target) const;
 
-  std::string effect_;
   const model::NodeTable& nodes_;
   PiecewiseLinear moment_;
   std::vector<Item> items_;
-  model::Placement placement_;
-  model::Form form_ = model::Form::null_space;
 };
 
 }  // namespace culm::load
