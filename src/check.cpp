@@ -1,17 +1,31 @@
+#include <culm/deck/resolved.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/simulation.hpp>
 
 #include "command.hpp"
 
-namespace culm::app {
+#include <fstream>
 
-void check(const parallel::Comm& comm, const DeckArguments& arguments) {
+namespace culm::app {
+namespace {
+
+void write_resolved(const Options& deck, const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file << deck::resolved(deck);
+  file.close();
+  if (!file) throw FileError("cannot write '" + path.string() + "'");
+}
+
+}  // namespace
+
+void check(const parallel::Comm& comm, const CheckArguments& arguments) {
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);
   log.info(simulation::Simulation(comm, catalogue, deck, source, log).summary() +
            "the deck is sound");
+  if (!arguments.resolved.empty() && comm.is_root()) write_resolved(deck, arguments.resolved);
 }
 
 }  // namespace culm::app

@@ -14,9 +14,20 @@ namespace culm::app {
 struct DeckArguments {
   std::string deck;
   std::vector<std::string> overrides;  ///< path=value
-  std::filesystem::path folder;        ///< for results; results/<name of the deck> if empty
-  std::string walltime;                ///< time the run may take; empty for any
   bool quiet = false;
+};
+
+/// A deck to run.
+struct RunArguments : DeckArguments {
+  std::filesystem::path folder;   ///< for results; results/<name of the deck> if empty
+  std::string walltime;           ///< time the run may take; empty for any
+  bool report = false;            ///< whether a page is wanted
+  std::filesystem::path started;  ///< set by run(): folder of results, when there are some
+};
+
+/// A deck to look at, and where to write it as it is used.
+struct CheckArguments : DeckArguments {
+  std::filesystem::path resolved;  ///< file for the deck with all defaults; none if empty
 };
 
 /// A run to go on with, and what changes about it.
@@ -37,11 +48,11 @@ struct ImportArguments {
 };
 
 /// Runs a deck.
-void run(const parallel::Comm& comm, const DeckArguments& arguments);
+void run(const parallel::Comm& comm, RunArguments& arguments);
 /// Goes on with a run from its last checkpoint.
 void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
-void check(const parallel::Comm& comm, const DeckArguments& arguments);
+void check(const parallel::Comm& comm, const CheckArguments& arguments);
 /// Makes a deck from files of OpenFAST, and a report beside it; replaces nothing.
 void import_openfast(const parallel::Comm& comm, const ImportArguments& arguments);
 /// Prints the input reference, or the part of it that has a name.

@@ -5,6 +5,7 @@
 #include <culm/simulation/session.hpp>
 
 #include "command.hpp"
+#include "python.hpp"
 
 #include <CLI/CLI.hpp>
 #include <mpi.h>
@@ -16,13 +17,16 @@
 
 namespace {
 
+using culm::app::CheckArguments;
 using culm::app::DeckArguments;
 using culm::app::ImportArguments;
 using culm::app::ResumeArguments;
+using culm::app::RunArguments;
 
 // What the user gives, by verb.
 struct Arguments {
-  DeckArguments deck;
+  RunArguments run;
+  CheckArguments check;
   ResumeArguments resume;
   ImportArguments import;
   std::string name;  // for the reference
@@ -55,11 +59,12 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   app.set_version_flag("--version", std::string(culm::version));
   app.require_subcommand(1);
   CLI::App* run = app.add_subcommand("run", "Run a deck");
-  add_deck_options(*run, arguments.deck);
-  add_walltime(*run, arguments.deck.walltime);
-  run->add_option("--output", arguments.deck.folder,
+  add_deck_options(*run, arguments.run);
+  add_walltime(*run, arguments.run.walltime);
+  run->add_option("--output", arguments.run.folder,
                   "Folder for results; results/<name of the deck> if not given");
-  run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments.deck); }; });
+  run->add_flag("--report", arguments.run.report, "Write report.html beside the results");
+  run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments.run); }; });
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
   resume
       ->add_option("run", arguments.resume.run, "Folder with the results of a run, or a checkpoint")
@@ -71,9 +76,12 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   resume->callback(
       [&] { action = [&](const Comm& comm) { culm::app::resume(comm, arguments.resume); }; });
   CLI::App* check = app.add_subcommand("check", "Parse, build and count a deck; do not solve it");
-  add_deck_options(*check, arguments.deck);
+  add_deck_options(*check, arguments.check);
+  check->add_option("--resolved", arguments.check.resolved,
+                    "Write the deck as it is used to this file: without variables, units and "
+                    "includes, with all defaults");
   check->callback(
-      [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.deck); }; });
+      [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.check); }; });
   CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");
   import->require_subcommand(1);
   CLI::App* openfast =
@@ -99,6 +107,14 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                         "A list, type or parameter; everything if not given");
   reference->callback(
       [&] { action = [&](const Comm& comm) { culm::app::reference(comm, arguments.name); }; });
+  // these are called before MPI starts; here they are named for the help
+  for (const auto& verb : culm::app::python_verbs()) app.add_subcommand(verb.name, verb.summary);
+}
+
+std::vector<std::string> names_of_verbs(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
 }
 
 // CLI11 misses a subcommand even where an unknown one is given.
@@ -106,8 +122,7 @@ int report(const CLI::ParseError& error, const CLI::App& app, const culm::parall
   const std::vector<std::string> extras = app.remaining();
   const bool unknown = app.get_subcommands().empty() && !extras.empty();
   if (error.get_exit_code() != 0 && unknown) {
-    const std::string hint =
-        culm::did_you_mean(extras.front(), {"run", "resume", "check", "import", "reference"});
+    const std::string hint = culm::did_you_mean(extras.front(), names_of_verbs(app));
     if (comm.is_root()) {
       std::fprintf(stderr, "unknown command '%s'%s\nRun with --help for more information.\n",
                    extras.front().c_str(), hint.c_str());
@@ -124,13 +139,11 @@ int report(const culm::Error& error, const culm::parallel::Comm& comm) {
   return error.exit_code();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
   const culm::simulation::Session session(argc, argv);
   const culm::parallel::Comm comm;
+  is_root = comm.is_root();
   CLI::App app("culm: nonlinear dynamics of slender structures", "culm");
-  Arguments arguments;
   std::function<void(const culm::parallel::Comm&)> action;
   declare_verbs(app, arguments, action);
   try {
@@ -148,4 +161,23 @@ int main(int argc, char** argv) {
     return 1;
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && culm::app::is_python_verb(words.front())) {
+    return culm::app::call_python(words);
+  }
+  Arguments arguments;
+  bool is_root = false;
+  const int code = run_verb(argc, argv, arguments, is_root);
+  const std::filesystem::path& folder = arguments.run.started;
+  if (is_root && arguments.run.report && !folder.empty()) {
+    std::vector<std::string> words = {"report", folder.string()};
+    if (arguments.run.quiet) words.emplace_back("--quiet");
+    culm::app::call_python(words);
+  }
+  return code;
 }

@@ -8,7 +8,7 @@
 
 namespace culm::app {
 
-void run(const parallel::Comm& comm, const DeckArguments& arguments) {
+void run(const parallel::Comm& comm, RunArguments& arguments) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const std::filesystem::path by_name =
@@ -19,7 +19,9 @@ void run(const parallel::Comm& comm, const DeckArguments& arguments) {
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);
-  simulation::Simulation(comm, catalogue, deck, source, log).run(settings, request);
+  simulation::Simulation simulation(comm, catalogue, deck, source, log);
+  arguments.started = settings.folder;
+  simulation.run(settings, request);
 }
 
 }  // namespace culm::app

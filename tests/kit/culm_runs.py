@@ -5,9 +5,13 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "src/python"))
+from culm.history import History  # noqa: E402
+
 INPUTS = ROOT / "inputs"
 TIME_LIMIT = 120  # s
 
@@ -24,42 +28,6 @@ MPI_ENVIRONMENT = {
 
 class RunFailed(Exception):
     """culm ended with another exit code than 0; the text is what it said."""
-
-
-class History:
-    """Columns of history.csv by name, such as 'tip ux [m]', and the levels of its rows."""
-
-    def __init__(self, path):
-        with open(path, newline="") as file:
-            rows = list(csv.reader(file))
-        self.names = rows[0][1:]
-        self.levels = [float(row[0]) for row in rows[1:]]
-        self.columns = {
-            name: [float(row[i + 1]) for row in rows[1:]] for i, name in enumerate(self.names)
-        }
-
-    def row(self, level):
-        """The number of the row at a level that was met exactly."""
-        for i, one in enumerate(self.levels):
-            if abs(one - level) <= 1e-9 * max(1.0, abs(level)):
-                return i
-        raise KeyError(f"no step ends at level {level}")
-
-    def at(self, level, column):
-        return self.column(column)[self.row(level)]
-
-    def column(self, name):
-        if name not in self.columns:
-            raise KeyError(f"no column '{name}' among: {', '.join(self.names)}")
-        return self.columns[name]
-
-    def vector(self, quantity, level=None):
-        """The values of all columns of a quantity at a level, at the last one if none is given."""
-        row = -1 if level is None else self.row(level)
-        names = [name for name in self.names if name.split(" [")[0].rsplit(" ", 1)[0] == quantity]
-        if not names:
-            raise KeyError(f"no quantity '{quantity}' among: {', '.join(self.names)}")
-        return [self.columns[name][row] for name in names]
 
 
 class Table:

@@ -193,7 +193,8 @@ class Recorder::File {
     file_.flush();
   }
 
-  void write_report(const std::string& text, std::span<const NamedScalar> scalars) {
+  void write_report(const std::string& text, std::span<const NamedScalar> scalars,
+                    std::span<const NamedTable> tables) {
     file_.remove_if_present(file_.id(), "report");
     const Handle report = file_.make_group(file_.id(), "report");
     file_.write(report.id(), "text", text);
@@ -206,6 +207,7 @@ class Recorder::File {
           H5Dclose);
       file_.set_attribute(dataset.id(), "unit", scalar.unit);
     }
+    for (const NamedTable& table : tables) write_table(report.id(), table);
     file_.flush();
   }
 
@@ -216,13 +218,7 @@ class Recorder::File {
     const std::string name = link_name(results.name);
     file_.remove_if_present(all.id(), name);
     const Handle group = file_.make_group(all.id(), name);
-    for (const NamedTable& table : results.tables) {
-      file_.write(group.id(), link_name(table.name), flatten_rows(table.rows),
-                  {table.rows.size(), table.columns.size()});
-      const Handle dataset = open_dataset(file_, group.id(), link_name(table.name));
-      file_.set_attribute(dataset.id(), "names", table.columns);
-      if (!table.remarks.empty()) file_.set_attribute(dataset.id(), "remarks", table.remarks);
-    }
+    for (const NamedTable& table : results.tables) write_table(group.id(), table);
     if (!results.shapes.empty()) write_shapes(group.id(), results);
     for (const SparseMatrix& matrix : results.matrices) {
       const Handle entries = file_.make_group(group.id(), link_name(matrix.name));
@@ -242,6 +238,14 @@ class Recorder::File {
   }
 
  private:
+  void write_table(hid_t where, const NamedTable& table) {
+    const std::string name = link_name(table.name);
+    file_.write(where, name, flatten_rows(table.rows), {table.rows.size(), table.columns.size()});
+    const Handle dataset = open_dataset(file_, where, name);
+    file_.set_attribute(dataset.id(), "names", table.columns);
+    if (!table.remarks.empty()) file_.set_attribute(dataset.id(), "remarks", table.remarks);
+  }
+
   void write_shapes(hid_t where, const AnalysisResults& results) {
     const Handle real = file_.make_group(where, "shapes");
     file_.set_attribute(real.id(), "names", results.shape_names);
@@ -315,10 +319,11 @@ void Recorder::write_results(const AnalysisResults& results) {
   file_->write_results(results);
 }
 
-void Recorder::write_report(const std::string& text, std::span<const NamedScalar> scalars) {
+void Recorder::write_report(const std::string& text, std::span<const NamedScalar> scalars,
+                            std::span<const NamedTable> tables) {
   internal_check(file_ != nullptr, "the recorder is closed");
   const QuietHdf5 quiet;
-  file_->write_report(text, scalars);
+  file_->write_report(text, scalars, tables);
 }
 
 void Recorder::close() {

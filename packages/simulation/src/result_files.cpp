@@ -145,10 +145,10 @@ void ResultFiles::add_results(const std::string& name, const analysis::AnalysisR
   });
 }
 
-void ResultFiles::finish(const std::string& report,
-                         const std::vector<output::NamedScalar>& scalars) {
+void ResultFiles::finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,
+                         const std::vector<output::NamedTable>& tables) {
   on_root(system_->comm(), [&] {
-    files_->recorder.write_report(report, scalars);
+    files_->recorder.write_report(report, scalars, tables);
     files_->recorder.close();
     files_->xdmf.write();
     if (files_->pictures) files_->pictures->write();

@@ -6,8 +6,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace culm::simulation {
+namespace {
+
+// The ledger as numbers; what makes no sense for an effect is not a number.
+output::NamedTable effects_table(const Ledger& ledger) {
+  output::NamedTable table{
+      "effects", {"items", "unknowns", "entries per iteration", "calls", "time [s]"}, {}, {}};
+  const auto number = [](const std::optional<long long>& count) {
+    return count ? static_cast<double>(*count) : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const Ledger::Entry& e : ledger.entries()) {
+    table.rows.push_back({number(e.items), number(e.unknowns), number(e.entries_per_iteration),
+                          static_cast<double>(e.calls), e.seconds});
+    table.remarks.push_back(e.name);
+  }
+  return table;
+}
+
+}  // namespace
 
 RunObserver::RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
                          const DeckSource& source, const EarlierStates& earlier, Progress progress)
@@ -49,6 +68,8 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     most_iterations_ = std::max(most_iterations_, outcome.iterations);
     worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
+    steps_.rows.push_back(
+        {report.time, static_cast<double>(outcome.iterations), outcome.history.back().force});
     const Ledger::Scope scope(ledger_, output_effect_);
     files_.add_history(report.time, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
@@ -137,7 +158,8 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"worst constraint violation", "", worst_constraint_},
       {"final time", "", state.time}};
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
-  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers);
+  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers,
+                {effects_table(ledger_), steps_});
 }
 
 std::string RunObserver::convergence() const {

@@ -21,17 +21,18 @@ struct RunInfo {
 
 /// Writes the result file of a run, run.h5:
 ///
-///     /deck     xml; attributes title, version
-///     /mesh/<structure>     position, director1..3, cell_types, cell_offsets, connectivity,
-///     topology /steps/000000/<structure>   position, displacement, director1..3, resultants, node
-///     and cell arrays /history/values   one row per add_history(); attributes names, units; first
-///     column time /report   text, scalars/<name>
-///     /analyses/<analysis>   one table per name, attributes names, remarks; shapes/<structure>
-///     (shape, node, displacement and rotation), imaginary parts in shapes_imaginary/<structure>;
-///     matrices by their entries row, column, value
+/// - /deck: xml; attributes title, version
+/// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity, topology
+/// - /steps/000000/<structure>: position, displacement, director1..3, resultants, node and cell
+///   arrays; whatever Frame::arrays holds in /steps/000000/%arrays
+/// - /history/values: one row per add_history(); attributes names, units; first column time
+/// - /report: text, scalars/<name>, and tables, attributes as below
+/// - /analyses/<analysis>: one table per name, attributes names, remarks; shapes/<structure>
+/// (shape,
+///   node, displacement and rotation), imaginary parts in shapes_imaginary/<structure>; matrices by
+///   their entries row, column, value
 ///
-/// and per step whatever Frame::arrays holds in /steps/000000/%arrays. In names the characters / :
-/// % | are written as %XX.
+/// In names the characters / : % | are written as %XX.
 ///
 /// Each record(), add_history() and write_report() takes effect in the file as a whole before it
 /// returns: a killed process loses at most the step it was writing. If it is killed in the
@@ -65,7 +66,9 @@ class Recorder {
   void write_results(const AnalysisResults& results);
 
   /// Writes the final report, or replaces the one that is there.
-  void write_report(const std::string& text, std::span<const NamedScalar> scalars);
+  /// @param tables  beside it, by their names
+  void write_report(const std::string& text, std::span<const NamedScalar> scalars,
+                    std::span<const NamedTable> tables = {});
 
   /// Closes the file; nothing can be recorded afterwards.
   void close();

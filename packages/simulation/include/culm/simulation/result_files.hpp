@@ -68,7 +68,8 @@ class ResultFiles {
   void add_results(const std::string& name, const analysis::AnalysisReport& report,
                    const model::State& state);
   /// Ends the files with the report of the run.
-  void finish(const std::string& report, const std::vector<output::NamedScalar>& scalars);
+  void finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,
+              const std::vector<output::NamedTable>& tables);
   /// Paths of the files that a user opens.
   std::vector<std::filesystem::path> paths() const;
 

@@ -1,0 +1,62 @@
+#include "python.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+namespace culm::app {
+namespace {
+
+// The same place relative to the program in the build tree and where it is installed.
+std::filesystem::path package_folder(const std::filesystem::path& program) {
+  return program.parent_path().parent_path() / "share/culm/python";
+}
+
+int replace_process(const std::filesystem::path& program, const std::vector<std::string>& words) {
+  const std::filesystem::path folder = package_folder(program);
+  const char* others = std::getenv("PYTHONPATH");
+  const std::string path = others == nullptr ? folder.string() : folder.string() + ":" + others;
+  setenv("PYTHONPATH", path.c_str(), 1);
+  setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
+  setenv("CULM_PROGRAM", program.c_str(), 1);
+  std::vector<std::string> command = {CULM_PYTHON, "-m", "culm"};
+  command.insert(command.end(), words.begin(), words.end());
+  std::vector<char*> pointers;
+  for (std::string& word : command) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv(pointers.front(), pointers.data());
+  std::fprintf(stderr, "cannot start %s, which '%s' needs\n", CULM_PYTHON, words.front().c_str());
+  return 6;
+}
+
+}  // namespace
+
+const std::vector<PythonVerb>& python_verbs() {
+  static const std::vector<PythonVerb> verbs = {
+      {"report", "Draw the page of a run: report.html in its folder"},
+  };
+  return verbs;
+}
+
+bool is_python_verb(const std::string& word) {
+  return std::ranges::find(python_verbs(), word, &PythonVerb::name) != python_verbs().end();
+}
+
+int call_python(const std::vector<std::string>& words) {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const pid_t child = error ? -1 : fork();
+  if (child == 0) _exit(replace_process(program, words));
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) < 0) {
+    std::fprintf(stderr, "cannot start a process for '%s'\n", words.front().c_str());
+    return 6;
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace culm::app

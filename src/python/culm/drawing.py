@@ -1,0 +1,85 @@
+"""Figures of runs: the model in space, and histories."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as pyplot  # noqa: E402
+import numpy  # noqa: E402
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
+
+STYLE = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2}
+pyplot.rcParams.update(STYLE)
+
+REFERENCE = "0.65"
+DEFORMED = "tab:blue"
+
+
+def plot(columns=1, rows=1, width=4.6, height=3.4):
+    """A figure and its axes."""
+    size = (width * columns, height * rows)
+    return pyplot.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
+
+
+def model(meshes, state):
+    """The reference in grey and a state in colour.
+
+    @param meshes  structures of Results.meshes()
+    @param state   positions of their nodes, by the same names
+    """
+    figure = pyplot.figure(figsize=(6.4, 5.2), layout="constrained")
+    axes = figure.add_subplot(projection="3d", proj_type="ortho")
+    for name, mesh in meshes.items():
+        _draw(axes, mesh, mesh.position, REFERENCE, 0.15)
+        if name in state:
+            _draw(axes, mesh, state[name], DEFORMED, 0.5)
+    places = [mesh.position for mesh in meshes.values()] + list(state.values())
+    _frame(axes, numpy.vstack(places))
+    return figure
+
+
+def _draw(axes, mesh, position, colour, alpha):
+    cells = [position[list(cell)] for cell in mesh.cells]
+    surfaces = [c for c in cells if len(c) > 2 and mesh.is_surface]
+    lines = [c for c in cells if len(c) > 1 and not mesh.is_surface]
+    points = [c[0] for c in cells if len(c) == 1]
+    if surfaces:
+        axes.add_collection3d(
+            Poly3DCollection(surfaces, facecolor=colour, edgecolor=colour, lw=0.3, alpha=alpha)
+        )
+    if lines:
+        axes.add_collection3d(Line3DCollection(lines, colors=colour, lw=1.6))
+    if points:
+        axes.scatter(*numpy.array(points).T, color=colour, s=14)
+
+
+def _frame(axes, points):
+    low, high = points.min(axis=0), points.max(axis=0)
+    centre, half = (low + high) / 2, max(float((high - low).max()) / 2, 1e-9) * 1.05
+    for i, limits in enumerate((axes.set_xlim, axes.set_ylim, axes.set_zlim)):
+        limits(centre[i] - half, centre[i] + half)
+    axes.set_box_aspect((1, 1, 1))
+    axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+
+
+def histories(groups, label):
+    """One plot per group of columns with the same unit.
+
+    @param groups  (title, unit, levels, {component: values})
+    """
+    columns = 2 if len(groups) > 1 else 1
+    rows = (len(groups) + columns - 1) // columns
+    figure, axes = plot(columns, rows, height=2.6)
+    for ax, (title, unit, levels, curves) in zip(axes.flat, groups):
+        for name, values in curves.items():
+            ax.plot(levels, values, label=name)
+        ax.set(title=title, xlabel=label, ylabel=f"[{unit}]")
+        if len(curves) > 1:
+            ax.legend(fontsize=7)
+    for ax in axes.flat[len(groups) :]:
+        ax.set_visible(False)
+    return figure
+
+
+def close(figure):
+    pyplot.close(figure)

@@ -1,0 +1,139 @@
+"""Draws the page of a run: picture of the model, histories, certificate, costs, messages, deck."""
+
+import itertools
+import pathlib
+
+from .errors import CulmError
+from .history import History
+from .page import Page
+from .results import Results
+
+
+def declare(parser):
+    parser.add_argument("folder", type=pathlib.Path, help="folder with the results of a run")
+    parser.add_argument(
+        "--output", type=pathlib.Path, help="page to write; report.html in the folder if not given"
+    )
+    parser.add_argument("--quiet", action="store_true", help="do not name the page")
+
+
+def main(arguments, program):
+    del program  # what is drawn stands in the files
+    path = arguments.folder / "run.h5"
+    if not path.exists():
+        raise CulmError(f"there is no run.h5 in '{arguments.folder}'", 6)
+    output = arguments.output or arguments.folder / "report.html"
+    try:
+        write_page(Results(path), arguments.folder, output)
+    except OSError as error:
+        raise CulmError(str(error), 6) from error
+    if not arguments.quiet:
+        print(output)
+    return 0
+
+
+def write_page(results, folder, output):
+    from . import drawing
+
+    page = Page(results.title() or folder.name, f"culm {results.version()}")
+    outcome = results.report()
+    done = outcome.startswith("done")
+    page.paragraph(
+        "The run came to its end." if done else outcome.split("\n\n")[0] or "No end is recorded.",
+        "advice" if done else "warning",
+    )
+    _add_model(page, results, drawing)
+    _add_histories(page, folder, drawing)
+    _add_steps(page, results, drawing)
+    _add_tables(page, results)
+    _add_effects(page, results, drawing)
+    page.heading("Report")
+    page.code(outcome or "The run did not come to the end of its report.")
+    page.heading("Deck as it was used")
+    page.code(results.deck())
+    page.write(output)
+
+
+def _add_figure(page, drawing, figure, description):
+    page.figure(figure, description)
+    drawing.close(figure)
+
+
+def _add_model(page, results, drawing):
+    time, state = results.last_state()
+    page.heading("Model")
+    figure = drawing.model(results.meshes(), state)
+    _add_figure(page, drawing, figure, "reference in grey, last recorded state in blue")
+    page.paragraph(f"Grey: reference. Blue: last recorded state, at {time:.6g}, without magnification.")
+
+
+def _add_histories(page, folder, drawing):
+    path = folder / "history.csv"
+    history = History(path) if path.exists() else None
+    if history is None or not history.names or len(history.levels) < 2:
+        return
+    page.heading("Histories")
+    groups = []
+    for (title, unit), names in itertools.groupby(history.names, key=_quantity):
+        curves = {name.split(" [")[0][len(title) :].strip() or title: history.columns[name] for name in names}
+        groups.append((title, unit, history.levels, curves))
+    figure = drawing.histories(groups, "time [s] or level")
+    _add_figure(page, drawing, figure, "histories of the quantities of the deck")
+
+
+def _quantity(column):
+    """Name without its component, and unit."""
+    name, unit = column.rstrip("]").split(" [")
+    return name.rsplit(" ", 1)[0] if " " in name else name, unit
+
+
+def _add_steps(page, results, drawing):
+    steps = results.steps()
+    if len(steps) < 2:
+        return
+    page.heading("Convergence")
+    levels = [step.time for step in steps]
+    figure, axes = drawing.plot(2, height=2.6)
+    axes[0][0].plot(levels, [step.iterations for step in steps], ".", ms=3)
+    axes[0][0].set(title="Iterations per step", xlabel="time [s] or level")
+    axes[0][1].semilogy(levels, [max(step.residual, 1e-17) for step in steps], ".", ms=3)
+    axes[0][1].set(title="Relative residual of accepted steps", xlabel="time [s] or level")
+    _add_figure(page, drawing, figure, "iterations and residuals of the steps")
+
+
+def _add_tables(page, results):
+    for name, columns, rows, remarks in results.tables():
+        page.heading(name)
+        shown = [[f"{value:.6g}" for value in row] for row in rows[:40]]
+        if remarks:
+            columns = [*columns, "remark"]
+            shown = [[*row, remark] for row, remark in zip(shown, remarks)]
+        page.table(columns, shown)
+        if len(rows) > len(shown):
+            page.paragraph(f"{len(rows) - len(shown)} more rows are in run.h5.")
+
+
+def _add_effects(page, results, drawing):
+    effects = results.effects()
+    total = sum(effect.seconds for effect in effects)
+    if not effects or total <= 0.0:
+        return
+    page.heading("Effects and what they cost")
+    figure, axes = drawing.plot(width=6.4, height=0.6 + 0.25 * len(effects))
+    ordered = sorted(effects, key=lambda effect: effect.seconds)
+    axes[0][0].barh([e.name for e in ordered], [100.0 * e.seconds / total for e in ordered])
+    axes[0][0].set(xlabel="share of the time [%]")
+    _add_figure(page, drawing, figure, "share of each effect in the time of the run")
+    page.table(
+        ["effect", "items", "unknowns", "entries/iteration", "calls", "time [s]", "share"],
+        [
+            [
+                e.name,
+                *("–" if n is None else n for n in (e.items, e.unknowns, e.entries)),
+                e.calls,
+                f"{e.seconds:.3g}",
+                f"{100.0 * e.seconds / total:.1f} %",
+            ]
+            for e in effects
+        ],
+    )

@@ -1,0 +1,129 @@
+"""The result file of a run, run.h5."""
+
+import dataclasses
+import math
+
+import h5py
+import numpy
+
+
+@dataclasses.dataclass
+class Effect:
+    """A line of the table of effects; None where a count makes no sense."""
+
+    name: str
+    items: int | None
+    unknowns: int | None
+    entries: int | None  # additions to the matrix per iteration
+    calls: int
+    seconds: float
+
+
+@dataclasses.dataclass
+class Step:
+    """An accepted step."""
+
+    time: float  # [s], or level
+    iterations: int
+    residual: float  # of the forces, relative
+
+
+@dataclasses.dataclass
+class Mesh:
+    """A structure in its reference."""
+
+    position: numpy.ndarray  # (nodes, 3) [m]
+    cells: list  # tuples of nodes
+    is_surface: bool
+
+
+class Results:
+    """What stands in the file; parts that a killed run did not write are empty."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def title(self):
+        with h5py.File(self.path) as file:
+            return _text(file["deck"].attrs["title"])
+
+    def version(self):
+        with h5py.File(self.path) as file:
+            return _text(file["deck"].attrs["version"])
+
+    def deck(self):
+        """The deck as it was used, XML."""
+        with h5py.File(self.path) as file:
+            return _text(file["deck/xml"][()])
+
+    def report(self):
+        """The text of the report."""
+        with h5py.File(self.path) as file:
+            return _text(file["report/text"][()]) if "report/text" in file else ""
+
+    def scalars(self):
+        """The numbers of the report by name."""
+        with h5py.File(self.path) as file:
+            if "report/scalars" not in file:
+                return {}
+            return {name: float(data[()]) for name, data in file["report/scalars"].items()}
+
+    def effects(self):
+        """What the run contained and what it cost."""
+        with h5py.File(self.path) as file:
+            if "report/effects" not in file:
+                return []
+            data = file["report/effects"]
+            return [
+                Effect(_text(name), *map(_count, row[:3]), int(row[3]), float(row[4]))
+                for name, row in zip(data.attrs["remarks"], data[()])
+            ]
+
+    def steps(self):
+        """The accepted steps."""
+        with h5py.File(self.path) as file:
+            if "report/steps" not in file:
+                return []
+            return [Step(row[0], int(row[1]), row[2]) for row in file["report/steps"][()]]
+
+    def meshes(self):
+        """Structures by name."""
+        with h5py.File(self.path) as file:
+            return {_text(g.attrs["name"]): _mesh(g) for g in file["mesh"].values()}
+
+    def last_state(self):
+        """Time of the last recorded state, and positions by structure."""
+        with h5py.File(self.path) as file:
+            last = file["steps"][max(file["steps"])]
+            names = {link: _text(g.attrs["name"]) for link, g in file["mesh"].items()}
+            return float(last.attrs["time"]), {
+                names[link]: group["position"][()] for link, group in last.items() if link in names
+            }
+
+    def tables(self):
+        """Tables of analyses: (name, columns, rows, remarks)."""
+        tables = []
+        with h5py.File(self.path) as file:
+            for analysis, group in file.get("analyses", {}).items():
+                for name, data in group.items():
+                    if isinstance(data, h5py.Dataset) and data.ndim == 2:
+                        columns = [_text(c) for c in data.attrs["names"]]
+                        remarks = [_text(r) for r in data.attrs.get("remarks", [])]
+                        tables.append((f"{analysis}: {name}", columns, data[()].tolist(), remarks))
+        return tables
+
+
+def _mesh(group):
+    ends = group["cell_offsets"][()].tolist()
+    nodes = group["connectivity"][()].tolist()
+    starts = [0, *ends[:-1]]
+    cells = [tuple(nodes[a:b]) for a, b in zip(starts, ends)]
+    return Mesh(group["position"][()], cells, _text(group.attrs["type"]) == "Shell")
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _count(number):
+    return None if math.isnan(number) else int(number)
