@@ -175,9 +175,9 @@ int main(int argc, char** argv) {
   const int code = run_verb(argc, argv, arguments, is_root);
   const std::filesystem::path& folder = arguments.run.started;
   if (is_root && arguments.run.report && !folder.empty()) {
-    std::vector<std::string> words = {"report", folder.string()};
-    if (arguments.run.quiet) words.emplace_back("--quiet");
-    culm::app::call_python(words);
+    std::vector<std::string> drawn = {"report", folder.string()};
+    if (arguments.run.quiet) drawn.emplace_back("--quiet");
+    culm::app::call_python(drawn);
   }
   return code;
 }
