@@ -27,10 +27,9 @@ struct RunInfo {
 ///   arrays; whatever Frame::arrays holds in /steps/000000/%arrays
 /// - /history/values: one row per add_history(); attributes names, units; first column time
 /// - /report: text, scalars/<name>, and tables, attributes as below
-/// - /analyses/<analysis>: one table per name, attributes names, remarks; shapes/<structure>
-/// (shape,
-///   node, displacement and rotation), imaginary parts in shapes_imaginary/<structure>; matrices by
-///   their entries row, column, value
+/// - /analyses/<analysis>: one table per name, attributes names, remarks
+/// - .../shapes/<structure>: (shape, node, displacement and rotation); imaginary parts in
+///   .../shapes_imaginary/<structure>; matrices by their entries row, column, value
 ///
 /// In names the characters / : % | are written as %XX.
 ///
