@@ -38,6 +38,7 @@ int replace_process(const std::filesystem::path& program, const std::vector<std:
 const std::vector<PythonVerb>& python_verbs() {
   static const std::vector<PythonVerb> verbs = {
       {"report", "Draw the page of a run: report.html in its folder"},
+      {"study", "Measure what accuracy costs: vary a deck, compare with a reference, advise"},
   };
   return verbs;
 }

@@ -13,6 +13,7 @@ from .errors import CulmError
 
 VERBS = {
     "report": "draw the page of a run",
+    "study": "measure what accuracy costs",
 }
 
 

@@ -1,0 +1,107 @@
+"""What accuracy costs: the Pareto front, one sentence, and the deck that reaches a target."""
+
+import dataclasses
+import math
+
+DECADES = [10.0**-k for k in range(1, 10)]
+SHARE_OF_TARGET = 0.8  # what an interpolated setting aims at
+
+
+@dataclasses.dataclass
+class Promise:
+    """Settings that should reach a target."""
+
+    settings: list  # without those that all runs share
+    label: str
+    error: float
+    cpu: float
+    index: tuple | None  # of a run that was made; None for one between two of them
+
+
+def front(points):
+    """The points that no other one beats in both cost and error, from cheap to dear."""
+    best = []
+    succeeded = [point for point in points if point.succeeded]
+    for point in sorted(succeeded, key=lambda p: (p.record.cpu, p.bound)):
+        if not best or point.bound < best[-1].bound:
+            best.append(point)
+    return best
+
+
+def sentence(judgement):
+    """'one per cent costs 0.8 s with …, 0.1 per cent 5 s with …'."""
+    choices = []  # (decade, point): the tightest decade for which a run is the cheapest
+    best = front(judgement.points.values())
+    for decade in DECADES:
+        cheapest = next((point for point in best if point.bound <= decade), None)
+        if cheapest is None:
+            break
+        if choices and choices[-1][1] is cheapest:
+            choices.pop()
+        choices.append((decade, cheapest))
+    if not choices:
+        return f"no run reached ten per cent; the best error is {min(p.bound for p in best):.2g}"
+    parts = [
+        f"{per_cent(decade)} {'costs ' if i == 0 else ''}{seconds(point.record.cpu)} with "
+        f"{judgement.label(point.index)}"
+        for i, (decade, point) in enumerate(choices[-4:])
+    ]
+    return "; ".join(parts)
+
+
+def promises(judgement, target):
+    """Settings that should reach a target, the cheapest first; empty if no run did."""
+    found = [
+        Promise(_settings(judgement, point.index), judgement.label(point.index), point.bound, point.record.cpu, point.index)
+        for point in front(judgement.points.values())
+        if point.bound <= target
+    ]
+    if not found:
+        return []
+    for index, point in judgement.points.items():
+        for a in judgement.refined:
+            found += _between(judgement, index, point, a, target)
+    return sorted(found, key=lambda promise: promise.cpu)
+
+
+def _between(judgement, index, coarse, a, target):
+    """A setting between a run that misses the target and its finer neighbour that reaches it: error and
+    cost follow power laws between the two."""
+    neighbour = (*index[:a], index[a] + 1, *index[a + 1 :])
+    fine = judgement.points.get(neighbour)
+    if fine is None or not (coarse.succeeded and fine.succeeded) or not coarse.bound > target >= fine.bound:
+        return []
+    axis = judgement.axes[a]
+    fall = math.log(coarse.bound / fine.bound)
+    share = math.log(coarse.bound / max(SHARE_OF_TARGET * target, fine.bound)) / fall
+    value = axis.between(index[a], neighbour[a], share)
+    if value is None:
+        return []
+    share = math.log(float(value) / axis.number(index[a])) / math.log(axis.number(neighbour[a]) / axis.number(index[a]))
+    labels = [b.label(i) for b, i in zip(judgement.axes, index)]
+    labels[a] = f"{axis.leaf}={value}"
+    return [
+        Promise(
+            [s for b, i in zip(judgement.axes, index) for s in (axis.settings_of(value) if b is axis else b.settings(i))],
+            ", ".join(labels),
+            coarse.bound * math.exp(-share * fall),
+            coarse.record.cpu * (fine.record.cpu / coarse.record.cpu) ** share,
+            None,
+        )
+    ]
+
+
+def _settings(judgement, index):
+    return [setting for axis, i in zip(judgement.axes, index) for setting in axis.settings(i)]
+
+
+def per_cent(share):
+    names = {0.1: "ten per cent", 0.01: "one per cent"}
+    for value, name in names.items():
+        if math.isclose(share, value):
+            return name
+    return f"{100.0 * share:g} per cent" if share > 5e-6 else f"{share:.0e}"
+
+
+def seconds(time):
+    return f"{time:.2g} s" if time < 100.0 else f"{time:.0f} s"

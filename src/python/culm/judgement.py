@@ -1,0 +1,296 @@
+"""Errors, uncertainties and observed orders of the runs of a study."""
+
+import dataclasses
+import itertools
+
+from .errors import CulmError
+from .fit import Order, order_of_differences, order_of_errors
+from .quantities import Measure, drift
+from .reference import ROUNDING, Limit, corner_limit, limit
+
+
+@dataclasses.dataclass
+class Point:
+    """A run of the grid and what it is worth."""
+
+    index: tuple  # of its value on each axis
+    record: object
+    errors: dict = dataclasses.field(default_factory=dict)  # by quantity, relative; drifts as they are
+    held_out: dict = dataclasses.field(default_factory=dict)  # the same, of what is only shown
+    uncertainty: float = 0.0  # of the reference
+
+    @property
+    def succeeded(self):
+        return bool(self.errors)
+
+    @property
+    def error(self):
+        """The worst of all quantities."""
+        return max(self.errors.values())
+
+    @property
+    def bound(self):
+        """The error, or the uncertainty of the reference where that is larger."""
+        return max(self.error, self.uncertainty)
+
+    @property
+    def is_judged(self):
+        return self.error > self.uncertainty
+
+
+@dataclasses.dataclass
+class Line:
+    """Runs along a refined axis, all others at their finest, measured against the limit of the line."""
+
+    axis: int
+    combination: tuple
+    numbers: list
+    errors: list
+    uncertainty: float
+    order: Order | None  # of the worst quantity
+
+
+class Judgement:
+    """Runs the grid, finds a reference, and measures all against it."""
+
+    def __init__(self, axes, fixed, runs, options):
+        """@param fixed    settings that all runs share
+        @param options  watched, held_out, norm, reference (a history or None), finer, repeat, jobs,
+                        truth {name: value}
+        """
+        self.axes = axes
+        self.fixed = list(fixed)
+        self.runs = runs
+        self.options = options
+        self.refined = [a for a, axis in enumerate(axes) if axis.is_refined]
+        self.compared = [a for a, axis in enumerate(axes) if not axis.is_refined]
+        self.reference_runs = []
+        self.notes = []
+        self.points = {}
+        self._states = {}
+        self._is_checked = False
+        self._run_grid()
+        self._measure()
+        self._refer()
+        self.lines = self._lines()
+
+    # ---- the grid
+
+    def settings(self, index):
+        return [*self.fixed, *(s for axis, i in zip(self.axes, index) for s in axis.settings(i))]
+
+    def label(self, index):
+        return ", ".join(axis.label(i) for axis, i in zip(self.axes, index)) or "the deck"
+
+    def combination(self, index):
+        """What of an index is compared, not refined: the name of its curve."""
+        return tuple(index[a] for a in self.compared)
+
+    def combinations(self):
+        return list(itertools.product(*(range(len(self.axes[a].values)) for a in self.compared)))
+
+    def label_of(self, combination):
+        return ", ".join(self.axes[a].label(i) for a, i in zip(self.compared, combination))
+
+    def at(self, combination, finer=0):
+        """The index of a combination at the finest of all refined axes, or so many values beyond."""
+        index = [len(axis.values) - 1 + finer for axis in self.axes]
+        for a, i in zip(self.compared, combination):
+            index[a] = i
+        return tuple(index)
+
+    def _run_grid(self):
+        grid = list(itertools.product(*(range(len(axis.values)) for axis in self.axes)))
+        # all once before any is repeated: what changes on the machine does not fall on one of them
+        for repeat in range(1, self.options.repeat + 1):
+            for index in grid:
+                self.points[index] = Point(index, self.runs.time(self.settings(index), repeat))
+                self._check_watched(self.points[index].record)
+        if not any(point.record.succeeded for point in self.points.values()):
+            reason = next(iter(self.points.values())).record.reason
+            raise CulmError(f"no run succeeded; the first one: {reason}", 4)
+
+    def _check_watched(self, record):
+        """As soon as a run shows what there is."""
+        if record.succeeded and not self._is_checked:
+            history, scalars = record.history(), record.scalars()
+            for one in [*self.options.watched, *self.options.held_out]:
+                if one.drift is None:
+                    one.columns(history)
+                elif drift(scalars, one.drift) is None:
+                    raise CulmError(f"--watch {one.name}: the certificate of this deck has no such number")
+            self._is_checked = True
+
+    # ---- states
+
+    def _measure(self):
+        self._histories = {i: p.record.history() for i, p in self.points.items() if p.record.succeeded}
+        histories = list(self._histories.values())
+        if self.options.reference is not None:
+            histories.append(self.options.reference)
+        self.measure = Measure(self.options.watched, self.options.norm, histories)
+        self.held_out = Measure(self.options.held_out, self.options.norm, histories)
+        # until there is a reference
+        finest = max(self._histories)
+        for measure in (self.measure, self.held_out):
+            measure.refer_to(measure.state(self._histories[finest]))
+
+    def state(self, index, measure=None):
+        measure = measure or self.measure
+        key = (id(measure), index)
+        if key not in self._states:
+            self._states[key] = measure.state(self._histories[index])
+        return self._states[key]
+
+    def _along(self, a, index):
+        """The successful points through an index along an axis, from coarse to fine."""
+        through = [(*index[:a], i, *index[a + 1 :]) for i in range(len(self.axes[a].values))]
+        return [one for one in through if one in self._histories]
+
+    # ---- the reference
+
+    def _refer(self):
+        if self.options.reference is not None:
+            limits = [Limit(m.state(self.options.reference), dict.fromkeys(m.parts, 0.0)) for m in self._measures()]
+            self.reference_label = "the history given"
+        elif not any(measure.parts for measure in self._measures()):
+            limits = [Limit(self.state(max(self._histories), measure), {}) for measure in self._measures()]
+            self.reference_label = "zero, which drifts should be"
+        else:
+            limits = self._limits_by_refinement()
+        for measure, one in zip(self._measures(), limits):
+            before = dict(measure.scale)
+            measure.refer_to(one.value)
+            for title in one.uncertainty:
+                one.uncertainty[title] *= before[title] / measure.scale[title]
+        self.reference, self._held_out_reference = limits
+        self.uncertainty = max(self.reference.uncertainty.values(), default=0.0)
+        for index, point in self.points.items():
+            if point.record.succeeded:
+                self._judge(point, self._histories[index], point.record.scalars())
+
+    def judge(self, record):
+        """A run outside of the grid."""
+        point = Point((), record)
+        self._judge(point, record.history(), record.scalars())
+        return point
+
+    def _judge(self, point, history, scalars):
+        point.errors = self._errors(self.measure, self.reference, self.options.watched, history, scalars)
+        point.held_out = self._errors(
+            self.held_out, self._held_out_reference, self.options.held_out, history, scalars
+        )
+        point.uncertainty = self.uncertainty
+
+    @staticmethod
+    def _errors(measure, reference, watched, history, scalars):
+        errors = measure.sizes(measure.state(history) - reference.value)
+        for one in watched:
+            if one.drift:
+                errors[one.name] = drift(scalars, one.drift)
+        return errors
+
+    def _measures(self):
+        return self.measure, self.held_out
+
+    def _limits_by_refinement(self):
+        combination = self._best_combination()
+        for finer in range(self.options.finer, -1, -1):
+            corner = self.at(combination, finer)
+            lines = {a: self._towards(corner, a) for a in self.refined}
+            needed = [corner, *(index for line in lines.values() for index in line)]
+            failure = self._run_untimed(dict.fromkeys(needed))
+            if failure is None:
+                break
+            self.notes.append(f"The reference {failure.settings} failed: {failure.reason}")
+        else:
+            raise CulmError("no reference: the finest run failed", 4)
+        self.reference_label = self.label(corner)
+        limits = []
+        for measure in self._measures():
+            along = [
+                ([self.axes[a].size(i[a]) for i in line], [self.state(i, measure) for i in line])
+                for a, line in lines.items()
+            ]
+            limits.append(corner_limit(self.state(corner, measure), along, measure))
+        return limits
+
+    def _towards(self, corner, a):
+        """Up to four indices along an axis that end in a corner."""
+        return [(*corner[:a], i, *corner[a + 1 :]) for i in range(max(corner[a] - 3, 0), corner[a] + 1)]
+
+    def _run_untimed(self, indices):
+        """Makes what is missing; the record of the first failure, if any."""
+        missing = [index for index in indices if index not in self._histories]
+        new = [index for index in missing if index not in self.points]
+        if len(new) < len(missing):
+            failed = next(index for index in missing if index in self.points)
+            return self.points[failed].record
+        for index, record in zip(new, self.runs.get([self.settings(i) for i in new], self.options.jobs)):
+            if not record.succeeded:
+                return record
+            self._histories[index] = record.history()
+            self.reference_runs.append((index, record))
+        return None
+
+    def _best_combination(self):
+        """That whose own limit is the least uncertain, among those that must all lead to the same one."""
+        candidates = [c for c in self.combinations() if all(map(self._may_be_true, self.compared, c))]
+        return min(candidates, key=self._uncertainty_of)
+
+    def _may_be_true(self, a, i):
+        axis = self.axes[a]
+        wanted = self.options.truth.get(axis.name)
+        if wanted is not None:
+            return axis.value(i) == wanted
+        return axis.is_same_solution or i == self.options.usual.get(axis.name, 0)
+
+    def _uncertainty_of(self, combination):
+        corner = self.at(combination)
+        if corner not in self._histories:
+            return float("inf")
+        lines = [self._along(a, corner) for a in self.refined]
+        if any(len(line) < 2 for line in lines):
+            return float("inf") if self.refined else 0.0
+        along = [
+            ([self.axes[a].size(i[a]) for i in line], [self.state(i) for i in line])
+            for a, line in zip(self.refined, lines)
+        ]
+        return max(corner_limit(self.state(corner), along, self.measure).uncertainty.values(), default=0.0)
+
+    # ---- orders
+
+    def _lines(self):
+        lines = []
+        for a in self.refined:
+            for combination in self.combinations():
+                line = self._line(a, combination)
+                if line is not None:
+                    lines.append(line)
+        return lines
+
+    def _line(self, a, combination):
+        along = self._along(a, self.at(combination))
+        if len(along) < 3:
+            return None
+        sizes = [self.axes[a].size(i[a]) for i in along]
+        numbers = [self.axes[a].number(i[a]) for i in along]
+        if not self.measure.parts:
+            errors = [self.points[i].error for i in along]
+            return Line(a, combination, numbers, errors, 0.0, _order_of_drifts(sizes, errors))
+        states = [self.state(i) for i in along]
+        found = limit(sizes, states, self.measure)
+        errors = [self.measure.size(state - found.value) for state in states]
+        uncertainty = max(found.uncertainty.values())
+        differences = [self.measure.size(y - x) for x, y in zip(states, states[1:])]
+        return Line(a, combination, numbers, errors, uncertainty, _order(sizes, differences))
+
+
+def _order_of_drifts(sizes, errors):
+    return order_of_errors(sizes, errors) if min(errors) > ROUNDING else None
+
+
+def _order(sizes, differences):
+    """From differences above rounding."""
+    used = next((i for i, d in enumerate(differences) if d < ROUNDING), len(differences))
+    return order_of_differences(sizes[: used + 1], differences[:used])

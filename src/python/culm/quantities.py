@@ -1,0 +1,170 @@
+"""The quantities that a study watches, and how far two runs are apart in them.
+
+A history entry is a vector over its components of one unit, and a function of time or level. Its
+distance is a norm over the last uninterrupted stretch of levels: 'rms' the root of the mean square,
+'max' the largest, 'end' that of the last value. All are divided by the same norm of the reference.
+A drift is a number of the certificate and its own error.
+"""
+
+import dataclasses
+import difflib
+
+import numpy
+
+from .errors import CulmError
+
+NORMS = ("rms", "max", "end")
+DRIFTS = {
+    "energy drift": ["relative energy drift"],
+    "momentum drift": ["relative linear momentum drift", "relative angular momentum drift"],
+    "constraint drift": ["constraint drift"],
+}
+SHORT_DRIFTS = {"energy": "energy drift", "momentum": "momentum drift", "constraints": "constraint drift"}
+
+
+@dataclasses.dataclass
+class Watched:
+    """A quantity as asked for: an entry of the history with all components or one, or a drift."""
+
+    name: str
+    entry: str | None = None
+    component: str | None = None
+    drift: str | None = None
+
+    def columns(self, history):
+        """Columns by unit: {title: [names]}."""
+        names = history.names_of(self.entry) or [n for n in history.names if n.split(" [")[0] == self.entry]
+        if self.component:
+            found = [n for n in names if n.split(" [")[0] == f"{self.entry} {self.component}"]
+            if not found:
+                known = [n.split(" [")[0][len(self.entry) + 1 :] for n in names]
+                raise CulmError(f"--watch {self.name}: no component '{self.component}'{_hint(self.component, known)}")
+            return {self.name: found}
+        units = {}
+        for name in names:
+            units.setdefault(name.partition(" [")[2].rstrip("]"), []).append(name)
+        if len(units) == 1:
+            return {self.name: names}
+        return {f"{self.name} [{unit}]": found for unit, found in units.items()}
+
+
+def parse(name, deck):
+    """A quantity by its name: 'tip', 'tip/uz', 'tip/displacement' (an entry and its type), or a drift."""
+    entries = deck.names_in("Output/History")
+    entry, _, component = name.rpartition("/") if name not in entries else (name, "", "")
+    if not entry:
+        entry, component = name, ""
+    if entry in entries:
+        kind = deck.parameters[f"Output/History/{entry}/Type"]
+        return Watched(name, entry, None if component.lower() in ("", kind.lower()) else component)
+    drift = SHORT_DRIFTS.get(name, name)
+    if drift in DRIFTS:
+        return Watched(name, drift=drift)
+    raise CulmError(f"--watch {name}: no quantity of the history{_hint(entry, [*entries, *DRIFTS])}")
+
+
+def drift(scalars, name):
+    """The worst value over all analyses; None if the run has none."""
+    values = [
+        abs(value)
+        for key, value in scalars.items()
+        if any(key == one or key.endswith(f": {one}") for one in DRIFTS[name])
+    ]
+    return max(values) if values else None
+
+
+class Measure:
+    """Brings histories to the same levels, and measures their differences."""
+
+    def __init__(self, watched, norm, histories):
+        """@param histories  of all runs that will be compared; the one with the fewest levels says where"""
+        self.norm = norm
+        self.watched = [one for one in watched if one.entry]
+        self.parts = {}  # title: slice of columns
+        self.columns = []
+        for one in self.watched:
+            for title, names in one.columns(histories[0]).items():
+                self.parts[title] = slice(len(self.columns), len(self.columns) + len(names))
+                self.columns += names
+        stretches = [_last_stretch(history.levels) for history in histories]
+        fewest = min(stretches, key=len)
+        self.levels = numpy.array(fewest if norm != "end" else fewest[-1:])
+        self.weights = _weights(self.levels)
+        self.scale = {title: 1.0 for title in self.parts}
+
+    def state(self, history):
+        """What is watched of a run, (levels, columns)."""
+        if self.norm == "end":
+            return numpy.array([[history.columns[name][-1] for name in self.columns]])
+        stretch = _last_stretch(history.levels)
+        first = len(history.levels) - len(stretch)
+        values = numpy.empty((len(stretch), len(self.columns)))
+        for i, name in enumerate(self.columns):
+            values[:, i] = history.columns[name][first:]
+        return _at(numpy.array(stretch), values, self.levels)
+
+    def refer_to(self, state):
+        """Distances are relative to this state from now on; absolute where it is zero."""
+        for title, part in self.parts.items():
+            size = self._norm(state[:, part])
+            self.scale[title] = size if size > 0.0 else 1.0
+
+    def sizes(self, difference):
+        """The norm of each quantity, relative."""
+        return {
+            title: self._norm(difference[:, part]) / self.scale[title] for title, part in self.parts.items()
+        }
+
+    def size(self, difference):
+        """The largest of all quantities."""
+        return max(self.sizes(difference).values(), default=0.0)
+
+    def _norm(self, values):
+        lengths = numpy.linalg.norm(values, axis=1)
+        return float(lengths.max() if self.norm == "max" else numpy.sqrt(self.weights @ lengths**2))
+
+
+def _last_stretch(levels):
+    """The levels since they last went back or stood still."""
+    start = max((i + 1 for i in range(len(levels) - 1) if levels[i + 1] < levels[i]), default=0)
+    return levels[start:]
+
+
+def _weights(levels):
+    """Of the trapezoidal rule, divided by the length."""
+    if len(levels) < 2:
+        return numpy.ones(len(levels))
+    steps = numpy.diff(levels)
+    weights = numpy.zeros(len(levels))
+    weights[:-1] += steps / 2.0
+    weights[1:] += steps / 2.0
+    return weights / weights.sum()
+
+
+def _at(levels, values, wanted):
+    """Values at levels that were met, and between others by cubics through the four nearest ones, whose
+    error is of fourth order in the step of the run."""
+    levels, first = numpy.unique(levels, return_index=True)
+    values = values[first]
+    tolerance = 1e-9 * max(abs(levels[-1]), 1e-300)
+    right = numpy.clip(numpy.searchsorted(levels, wanted - tolerance), 0, len(levels) - 1)
+    result = values[right].copy()
+    missed = numpy.flatnonzero(numpy.abs(levels[right] - wanted) > tolerance)
+    if len(missed) == 0:
+        return result
+    count = min(4, len(levels))
+    start = numpy.clip(right[missed] - count // 2, 0, len(levels) - count)
+    nodes = start[:, None] + numpy.arange(count)
+    result[missed] = 0.0
+    for i in range(count):
+        factor = numpy.ones(len(missed))
+        for j in range(count):
+            if j != i:
+                factor *= (wanted[missed] - levels[nodes[:, j]]) / (levels[nodes[:, i]] - levels[nodes[:, j]])
+        result[missed] += factor[:, None] * values[nodes[:, i]]
+    return result
+
+
+def _hint(name, known):
+    close = difflib.get_close_matches(name, known, 1, 0.4)
+    return f"; did you mean '{close[0]}'?" if close else f" ({', '.join(known)})"

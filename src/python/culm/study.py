@@ -1,0 +1,187 @@
+"""Measures what accuracy costs: varies a deck, compares with a reference, and advises."""
+
+import argparse
+import pathlib
+import shlex
+import sys
+
+from . import advice, quantities, variation
+from .errors import CulmError
+from .history import History
+from .judgement import Judgement
+from .resolved_deck import ResolvedDeck
+from .study_runs import StudyRuns
+
+
+def declare(parser):
+    parser.add_argument("deck", type=pathlib.Path, help="input deck, XML")
+    parser.add_argument(
+        "--vary", nargs="+", required=True, metavar="NAME=VALUES",
+        help="step=0.04:0.0025/2, mesh=1:8*2, scheme=Conserving,Trapezoidal, or any path of --set; "
+        f"short names: {', '.join(variation.SHORT_NAMES)}; all combinations are run",
+    )
+    parser.add_argument("--paired", nargs="+", default=[], metavar="NAME", help="vary these together instead")
+    parser.add_argument(
+        "--watch", nargs="+", default=[], metavar="QUANTITY",
+        help="entries of the history, such as tip or tip/uz, or 'energy drift', 'momentum drift', "
+        "'constraint drift'; the whole history if not given",
+    )
+    parser.add_argument(
+        "--hold-out", nargs="+", default=[], metavar="QUANTITY", help="shown, but not used for any choice"
+    )
+    parser.add_argument(
+        "--norm", choices=quantities.NORMS, help="of errors; rms over time for dynamics, otherwise end"
+    )
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="for all runs")
+    parser.add_argument(
+        "--reference", type=pathlib.Path, help="history.csv, or the folder of a run, instead of refinement"
+    )
+    parser.add_argument(
+        "--finer", type=int, default=1, metavar="LEVELS",
+        help="how many levels the reference is finer than the finest run; 1 if not given",
+    )
+    parser.add_argument(
+        "--truth", nargs="+", default=[], metavar="NAME=VALUE", help="compared values that the reference has"
+    )
+    parser.add_argument("--repeat", type=int, default=3, help="times each run is timed; 3 if not given")
+    parser.add_argument("--jobs", type=int, default=1, help="reference runs at once; they are not timed")
+    parser.add_argument("--time-limit", type=float, metavar="S", help="after which a run counts as failed")
+    parser.add_argument("--target", type=float, metavar="ERROR", help="write the deck that reaches it most cheaply")
+    parser.add_argument(
+        "--output", type=pathlib.Path, help="folder; studies/<name of the deck> if not given"
+    )
+
+
+def main(arguments, program):
+    _check(arguments)
+    # without --set: a path that a variation opens may not be there yet
+    deck = ResolvedDeck.of(program, arguments.deck, arguments.set)
+    axes = variation.pair([variation.parse(text, deck) for text in arguments.vary], arguments.paired)
+    _check_values(program, arguments, axes)
+    folder = arguments.output or pathlib.Path("studies") / arguments.deck.stem
+    runs = StudyRuns(program, arguments.deck, deck.text, folder, arguments.time_limit, _say)
+    judgement = Judgement(axes, arguments.set, runs, _options(arguments, deck, axes))
+    promise = _write_target(judgement, program, arguments, folder) if arguments.target else None
+    _write(judgement, deck, arguments, folder, promise)
+    return 0
+
+
+def _check(arguments):
+    for name in ("repeat", "jobs"):
+        if getattr(arguments, name) < 1:
+            raise CulmError(f"--{name} {getattr(arguments, name)}: must be at least 1")
+    if not 0 <= arguments.finer <= 3:
+        raise CulmError(f"--finer {arguments.finer}: must be from 0 to 3")
+    if arguments.target is not None and not 0.0 < arguments.target < 1.0:
+        raise CulmError(f"--target {arguments.target:g}: must be between 0 and 1")
+
+
+def _check_values(program, arguments, axes):
+    """Each value by itself, so that a wrong one is said before hours are spent."""
+    for axis in axes:
+        for i in range(len(axis.values)):
+            ResolvedDeck.of(program, arguments.deck, [*arguments.set, *axis.settings(i)])
+
+
+def _options(arguments, deck, axes):
+    watched = [quantities.parse(name, deck) for name in arguments.watch or deck.names_in("Output/History")]
+    if not watched:
+        raise CulmError("the deck has no Output / History: there is nothing to watch", 3)
+    reference = arguments.reference
+    if reference is not None:
+        path = reference / "history.csv" if reference.is_dir() else reference
+        if not path.is_file():
+            raise CulmError(f"--reference {reference}: there is no such history", 6)
+        reference = History(path)
+    return argparse.Namespace(
+        watched=watched,
+        held_out=[quantities.parse(name, deck) for name in arguments.hold_out],
+        norm=arguments.norm or _usual_norm(deck),
+        reference=reference,
+        finer=arguments.finer,
+        repeat=arguments.repeat,
+        jobs=arguments.jobs,
+        truth=_truth(arguments.truth, axes),
+        usual={axis.name: _usual(axis, deck) for axis in axes},
+    )
+
+
+def _usual_norm(deck):
+    kinds = [deck.parameters[f"Analyses/{name}/Type"] for name in deck.names_in("Analyses")]
+    return "rms" if "Dynamic" in kinds else "end"
+
+
+def _usual(axis, deck):
+    """The value that the reference has where values are different models: the full one, or the deck's."""
+    if "Full" in axis.values:
+        return axis.values.index("Full")
+    own = {deck.parameters.get(setting.partition("=")[0]) for setting in axis.settings(0)}
+    return next((i for i, value in enumerate(axis.values) if value in own), 0)
+
+
+def _truth(given, axes):
+    truth = {}
+    for text in given:
+        name, _, value = text.partition("=")
+        axis = next((axis for axis in axes if axis.name == name), None)
+        values = axis.values if axis else []
+        value = next((one for one in values if one in (value, value.replace("-", " "))), None)
+        if value is None:
+            raise CulmError(f"--truth {text}: not among what varies")
+        truth[name] = value
+    return truth
+
+
+def _write_target(judgement, program, arguments, folder):
+    """Writes the deck that reaches the target most cheaply, after running it; what it promises."""
+    target = arguments.target
+    for promise in advice.promises(judgement, target):
+        settings = [*arguments.set, *promise.settings]
+        record = judgement.runs.time(settings, arguments.repeat)
+        if not record.succeeded:
+            continue
+        point = judgement.judge(record)
+        kept = point.bound <= target and point.bound <= 2.0 * promise.error and promise.error <= 2.0 * point.bound
+        if not kept:
+            continue
+        path = folder / "target.xml"
+        text = (
+            f"{promise.label}: promised error {promise.error:.2g} at {advice.seconds(promise.cpu)}; "
+            f"measured {point.bound:.2g} at {advice.seconds(record.cpu)}"
+        )
+        _write_deck(program, arguments.deck, settings, path, text)
+        held_out = ", ".join(f"{name} {error:.2g}" for name, error in point.held_out.items())
+        return f"{path}, error at most {target:g}: {text}" + (f"; held out: {held_out}" if held_out else "")
+    best = min(point.bound for point in judgement.points.values() if point.succeeded)
+    return f"No run reached {target:g}; the smallest error is {best:.2g}. Refine further."
+
+
+def _write_deck(program, deck, settings, path, comment):
+    resolved = ResolvedDeck.of(program, deck, settings)
+    head, _, body = resolved.text.partition("?>\n")
+    for name, value in resolved.parameters.items():
+        # files are found beside the deck
+        if name.endswith("/File Name") and not pathlib.Path(value).is_absolute():
+            body = body.replace(f'value="{value}"', f'value="{(deck.parent / value).resolve()}"')
+    path.write_text(f"{head}?>\n<!-- {comment.replace('--', '- -')} -->\n{body}", encoding="utf-8")
+
+
+def _write(judgement, deck, arguments, folder, promise):
+    from . import study_page
+
+    print()
+    print(study_page.table(*study_page.columns_and_rows(judgement)))
+    print()
+    for line in [study_page.explanation(judgement), *judgement.notes, *study_page.orders(judgement)]:
+        print(line)
+    print(f"\n{advice.sentence(judgement)}")
+    if promise:
+        print(promise)
+    command = "culm " + shlex.join(sys.argv[1:])
+    title = deck.parameters.get("Title") or arguments.deck.stem
+    study_page.write_all(judgement, title, command, folder, promise)
+    print(f"\n{folder / 'study.html'}")
+
+
+def _say(text):
+    print(text, flush=True)

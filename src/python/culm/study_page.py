@@ -1,0 +1,231 @@
+"""What a study leaves behind: table, study.csv, study.png, study.html."""
+
+import csv
+import pathlib
+
+from . import advice, drawing
+from .page import Page
+
+BAND = "0.88"
+
+
+def columns_and_rows(judgement):
+    """Texts of the table: settings, cost, errors, remark."""
+    titles = [*judgement.measure.parts, *(w.name for w in judgement.options.watched if w.drift)]
+    held_out = [*judgement.held_out.parts, *(w.name for w in judgement.options.held_out if w.drift)]
+    names = [axis.leaf for axis in judgement.axes]
+    columns = [*names, "CPU [s]", "spread", *titles, *(f"({title})" for title in held_out), ""]
+    best = {id(point) for point in advice.front(judgement.points.values())}
+    rows = []
+    for index, point in judgement.points.items():
+        values = [axis.value(i) for axis, i in zip(judgement.axes, index)]
+        if not point.succeeded:
+            empty = ["–"] * (2 + len(titles) + len(held_out))
+            rows.append([*values, *empty, f"failed: {point.record.outcome}"])
+            continue
+        times = point.record.times
+        rows.append(
+            [
+                *values,
+                f"{point.record.cpu:.3g}",
+                f"{min(times):.3g}–{max(times):.3g}",
+                *(f"{point.errors[title]:.2e}" for title in titles),
+                *(f"{point.held_out[title]:.2e}" for title in held_out),
+                _remark(point, id(point) in best),
+            ]
+        )
+    return columns, rows
+
+
+def table(columns, rows):
+    """Aligned text."""
+    cells = [columns, *rows]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
+    return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row[:-1], widths)) + f"  {row[-1]}" for row in cells)
+
+
+def orders(judgement):
+    """Lines such as 'step: 2.00 ± 0.03 (scheme=Conserving, from 4 differences)'."""
+    return [
+        f"order in {judgement.axes[line.axis].leaf}: {_order(line)}"
+        + (f", {judgement.label_of(line.combination)}" if line.combination else "")
+        for line in judgement.lines
+    ]
+
+
+def write_csv(judgement, path):
+    """One line per run: settings, outcome, times, errors, uncertainty of the reference."""
+    first = next(point for point in judgement.points.values() if point.succeeded)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(
+            [axis.name for axis in judgement.axes]
+            + ["outcome", "cpu median [s]", "cpu least [s]", "cpu most [s]"]
+            + [f"error of {title}" for title in first.errors]
+            + [f"error of {title}, held out" for title in first.held_out]
+            + ["uncertainty of the reference"]
+        )
+        for index, point in judgement.points.items():
+            values = [axis.value(i) for axis, i in zip(judgement.axes, index)]
+            if not point.succeeded:
+                writer.writerow([*values, f"{point.record.outcome}: {point.record.reason}"])
+                continue
+            times = point.record.times
+            numbers = [point.record.cpu, min(times), max(times), *point.errors.values()]
+            numbers += [*point.held_out.values(), point.uncertainty]
+            writer.writerow([*values, "done", *(f"{number:.6g}" for number in numbers)])
+
+
+def draw(judgement):
+    """Error against CPU time, and against each refined variation."""
+    axes_drawn = list(dict.fromkeys(line.axis for line in judgement.lines))
+    figure, axes = drawing.plot(1 + len(axes_drawn), width=5.2, height=4.2)
+    colours = {
+        combination: drawing.pyplot.get_cmap("tab10")(i % 10)
+        for i, combination in enumerate(judgement.combinations())
+    }
+    _draw_costs(judgement, axes[0][0], colours)
+    for ax, a in zip(axes[0][1:], axes_drawn):
+        _draw_lines(judgement, ax, a, colours)
+    return figure
+
+
+def write_page(judgement, title, command, path, figure, promise=None):
+    page = Page(f"Study: {title}", command)
+    page.paragraph(_capital(advice.sentence(judgement)) + ".", "advice")
+    if promise:
+        page.paragraph(promise, "advice")
+    page.figure(figure, "error against CPU time, and against each variation")
+    page.paragraph(explanation(judgement))
+    for note in judgement.notes:
+        page.paragraph(note, "warning")
+    if judgement.lines:
+        page.heading("Observed orders")
+        page.paragraph(
+            "From the differences of neighbouring runs, with all other variations at their finest; "
+            "95 % confidence. A theory speaks of fine runs: the coarsest are left out where that narrows the interval."
+        )
+        page.table(
+            ["variation", "of", "order", "from so many differences"],
+            [
+                [
+                    judgement.axes[line.axis].leaf,
+                    judgement.label_of(line.combination) or "all",
+                    _order(line),
+                    line.order.used if line.order else "–",
+                ]
+                for line in judgement.lines
+            ],
+        )
+    page.heading("Runs")
+    page.table(*columns_and_rows(judgement))
+    reasons = [
+        f"{judgement.label(i)}: {p.record.reason}" for i, p in judgement.points.items() if not p.succeeded
+    ]
+    if reasons:
+        page.heading("Failures")
+        page.code("\n".join(reasons))
+    page.write(path)
+
+
+def explanation(judgement):
+    """What the errors are."""
+    norms = {"rms": "root of the mean square over time", "max": "largest difference over time", "end": "difference at the end"}
+    text = f"Errors are relative ({norms[judgement.options.norm]}) to the reference: {judgement.reference_label}"
+    if not judgement.reference_runs and judgement.uncertainty == 0.0:
+        return f"{text}."
+    return (
+        f"{text}, extrapolated; its own uncertainty is {judgement.uncertainty:.1e}. "
+        "Runs closer to it than that are not judged."
+    )
+
+
+def _remark(point, is_best):
+    remarks = ["Pareto"] if is_best else []
+    if not point.is_judged:
+        remarks.append("not judged: within the uncertainty")
+    return ", ".join(remarks)
+
+
+def _order(line):
+    if line.order is not None:
+        return str(line.order)
+    return "none, all differences are rounding" if max(line.errors) < 1e-9 else "none"
+
+
+def _draw_costs(judgement, ax, colours):
+    best = advice.front(judgement.points.values())
+    ax.plot([p.record.cpu for p in best], [p.bound for p in best], color="0.75", lw=5, zorder=1, label="Pareto front")
+    for combination in judgement.combinations():
+        points = [
+            point for index, point in judgement.points.items()
+            if point.succeeded and judgement.combination(index) == combination
+        ]
+        if not points:
+            continue
+        line = points if len(judgement.refined) < 2 else advice.front(points)
+        ax.plot([p.record.cpu for p in line], [p.bound for p in line], color=colours[combination], zorder=2)
+        costs = [p.record.cpu for p in points]
+        spread = [
+            [cost - min(p.record.times) for cost, p in zip(costs, points)],
+            [max(p.record.times) - cost for cost, p in zip(costs, points)],
+        ]
+        ax.errorbar(
+            costs, [p.bound for p in points], xerr=spread, fmt="o", ms=4, lw=0.8, color=colours[combination],
+            label=judgement.label_of(combination) or None, zorder=3,
+        )
+    _draw_band(ax, judgement.uncertainty, "uncertainty of the reference")
+    ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error", title="What accuracy costs")
+    low, high = ax.get_xlim()
+    numbers = [m * 10.0**k for k in range(-3, 6) for m in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)]
+    shown = [number for number in numbers if low <= number <= high]
+    ax.set_xticks(shown, [f"{number:g}" for number in shown])
+    ax.set_xticks([], minor=True)
+    ax.legend(fontsize=7)
+
+
+def _draw_lines(judgement, ax, a, colours):
+    axis = judgement.axes[a]
+    for line in judgement.lines:
+        if line.axis != a:
+            continue
+        colour = colours[line.combination]
+        name = judgement.label_of(line.combination)
+        order = f"order {_order(line)}"
+        errors = [max(error, 1e-16) for error in line.errors]
+        ax.plot(line.numbers, errors, "o-", ms=4, color=colour, label=f"{name}: {order}" if name else order)
+        # the finest error is known only by way of the limit itself
+        ax.plot(line.numbers[-1:], errors[-1:], "o", ms=4, color="white", mec=colour, zorder=4)
+    uncertain = max(line.uncertainty for line in judgement.lines if line.axis == a)
+    _draw_band(ax, uncertain, None)
+    ax.set(
+        xscale="log", yscale="log", xlabel=axis.leaf, ylabel="relative error to its own limit",
+        title=f"Convergence in {axis.leaf}",
+    )
+    numbers = sorted({number for line in judgement.lines if line.axis == a for number in line.numbers})
+    ax.set_xticks(numbers, [f"{number:g}" for number in numbers])
+    ax.set_xticks([], minor=True)
+    if axis.size(0) != axis.number(0):
+        return ax.legend(fontsize=7)
+    ax.invert_xaxis()  # finer to the right, as in all of them
+    return ax.legend(fontsize=7)
+
+
+def _draw_band(ax, uncertainty, label):
+    low, _ = ax.get_ylim()
+    if uncertainty > 0.0:
+        ax.axhspan(min(low, uncertainty / 10.0), uncertainty, color=BAND, zorder=0, label=label)
+
+
+def _capital(text):
+    return text[:1].upper() + text[1:]
+
+
+def write_all(judgement, deck, command, folder, promise=None):
+    """study.csv, study.png, study.html in the folder of the study."""
+    folder = pathlib.Path(folder)
+    write_csv(judgement, folder / "study.csv")
+    figure = draw(judgement)
+    figure.savefig(folder / "study.png", dpi=110)
+    write_page(judgement, deck, command, folder / "study.html", figure, promise)
+    drawing.close(figure)

@@ -1,0 +1,128 @@
+"""The runs of a study: one folder per settings, kept, so that a study that was stopped goes on."""
+
+import concurrent.futures
+import dataclasses
+import hashlib
+import json
+import os
+import shutil
+import statistics
+
+from .errors import CulmError
+from .history import History
+from .results import Results
+
+
+@dataclasses.dataclass
+class Record:
+    """What is kept of a run."""
+
+    settings: list
+    exit: int | None
+    outcome: str
+    reason: str  # of a failure, in the words of the program
+    times: list  # CPU [s] of runs that nothing disturbed
+    folder: object
+
+    @property
+    def succeeded(self):
+        return self.exit == 0
+
+    @property
+    def cpu(self):
+        """Median [s]; None if it was not timed."""
+        return statistics.median(self.times) if self.times else None
+
+    def history(self):
+        return History(self.folder / "history.csv")
+
+    def scalars(self):
+        return Results(self.folder / "run.h5").scalars()
+
+
+class StudyRuns:
+    """Makes runs, or finds them in the folder of the study."""
+
+    def __init__(self, program, deck, resolved, folder, time_limit=None, say=print):
+        """@param resolved  text of the resolved deck: runs of another deck are not taken for its own"""
+        self.program = program
+        self.deck = deck
+        self.identity = resolved
+        self.folder = folder / "runs"
+        self.time_limit = time_limit
+        self.say = say
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def find(self, settings):
+        """The record of a run that came to its end earlier, or None."""
+        folder = self.folder / self._key(settings)
+        try:
+            kept = json.loads((folder / "record.json").read_text())
+        except (OSError, ValueError):
+            return None
+        return Record(**kept, folder=folder)
+
+    def time(self, settings, repeats):
+        """A run with so many times; alone on the machine as far as the study is concerned."""
+        record = self.find(settings)
+        if record is None:
+            record = self._run(settings, timed=True)
+        while record.succeeded and len(record.times) < repeats:
+            record.times.append(self._repeat(settings))
+            _keep(record)
+        return record
+
+    def get(self, list_of_settings, jobs):
+        """Runs without times, so many at once."""
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            return list(pool.map(lambda one: self.find(one) or self._run(one, timed=False), list_of_settings))
+
+    def _run(self, settings, timed):
+        folder = self.folder / self._key(settings)
+        part = folder.with_suffix(".part")
+        for old in (folder, part):
+            shutil.rmtree(old, ignore_errors=True)
+        run = self._call(settings, part)
+        record = Record(
+            list(settings), run.exit, run.outcome, _reason(run), [run.cpu] if timed and run.succeeded else [], part
+        )
+        if run.succeeded and not (part / "history.csv").exists():
+            raise CulmError("the deck has no analysis that writes a history", 3)
+        _keep(record)
+        os.replace(part, folder)
+        record.folder = folder
+        self.say(f"  {run.cpu:8.2f} s  {' '.join(settings)}" + ("" if run.succeeded else f": {record.reason}"))
+        return record
+
+    def _repeat(self, settings):
+        folder = self.folder / f"{self._key(settings)}.again"
+        run = self._call(settings, folder)
+        shutil.rmtree(folder)
+        if not run.succeeded:
+            raise CulmError(f"a run that succeeded failed when it was repeated: {_reason(run)}", 1)
+        return run.cpu
+
+    def _call(self, settings, folder):
+        return self.program.run(self.deck, folder, settings, self.time_limit)
+
+    def _key(self, settings):
+        text = "\n".join([self.identity, *sorted(settings)])
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _keep(record):
+    """Complete or not at all, so that a kill leaves nothing wrong behind."""
+    kept = {key: value for key, value in vars(record).items() if key != "folder"}
+    part = record.folder / "record.json.part"
+    part.write_text(json.dumps(kept, indent=1))
+    os.replace(part, record.folder / "record.json")
+
+
+def _reason(run):
+    if run.succeeded:
+        return ""
+    if run.exit is None or run.exit < 0:
+        return run.outcome
+    lines = [line.strip() for line in run.errors.splitlines() if line.strip()]
+    cause = [line for line in lines if line.startswith("Likely cause:")]
+    return " ".join([*lines[:1], *cause[:1]]) or run.outcome
