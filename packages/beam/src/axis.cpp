@@ -15,11 +15,11 @@ double total_length(const std::vector<Segment>& segments) {
 
 // Calls visit(segment, s, span) for all nodes of all segments, first and last included.
 template <class Visit>
-void for_each_node(const std::vector<Segment>& segments, int order, Visit&& visit) {
+void for_each_node(const std::vector<Segment>& segments, int per_element, Visit&& visit) {
   const double total = total_length(segments);
   double before = 0.0;
   for (const Segment& segment : segments) {
-    const int intervals = segment.elements * order;
+    const int intervals = segment.elements * per_element;
     for (int i = 0; i <= intervals; ++i) {
       const double s = segment.curve.length * i / intervals;
       visit(segment, i, s, (before + s) / total);
@@ -30,9 +30,10 @@ void for_each_node(const std::vector<Segment>& segments, int order, Visit&& visi
 
 }  // namespace
 
-Axis place_nodes(const std::vector<Segment>& segments, int order, const Orientation& orientation) {
+Axis place_nodes(const std::vector<Segment>& segments, int intervals,
+                 const Orientation& orientation) {
   Axis axis;
-  for_each_node(segments, order, [&](const Segment& segment, int i, double s, double span) {
+  for_each_node(segments, intervals, [&](const Segment& segment, int i, double s, double span) {
     const Mat3 untwisted = triad_along(segment.curve.tangent(s), orientation.up);
     const double angle = orientation.twist ? orientation.twist(span) : 0.0;
     const AxisNode node{segment.curve.position(s), untwisted * exp_rotation(angle * Vec3::UnitZ()),
@@ -49,9 +50,9 @@ Axis place_nodes(const std::vector<Segment>& segments, int order, const Orientat
   return axis;
 }
 
-double find_parallel(const std::vector<Segment>& segments, int order, const Vec3& up) {
+double find_parallel(const std::vector<Segment>& segments, int intervals, const Vec3& up) {
   double found = -1.0;
-  for_each_node(segments, order, [&](const Segment& segment, int, double s, double span) {
+  for_each_node(segments, intervals, [&](const Segment& segment, int, double s, double span) {
     const double sine = segment.curve.tangent(s).cross(up).norm() / up.norm();
     if (found < 0.0 && !(sine > 1e-3)) found = span;
   });

@@ -65,6 +65,18 @@ void link_corner(int master, int slave, model::Model& model, model::Structure& s
   model.add_rigid_link(fmt::format("{}, corner {}", structure.name, corners.size()), slave, master);
 }
 
+// Adds the nodes of a chain, and its elements, the last ones of the structure so far.
+void number_as_in_deck(int refinement, const std::vector<int>& nodes, model::Structure& structure) {
+  for (std::size_t i = 0; i < nodes.size(); i += static_cast<std::size_t>(refinement)) {
+    structure.deck.nodes.push_back(nodes[i]);
+  }
+  auto cell = static_cast<int>(structure.deck.cells.size()) * refinement;
+  while (cell < static_cast<int>(structure.cells.size())) {
+    std::vector<int>& parts = structure.deck.cells.emplace_back();
+    for (int part = 0; part < refinement; ++part) parts.push_back(cell++);
+  }
+}
+
 void check_turn(ElementKind kind, double turn, const Options& options,
                 const StructureContext& context) {
   if (kind == ElementKind::helical && turn >= HelicalBeam::max_rotation) {
@@ -122,7 +134,8 @@ void add_beam(const Options& options, StructureContext& context) {
   const ElementChoice choice{kind, {options.number("Dissipation"), options.number("Damping")}};
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
-  const Axis axis = axes().make(curve.text("Type"), curve, order_of(kind));
+  const Density density{order_of(kind), context.refinement};
+  const Axis axis = axes().make(curve.text("Type"), curve, density);
   check_finite(axis, curve);
 
   model::Structure& structure = context.model.add_structure(options.name());
@@ -134,6 +147,7 @@ void add_beam(const Options& options, StructureContext& context) {
     const ReferenceState reference =
         add_elements(choice, chain, nodes, sections, context.model, structure);
     largest_turn = std::max(largest_turn, reference.largest_turn);
+    if (density.refinement > 1) number_as_in_deck(density.refinement, nodes, structure);
   }
   structure.sets["first"] = {structure.nodes.front()};
   structure.sets["last"] = {structure.nodes.back()};

@@ -74,14 +74,14 @@ std::function<double(double)> read_twist(const Options& options) {
 }
 
 Axis place(const std::vector<Segment>& segments, const Vec3& normal, const Options& options,
-           int order) {
+           const Density& density) {
   const Vec3 up = options.has("Up") ? vector(options, "Up") : normal;
-  if (const double span = find_parallel(segments, order, up); span >= 0.0) {
+  if (const double span = find_parallel(segments, density.intervals(), up); span >= 0.0) {
     throw InputError(
         options.where("Up"),
         fmt::format("must not be parallel to the axis, but is at {:.4g} of its length", span));
   }
-  return place_nodes(segments, order, {up, read_twist(options)});
+  return place_nodes(segments, density.intervals(), {up, read_twist(options)});
 }
 
 void check_circle(const Options& options, InputIssues& issues) {
@@ -103,10 +103,10 @@ Schema circle_schema(std::string type, std::string doc) {
   return schema;
 }
 
-Axis make_circle(const Options& options, double angle, double pitch, int order) {
+Axis make_circle(const Options& options, double angle, double pitch, const Density& density) {
   const Curve curve = helix(vector(options, "Centre"), vector(options, "Axis"),
                             vector(options, "From"), angle, pitch);
-  return place({{curve, options.integer("Elements")}}, curve.normal, options, order);
+  return place({{curve, options.integer("Elements")}}, curve.normal, options, density);
 }
 
 }  // namespace
@@ -124,9 +124,9 @@ Schema line_schema() {
   return schema;
 }
 
-Axis make_line(const Options& options, int order) {
+Axis make_line(const Options& options, const Density& density) {
   const Curve curve = line(vector(options, "From"), vector(options, "To"));
-  return place({{curve, options.integer("Elements")}}, curve.normal, options, order);
+  return place({{curve, options.integer("Elements")}}, curve.normal, options, density);
 }
 
 Schema arc_schema() {
@@ -138,8 +138,8 @@ Schema arc_schema() {
   return schema;
 }
 
-Axis make_arc(const Options& options, int order) {
-  return make_circle(options, options.number("Angle"), 0.0, order);
+Axis make_arc(const Options& options, const Density& density) {
+  return make_circle(options, options.number("Angle"), 0.0, density);
 }
 
 Schema helix_schema() {
@@ -152,8 +152,8 @@ Schema helix_schema() {
   return schema;
 }
 
-Axis make_helix(const Options& options, int order) {
-  return make_circle(options, options.number("Angle"), options.number("Pitch"), order);
+Axis make_helix(const Options& options, const Density& density) {
+  return make_circle(options, options.number("Angle"), options.number("Pitch"), density);
 }
 
 Schema arc_through_points_schema() {
@@ -172,10 +172,10 @@ Schema arc_through_points_schema() {
   return schema;
 }
 
-Axis make_arc_through_points(const Options& options, int order) {
+Axis make_arc_through_points(const Options& options, const Density& density) {
   const Curve curve =
       arc_through(vector(options, "From"), vector(options, "Through"), vector(options, "To"));
-  return place({{curve, options.integer("Elements")}}, curve.normal, options, order);
+  return place({{curve, options.integer("Elements")}}, curve.normal, options, density);
 }
 
 namespace {
@@ -250,9 +250,9 @@ Schema spline_schema() {
   return schema;
 }
 
-Axis make_spline(const Options& options, int order) {
+Axis make_spline(const Options& options, const Density& density) {
   const Curve curve = spline(read_points(options));
-  return place({{curve, options.integer("Elements")}}, curve.normal, options, order);
+  return place({{curve, options.integer("Elements")}}, curve.normal, options, density);
 }
 
 Schema polyline_schema() {
@@ -269,7 +269,7 @@ Schema polyline_schema() {
   return schema;
 }
 
-Axis make_polyline(const Options& options, int order) {
+Axis make_polyline(const Options& options, const Density& density) {
   const std::vector<Vec3> points = read_points(options);
   const std::vector<int>& elements = options.integers("Elements");
   std::vector<Segment> segments;
@@ -278,7 +278,7 @@ Axis make_polyline(const Options& options, int order) {
         {line(points[i], points[i + 1]), elements.size() == 1 ? elements[0] : elements[i]});
   }
   const Vec3 normal = options.has("Up") ? Vec3::Zero() : plane_normal(segments, options);
-  return place(segments, normal, options, order);
+  return place(segments, normal, options, density);
 }
 
 }  // namespace culm::beam

@@ -1,6 +1,7 @@
 #include "nodes_axis.hpp"
 
 #include <culm/base/error.hpp>
+#include <culm/math/lagrange.hpp>
 #include <culm/math/rotation.hpp>
 
 #include <Eigen/Geometry>
@@ -53,6 +54,45 @@ void check_nodes(const Options& options, InputIssues& issues) {
   }
 }
 
+// A node between those of an element: interpolated as the element does, its triad made orthonormal.
+template <int Order>
+AxisNode between(const AxisNode* element, double xi) {
+  const Vec<Order + 1> N = Lagrange<Order>::values(xi);
+  AxisNode node{Vec3::Zero(), Mat3::Zero(), 0.0};
+  for (int a = 0; a <= Order; ++a) {
+    node.position += N[a] * element[a].position;
+    node.triad += N[a] * element[a].triad;
+    node.span += N[a] * element[a].span;
+  }
+  node.triad = nearest_rotation(node.triad);
+  return node;
+}
+
+AxisNode between(int order, const AxisNode* element, double xi) {
+  switch (order) {
+    case 1:
+      return between<1>(element, xi);
+    case 2:
+      return between<2>(element, xi);
+    default:
+      return between<3>(element, xi);
+  }
+}
+
+Chain refine(const Chain& chain, const Density& density) {
+  const int intervals = density.intervals();
+  Chain refined{chain.front()};
+  for (std::size_t first = 0; first + 1 < chain.size();
+       first += static_cast<std::size_t>(density.order)) {
+    for (int i = 1; i <= intervals; ++i) {
+      refined.push_back(i % density.refinement == 0
+                            ? chain[first + static_cast<std::size_t>(i / density.refinement)]
+                            : between(density.order, &chain[first], -1.0 + 2.0 * i / intervals));
+    }
+  }
+  return refined;
+}
+
 }  // namespace
 
 Schema nodes_schema() {
@@ -70,7 +110,8 @@ Schema nodes_schema() {
   return schema;
 }
 
-Axis make_nodes(const Options& options, int order) {
+Axis make_nodes(const Options& options, const Density& density) {
+  const int order = density.order;
   const std::size_t count = options.numbers("Positions").size() / 3;
   if ((count - 1) % static_cast<std::size_t>(order) != 0) {
     throw InputError(options.where("Positions"),
@@ -88,6 +129,7 @@ Axis make_nodes(const Options& options, int order) {
   }
   const double length = chain.back().span;
   for (AxisNode& node : chain) node.span /= length;
+  if (density.refinement > 1) chain = refine(chain, density);
   return {{std::move(chain)}};
 }
 

@@ -8,6 +8,6 @@
 namespace culm::beam {
 
 Schema nodes_schema();
-Axis make_nodes(const Options& options, int order);
+Axis make_nodes(const Options& options, const Density& density);
 
 }  // namespace culm::beam

@@ -20,11 +20,12 @@ class AxisTypes : public testing::Test {
  protected:
   AxisTypes() { register_axes(registry_); }
 
-  Axis make(const std::string& type, const GivenValues& given, int order = 1) const {
+  Axis make(const std::string& type, const GivenValues& given, int order = 1,
+            int refinement = 1) const {
     const Schema schema = registry_.variants().at(type);
     const Options options = kit::deck_list(schema, given);
     EXPECT_EQ(kit::mistakes_in(schema, options), Messages{});
-    return registry_.make(type, options, std::move(order));
+    return registry_.make(type, options, Density{order, refinement});
   }
   Messages mistakes(const std::string& type, const GivenValues& given) const {
     const Schema schema = registry_.variants().at(type);
@@ -208,6 +209,33 @@ TEST_F(AxisTypes, NodesMustHaveSoundDirectors) {
             Messages{"must have nine values per node: 3 nodes, 2 triads"});
   EXPECT_EQ(failure("Nodes", {{"Positions", positions}, {"Directors", triads(1.0)}}, 2),
             "elements of order 2 need 1 more than a multiple of 2 nodes, got 2");
+}
+
+TEST_F(AxisTypes, RefinedCurveHasTheNodesOfManyElements) {
+  GivenValues given = two_metres;
+  const Axis axis = make("Line", given, 2, 3);
+  given.back() = {"Elements", 12};
+  const Axis other = make("Line", given, 2);
+  ASSERT_EQ(axis.chains[0].size(), 25u);
+  for (std::size_t i = 0; i < 25; ++i) {
+    EXPECT_LT((axis.chains[0][i].position - other.chains[0][i].position).norm(), 1e-15);
+  }
+}
+
+TEST_F(AxisTypes, RefinedNodesAreInterpolatedAndKeepTheGivenOnes) {
+  const double turn = 0.3;
+  const Mat3 last = exp_rotation(turn * Vec3::UnitZ());
+  Numbers triads = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  triads.insert(triads.end(), last.data(), last.data() + 9);
+  const Axis axis =
+      make("Nodes", {{"Positions", Numbers{0, 0, 0, 0, 0, 4}}, {"Directors", triads}}, 1, 4);
+  const Chain& chain = axis.chains[0];
+  ASSERT_EQ(chain.size(), 5u);
+  EXPECT_LT((chain[4].triad - last).norm(), 1e-15);
+  EXPECT_EQ(chain[1].position, Vec3(0, 0, 1));
+  EXPECT_EQ(chain[1].span, 0.25);
+  // halfway the mean of two triads is turned by half
+  EXPECT_LT((chain[2].triad - exp_rotation(0.5 * turn * Vec3::UnitZ())).norm(), 1e-14);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class BeamStructure : public testing::Test {
  protected:
   const model::Structure& add(const GivenValues& beam, const std::string& curve_type,
                               const GivenValues& curve) {
-    StructureContext context{model, sections, issues, log};
+    StructureContext context{model, sections, issues, log, refinement};
     add_beam(beam_list(beam, curve_type, curve), context);
     return *model.find_structure("blade");
   }
@@ -50,6 +50,7 @@ class BeamStructure : public testing::Test {
             {{-1, -1}, {1, -1}, {0, 1}}};
   }
 
+  int refinement = 1;
   model::Model model;
   std::map<std::string, material::Section> sections{{"tube", section()}};
   InputIssues issues;
@@ -196,6 +197,21 @@ TEST(RegisterStructures, OffersTheBeam) {
   StructureRegistry registry;
   register_structures(registry);
   EXPECT_EQ(registry.names(), std::vector<std::string>{"Beam"});
+}
+
+TEST_F(BeamStructure, NumbersOfTheDeckKeepTheirPlacesWhenRefined) {
+  refinement = 3;
+  const model::Structure& beam = add_line(director_2);  // four elements of three nodes
+  EXPECT_EQ(beam.nodes.size(), 25u);
+  EXPECT_EQ(beam.numbered_nodes().size(), 9u);
+  const std::vector<int> found = model.select_nodes("blade/5");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(model::NodeTable::slots(model.nodes().reference(), found.front())(2, 0), 3.0 * 5 / 8,
+              1e-15);
+  EXPECT_EQ(model.node_name(found.front()), "blade/5");
+  EXPECT_TRUE(model.select_nodes("blade/9").empty());
+  EXPECT_EQ(beam.numbered_cells(), 4u);
+  EXPECT_THAT(beam.cells_of(2), testing::ElementsAre(6, 7, 8));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ std::string unknown_node(const std::string& name, const Model& model) {
   const bool number = !rest.empty() && rest.find_first_not_of("0123456789") == std::string::npos;
   if (structure != nullptr && number) {
     return "no node '" + name + "': '" + structure->name + "' has " +
-           std::to_string(structure->nodes.size()) + " nodes, numbered from 0";
+           std::to_string(structure->numbered_nodes().size()) + " nodes, numbered from 0";
   }
   return "unknown node '" + name + "'" + did_you_mean(name, model.selectable_names());
 }

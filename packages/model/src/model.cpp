@@ -266,9 +266,11 @@ void Model::add_element_set(std::string name, const Structure& structure,
   // all elements of a structure are of one kind, hence have as many points
   const std::size_t per_element = structure.line_points.size() / structure.cells.size();
   for (int element : elements) {
-    const auto first =
-        structure.line_points.begin() + static_cast<std::ptrdiff_t>(per_element) * element;
-    points.insert(points.end(), first, first + static_cast<std::ptrdiff_t>(per_element));
+    for (int cell : structure.cells_of(element)) {
+      const auto first =
+          structure.line_points.begin() + static_cast<std::ptrdiff_t>(per_element) * cell;
+      points.insert(points.end(), first, first + static_cast<std::ptrdiff_t>(per_element));
+    }
   }
 }
 
@@ -311,8 +313,9 @@ std::vector<int> Model::select_nodes(std::string_view name) const {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error != std::errc() || end != rest.data() + rest.size()) return {};
-  if (number >= structure->nodes.size()) return {};
-  return {structure->nodes[number]};
+  const std::vector<int>& numbered = structure->numbered_nodes();
+  if (number >= numbered.size()) return {};
+  return {numbered[number]};
 }
 
 std::vector<std::string> Model::selectable_names() const {
@@ -327,9 +330,15 @@ std::vector<std::string> Model::selectable_names() const {
 
 std::string Model::node_name(int node) const {
   for (const Structure& structure : structures_) {
+    const auto& numbered = structure.numbered_nodes();
+    const auto named = std::find(numbered.begin(), numbered.end(), node);
+    if (named != numbered.end()) {
+      return structure.name + "/" + std::to_string(named - numbered.begin());
+    }
     const auto at = std::find(structure.nodes.begin(), structure.nodes.end(), node);
     if (at != structure.nodes.end()) {
-      return structure.name + "/" + std::to_string(at - structure.nodes.begin());
+      return structure.name + ", node " + std::to_string(at - structure.nodes.begin()) +
+             " of the refined mesh";
     }
   }
   return "node " + std::to_string(node);

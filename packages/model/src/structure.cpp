@@ -4,6 +4,11 @@
 #include <algorithm>
 
 namespace culm::model {
+
+std::vector<int> Structure::cells_of(int number) const {
+  if (deck.cells.empty()) return {number};
+  return deck.cells[static_cast<std::size_t>(number)];
+}
 namespace {
 
 template <int Order>

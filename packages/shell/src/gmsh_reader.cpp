@@ -267,6 +267,7 @@ class Reader {
     }
     for (const Trace& trace : traces_) {
       std::vector<Corner>& edge = facets_.edges[trace.group];
+      if (trace.points.size() == 1) facets_.points_only.insert(trace.group);
       for (const int point : trace.points) {
         for (const Corner& corner : around[point]) {
           const auto& quad = facets_.quads[static_cast<std::size_t>(corner.quad)];

@@ -60,10 +60,12 @@ Facets placed(Facets facets, const Options& options) {
 }
 
 void add_type(MeshRegistry& registry, Schema schema,
-              const std::function<Facets(const Options&)>& make) {
+              const std::function<Facets(const Options&, int)>& make) {
   const std::string name = schema.name();
   registry.add(name, with_placement(std::move(schema)),
-               [make](const Options& options) { return placed(make(options), options); });
+               [make](const Options& options, int refinement) {
+                 return placed(make(options, refinement), options);
+               });
 }
 
 // One patch whose edges are u0, u1, v0, v1.
@@ -72,9 +74,9 @@ void add_surface(MeshRegistry& registry, Schema schema,
   add_type(registry,
            schema.add(elements_field("Elements along u and along v: of the sides u0, u1 and v0, v1 "
                                      "the first run along v, the others along u.")),
-           [make](const Options& options) {
+           [make](const Options& options, int refinement) {
              const std::vector<int>& n = options.integers("Elements");
-             Facets facets = patch(make(options), n[0], n[1], "surface");
+             Facets facets = patch(make(options), n[0], n[1], "surface", refinement);
              for (const char* side : {"u0", "u1", "v0", "v1"}) {
                auto edge = facets.edges.extract(std::string("surface ") + side);
                edge.key() = side;
@@ -185,10 +187,10 @@ void register_meshes(MeshRegistry& registry) {
           .add(length_field("Length", "Extent along z."))
           .add(
               integers("Elements", "Over half a flange, the web, the length.").at_least(1).size(3)),
-      [](const Options& o) {
+      [](const Options& o, int refinement) {
         const std::vector<int>& n = o.integers("Elements");
         return i_section({o.number("Height"), o.number("Top Width"), o.number("Bottom Width")},
-                         o.number("Length"), n[0], n[1], n[2]);
+                         o.number("Length"), n[0], n[1], n[2], refinement);
       });
   add_type(
       registry,
@@ -204,10 +206,10 @@ void register_meshes(MeshRegistry& registry) {
           .add(integers("Elements", "Around the skin, over the height of a web, along the length.")
                    .at_least(1)
                    .size(3)),
-      [](const Options& o) {
+      [](const Options& o, int refinement) {
         const std::vector<int>& n = o.integers("Elements");
         return airfoil(o.number("Chord"), o.number("Relative Thickness"), o.number("Length"),
-                       o.numbers("Webs"), n[0], n[1], n[2]);
+                       o.numbers("Webs"), n[0], n[1], n[2], refinement);
       });
   add_type(
       registry,
@@ -219,14 +221,15 @@ void register_meshes(MeshRegistry& registry) {
                    .at_least(0)
                    .size_multiple_of(4)
                    .min_size(4)),
-      read_quads);
-  add_type(
-      registry,
-      Schema("Gmsh",
-             "Quadrilaterals of a Gmsh file, MSH 2.2 or 4.1 in ASCII; physical curves and "
-             "points become node sets, physical surfaces element sets.")
-          .add(text("File Name", "Relative to the deck.")),
-      [](const Options& o) { return read_gmsh_file(o.text("File Name"), o.where("File Name")); });
+      [](const Options& o, int) { return read_quads(o); });
+  add_type(registry,
+           Schema("Gmsh",
+                  "Quadrilaterals of a Gmsh file, MSH 2.2 or 4.1 in ASCII; physical curves and "
+                  "points become node sets, physical surfaces element sets.")
+               .add(text("File Name", "Relative to the deck.")),
+           [](const Options& o, int) {
+             return read_gmsh_file(o.text("File Name"), o.where("File Name"));
+           });
 }
 
 }  // namespace culm::shell

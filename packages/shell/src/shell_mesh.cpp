@@ -84,6 +84,8 @@ std::pair<int, int> edge_key(int a, int b) { return {std::min(a, b), std::max(a,
 void Facets::append(const Facets& other) {
   const auto first_point = static_cast<int>(points.size());
   const auto first_quad = static_cast<int>(quads.size());
+  const int first_parent = parents.empty() ? 0 : 1 + *std::ranges::max_element(parents);
+  for (int parent : other.parents) parents.push_back(parent + first_parent);
   points.insert(points.end(), other.points.begin(), other.points.end());
   normals.insert(normals.end(), other.normals.begin(), other.normals.end());
   for (auto quad : other.quads) {

@@ -4,6 +4,7 @@
 #include <culm/shell/hyperelastic_shell.hpp>
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/shell_structure.hpp>
+#include <culm/shell/subdivision.hpp>
 
 #include "shell_layers.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace culm::shell {
 
@@ -206,16 +208,55 @@ void join_folds(const ShellMesh& mesh, const std::vector<int>& nodes, const std:
   }
 }
 
+// A node of the mesh of the deck is, of the nodes in its elements, the one at its place; so both
+// sides of a fold find their own.
+model::DeckNumbers number_as_in_deck(const ShellMesh& coarse, const ShellMesh& fine,
+                                     const std::vector<int>& parents,
+                                     const std::vector<int>& nodes) {
+  model::DeckNumbers deck;
+  deck.cells.resize(coarse.quads.size());
+  deck.nodes.resize(coarse.positions.size(), -1);
+  std::vector<double> distance(coarse.positions.size(), std::numeric_limits<double>::max());
+  for (std::size_t q = 0; q < fine.quads.size(); ++q) {
+    const auto parent = static_cast<std::size_t>(parents[q]);
+    deck.cells[parent].push_back(static_cast<int>(q));
+    for (int corner : coarse.quads[parent]) {
+      const auto c = static_cast<std::size_t>(corner);
+      for (int node : fine.quads[q]) {
+        const auto n = static_cast<std::size_t>(node);
+        const double away = (fine.positions[n] - coarse.positions[c]).norm();
+        if (away >= distance[c]) continue;
+        distance[c] = away;
+        deck.nodes[c] = nodes[n];
+      }
+    }
+  }
+  return deck;
+}
+
 void add_shell(const Options& options, ShellContext& context) {
   const auto layup =
       std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
   const Options& list = options.list("Mesh");
-  const ShellMesh mesh =
-      make_mesh(meshes().make(list.text("Type"), list), options.number("Fold Angle"));
+  const MeshRegistry types = meshes();
+  const std::string& type = list.text("Type");
+  const double fold_angle = options.number("Fold Angle");
+  Facets facets = types.make(type, list, 1);
+  ShellMesh mesh = make_mesh(facets, fold_angle);
+  const ShellMesh coarse = mesh;
+  if (context.refinement > 1) {
+    const bool is_known = !facets.parents.empty();
+    facets = is_known ? types.make(type, list, context.refinement)
+                      : subdivide(facets, mesh, context.refinement);
+    mesh = make_mesh(facets, fold_angle);
+  }
   check_quality(mesh, options, context.log);
 
   model::Structure& structure = context.model.add_structure(options.name());
   structure.nodes = add_nodes(mesh, context.model);
+  if (context.refinement > 1) {
+    structure.deck = number_as_in_deck(coarse, mesh, facets.parents, structure.nodes);
+  }
   if (layup->is_linear()) {
     add_elements<ElasticShell>("Shell", mesh, layup, options, structure, context.model);
   } else {

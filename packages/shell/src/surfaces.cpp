@@ -24,8 +24,8 @@ Surface along_line(const Vec<2>& from, const Vec<2>& to, double length) {
 
 // A patch drawn along z, whose sides across it join those of all others.
 void add_wall(Facets& facets, const Surface& surface, int across, int along,
-              const std::string& name) {
-  Facets wall = patch(surface, across, along, name);
+              const std::string& name, int refinement) {
+  Facets wall = patch(surface, across, along, name, refinement);
   auto& edges = wall.edges;
   edges["start"] = edges[name + " v0"];
   edges["end"] = edges[name + " v1"];
@@ -111,7 +111,10 @@ Surface extrusion(PlaneCurve curve, double length) {
           normal};
 }
 
-Facets patch(const Surface& surface, int nu, int nv, const std::string& name) {
+Facets patch(const Surface& surface, int nu_coarse, int nv_coarse, const std::string& name,
+             int refinement) {
+  const int nu = nu_coarse * refinement;
+  const int nv = nv_coarse * refinement;
   Facets facets;
   const auto u = [&](int i) { return static_cast<double>(i) / nu; };
   const auto v = [&](int j) { return static_cast<double>(j) / nv; };
@@ -123,6 +126,7 @@ Facets patch(const Surface& surface, int nu, int nv, const std::string& name) {
   for (int j = 0; j < nv; ++j) {
     for (int i = 0; i < nu; ++i) {
       part.push_back(static_cast<int>(facets.quads.size()));
+      facets.parents.push_back(j / refinement * nu_coarse + i / refinement);
       facets.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
       facets.normals.push_back({surface.normal(u(i), v(j)), surface.normal(u(i + 1), v(j)),
                                 surface.normal(u(i + 1), v(j + 1)),
@@ -145,17 +149,20 @@ Facets patch(const Surface& surface, int nu, int nv, const std::string& name) {
   return facets;
 }
 
-Facets i_section(const ISection& section, double length, int flange, int web, int along) {
+Facets i_section(const ISection& section, double length, int flange, int web, int along,
+                 int refinement) {
   const double y = 0.5 * section.height;
   const double top = 0.5 * section.top_width;
   const double bottom = 0.5 * section.bottom_width;
   Facets facets;
-  add_wall(facets, along_line({0.0, -y}, {0.0, y}, length), web, along, "web");
+  add_wall(facets, along_line({0.0, -y}, {0.0, y}, length), web, along, "web", refinement);
   // flanges run so that their normals point away from the web
-  add_wall(facets, along_line({top, y}, {0.0, y}, length), flange, along, "top right");
-  add_wall(facets, along_line({0.0, y}, {-top, y}, length), flange, along, "top left");
-  add_wall(facets, along_line({-bottom, -y}, {0.0, -y}, length), flange, along, "bottom left");
-  add_wall(facets, along_line({0.0, -y}, {bottom, -y}, length), flange, along, "bottom right");
+  add_wall(facets, along_line({top, y}, {0.0, y}, length), flange, along, "top right", refinement);
+  add_wall(facets, along_line({0.0, y}, {-top, y}, length), flange, along, "top left", refinement);
+  add_wall(facets, along_line({-bottom, -y}, {0.0, -y}, length), flange, along, "bottom left",
+           refinement);
+  add_wall(facets, along_line({0.0, -y}, {bottom, -y}, length), flange, along, "bottom right",
+           refinement);
   return facets;
 }
 
@@ -170,7 +177,7 @@ PlaneCurve naca_profile(double chord, double thickness) {
 }
 
 Facets airfoil(double chord, double thickness, double length, const std::vector<double>& webs,
-               int around, int across, int along) {
+               int around, int across, int along, int refinement) {
   // places of the webs on the profile: down the upper side, then back on the lower one
   std::vector<double> stations{0.0};
   for (auto web = webs.rbegin(); web != webs.rend(); ++web) {
@@ -186,14 +193,14 @@ Facets airfoil(double chord, double thickness, double length, const std::vector<
     const double share = stations[i + 1] - from;
     const int elements = std::max(1, static_cast<int>(std::lround(around * share)));
     const auto piece = [=](double s) { return profile(from + s * share); };
-    add_wall(facets, extrusion(piece, length), elements, along, "skin");
+    add_wall(facets, extrusion(piece, length), elements, along, "skin", refinement);
   }
   facets.edges.erase("skin u0");  // the sides of its pieces are no edges of the skin
   facets.edges.erase("skin u1");
   for (std::size_t i = 0; i < webs.size(); ++i) {
     const Vec<2> above = profile(stations[webs.size() - i]);
     add_wall(facets, along_line(profile(stations[webs.size() + 1 + i]), above, length), across,
-             along, fmt::format("web {}", i + 1));
+             along, fmt::format("web {}", i + 1), refinement);
   }
   return facets;
 }

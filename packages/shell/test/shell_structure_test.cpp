@@ -19,6 +19,9 @@ using testing::HasSubstr;
 using Numbers = std::vector<double>;
 using Integers = std::vector<int>;
 
+const GivenValues three_by_two{
+    {"Side 1", Numbers{3, 0, 0}}, {"Side 2", Numbers{0, 2, 0}}, {"Elements", Integers{3, 2}}};
+
 // A model with one shell.
 class ShellStructure : public testing::Test {
  protected:
@@ -29,22 +32,23 @@ class ShellStructure : public testing::Test {
   }
 
   const model::Structure& add(const std::string& mesh_type, const GivenValues& mesh) {
+    return add_to(model, mesh_type, mesh);
+  }
+  const model::Structure& add_to(model::Model& target, const std::string& mesh_type,
+                                 const GivenValues& mesh) {
     const Schema schema = registry.variants().at("Shell");
     Options options =
         kit::deck_list(schema, {{"Material", std::string("steel")}, {"Thickness", 0.1}}, "wall");
     Options list = kit::deck_list(*schema.find_slot("Mesh")->find(mesh_type), mesh, "Mesh");
     list.set("Type", mesh_type);
     options.add_list(list);
-    ShellContext context{model, materials, log};
+    ShellContext context{target, materials, log, refinement};
     registry.make("Shell", options, context);
-    return *model.find_structure("wall");
+    return *target.find_structure("wall");
   }
-  const model::Structure& add_plane() {
-    return add(
-        "Plane",
-        {{"Side 1", Numbers{3, 0, 0}}, {"Side 2", Numbers{0, 2, 0}}, {"Elements", Integers{3, 2}}});
-  }
+  const model::Structure& add_plane() { return add("Plane", three_by_two); }
 
+  int refinement = 1;
   ShellRegistry registry;
   std::map<std::string, material::Material> materials;
   std::ostringstream printed;
@@ -181,6 +185,34 @@ TEST_F(ShellStructure, FlatRoofHasNoFold) {
 TEST_F(ShellStructure, QualityIsReported) {
   add_plane();
   EXPECT_THAT(printed.str(), HasSubstr("12 nodes, 6 elements, aspect up to 1, angles 90 to 90"));
+}
+
+TEST_F(ShellStructure, NumbersOfTheDeckKeepTheirPlacesWhenRefined) {
+  const model::Structure coarse = add_plane();
+  std::vector<Vec3> places;
+  for (int node : coarse.nodes) {
+    places.emplace_back(model::NodeTable::slots(model.nodes().reference(), node).col(0));
+  }
+  refinement = 3;
+  const auto fine = std::make_unique<model::Model>();
+  const model::Structure& plane = add_to(*fine, "Plane", three_by_two);
+  EXPECT_EQ(plane.cells.size(), 54u);
+  ASSERT_EQ(plane.numbered_nodes().size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto slots =
+        model::NodeTable::slots(fine->nodes().reference(), plane.numbered_nodes()[i]);
+    EXPECT_LT((Vec3(slots.col(0)) - places[i]).norm(), 1e-14);
+  }
+  for (int cell = 0; cell < 6; ++cell) {
+    ASSERT_EQ(plane.cells_of(cell).size(), 9u);
+    Vec3 mean = Vec3::Zero();
+    for (int part : plane.cells_of(cell)) {
+      for (int node : plane.cells[static_cast<std::size_t>(part)].nodes) {
+        mean += model::NodeTable::slots(fine->nodes().reference(), node).col(0) / 36.0;
+      }
+    }
+    EXPECT_LT((mean - Vec3(0.5 + cell % 3, 0.5 + cell / 3, 0.0)).norm(), 1e-14);
+  }
 }
 
 }  // namespace

@@ -126,6 +126,11 @@ Schema Catalogue::deck_schema() const {
   all_structures.merge(bodies.variants());
   return Schema("culm", "An input deck.")
       .add(text("Title", "What the deck shows.").optional(""))
+      .add(integer("Refinement",
+                   "Elements for each one that the deck asks for, along each of its directions. "
+                   "Numbers of nodes and elements in the deck keep their meaning.")
+               .between(1, 1024)
+               .optional(1))
       .list("Sections",
             Schema("Sections", "Cross-sections by name.").entries_by_type(sections.variants()),
             Presence::defaulted)

@@ -8,13 +8,14 @@ namespace {
 
 class StressResultants final : public Quantity {
  public:
+  /// @param cells       of which the mean is shown
   /// @param per_length  whether they are per length, as those of shells
-  StressResultants(model::Cell cell, bool per_length)
-      : cell_(std::move(cell)), per_length_(per_length) {}
+  StressResultants(std::vector<model::Cell> cells, bool per_length)
+      : cells_(std::move(cells)), per_length_(per_length) {}
 
   std::vector<output::HistoryColumn> columns() const override {
     std::vector<output::HistoryColumn> columns;
-    for (const std::string& name : cell_.source->resultant_names()) {
+    for (const std::string& name : cells_.front().source->resultant_names()) {
       const std::string unit = name.front() == 'M' ? "N m" : "N";
       columns.push_back({name, per_length_ ? unit + "/m" : unit});
     }
@@ -22,11 +23,19 @@ class StressResultants final : public Quantity {
   }
   void evaluate(const assembly::System&, const model::State& state,
                 std::vector<double>& numbers) const override {
-    cell_.source->resultants(cell_.item, state.next, numbers);
+    const std::size_t first = numbers.size();
+    for (const model::Cell& cell : cells_) {
+      std::vector<double> one;
+      cell.source->resultants(cell.item, state.next, one);
+      numbers.resize(first + one.size(), 0.0);
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        numbers[first + i] += one[i] / static_cast<double>(cells_.size());
+      }
+    }
   }
 
  private:
-  model::Cell cell_;
+  std::vector<model::Cell> cells_;
   bool per_length_;
 };
 
@@ -35,11 +44,11 @@ class LayerQuantity final : public Quantity {
  public:
   enum class Kind { stress, strain };
 
-  LayerQuantity(Kind kind, std::shared_ptr<const model::LayerSource> source, int cell, int layer,
-                int height)
+  LayerQuantity(Kind kind, std::shared_ptr<const model::LayerSource> source, std::vector<int> cells,
+                int layer, int height)
       : kind_(kind),
         source_(std::move(source)),
-        cell_(cell),
+        cells_(std::move(cells)),
         place_(static_cast<std::size_t>(layer) * model::layer_heights.size() +
                static_cast<std::size_t>(height)) {}
 
@@ -54,15 +63,19 @@ class LayerQuantity final : public Quantity {
   }
   void evaluate(const assembly::System&, const model::State& state,
                 std::vector<double>& numbers) const override {
-    const model::LayerState layer = source_->states(cell_, state.next)[place_];
-    const Vec6& shown = kind_ == Kind::stress ? layer.stress : layer.strain;
+    Vec6 shown = Vec6::Zero();
+    for (int cell : cells_) {
+      const model::LayerState layer = source_->states(cell, state.next)[place_];
+      shown += kind_ == Kind::stress ? layer.stress : layer.strain;
+    }
+    shown /= static_cast<double>(cells_.size());
     numbers.insert(numbers.end(), shown.begin(), shown.end());
   }
 
  private:
   Kind kind_;
   std::shared_ptr<const model::LayerSource> source_;
-  int cell_;
+  std::vector<int> cells_;
   std::size_t place_;
 };
 
@@ -74,12 +87,12 @@ Field element_field() {
 const model::Structure* select_element(const Options& options, model::BuildContext& context) {
   const model::Structure* structure = model::select_structure(options, context);
   if (structure == nullptr) return nullptr;
-  if (static_cast<std::size_t>(options.integer("Element")) < structure->cells.size()) {
+  if (static_cast<std::size_t>(options.integer("Element")) < structure->numbered_cells()) {
     return structure;
   }
   context.issues.add(options.where("Element"),
                      "structure '" + structure->name + "' has elements 0 to " +
-                         std::to_string(structure->cells.size() - 1) + ", got " +
+                         std::to_string(structure->numbered_cells() - 1) + ", got " +
                          std::to_string(options.integer("Element")));
   return nullptr;
 }
@@ -88,14 +101,16 @@ std::unique_ptr<Quantity> make_stress_resultants(const Options& options,
                                                  model::BuildContext& context) {
   const model::Structure* structure = select_element(options, context);
   if (structure == nullptr) return nullptr;
-  const auto element = static_cast<std::size_t>(options.integer("Element"));
-  if (structure->cells[element].source == nullptr) {
+  std::vector<model::Cell> cells;
+  for (int cell : structure->cells_of(options.integer("Element"))) {
+    cells.push_back(structure->cells[static_cast<std::size_t>(cell)]);
+  }
+  if (cells.front().source == nullptr) {
     context.issues.add(options.where("Structure"),
                        "structure '" + structure->name + "' is rigid and has no stress resultants");
     return nullptr;
   }
-  return std::make_unique<StressResultants>(structure->cells[element],
-                                            structure->layers != nullptr);
+  return std::make_unique<StressResultants>(std::move(cells), structure->layers != nullptr);
 }
 
 std::unique_ptr<Quantity> make_layer_quantity(LayerQuantity::Kind kind, const Options& options,
@@ -117,8 +132,8 @@ std::unique_ptr<Quantity> make_layer_quantity(LayerQuantity::Kind kind, const Op
   }
   const std::string& height = options.text("Height");
   const int at = height == "Bottom" ? 0 : height == "Middle" ? 1 : 2;
-  return std::make_unique<LayerQuantity>(kind, structure->layers, options.integer("Element"), layer,
-                                         at);
+  return std::make_unique<LayerQuantity>(
+      kind, structure->layers, structure->cells_of(options.integer("Element")), layer, at);
 }
 
 void register_layer_quantity(QuantityRegistry& registry, const char* type, const char* doc,

@@ -91,7 +91,7 @@ void add_element_sets(const Options& list, model::BuildContext& context) {
       continue;
     }
     const std::vector<int> elements = read_elements(entry);
-    const auto count = static_cast<int>(structure->cells.size());
+    const auto count = static_cast<int>(structure->numbered_cells());
     const auto outside = std::find_if(elements.begin(), elements.end(),
                                       [count](int element) { return element >= count; });
     if (elements.empty() || outside != elements.end()) {
@@ -137,8 +137,9 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
-  beam::StructureContext beams{model, sections, issues, log};
-  shell::ShellContext shells{model, materials, log};
+  const int refinement = deck.integer("Refinement");
+  beam::StructureContext beams{model, sections, issues, log, refinement};
+  shell::ShellContext shells{model, materials, log, refinement};
   model::BuildContext context{model, functions, issues};
   build_structures(catalogue, deck.list("Structures"), beams, shells, context);
   // what follows refers to structures; without them every reference would be a mistake

@@ -108,6 +108,9 @@ void RunObserver::save(Snapshot& snapshot) const {
                 static_cast<double>(iterations_), static_cast<double>(most_iterations_),
                 worst_residual_, worst_constraint_, is_recorded_ ? 1.0 : 0.0});
   snapshot.set_text("run/certificates", certificates_);
+  std::vector<double> steps;
+  for (const auto& row : steps_.rows) steps.insert(steps.end(), row.begin(), row.end());
+  snapshot.set("run/steps", std::move(steps));
   std::vector<double> values;
   for (const output::NamedScalar& scalar : numbers_) {
     snapshot.set_text("run/number " + std::to_string(values.size()), scalar.name);
@@ -126,6 +129,12 @@ void RunObserver::restore(const Snapshot& snapshot) {
   worst_constraint_ = counts[5];
   is_recorded_ = counts[6] != 0.0;
   certificates_ = snapshot.text("run/certificates");
+  const std::vector<double>& steps = snapshot.numbers("run/steps");
+  const std::size_t columns = steps_.columns.size();
+  for (std::size_t i = 0; i + columns <= steps.size(); i += columns) {
+    const auto row = steps.begin() + static_cast<std::ptrdiff_t>(i);
+    steps_.rows.emplace_back(row, row + static_cast<std::ptrdiff_t>(columns));
+  }
   const std::vector<double>& values = snapshot.numbers("run/numbers");
   for (std::size_t i = 0; i < values.size(); ++i) {
     numbers_.push_back({snapshot.text("run/number " + std::to_string(i)), "", values[i]});

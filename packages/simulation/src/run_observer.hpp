@@ -61,7 +61,7 @@ class RunObserver final : public analysis::Observer {
   bool is_recorded_ = true;   // the last accepted state is on disk
   std::string certificates_;
   std::vector<output::NamedScalar> numbers_;
-  // the accepted steps of this process, for the report
+  // the accepted steps, for the report
   output::NamedTable steps_{"steps", {"time", "iterations", "force residual"}, {}, {}};
   int accepted_ = 0;
   int rejected_ = 0;

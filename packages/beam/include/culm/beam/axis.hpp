@@ -32,21 +32,31 @@ struct Segment {
   int elements = 1;
 };
 
+/// How many nodes stand on an element of the deck.
+struct Density {
+  int order = 1;       ///< of the elements
+  int refinement = 1;  ///< elements for each one of the deck
+
+  /// Distances between nodes on an element of the deck.
+  int intervals() const { return order * refinement; }
+};
+
 /// How triads stand around the tangent d3.
 struct Orientation {
   Vec3 up = Vec3::UnitX();              ///< d1 is as near to it as the tangent allows
   std::function<double(double)> twist;  ///< angle about d3 at a span [rad]; added to that
 };
 
-/// Places the nodes of elements of an order at equal arc lengths on each segment. Segments that
-/// meet without a kink share a node, others begin a new chain.
+/// Places the nodes at equal arc lengths on each segment, `intervals` + 1 on each element. Segments
+/// that meet without a kink share a node, others begin a new chain.
 ///
 /// d1 is the projection of `up` on the plane normal to the tangent (and not transported from node
 /// to node), so that the triad at a place depends on nothing but that place.
 /// @pre `up` is nowhere parallel to the tangent, see find_parallel
-Axis place_nodes(const std::vector<Segment>& segments, int order, const Orientation& orientation);
+Axis place_nodes(const std::vector<Segment>& segments, int intervals,
+                 const Orientation& orientation);
 
 /// Span of the first node whose tangent is within a milliradian of `up`; negative if there is none.
-double find_parallel(const std::vector<Segment>& segments, int order, const Vec3& up);
+double find_parallel(const std::vector<Segment>& segments, int intervals, const Vec3& up);
 
 }  // namespace culm::beam

@@ -6,8 +6,8 @@
 
 namespace culm::beam {
 
-/// Makers take the order of the elements. They throw InputError for impossible geometry.
-using AxisRegistry = Registry<Axis, int>;
+/// Makers take the density of nodes. They throw InputError for impossible geometry.
+using AxisRegistry = Registry<Axis, Density>;
 
 /// Adds Line, Polyline, Arc, Arc Through Points, Helix, Spline and Nodes.
 void register_axes(AxisRegistry& registry);

@@ -18,6 +18,7 @@ struct StructureContext {
   const std::map<std::string, material::Section>& sections;  ///< list "Sections" of the deck
   InputIssues& issues;
   const Log& log;
+  int refinement = 1;  ///< elements for each one of the deck, along each of its directions
 };
 
 /// Types of the deck's list "Structures". Each adds one structure under the name of its list.

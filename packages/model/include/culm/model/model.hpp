@@ -63,7 +63,7 @@ class Model {
   void add_node_set(std::string name, std::vector<int> nodes) {
     node_sets_[std::move(name)] = std::move(nodes);
   }
-  /// Elements of a structure under one name, by their numbers in it.
+  /// Elements of a structure under one name, by their numbers in the deck.
   void add_element_set(std::string name, const Structure& structure,
                        const std::vector<int>& elements);
   void add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
@@ -91,7 +91,7 @@ class Model {
   std::vector<int> select_nodes(std::string_view name) const;
   /// All names select_nodes understands except numbers, for messages.
   std::vector<std::string> selectable_names() const;
-  /// "structure/number" of a node.
+  /// "structure/number" of a node, or its place in a refined mesh where the deck has no number.
   std::string node_name(int node) const;
   /// The structure of a node, or null.
   const Structure* structure_of(int node) const;

@@ -46,6 +46,13 @@ struct Cell {
   int item = 0;                             ///< its number there
 };
 
+/// Which nodes and cells of a refined structure the numbers of a deck mean: those of the mesh as
+/// the deck describes it. Empty for structures that are not refined.
+struct DeckNumbers {
+  std::vector<int> nodes;               ///< node number in the model by number in the deck
+  std::vector<std::vector<int>> cells;  ///< cells that a cell of the deck was divided into
+};
+
 /// A named part of the model.
 struct Structure {
   std::string name;
@@ -60,6 +67,16 @@ struct Structure {
   std::map<std::string, std::vector<int>> parts;  ///< cells by name
   /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none.
   std::vector<std::vector<Eigen::Vector2d>> outlines;
+  DeckNumbers deck;
+
+  /// Nodes in the order of their numbers in the deck.
+  const std::vector<int>& numbered_nodes() const { return deck.nodes.empty() ? nodes : deck.nodes; }
+  /// How many cells have a number in the deck.
+  std::size_t numbered_cells() const {
+    return deck.cells.empty() ? cells.size() : deck.cells.size();
+  }
+  /// The cells that a number of the deck means. @pre number < numbered_cells()
+  std::vector<int> cells_of(int number) const;
 };
 
 /// The point of a line at a fraction of its length, 0 at the first node and 1 at the last. Within

@@ -6,8 +6,10 @@
 
 namespace culm::shell {
 
-/// Makers give facets in place. They throw InputError for impossible geometry, FileError for files.
-using MeshRegistry = Registry<Facets>;
+/// Makers take how many elements each one of the deck is divided into, along both its directions,
+/// and give facets in place; those that know nothing but corners leave it to subdivide(). They
+/// throw InputError for impossible geometry, FileError for files.
+using MeshRegistry = Registry<Facets, int>;
 
 /// Adds Plane, Cylinder, Sphere, Cone, Annulus, Hypar, Twisted Strip, I Section,
 /// Airfoil, Quads and Gmsh.

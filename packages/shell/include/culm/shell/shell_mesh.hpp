@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ struct Facets {
   std::vector<Vec3> points;
   std::vector<std::array<int, 4>> quads;             ///< counter-clockwise seen from outside
   std::vector<std::array<Vec3, 4>> normals;          ///< of the surface at the corners, length one
-  std::map<std::string, std::vector<Corner>> edges;  ///< in order along the edge
+  std::map<std::string, std::vector<Corner>> edges;  ///< in order along the edge, ends of its sides
+  std::set<std::string> points_only;                 ///< edges that are points, without lines
   std::map<std::string, std::vector<int>> parts;     ///< quads by name
+  std::vector<int> parents;  ///< number of the quad before refinement, by quad; may be empty
 
   /// Adds all of another set; edges and parts of the same name are joined.
   void append(const Facets& other);

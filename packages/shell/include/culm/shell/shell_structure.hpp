@@ -16,6 +16,7 @@ struct ShellContext {
   model::Model& model;
   const std::map<std::string, material::Material>& materials;  ///< list "Materials" of the deck
   const Log& log;
+  int refinement = 1;  ///< elements for each one of the deck, along each of its directions
 };
 
 /// Types of the deck's list "Structures" that are made of materials. @see Registry

@@ -43,9 +43,9 @@ Surface twisted_strip(double length, double width, double twist);
 /// the curve, hence outward if it runs counter-clockwise.
 Surface extrusion(PlaneCurve curve, double length);
 
-/// nu x nv elements. Edges `NAME u0`, `NAME u1`, `NAME v0`, `NAME v1` are the four sides; the part
-/// NAME has all elements.
-Facets patch(const Surface& surface, int nu, int nv, const std::string& name);
+/// nu x nv elements, each divided into refinement x refinement. Edges `NAME u0`, `NAME u1`, `NAME
+/// v0`, `NAME v1` are the four sides; the part NAME has all elements.
+Facets patch(const Surface& surface, int nu, int nv, const std::string& name, int refinement = 1);
 
 /// Measures of an I-section: flanges across x at y = ± height / 2, web along y between them [m].
 struct ISection {
@@ -56,7 +56,8 @@ struct ISection {
 /// An I-section along z. Parts `web`, `top left`, `top right`, `bottom left`, `bottom right`;
 /// `start` and `end` are the edges of all at z = 0 and z = length.
 /// @param flange, web, along  elements over half a flange, the web, the length
-Facets i_section(const ISection& section, double length, int flange, int web, int along);
+Facets i_section(const ISection& section, double length, int flange, int web, int along,
+                 int refinement = 1);
 
 /// The symmetric NACA four-digit profile with closed trailing edge, counter-clockwise from there
 /// over the upper side; chord along x from the nose at 0. s is linear in the
@@ -68,6 +69,6 @@ PlaneCurve naca_profile(double chord, double thickness);
 /// @param around  elements around the skin, about; at least one between webs
 /// @param across  elements over the height of each web
 Facets airfoil(double chord, double thickness, double length, const std::vector<double>& webs,
-               int around, int across, int along);
+               int around, int across, int along, int refinement = 1);
 
 }  // namespace culm::shell
