@@ -1,0 +1,74 @@
+"""The catalogue, the choice of cases and the file of margins."""
+
+import math
+import pathlib
+import tempfile
+import unittest
+
+from culm.hard import margins, select
+from culm.hard.case import KEYS
+from culm.hard.catalogue import CASES, ILL_POSED
+
+INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs"
+
+
+def entry(**changes):
+    values = {
+        "name": "a case", "keys": "LK LR", "stressor": "x", "recommended": 2.0, "last_good": 20.0,
+        "first_bad": 22.0, "kind": "failed", "how": "exit 4", "told": True, "beyond": "failed",
+    }  # fmt: skip
+    return margins.Entry(**{**values, **changes})
+
+
+class CatalogueTest(unittest.TestCase):
+    def test_covers_every_key(self):
+        used = {key for case in (*CASES, *ILL_POSED) for key in case.keys.split()}
+        self.assertEqual(used, set(KEYS))
+
+    def test_names_are_unique(self):
+        names = [one.name for one in (*CASES, *ILL_POSED)]
+        self.assertEqual(len(names), len(set(names)))
+
+    def test_decks_exist(self):
+        for one in (*CASES, *ILL_POSED):
+            self.assertTrue((INPUTS / one.deck).exists(), one.name)
+
+    def test_settings_follow_the_stressor(self):
+        for case in CASES:
+            mild, harsh = (case.settings(x) for x in (case.recommended, 4 * case.recommended))
+            self.assertNotEqual(mild, harsh, case.name)
+            self.assertTrue(all("=" in setting for setting in harsh), case.name)
+
+    def test_choice(self):
+        self.assertEqual(select(CASES, []), CASES)
+        for case in select(CASES, ["MR"]):
+            self.assertIn("MR", case.keys.split())
+        self.assertTrue(all("Lee" in case.name for case in select(CASES, ["lee's"])))
+        self.assertEqual(select(CASES, ["nothing like this"]), [])
+
+
+class MarginsTest(unittest.TestCase):
+    def test_come_back_from_the_file(self):
+        found = [entry(), entry(name="open", first_bad=math.inf, kind="good", beyond="")]
+        refused = [margins.Refusal("ill", "failed", "exit 3")]
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "margins.json"
+            margins.write(path, "1.2.3", found, refused)
+            entries, refusals = margins.read(path)
+        self.assertEqual(list(entries.values()), found)
+        self.assertEqual(list(refusals.values()), refused)
+
+    def test_margin(self):
+        self.assertEqual(entry().margin, 10.0)
+        self.assertFalse(entry().is_open)
+        self.assertTrue(entry(first_bad=math.inf).is_open)
+
+    def test_faults_at_the_limit_and_beyond(self):
+        self.assertFalse(margins.is_faulty(entry()))
+        self.assertTrue(margins.is_faulty(entry(kind="faulty")))
+        self.assertTrue(margins.is_faulty(entry(beyond="faulty")))
+        self.assertTrue(margins.is_faulty(margins.Refusal("ill", "faulty", "")))
+
+
+if __name__ == "__main__":
+    unittest.main()
