@@ -4,7 +4,7 @@ import dataclasses
 import math
 
 DECADES = [10.0**-k for k in range(1, 10)]
-SHARE_OF_TARGET = 0.8  # what an interpolated setting aims at
+SHARE_OF_TARGET = 0.9  # what an interpolated setting aims at
 
 
 @dataclasses.dataclass
@@ -73,7 +73,8 @@ def _between(judgement, index, coarse, a, target):
         return []
     axis = judgement.axes[a]
     fall = math.log(coarse.bound / fine.bound)
-    share = math.log(coarse.bound / max(SHARE_OF_TARGET * target, fine.bound)) / fall
+    aim = max(SHARE_OF_TARGET * target, math.sqrt(fine.bound * target))
+    share = math.log(coarse.bound / aim) / fall
     value = axis.between(index[a], neighbour[a], share)
     if value is None:
         return []

@@ -104,7 +104,7 @@ class Judgement:
         # all once before any is repeated: what changes on the machine does not fall on one of them
         for repeat in range(1, self.options.repeat + 1):
             for index in grid:
-                self.points[index] = Point(index, self.runs.time(self.settings(index), repeat))
+                self.points[index] = Point(index, self.runs.time(self.settings(index), repeat, self.label(index)))
                 self._check_watched(self.points[index].record)
         if not any(point.record.succeeded for point in self.points.values()):
             reason = next(iter(self.points.values())).record.reason
@@ -143,8 +143,10 @@ class Judgement:
         return self._states[key]
 
     def _along(self, a, index):
-        """The successful points through an index along an axis, from coarse to fine."""
-        through = [(*index[:a], i, *index[a + 1 :]) for i in range(len(self.axes[a].values))]
+        """The successful runs through an index along an axis, from coarse to fine, with those that were
+        made for the reference."""
+        count = len(self.axes[a].values) + self.options.finer
+        through = [(*index[:a], i, *index[a + 1 :]) for i in range(count)]
         return [one for one in through if one in self._histories]
 
     # ---- the reference
@@ -198,40 +200,40 @@ class Judgement:
         for finer in range(self.options.finer, -1, -1):
             corner = self.at(combination, finer)
             lines = {a: self._towards(corner, a) for a in self.refined}
-            needed = [corner, *(index for line in lines.values() for index in line)]
-            failure = self._run_untimed(dict.fromkeys(needed))
-            if failure is None:
+            self._run_untimed(dict.fromkeys([corner, *(index for line in lines.values() for index in line)]))
+            if corner in self._histories:
                 break
-            self.notes.append(f"The reference {failure.settings} failed: {failure.reason}")
         else:
-            raise CulmError("no reference: the finest run failed", 4)
+            raise CulmError("no reference: the finest run failed; leave it out, or give one by --reference", 4)
         self.reference_label = self.label(corner)
-        limits = []
-        for measure in self._measures():
-            along = [
-                ([self.axes[a].size(i[a]) for i in line], [self.state(i, measure) for i in line])
-                for a, line in lines.items()
-            ]
-            limits.append(corner_limit(self.state(corner, measure), along, measure))
-        return limits
+        lines = {a: [index for index in line if index in self._histories] for a, line in lines.items()}
+        return [
+            corner_limit(self.state(corner, measure), self._sequences(lines, measure), measure)
+            for measure in self._measures()
+        ]
+
+    def _sequences(self, lines, measure):
+        """Sizes and states along lines, by axis."""
+        return [
+            ([self.axes[a].size(index[a]) for index in line], [self.state(index, measure) for index in line])
+            for a, line in lines.items()
+        ]
 
     def _towards(self, corner, a):
         """Up to four indices along an axis that end in a corner."""
         return [(*corner[:a], i, *corner[a + 1 :]) for i in range(max(corner[a] - 3, 0), corner[a] + 1)]
 
     def _run_untimed(self, indices):
-        """Makes what is missing; the record of the first failure, if any."""
-        missing = [index for index in indices if index not in self._histories]
-        new = [index for index in missing if index not in self.points]
-        if len(new) < len(missing):
-            failed = next(index for index in missing if index in self.points)
-            return self.points[failed].record
-        for index, record in zip(new, self.runs.get([self.settings(i) for i in new], self.options.jobs)):
-            if not record.succeeded:
-                return record
-            self._histories[index] = record.history()
+        """Makes what was not yet tried."""
+        known = {*self.points, *(index for index, _ in self.reference_runs)}
+        new = [index for index in indices if index not in known]
+        wanted = [(self.settings(i), f"{self.label(i)} (reference)") for i in new]
+        for index, record in zip(new, self.runs.get(wanted, self.options.jobs)):
             self.reference_runs.append((index, record))
-        return None
+            if record.succeeded:
+                self._histories[index] = record.history()
+            else:
+                self.notes.append(f"The reference {self.label(index)} failed: {record.reason}")
 
     def _best_combination(self):
         """That whose own limit is the least uncertain, among those that must all lead to the same one."""
@@ -249,14 +251,11 @@ class Judgement:
         corner = self.at(combination)
         if corner not in self._histories:
             return float("inf")
-        lines = [self._along(a, corner) for a in self.refined]
-        if any(len(line) < 2 for line in lines):
-            return float("inf") if self.refined else 0.0
-        along = [
-            ([self.axes[a].size(i[a]) for i in line], [self.state(i) for i in line])
-            for a, line in zip(self.refined, lines)
-        ]
-        return max(corner_limit(self.state(corner), along, self.measure).uncertainty.values(), default=0.0)
+        lines = {a: self._along(a, corner) for a in self.refined}
+        if any(len(line) < 2 for line in lines.values()):
+            return float("inf")
+        found = corner_limit(self.state(corner), self._sequences(lines, self.measure), self.measure)
+        return max(found.uncertainty.values(), default=0.0)
 
     # ---- orders
 
@@ -276,7 +275,7 @@ class Judgement:
         sizes = [self.axes[a].size(i[a]) for i in along]
         numbers = [self.axes[a].number(i[a]) for i in along]
         if not self.measure.parts:
-            errors = [self.points[i].error for i in along]
+            errors = [self.points[i].error for i in along]  # there are no others without a reference
             return Line(a, combination, numbers, errors, 0.0, _order_of_drifts(sizes, errors))
         states = [self.state(i) for i in along]
         found = limit(sizes, states, self.measure)

@@ -86,6 +86,10 @@ class Measure:
             for title, names in one.columns(histories[0]).items():
                 self.parts[title] = slice(len(self.columns), len(self.columns) + len(names))
                 self.columns += names
+        for history in histories:
+            lacking = [name for name in self.columns if name not in history.columns]
+            if lacking:
+                raise CulmError(f"the reference has no column '{lacking[0]}'")
         stretches = [_last_stretch(history.levels) for history in histories]
         fewest = min(stretches, key=len)
         self.levels = numpy.array(fewest if norm != "end" else fewest[-1:])

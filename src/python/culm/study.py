@@ -137,12 +137,15 @@ def _write_target(judgement, program, arguments, folder):
     target = arguments.target
     for promise in advice.promises(judgement, target):
         settings = [*arguments.set, *promise.settings]
-        record = judgement.runs.time(settings, arguments.repeat)
+        record = judgement.runs.time(settings, arguments.repeat, f"{promise.label} (target)")
         if not record.succeeded:
+            judgement.notes.append(f"For the target {promise.label} was tried and failed: {record.reason}")
             continue
         point = judgement.judge(record)
-        kept = point.bound <= target and point.bound <= 2.0 * promise.error and promise.error <= 2.0 * point.bound
-        if not kept:
+        if not (point.bound <= target and promise.error / 2.0 <= point.bound <= promise.error * 2.0):
+            judgement.notes.append(
+                f"For the target {promise.label} was tried; it promised {promise.error:.2g} and has {point.bound:.2g}."
+            )
             continue
         path = folder / "target.xml"
         text = (

@@ -6,7 +6,8 @@ import pathlib
 from . import advice, drawing
 from .page import Page
 
-BAND = "0.88"
+BAND = "0.9"
+LEAST_DRAWN = 1e-14  # relative error
 
 
 def columns_and_rows(judgement):
@@ -76,17 +77,23 @@ def write_csv(judgement, path):
             writer.writerow([*values, "done", *(f"{number:.6g}" for number in numbers)])
 
 
+def write_reference(judgement, path):
+    """The extrapolated history of what was watched, as --reference reads it."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["time", *judgement.measure.columns])
+        for level, row in zip(judgement.measure.levels, judgement.reference.value):
+            writer.writerow([f"{number:.17g}" for number in (level, *row)])
+
+
 def draw(judgement):
     """Error against CPU time, and against each refined variation."""
     axes_drawn = list(dict.fromkeys(line.axis for line in judgement.lines))
     figure, axes = drawing.plot(1 + len(axes_drawn), width=5.2, height=4.2)
-    colours = {
-        combination: drawing.pyplot.get_cmap("tab10")(i % 10)
-        for i, combination in enumerate(judgement.combinations())
-    }
-    _draw_costs(judgement, axes[0][0], colours)
+    styles = {combination: _style(i) for i, combination in enumerate(judgement.combinations())}
+    _draw_costs(judgement, axes[0][0], styles)
     for ax, a in zip(axes[0][1:], axes_drawn):
-        _draw_lines(judgement, ax, a, colours)
+        _draw_lines(judgement, ax, a, styles)
     return figure
 
 
@@ -153,68 +160,88 @@ def _order(line):
     return "none, all differences are rounding" if max(line.errors) < 1e-9 else "none"
 
 
-def _draw_costs(judgement, ax, colours):
+def _shown(point):
+    return max(point.bound, LEAST_DRAWN)
+
+
+def _style(i):
+    """Of curve i; those that lie upon each other can be told apart."""
+    colour = drawing.pyplot.get_cmap("tab10")(i % 10)
+    return {"color": colour, "marker": "osD^vP"[i % 6], "ls": ("-", "--", "-.", ":")[i % 4], "ms": 6 - i % 4}
+
+
+def _draw_costs(judgement, ax, styles):
     best = advice.front(judgement.points.values())
-    ax.plot([p.record.cpu for p in best], [p.bound for p in best], color="0.75", lw=5, zorder=1, label="Pareto front")
-    for combination in judgement.combinations():
+    ax.plot([p.record.cpu for p in best], [_shown(p) for p in best], color="0.8", lw=7, marker="o", ms=11, zorder=1, label="Pareto front")
+    for combination, style in styles.items():
         points = [
-            point for index, point in judgement.points.items()
+            point
+            for index, point in judgement.points.items()
             if point.succeeded and judgement.combination(index) == combination
         ]
         if not points:
             continue
         line = points if len(judgement.refined) < 2 else advice.front(points)
-        ax.plot([p.record.cpu for p in line], [p.bound for p in line], color=colours[combination], zorder=2)
+        ax.plot([p.record.cpu for p in line], [_shown(p) for p in line], color=style["color"], ls=style["ls"])
         costs = [p.record.cpu for p in points]
         spread = [
             [cost - min(p.record.times) for cost, p in zip(costs, points)],
             [max(p.record.times) - cost for cost, p in zip(costs, points)],
         ]
-        ax.errorbar(
-            costs, [p.bound for p in points], xerr=spread, fmt="o", ms=4, lw=0.8, color=colours[combination],
-            label=judgement.label_of(combination) or None, zorder=3,
-        )
-    _draw_band(ax, judgement.uncertainty, "uncertainty of the reference")
+        label = judgement.label_of(combination) or None
+        ax.errorbar(costs, [_shown(p) for p in points], xerr=spread, elinewidth=0.8, label=label, **{**style, "ls": ""})
+    _draw_band(ax, judgement.uncertainty)
     ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error", title="What accuracy costs")
     low, high = ax.get_xlim()
-    numbers = [m * 10.0**k for k in range(-3, 6) for m in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)]
-    shown = [number for number in numbers if low <= number <= high]
+    numbers = [m * 10.0**k for k in range(-3, 6) for m in (1.0, 2.0, 5.0)]
+    if high < 8.0 * low:
+        numbers += [m * 10.0**k for k in range(-3, 6) for m in (1.2, 1.5, 3.0, 4.0, 7.0)]
+    shown = sorted(number for number in numbers if low <= number <= high)
     ax.set_xticks(shown, [f"{number:g}" for number in shown])
     ax.set_xticks([], minor=True)
     ax.legend(fontsize=7)
 
 
-def _draw_lines(judgement, ax, a, colours):
+def _draw_lines(judgement, ax, a, styles):
+    """A curve per combination; hollow where a run is not far enough from the limit of its line to judge it."""
     axis = judgement.axes[a]
-    for line in judgement.lines:
-        if line.axis != a:
-            continue
-        colour = colours[line.combination]
+    lines = [line for line in judgement.lines if line.axis == a]
+    guides = {}
+    for line in lines:
+        style = styles[line.combination]
         name = judgement.label_of(line.combination)
-        order = f"order {_order(line)}"
-        errors = [max(error, 1e-16) for error in line.errors]
-        ax.plot(line.numbers, errors, "o-", ms=4, color=colour, label=f"{name}: {order}" if name else order)
-        # the finest error is known only by way of the limit itself
-        ax.plot(line.numbers[-1:], errors[-1:], "o", ms=4, color="white", mec=colour, zorder=4)
-    uncertain = max(line.uncertainty for line in judgement.lines if line.axis == a)
-    _draw_band(ax, uncertain, None)
+        label = f"{name}: order {_order(line)}" if name else f"order {_order(line)}"
+        errors = [max(error, LEAST_DRAWN) for error in line.errors]
+        ax.plot(line.numbers, errors, label=label, **style)
+        vague = [i for i, error in enumerate(errors) if error <= line.uncertainty or i == len(errors) - 1]
+        ax.plot(
+            [line.numbers[i] for i in vague], [errors[i] for i in vague], ls="", marker=style["marker"],
+            ms=style["ms"], color="white", mec=style["color"], zorder=4,
+        )
+        if line.order:
+            guides.setdefault(round(line.order.value), (line, errors))
+    for order, (line, errors) in guides.items():
+        sizes = [axis.size(0) * (n / line.numbers[0]) ** (1 if axis.shrinks else -1) for n in line.numbers]
+        scale = 0.4 * errors[-2] / sizes[-2] ** order
+        ax.plot(line.numbers[-3:], [scale * h**order for h in sizes[-3:]], color="0.5", lw=0.8, ls="--")
+        end = (line.numbers[-1], scale * sizes[-1] ** order)
+        ax.annotate(f"order {order}", end, (-2, -10), textcoords="offset points", ha="right", color="0.4", fontsize=7)
     ax.set(
         xscale="log", yscale="log", xlabel=axis.leaf, ylabel="relative error to its own limit",
         title=f"Convergence in {axis.leaf}",
     )
-    numbers = sorted({number for line in judgement.lines if line.axis == a for number in line.numbers})
+    numbers = sorted({number for line in lines for number in line.numbers})
     ax.set_xticks(numbers, [f"{number:g}" for number in numbers])
     ax.set_xticks([], minor=True)
-    if axis.size(0) != axis.number(0):
-        return ax.legend(fontsize=7)
-    ax.invert_xaxis()  # finer to the right, as in all of them
-    return ax.legend(fontsize=7)
+    ax.legend(fontsize=7, loc="lower left")
+    if axis.shrinks:
+        ax.invert_xaxis()  # finer to the right, as in all of them
 
 
-def _draw_band(ax, uncertainty, label):
-    low, _ = ax.get_ylim()
-    if uncertainty > 0.0:
-        ax.axhspan(min(low, uncertainty / 10.0), uncertainty, color=BAND, zorder=0, label=label)
+def _draw_band(ax, uncertainty):
+    if uncertainty > LEAST_DRAWN:
+        label = "uncertainty of the reference"
+        ax.axhspan(uncertainty / 3.0, uncertainty, color=BAND, zorder=0, label=label)
 
 
 def _capital(text):
@@ -222,9 +249,11 @@ def _capital(text):
 
 
 def write_all(judgement, deck, command, folder, promise=None):
-    """study.csv, study.png, study.html in the folder of the study."""
+    """study.csv, reference.csv, study.png, study.html in the folder of the study."""
     folder = pathlib.Path(folder)
     write_csv(judgement, folder / "study.csv")
+    if judgement.options.reference is None and judgement.measure.parts:
+        write_reference(judgement, folder / "reference.csv")
     figure = draw(judgement)
     figure.savefig(folder / "study.png", dpi=110)
     write_page(judgement, deck, command, folder / "study.html", figure, promise)

@@ -62,22 +62,25 @@ class StudyRuns:
             return None
         return Record(**kept, folder=folder)
 
-    def time(self, settings, repeats):
+    def time(self, settings, repeats, label):
         """A run with so many times; alone on the machine as far as the study is concerned."""
         record = self.find(settings)
         if record is None:
-            record = self._run(settings, timed=True)
+            record = self._run(settings, label, timed=True)
         while record.succeeded and len(record.times) < repeats:
             record.times.append(self._repeat(settings))
             _keep(record)
         return record
 
-    def get(self, list_of_settings, jobs):
-        """Runs without times, so many at once."""
-        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(lambda one: self.find(one) or self._run(one, timed=False), list_of_settings))
+    def get(self, wanted, jobs):
+        """Runs without times, so many at once.
 
-    def _run(self, settings, timed):
+        @param wanted  pairs of settings and label
+        """
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            return list(pool.map(lambda one: self.find(one[0]) or self._run(*one, timed=False), wanted))
+
+    def _run(self, settings, label, timed):
         folder = self.folder / self._key(settings)
         part = folder.with_suffix(".part")
         for old in (folder, part):
@@ -91,7 +94,7 @@ class StudyRuns:
         _keep(record)
         os.replace(part, folder)
         record.folder = folder
-        self.say(f"  {run.cpu:8.2f} s  {' '.join(settings)}" + ("" if run.succeeded else f": {record.reason}"))
+        self.say(f"{run.cpu:9.2f} s  {label}" + ("" if run.succeeded else f": {record.reason}"))
         return record
 
     def _repeat(self, settings):

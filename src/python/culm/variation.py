@@ -140,6 +140,10 @@ class PairedAxis:
         return self.axes[0].is_refined
 
     @property
+    def shrinks(self):
+        return self.axes[0].shrinks
+
+    @property
     def is_same_solution(self):
         return all(axis.is_same_solution or axis.is_refined for axis in self.axes)
 
