@@ -1,13 +1,18 @@
 #include <culm/beam/beam_elements.hpp>
 #include <culm/beam/director_beam.hpp>
 #include <culm/beam/helical_beam.hpp>
+#include <culm/beam/kirchhoff_beam.hpp>
+#include <culm/beam/linear_beam.hpp>
 #include <culm/math/lagrange.hpp>
 #include <culm/math/quadrature.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/model/element_batch.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace culm::beam {
 
@@ -107,10 +112,10 @@ void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
   }
 }
 
-template <class Beam>
-ReferenceState add_all(model::ElementBatch<Beam>& batch, const Chain& chain,
-                       const std::vector<int>& nodes, const SectionTable& sections,
-                       model::Structure& structure) {
+// Calls add(element, stretch) for all elements of a chain; what it returns becomes their cell.
+template <class Beam, class Add>
+ReferenceState add_all(const Chain& chain, const std::vector<int>& nodes,
+                       const SectionTable& sections, model::Structure& structure, Add&& add) {
   ReferenceState reference;
   constexpr std::size_t order = Beam::num_nodes - 1;
   for (std::size_t first = 0; first + order < chain.size(); first += order) {
@@ -118,10 +123,109 @@ ReferenceState add_all(model::ElementBatch<Beam>& batch, const Chain& chain,
     const Beam element = make_element(stretch, sections);
     reference.largest_turn = std::max(reference.largest_turn, stretch.turn());
     add_line_points(element, stretch, structure);
-    const int item = batch.add(element, stretch.nodes);
-    structure.cells.push_back({{stretch.nodes.begin(), stretch.nodes.end()}, &batch, item});
+    const auto [source, item] = add(element, stretch);
+    structure.cells.push_back({{stretch.nodes.begin(), stretch.nodes.end()}, source, item});
   }
   return reference;
+}
+
+using Source = std::pair<const model::ResultantSource*, int>;
+
+// Where elements of a chain go.
+struct Place {
+  const Chain& chain;
+  const std::vector<int>& nodes;
+  const SectionTable& sections;
+  const model::StrainDamping& damping;
+  model::Model& model;
+  model::Structure& structure;
+
+  model::NodeSlots first_node() const {
+    return model::NodeTable::slots(model.nodes().reference(), structure.nodes.front());
+  }
+};
+
+template <class Beam>
+ReferenceState add_full(const std::string& effect, const Place& to) {
+  auto& batch = model::elements<Beam>(to.model, effect, to.damping);
+  return add_all<Beam>(to.chain, to.nodes, to.sections, to.structure,
+                       [&](const Beam& element, const Stretch<Beam>& stretch) {
+                         return Source{&batch, batch.add(element, stretch.nodes)};
+                       });
+}
+
+template <int Order>
+ReferenceState add_kirchhoff(const std::string& effect, const Place& to) {
+  using Beam = DirectorBeam<Order>;
+  auto& batch = model::elements<KirchhoffBeam<Order>>(to.model, effect, to.damping);
+  return add_all<Beam>(
+      to.chain, to.nodes, to.sections, to.structure,
+      [&](const Beam& element, const Stretch<Beam>& stretch) {
+        to.model.add_constraint(
+            shear_free(to.structure.name, element, stretch.nodes, stretch.slots));
+        return Source{&batch, batch.add(KirchhoffBeam<Order>(element), stretch.nodes)};
+      });
+}
+
+template <int Order>
+ReferenceState add_linear(const std::string& effect, const Place& to) {
+  using Beam = DirectorBeam<Order>;
+  auto& batch = model::elements<LinearBeam<Order>>(to.model, effect, to.damping);
+  return add_all<Beam>(
+      to.chain, to.nodes, to.sections, to.structure,
+      [&](const Beam& element, const Stretch<Beam>& stretch) {
+        typename LinearBeam<Order>::Nodes reference;
+        reference << to.first_node(), stretch.slots;
+        std::array<int, Order + 2> nodes{to.structure.nodes.front()};
+        std::copy(stretch.nodes.begin(), stretch.nodes.end(), nodes.begin() + 1);
+        return Source{&batch, batch.add(LinearBeam<Order>(element, reference), nodes)};
+      });
+}
+
+// The slots of a node that follows another one, q_s = sum_k t_sk Q_k.
+Mat<4, 4> follow(const model::NodeSlots& master, const Slots<4>& slave) {
+  const Mat3 triad = master.rightCols<3>();
+  Mat<4, 4> t = Mat<4, 4>::Zero();
+  t(0, 0) = 1.0;
+  t.row(0).tail<3>() = (triad.transpose() * (slave.col(0) - master.col(0))).transpose();
+  t.bottomRightCorner<3, 3>() = (triad.transpose() * slave.rightCols<3>()).transpose();
+  return t;
+}
+
+template <class Beam>
+ReferenceState add_rigid(const Place& to) {
+  const model::NodeSlots master = to.first_node();
+  SlotMatrix<4> mass = SlotMatrix<4>::Zero();
+  const auto reference = add_all<Beam>(to.chain, to.nodes, to.sections, to.structure,
+                                       [&](const Beam& element, const Stretch<Beam>& stretch) {
+                                         Mat<Beam::num_slots, 4> t;
+                                         for (int a = 0; a < Beam::num_nodes; ++a) {
+                                           t.template middleRows<4>(4 * a) = follow(
+                                               master, stretch.slots.template middleCols<4>(4 * a));
+                                         }
+                                         mass += t.transpose() * element.mass() * t;
+                                         return Source{nullptr, 0};
+                                       });
+  if (mass(0, 0) > 0.0) to.model.masses("Rigid beams").add(to.structure.nodes.front(), mass);
+  return reference;
+}
+
+template <int Order>
+ReferenceState add_director(Fidelity fidelity, const Place& to) {
+  const auto effect = [](const char* kind) {
+    return fmt::format("Beam, {}, order {}", kind, Order);
+  };
+  switch (fidelity) {
+    case Fidelity::kirchhoff:
+      return add_kirchhoff<Order>(effect("Kirchhoff"), to);
+    case Fidelity::linear:
+      return add_linear<Order>(effect("linear"), to);
+    case Fidelity::rigid:
+      return add_rigid<DirectorBeam<Order>>(to);
+    case Fidelity::full:
+      break;
+  }
+  return add_full<DirectorBeam<Order>>(effect("director"), to);
 }
 
 }  // namespace
@@ -142,21 +246,19 @@ int order_of(ElementKind kind) {
 ReferenceState add_elements(const ElementChoice& choice, const Chain& chain,
                             const std::vector<int>& nodes, const SectionTable& sections,
                             model::Model& model, model::Structure& structure) {
-  const auto add = [&]<class Beam>(const std::string& effect) {
-    return add_all(model::elements<Beam>(model, effect, choice.damping), chain, nodes, sections,
-                   structure);
-  };
+  const Place to{chain, nodes, sections, choice.damping, model, structure};
   switch (choice.kind) {
     case ElementKind::director_1:
-      return add.template operator()<DirectorBeam<1>>("Beam, director, order 1");
+      return add_director<1>(choice.fidelity, to);
     case ElementKind::director_2:
-      return add.template operator()<DirectorBeam<2>>("Beam, director, order 2");
+      return add_director<2>(choice.fidelity, to);
     case ElementKind::director_3:
-      return add.template operator()<DirectorBeam<3>>("Beam, director, order 3");
+      return add_director<3>(choice.fidelity, to);
     case ElementKind::helical:
       break;
   }
-  return add.template operator()<HelicalBeam>("Beam, helical");
+  return choice.fidelity == Fidelity::rigid ? add_rigid<HelicalBeam>(to)
+                                            : add_full<HelicalBeam>("Beam, helical", to);
 }
 
 }  // namespace culm::beam

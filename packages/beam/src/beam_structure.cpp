@@ -34,6 +34,13 @@ ElementKind read_kind(const Options& options) {
   }
 }
 
+Fidelity read_fidelity(const Options& options) {
+  const std::string& name = options.text("Fidelity");
+  if (name == "Kirchhoff") return Fidelity::kirchhoff;
+  if (name == "Linear") return Fidelity::linear;
+  return name == "Rigid" ? Fidelity::rigid : Fidelity::full;
+}
+
 std::vector<int> add_nodes(const Chain& chain, const SectionTable& sections, model::Model& model,
                            model::Structure& structure) {
   std::vector<int> numbers;
@@ -60,9 +67,17 @@ void check_finite(const Axis& axis, const Options& curve) {
 
 // Joins a chain to the one before it: `slave` is its first node.
 void link_corner(int master, int slave, model::Model& model, model::Structure& structure) {
-  auto& corners = structure.sets["corners"];
-  corners.push_back(master);
-  model.add_rigid_link(fmt::format("{}, corner {}", structure.name, corners.size()), slave, master);
+  const std::size_t corner = structure.sets["corners"].size();
+  model.add_rigid_link(fmt::format("{}, corner {}", structure.name, corner), slave, master);
+}
+
+// Lets nodes of a rigid beam follow its first one.
+void link_all(const std::vector<int>& nodes, model::Model& model,
+              const model::Structure& structure) {
+  const int first = structure.nodes.front();
+  for (int node : nodes) {
+    if (node != first) model.add_rigid_link(structure.name + ", rigid", node, first);
+  }
 }
 
 // Adds the nodes of a chain, and its elements, the last ones of the structure so far.
@@ -106,6 +121,12 @@ Schema beam_schema() {
       .add(integer("Order", "Order of interpolation of director elements: nodes minus one.")
                .between(1, 3)
                .optional(1))
+      .add(
+          choice("Fidelity", {"Full", "Kirchhoff", "Linear", "Rigid"},
+                 "Full: geometrically exact. Kirchhoff: without shear and extension. Linear: small "
+                 "displacements seen from the first node, which may move at will. Rigid: all nodes "
+                 "follow the first one.")
+              .optional("Full"))
       .add(number("Dissipation", "1",
                   "Numerical dissipation of strains in dynamics: 0 keeps the energy, 1 damps most; "
                   "momenta are kept.")
@@ -125,13 +146,21 @@ Schema beam_schema() {
         if (beam.text("Element") == "Helical" && beam.integer("Order") != 1) {
           issues.add(beam.where("Order"), "helical elements have two nodes: leave 'Order' out");
         }
+        const std::string& fidelity = beam.text("Fidelity");
+        if (beam.text("Element") == "Helical" &&
+            (fidelity == "Kirchhoff" || fidelity == "Linear")) {
+          issues.add(beam.where("Fidelity"), "needs director elements, got helical ones");
+        }
       });
   return schema;
 }
 
 void add_beam(const Options& options, StructureContext& context) {
   const ElementKind kind = read_kind(options);
-  const ElementChoice choice{kind, {options.number("Dissipation"), options.number("Damping")}};
+  const Fidelity fidelity = read_fidelity(options);
+  const bool is_rigid = fidelity == Fidelity::rigid;
+  const ElementChoice choice{
+      kind, fidelity, {options.number("Dissipation"), options.number("Damping")}};
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
   const Density density{order_of(kind), context.refinement};
@@ -143,7 +172,12 @@ void add_beam(const Options& options, StructureContext& context) {
   for (const Chain& chain : axis.chains) {
     const int before = structure.nodes.empty() ? -1 : structure.nodes.back();
     const std::vector<int> nodes = add_nodes(chain, sections, context.model, structure);
-    if (before >= 0) link_corner(before, nodes.front(), context.model, structure);
+    if (before >= 0) structure.sets["corners"].push_back(before);
+    if (is_rigid) {
+      link_all(nodes, context.model, structure);
+    } else if (before >= 0) {
+      link_corner(before, nodes.front(), context.model, structure);
+    }
     const ReferenceState reference =
         add_elements(choice, chain, nodes, sections, context.model, structure);
     largest_turn = std::max(largest_turn, reference.largest_turn);
@@ -153,10 +187,10 @@ void add_beam(const Options& options, StructureContext& context) {
   structure.sets["last"] = {structure.nodes.back()};
   structure.sets["all"] = structure.nodes;
   const double velocity_dissipation = options.number("Velocity Dissipation");
-  if (velocity_dissipation > 0.0) {
+  if (velocity_dissipation > 0.0 && !is_rigid) {
     model::VelocityDissipation::of(context.model).add_body(structure.nodes, velocity_dissipation);
   }
-  check_turn(kind, largest_turn, options, context);
+  if (!is_rigid) check_turn(kind, largest_turn, options, context);
 }
 
 }  // namespace culm::beam

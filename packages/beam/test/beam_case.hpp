@@ -3,6 +3,8 @@
 
 #include <culm/beam/director_beam.hpp>
 #include <culm/beam/helical_beam.hpp>
+#include <culm/beam/kirchhoff_beam.hpp>
+#include <culm/beam/linear_beam.hpp>
 #include <culm/math/lagrange.hpp>
 #include <culm/math/quadrature.hpp>
 
@@ -63,6 +65,38 @@ struct DirectorBeamCase {
     }
     return coupled_mass(9)(0, 0) * length;
   }
+};
+
+template <int Order>
+struct KirchhoffBeamCase : DirectorBeamCase<Order> {
+  using Type = KirchhoffBeam<Order>;
+  static Type make() { return Type(DirectorBeamCase<Order>::make()); }
+};
+
+/// The frame stands apart from the beam and is turned.
+template <int Order>
+struct LinearBeamCase {
+  using Type = LinearBeam<Order>;
+  using Base = DirectorBeamCase<Order>;
+  static Slots<Type::num_slots> with_frame(const Slots<4>& frame,
+                                           const typename Type::Base::Nodes& beam) {
+    Slots<Type::num_slots> q;
+    q << frame, beam;
+    return q;
+  }
+  static Slots<4> frame() {
+    Slots<4> q;
+    q << Vec3(0.4, -0.3, 0.2), exp_rotation(Vec3(0.3, -0.8, 0.5));
+    return q;
+  }
+  static Slots<Type::num_slots> reference() { return with_frame(frame(), Base::reference()); }
+  static Slots<Type::num_slots> state(int seed) {
+    Slots<4> moved = frame();
+    moved.rightCols<3>() = kit::Random(seed + 50).rotation(0.7) * moved.rightCols<3>();
+    return with_frame(moved, Base::state(seed));
+  }
+  static Type make() { return {Base::make(), reference()}; }
+  static double total_mass() { return Base::total_mass(); }
 };
 
 struct HelicalBeamCase {

@@ -58,6 +58,10 @@ class DirectorBeam {
   const Strain& reference_strain(int point) const noexcept { return at(point).reference; }
   /// Length of the reference axis that a Gauss point stands for, w_g J [m]
   double length(int point) const noexcept { return at(point).length; }
+  /// Shape functions at a Gauss point, shape (num_nodes)
+  const Vec<num_nodes>& shape(int point) const noexcept { return at(point).N; }
+  /// Their derivatives by arc length [1/m]
+  const Vec<num_nodes>& shape_derivative(int point) const noexcept { return at(point).dN; }
 
  private:
   struct Point {

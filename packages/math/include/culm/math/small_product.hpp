@@ -10,7 +10,7 @@ namespace culm {
 /// registers, in runs of columns short enough to fit.
 template <int R, int K, int C>
 void multiply_add(const RowMat<R, K>& A, const RowMat<K, C>& B, RowMat<R, C>& product) {
-  constexpr int run = C % 24 == 0 ? 24 : C % 14 == 0 ? 14 : C % 12 == 0 ? 12 : C;
+  constexpr int run = C % 24 == 0 ? 24 : C % 14 == 0 ? 14 : C % 12 == 0 ? 12 : C % 10 == 0 ? 10 : C;
   static_assert(run <= 24, "a run of columns has to fit into registers");
   for (int first = 0; first < C; first += run) {
     for (int i = 0; i < R; ++i) {
