@@ -38,6 +38,7 @@ int replace_process(const std::filesystem::path& program, const std::vector<std:
 const std::vector<PythonVerb>& python_verbs() {
   static const std::vector<PythonVerb> verbs = {
       {"hard", "Run the hard cases with growing stressors and tell their margins"},
+      {"effects", "Tell what the effects of a scene cost, and what changes without each"},
       {"report", "Draw the page of a run: report.html in its folder"},
       {"study", "Measure what accuracy costs: vary a deck, compare with a reference, advise"},
   };

@@ -228,7 +228,8 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       }
       {
         const Ledger::Scope scope(context.ledger, certificate_effect);
-        certificate_->record(state, stencil, report.outcome.last.constraint_violation);
+        certificate_->record(state, stencil, report.outcome.last.constraint_violation,
+                             report.is_last);
       }
       accept(state);
     } else {

@@ -199,6 +199,7 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
 
 void PostMortem::refuse_singular(const model::State& state) {
   assembly::System& system = context_.system;
+  if (system.matrix()->getGlobalNumRows() == 0) return;  // held or rigid altogether
   Vector probe(system.layout().row_map());
   Vector response(system.layout().row_map());
   fill_irregular(probe);

@@ -19,7 +19,8 @@ void run(Motion& motion, Certificate& certificate, double h, int steps) {
     const solver::StepOutcome outcome = motion.solve(h);
     ASSERT_TRUE(outcome.converged());
     motion.scheme->finish(motion.state, h);
-    certificate.record(motion.state, motion.stencil, outcome.last.constraint_violation);
+    certificate.record(motion.state, motion.stencil, outcome.last.constraint_violation,
+                       i + 1 == steps);
     accept(motion.state);
   }
 }

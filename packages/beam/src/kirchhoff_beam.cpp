@@ -60,6 +60,7 @@ model::Constraint shear_free(const std::string& name, const DirectorBeam<Order>&
   c.type = "Kirchhoff";
   c.nodes.assign(nodes.begin(), nodes.end());
   c.is_internal = true;
+  c.is_structural = true;
   const Eigen::Matrix3Xd q = reference;
   for (int p = 0; p < DirectorBeam<Order>::num_points; ++p) {
     const Vec<Order + 1>& N = element.shape(p);

@@ -3,6 +3,7 @@
 #include <culm/beam/director_beam.hpp>
 #include <culm/beam/helical_beam.hpp>
 #include <culm/model/element_batch.hpp>
+#include <culm/model/mass_properties.hpp>
 
 #include <Eigen/Geometry>
 #include <culm_kit/deck_list.hpp>
@@ -212,6 +213,42 @@ TEST_F(BeamStructure, NumbersOfTheDeckKeepTheirPlacesWhenRefined) {
   EXPECT_TRUE(model.select_nodes("blade/9").empty());
   EXPECT_EQ(beam.numbered_cells(), 4u);
   EXPECT_THAT(beam.cells_of(2), testing::ElementsAre(6, 7, 8));
+}
+
+TEST_F(BeamStructure, RigidBeamWeighsAndTurnsAsTheFullOne) {
+  const GivenValues curved{{"Centre", Numbers{0, 5, 0}},
+                           {"Axis", Numbers{0, 0, 1}},
+                           {"From", Numbers{0, 0, 0}},
+                           {"Angle", 1.2},
+                           {"Elements", 6}};
+  GivenValues given = director_2;
+  model::Model whole;
+  StructureContext context{whole, sections, issues, log};
+  add_beam(beam_list(given, "Arc", curved), context);
+  given.push_back({"Fidelity", std::string("Rigid")});
+  add(given, "Arc", curved);
+  const auto rigid = model::mass_properties(model, model.nodes().reference()).front();
+  const auto full = model::mass_properties(whole, whole.nodes().reference()).front();
+  EXPECT_NEAR(rigid.mass, full.mass, 1e-13 * full.mass);
+  EXPECT_LT((rigid.first - full.first).norm(), 1e-13 * full.first.norm());
+  EXPECT_LT((rigid.second - full.second).norm(), 1e-13 * full.second.norm());
+  model.freeze(model::Form::null_space);
+  EXPECT_EQ(model.unknowns().num_unknowns(), 6);
+  EXPECT_EQ(model.batches().size(), 1u) << "its mass and nothing else";
+}
+
+TEST_F(BeamStructure, KirchhoffBeamHasThreeEquationsPerPoint) {
+  GivenValues given = director_2;
+  given.push_back({"Fidelity", std::string("Kirchhoff")});
+  add_line(given);
+  model.freeze(model::Form::null_space);
+  EXPECT_EQ(model.unknowns().num_multipliers(), 4 * 2 * 3);
+  for (const model::Constraint& c : model.constraints()) {
+    EXPECT_TRUE(c.is_structural);
+    // the derivative by arc length and the directors of a straight beam
+    const auto q = model::slots_of(c, model.nodes().reference());
+    for (const model::ConstraintRow& row : c.rows) EXPECT_NEAR(row_value(row, q), 0.0, 1e-14);
+  }
 }
 
 }  // namespace

@@ -316,7 +316,10 @@ StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) 
 Vec6 ConstraintBatch::reaction(int node, const State& state, const std::string& constraint) const {
   Vec6 total = Vec6::Zero();
   for (const Item& item : items_) {
-    if (!constraint.empty() && item.constraint.name != constraint) continue;
+    // as where they are eliminated, rigid connections carry their forces without showing them
+    const bool is_inner = item.constraint.is_structural || item.constraint.link;
+    const bool counts = constraint.empty() ? !is_inner : item.constraint.name == constraint;
+    if (!counts) continue;
     const std::vector<int>& nodes = item.constraint.nodes;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (nodes[a] != node) continue;

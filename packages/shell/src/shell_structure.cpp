@@ -202,6 +202,7 @@ void join_folds(const ShellMesh& mesh, const std::vector<int>& nodes, const std:
       const int second = nodes[static_cast<std::size_t>(fold[i + 1])];
       model::Constraint joint = joint::fold_connection(model.nodes(), first, second);
       joint.type = "Fold";
+      joint.is_structural = true;
       joint.name = structure + ", fold";
       model.add_constraint(std::move(joint));
     }

@@ -38,11 +38,33 @@ std::string inertia_line(const std::string& name, const MassProperties& m) {
   return line + "\n";
 }
 
-// The nodes of a constraint by name, with those between which it acts.
-std::string places_of(const model::Constraint& c, const model::Model& model) {
+constexpr std::size_t most_places = 6;  // on a line
+
+// Nodes by name; of many the first ones.
+std::string places_of(const std::vector<int>& nodes, const model::Model& model) {
   std::vector<std::string> names;
-  for (int node : c.nodes) names.push_back(model.node_name(node));
-  return join(names, ", ");
+  for (int node : nodes) {
+    if (names.size() < most_places) names.push_back(model.node_name(node));
+  }
+  const std::string text = join(names, ", ");
+  return nodes.size() > most_places ? fmt::format("{}, … {} nodes", text, nodes.size()) : text;
+}
+
+// All nodes of links that belong together, such as those of a rigid beam.
+std::vector<int> linked_nodes(const std::vector<model::Constraint>& all, std::size_t first) {
+  std::vector<int> nodes = all[first].nodes;
+  for (std::size_t i = first + 1; i < all.size(); ++i) {
+    if (!all[i].link || all[i].name != all[first].name) continue;
+    nodes.push_back(all[i].link->slave);
+  }
+  return nodes;
+}
+
+// Whether an earlier line speaks of a link.
+bool is_told(const std::vector<model::Constraint>& all, std::size_t number) {
+  return all[number].link &&
+         std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(number),
+                     [&](const auto& c) { return c.link && c.name == all[number].name; });
 }
 
 std::string fate_of(const model::Constraint& c, const model::Model& model) {
@@ -85,9 +107,14 @@ std::string report_masses(const model::Model& model) {
 std::string report_constraints(const model::Model& model) {
   if (model.constraints().empty()) return {};
   std::string text = fmt::format("{:<40} {:<28} {}\n", "constraint", "held", "on");
-  for (const model::Constraint& c : model.constraints()) {
-    text += fmt::format("{:<40} {:<28} {}\n", fmt::format("{} '{}'", c.type, c.name),
-                        fate_of(c, model), places_of(c, model));
+  const auto& all = model.constraints();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const model::Constraint& c = all[i];
+    // the structure says what it is made of
+    if (c.is_structural || is_told(all, i)) continue;
+    text +=
+        fmt::format("{:<40} {:<28} {}\n", fmt::format("{} '{}'", c.type, c.name), fate_of(c, model),
+                    places_of(c.link ? linked_nodes(all, i) : c.nodes, model));
   }
   return text;
 }

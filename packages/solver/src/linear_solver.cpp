@@ -13,6 +13,16 @@ namespace {
 // (tests/benchmark).
 constexpr double widest_front_for_klu2 = 60.0;
 
+// For models that are held or rigid altogether.
+class NothingToSolve final : public LinearSolver {
+ public:
+  std::string name() const override { return "none"; }
+  bool factor() override { return true; }
+  double solve(const Vector&, Vector&) override { return 0.0; }
+  Determinant determinant() override { return {1, 0.0}; }
+  double weakest_direction(Vector&) override { return 0.0; }
+};
+
 }  // namespace
 
 const std::vector<std::string>& linear_solver_names() {
@@ -23,6 +33,9 @@ const std::vector<std::string>& linear_solver_names() {
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
                                   const parallel::Comm& comm) {
+  if (matrix->getGlobalNumRows() == 0) {
+    return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
+  }
   if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
   if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
   Ordering ordering = order_rows(*matrix, comm);

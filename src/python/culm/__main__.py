@@ -12,6 +12,7 @@ import sys
 from .errors import CulmError
 
 VERBS = {
+    "effects": "tell what the effects of a scene cost and change",
     "hard": "margins of hard cases",
     "report": "draw the page of a run",
     "study": "measure what accuracy costs",

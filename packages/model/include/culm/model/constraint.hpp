@@ -64,6 +64,9 @@ struct Constraint {
   int replaces_internal = -1;
   /// Acts between nodes only, hence keeps the momenta of the model.
   bool is_internal = false;
+  /// Part of the mechanics of a structure, such as an axis that does not stretch: its forces are
+  /// stresses, no reactions.
+  bool is_structural = false;
   /// Moves the rows in time (inhomogeneous constraints); empty for fixed ones.
   std::function<void(double time, std::vector<ConstraintRow>& rows)> drive;
 };

@@ -1,0 +1,158 @@
+"""What can be taken out of a deck: effects by their names, and the settings that switch each off.
+
+A finder looks at a resolved deck and yields removals. To add an effect, write a finder and name it in
+FINDERS.
+"""
+
+import dataclasses
+
+STIFF = 1e4  # factor on a stiffness that stands for a rigid one
+LIGHT = 1e-6  # factor on an inertia that stands for none
+
+
+@dataclasses.dataclass
+class Removal:
+    effect: str
+    where: str  # structures, loads or sections it is taken from
+    settings: list  # path=value
+    note: str = ""  # what 'off' means where it is not exactly that
+
+
+def find(deck):
+    """All removals of a resolved deck, in the order of FINDERS."""
+    return [removal for finder in FINDERS for removal in finder(deck)]
+
+
+def fidelities(deck):
+    """Shear and extension, large rotations, all flexibility; beams that are alike go together."""
+    words = {
+        "shear and extension": ("Kirchhoff", lambda beam: beam["Element"] == "Director"),
+        "large rotations within": ("Linear", lambda beam: beam["Element"] == "Director"),
+        "flexibility": ("Rigid", lambda beam: True),
+    }
+    for names in _alike(deck):
+        beam = _parameters(deck, f"Structures/{names[0]}")
+        for effect, (word, fits) in words.items():
+            if beam["Fidelity"] == "Full" and fits(beam):
+                settings = [f"Structures/{name}/Fidelity={word}" for name in names]
+                yield Removal(effect, ", ".join(names), settings)
+
+
+def torsion(deck):
+    """Twist of sections that give their torsional stiffness as a number."""
+    for name in deck.names_in("Sections"):
+        section = _parameters(deck, f"Sections/{name}")
+        if section.get("Type") == "Stiffness Values":
+            value = float(section["GIp"])
+            settings = [f"Sections/{name}/GIp={STIFF * value!r}"]
+            yield Removal("torsion", name, settings, f"GIp times {STIFF:g}")
+
+
+def rotary_inertia(deck):
+    if not _types(deck, "Analyses", "Dynamic", "Modal", "Campbell"):
+        return
+    for name in deck.names_in("Sections"):
+        section = _parameters(deck, f"Sections/{name}")
+        values = {key: float(section.get(key) or 0.0) for key in ("rhoI1", "rhoI2")}
+        if section.get("Type") == "Stiffness Values" and any(values.values()):
+            settings = [f"Sections/{name}/{key}={LIGHT * value!r}" for key, value in values.items()]
+            yield Removal("rotary inertia", name, settings, f"times {LIGHT:g}")
+
+
+def enhanced_strains(deck):
+    for name in _types(deck, "Structures", "Shell"):
+        shell = _parameters(deck, f"Structures/{name}")
+        for key, effect in (("Enhanced Membrane", "membrane"), ("Enhanced Thickness", "thickness")):
+            if shell[key] != "None":
+                yield Removal(f"enhanced {effect} strain", name, [f"Structures/{name}/{key}=None"])
+        if shell["Assumed Strains"] == "true":
+            yield Removal("assumed strains", name, [f"Structures/{name}/Assumed Strains=false"])
+
+
+def thickness_stretch(deck):
+    for name in _types(deck, "Structures", "Shell"):
+        entry = f"Constraints/{name} keeps its thickness"
+        settings = [f"{entry}/Type=Inextensible Director", f"{entry}/Node={name}"]
+        yield Removal("thickness stretch", name, settings)
+
+
+def loads(deck):
+    """Each load by itself: weight, frames, springs, dampers, forces."""
+    for name in deck.names_in("Loads"):
+        kind = deck.parameters[f"Loads/{name}/Type"].lower()
+        settings = [
+            f"Analyses/{analysis}/Inactive={_array(_list(deck, analysis) + [name])}"
+            for analysis in deck.names_in("Analyses")
+            if name not in _list(deck, analysis)
+        ]
+        if settings:
+            yield Removal(kind, name, settings)
+
+
+def masses(deck):
+    for name in deck.names_in("Masses"):
+        value = float(deck.parameters[f"Masses/{name}/Mass"])
+        yield Removal("point mass", name, [f"Masses/{name}/Mass={LIGHT * value!r}"], f"times {LIGHT:g}")
+
+
+def dissipation(deck):
+    """Numerical dissipation and physical damping."""
+    for place in ("Structures", "Materials"):
+        for key in ("Dissipation", "Velocity Dissipation", "Damping"):
+            for path in deck.matching(f"{place}/*/{key}"):
+                if float(deck.parameters[path]) > 0.0:
+                    yield Removal(key.lower(), path.split("/")[1], [f"{path}=0"])
+
+
+def prestress(deck):
+    """Modes and buckling about a loaded state, where nothing follows that would need it."""
+    names = deck.names_in("Analyses")
+    if len(names) < 2:
+        return
+    for name in _types(deck, "Analyses", "Modal"):
+        if name == names[-1] and not deck.parameters.get(f"Analyses/{name}/Start From"):
+            yield Removal("geometric stiffness", name, [f"Analyses/{name}/Start From=Reference"])
+
+
+FINDERS = [
+    fidelities,
+    torsion,
+    rotary_inertia,
+    enhanced_strains,
+    thickness_stretch,
+    loads,
+    masses,
+    dissipation,
+    prestress,
+]
+
+
+def _alike(deck):
+    """Beams whose lists differ in their curves only, as lists of names."""
+    groups = {}
+    for name in _types(deck, "Structures", "Beam"):
+        groups.setdefault(tuple(sorted(_parameters(deck, f"Structures/{name}").items())), []).append(name)
+    return groups.values()
+
+
+def _parameters(deck, path):
+    """Parameters of a list by name, without those of lists below."""
+    start = path + "/"
+    return {
+        one[len(start) :]: value
+        for one, value in deck.parameters.items()
+        if one.startswith(start) and "/" not in one[len(start) :]
+    }
+
+
+def _types(deck, path, *types):
+    return [name for name in deck.names_in(path) if deck.parameters.get(f"{path}/{name}/Type") in types]
+
+
+def _list(deck, analysis):
+    text = deck.parameters.get(f"Analyses/{analysis}/Inactive") or "{}"
+    return [word.strip().strip('"') for word in text.strip("{}").split(",") if word.strip()]
+
+
+def _array(names):
+    return "{" + ", ".join(f'"{name}"' for name in names) + "}"

@@ -1,0 +1,86 @@
+"""An effect that is off has no object, no unknown, no matrix entry and no call: counted in the tables of effects
+of runs with it and without it."""
+
+import argparse
+import pathlib
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "src/python"))
+from culm.program import Program  # noqa: E402
+
+SPAGHETTI = "flight/spaghetti_3d"
+FIDELITY = "Structures/beam/Fidelity"
+
+# How the line of an effect begins, a deck that has it, the settings of that run, and those that switch it off.
+ADDED = [
+    ("Gravity", "beam/pendulum", [], ["Analyses/motion/Inactive={weight}"]),
+    ("Force", SPAGHETTI, [], ["Analyses/motion/Inactive={force}"]),
+    ("Moment", SPAGHETTI, [], ["Analyses/motion/Inactive={moment}"]),
+    ("Rotating Frame", "modes/rotating_beam", [], ["Analyses/spin/Inactive={rotation}", "Analyses/modes/Inactive={rotation}"]),
+    ("Pressure", "shell/falling_tube", [], ["Analyses/fall/Inactive={pressure}"]),
+    ("Spring", "joint/oscillators", [], ["Analyses/motion/Inactive={pair}"]),
+    ("Directed Ground Damper", "joint/oscillators", [], ["Analyses/motion/Inactive={damper}"]),
+    ("Torsion Drive", "joint/torsion", [], ["Analyses/motion/Inactive={motor}"]),
+    ("Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
+    ("Checkpoints", SPAGHETTI, [], ["Output/Checkpoints=false"]),
+]
+
+# The same where another effect takes its place: one kind of element, and of mass, instead of another.
+REPLACED = [
+    ("Beam, director", SPAGHETTI, [], [f"{FIDELITY}=Rigid"]),
+    ("Rigid beams", SPAGHETTI, [f"{FIDELITY}=Rigid"], [f"{FIDELITY}=Full"]),
+    ("Beam, linear", SPAGHETTI, [f"{FIDELITY}=Linear"], [f"{FIDELITY}=Full"]),
+    ("Beam, Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
+]
+
+
+def effects(program, deck, settings):
+    with tempfile.TemporaryDirectory(prefix="culm") as folder:
+        run = program.run(ROOT / "inputs" / f"{deck}.xml", folder, settings)
+        if not run.succeeded:
+            sys.exit(f"{deck} {settings}: {run.outcome}\n{run.errors}")
+        return run.results.effects()
+
+
+def unknowns(table):
+    return next(e.unknowns for e in table if e.name.startswith("Factorisation"))
+
+
+def entries(table):
+    return sum(e.entries or 0 for e in table)
+
+
+def complaints(program, name, deck, on, off, is_replaced):
+    whole, without = effects(program, deck, on), effects(program, deck, off)
+    lines = [e for e in whole if e.name.startswith(name)]
+    if not lines or not all(e.calls > 0 for e in lines):
+        yield "it is not there when it is on"
+    if any(e.name.startswith(name) for e in without):
+        yield "it has an object, or calls, when it is off"
+    if is_replaced:
+        return
+    owned = sum(e.unknowns or 0 for e in lines)
+    if unknowns(without) != unknowns(whole) - owned:
+        yield f"unknowns: {unknowns(without)} without it, {unknowns(whole)} with it, {owned} are its own"
+    added = sum(e.entries or 0 for e in lines)
+    if entries(without) != entries(whole) - added:
+        yield f"entries: {entries(without)} without it, {entries(whole)} with it, {added} are its own"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--culm", required=True)
+    program = Program(parser.parse_args().culm)
+    failures = 0
+    for cases, is_replaced in ((ADDED, False), (REPLACED, True)):
+        for name, deck, on, off in cases:
+            found = list(complaints(program, name, deck, on, off, is_replaced))
+            print(f"{name}, {deck}: {'; '.join(found) or 'costs nothing when it is off'}")
+            failures += bool(found)
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()

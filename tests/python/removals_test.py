@@ -1,0 +1,58 @@
+"""What can be taken out of a deck, and by which settings."""
+
+import unittest
+
+from culm import removals
+from culm.resolved_deck import ResolvedDeck
+
+
+def deck(body):
+    return ResolvedDeck(f'<ParameterList name="culm">{body}</ParameterList>')
+
+
+def entry(name, parameters, below=""):
+    lines = "".join(f'<Parameter name="{key}" value="{value}"/>' for key, value in parameters.items())
+    return f'<ParameterList name="{name}">{lines}{below}</ParameterList>'
+
+
+BEAM = {"Type": "Beam", "Section": "bar", "Element": "Director", "Fidelity": "Full", "Dissipation": "0"}
+
+
+def settings(found, effect):
+    return [removal.settings for removal in found if removal.effect == effect]
+
+
+class Removals(unittest.TestCase):
+    def test_beams_that_are_alike_go_together(self):
+        beams = entry("a", BEAM) + entry("b", BEAM) + entry("c", {**BEAM, "Section": "rod"})
+        found = removals.find(deck(entry("Structures", {}, beams)))
+        self.assertEqual(
+            settings(found, "flexibility"),
+            [["Structures/a/Fidelity=Rigid", "Structures/b/Fidelity=Rigid"], ["Structures/c/Fidelity=Rigid"]],
+        )
+
+    def test_what_is_off_already_is_not_offered(self):
+        beams = entry("a", {**BEAM, "Fidelity": "Rigid"})
+        self.assertEqual(removals.find(deck(entry("Structures", {}, beams))), [])
+
+    def test_helical_beams_are_full_or_rigid(self):
+        beams = entry("a", {**BEAM, "Element": "Helical"})
+        found = removals.find(deck(entry("Structures", {}, beams)))
+        self.assertEqual([removal.effect for removal in found], ["flexibility"])
+
+    def test_loads_join_those_that_are_inactive_already(self):
+        body = entry("Loads", {}, entry("weight", {"Type": "Gravity"}) + entry("brake", {"Type": "Spring"}))
+        body += entry("Analyses", {}, entry("start", {"Type": "Static", "Inactive": "{brake}"}))
+        found = removals.find(deck(body))
+        self.assertEqual(settings(found, "gravity"), [['Analyses/start/Inactive={"brake", "weight"}']])
+        self.assertEqual(settings(found, "spring"), [])
+
+    def test_damping_is_offered_where_there_is_some(self):
+        beams = entry("a", {**BEAM, "Dissipation": "0.3", "Damping": "0"})
+        found = removals.find(deck(entry("Structures", {}, beams)))
+        self.assertEqual(settings(found, "dissipation"), [["Structures/a/Dissipation=0"]])
+        self.assertEqual(settings(found, "damping"), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
