@@ -52,7 +52,13 @@ def sentence(judgement):
 def promises(judgement, target):
     """Settings that should reach a target, the cheapest first; empty if no run did."""
     found = [
-        Promise(_settings(judgement, point.index), judgement.label(point.index), point.bound, point.record.cpu, point.index)
+        Promise(
+            _settings(judgement, point.index),
+            judgement.label(point.index),
+            point.bound,
+            point.record.cpu,
+            point.index,
+        )
         for point in front(judgement.points.values())
         if point.bound <= target
     ]
@@ -60,36 +66,30 @@ def promises(judgement, target):
         return []
     for index, point in judgement.points.items():
         for a in judgement.refined:
-            found += _between(judgement, index, point, a, target)
+            neighbour = (*index[:a], index[a] + 1, *index[a + 1 :])
+            fine = judgement.points.get(neighbour)
+            if fine and point.succeeded and fine.succeeded and point.bound > target >= fine.bound:
+                found += _between(judgement, point, fine, a, target)
     return sorted(found, key=lambda promise: promise.cpu)
 
 
-def _between(judgement, index, coarse, a, target):
-    """A setting between a run that misses the target and its finer neighbour that reaches it: error and
-    cost follow power laws between the two."""
-    neighbour = (*index[:a], index[a] + 1, *index[a + 1 :])
-    fine = judgement.points.get(neighbour)
-    if fine is None or not (coarse.succeeded and fine.succeeded) or not coarse.bound > target >= fine.bound:
-        return []
+def _between(judgement, coarse, fine, a, target):
+    """A setting between a run that misses the target and its finer neighbour along an axis that reaches
+    it: error and cost follow power laws between the two."""
     axis = judgement.axes[a]
     fall = math.log(coarse.bound / fine.bound)
     aim = max(SHARE_OF_TARGET * target, math.sqrt(fine.bound * target))
-    share = math.log(coarse.bound / aim) / fall
-    value = axis.between(index[a], neighbour[a], share)
+    value = axis.between(coarse.index[a], fine.index[a], math.log(coarse.bound / aim) / fall)
     if value is None:
         return []
-    share = math.log(float(value) / axis.number(index[a])) / math.log(axis.number(neighbour[a]) / axis.number(index[a]))
-    labels = [b.label(i) for b, i in zip(judgement.axes, index)]
-    labels[a] = f"{axis.leaf}={value}"
-    return [
-        Promise(
-            [s for b, i in zip(judgement.axes, index) for s in (axis.settings_of(value) if b is axis else b.settings(i))],
-            ", ".join(labels),
-            coarse.bound * math.exp(-share * fall),
-            coarse.record.cpu * (fine.record.cpu / coarse.record.cpu) ** share,
-            None,
-        )
-    ]
+    first, last = axis.number(coarse.index[a]), axis.number(fine.index[a])
+    share = math.log(float(value) / first) / math.log(last / first)  # of what was rounded
+    settings, labels = [], []
+    for other, i in zip(judgement.axes, coarse.index):
+        settings += axis.settings_of(value) if other is axis else other.settings(i)
+        labels.append(f"{axis.leaf}={value}" if other is axis else other.label(i))
+    cpu = coarse.record.cpu * (fine.record.cpu / coarse.record.cpu) ** share
+    return [Promise(settings, ", ".join(labels), coarse.bound * math.exp(-share * fall), cpu, None)]
 
 
 def _settings(judgement, index):

@@ -103,6 +103,7 @@ class Judgement:
         grid = list(itertools.product(*(range(len(axis.values)) for axis in self.axes)))
         # all once before any is repeated: what changes on the machine does not fall on one of them
         for repeat in range(1, self.options.repeat + 1):
+            self.runs.say(f"{len(grid)} runs, {repeat} of {self.options.repeat}")
             for index in grid:
                 self.points[index] = Point(index, self.runs.time(self.settings(index), repeat, self.label(index)))
                 self._check_watched(self.points[index].record)
@@ -118,13 +119,16 @@ class Judgement:
                 if one.drift is None:
                     one.columns(history)
                 elif drift(scalars, one.drift) is None:
-                    raise CulmError(f"--watch {one.name}: the certificate of this deck has no such number")
+                    text = f"--watch {one.name}: the certificate of this deck has no such number"
+                    raise CulmError(text)
             self._is_checked = True
 
     # ---- states
 
     def _measure(self):
-        self._histories = {i: p.record.history() for i, p in self.points.items() if p.record.succeeded}
+        self._histories = {
+            index: point.record.history() for index, point in self.points.items() if point.record.succeeded
+        }
         histories = list(self._histories.values())
         if self.options.reference is not None:
             histories.append(self.options.reference)
@@ -153,7 +157,8 @@ class Judgement:
 
     def _refer(self):
         if self.options.reference is not None:
-            limits = [Limit(m.state(self.options.reference), dict.fromkeys(m.parts, 0.0)) for m in self._measures()]
+            given = self.options.reference
+            limits = [Limit(m.state(given), dict.fromkeys(m.parts, 0.0)) for m in self._measures()]
             self.reference_label = "the history given"
         elif not any(measure.parts for measure in self._measures()):
             limits = [Limit(self.state(max(self._histories), measure), {}) for measure in self._measures()]
@@ -200,11 +205,13 @@ class Judgement:
         for finer in range(self.options.finer, -1, -1):
             corner = self.at(combination, finer)
             lines = {a: self._towards(corner, a) for a in self.refined}
-            self._run_untimed(dict.fromkeys([corner, *(index for line in lines.values() for index in line)]))
+            needed = [corner, *(index for line in lines.values() for index in line)]
+            self._run_untimed(dict.fromkeys(needed))
             if corner in self._histories:
                 break
         else:
-            raise CulmError("no reference: the finest run failed; leave it out, or give one by --reference", 4)
+            text = "no reference: the finest run failed; leave it out, or give one by --reference"
+            raise CulmError(text, 4)
         self.reference_label = self.label(corner)
         lines = {a: [index for index in line if index in self._histories] for a, line in lines.items()}
         return [
@@ -221,7 +228,8 @@ class Judgement:
 
     def _towards(self, corner, a):
         """Up to four indices along an axis that end in a corner."""
-        return [(*corner[:a], i, *corner[a + 1 :]) for i in range(max(corner[a] - 3, 0), corner[a] + 1)]
+        indices = range(max(corner[a] - 3, 0), corner[a] + 1)
+        return [(*corner[:a], i, *corner[a + 1 :]) for i in indices]
 
     def _run_untimed(self, indices):
         """Makes what was not yet tried."""

@@ -33,12 +33,14 @@ class Watched:
 
     def columns(self, history):
         """Columns by unit: {title: [names]}."""
-        names = history.names_of(self.entry) or [n for n in history.names if n.split(" [")[0] == self.entry]
+        names = history.names_of(self.entry)
+        names = names or [n for n in history.names if n.split(" [")[0] == self.entry]
         if self.component:
             found = [n for n in names if n.split(" [")[0] == f"{self.entry} {self.component}"]
             if not found:
                 known = [n.split(" [")[0][len(self.entry) + 1 :] for n in names]
-                raise CulmError(f"--watch {self.name}: no component '{self.component}'{_hint(self.component, known)}")
+                hint = _hint(self.component, known)
+                raise CulmError(f"--watch {self.name}: no component '{self.component}'{hint}")
             return {self.name: found}
         units = {}
         for name in names:
@@ -164,7 +166,8 @@ def _at(levels, values, wanted):
         factor = numpy.ones(len(missed))
         for j in range(count):
             if j != i:
-                factor *= (wanted[missed] - levels[nodes[:, j]]) / (levels[nodes[:, i]] - levels[nodes[:, j]])
+                other = levels[nodes[:, j]]
+                factor *= (wanted[missed] - other) / (levels[nodes[:, i]] - other)
         result[missed] += factor[:, None] * values[nodes[:, i]]
     return result
 

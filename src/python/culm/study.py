@@ -20,7 +20,9 @@ def declare(parser):
         help="step=0.04:0.0025/2, mesh=1:8*2, scheme=Conserving,Trapezoidal, or any path of --set; "
         f"short names: {', '.join(variation.SHORT_NAMES)}; all combinations are run",
     )
-    parser.add_argument("--paired", nargs="+", default=[], metavar="NAME", help="vary these together instead")
+    parser.add_argument(
+        "--paired", nargs="+", default=[], metavar="NAME", help="vary these together instead"
+    )
     parser.add_argument(
         "--watch", nargs="+", default=[], metavar="QUANTITY",
         help="entries of the history, such as tip or tip/uz, or 'energy drift', 'momentum drift', "
@@ -43,10 +45,18 @@ def declare(parser):
     parser.add_argument(
         "--truth", nargs="+", default=[], metavar="NAME=VALUE", help="compared values that the reference has"
     )
-    parser.add_argument("--repeat", type=int, default=3, help="times each run is timed; 3 if not given")
-    parser.add_argument("--jobs", type=int, default=1, help="reference runs at once; they are not timed")
-    parser.add_argument("--time-limit", type=float, metavar="S", help="after which a run counts as failed")
-    parser.add_argument("--target", type=float, metavar="ERROR", help="write the deck that reaches it most cheaply")
+    parser.add_argument(
+        "--repeat", type=int, default=3, help="times each run is timed; 3 if not given"
+    )
+    parser.add_argument(
+        "--jobs", type=int, default=1, help="reference runs at once; they are not timed"
+    )
+    parser.add_argument(
+        "--time-limit", type=float, metavar="S", help="after which a run counts as failed"
+    )
+    parser.add_argument(
+        "--target", type=float, metavar="ERROR", help="write the deck that reaches it most cheaply"
+    )
     parser.add_argument(
         "--output", type=pathlib.Path, help="folder; studies/<name of the deck> if not given"
     )
@@ -144,7 +154,8 @@ def _write_target(judgement, program, arguments, folder):
         point = judgement.judge(record)
         if not (point.bound <= target and promise.error / 2.0 <= point.bound <= promise.error * 2.0):
             judgement.notes.append(
-                f"For the target {promise.label} was tried; it promised {promise.error:.2g} and has {point.bound:.2g}."
+                f"For the target {promise.label} was tried; "
+                f"it promised {promise.error:.2g} and has {point.bound:.2g}."
             )
             continue
         path = folder / "target.xml"

@@ -42,7 +42,10 @@ def table(columns, rows):
     """Aligned text."""
     cells = [columns, *rows]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
-    return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row[:-1], widths)) + f"  {row[-1]}" for row in cells)
+    return "\n".join(
+        "  ".join(f"{cell:>{width}}" for cell, width in zip(row[:-1], widths)) + f"  {row[-1]}".rstrip()
+        for row in cells
+    )
 
 
 def orders(judgement):
@@ -110,7 +113,8 @@ def write_page(judgement, title, command, path, figure, promise=None):
         page.heading("Observed orders")
         page.paragraph(
             "From the differences of neighbouring runs, with all other variations at their finest; "
-            "95 % confidence. A theory speaks of fine runs: the coarsest are left out where that narrows the interval."
+            "95 % confidence. A theory speaks of fine runs: the coarsest are left out where that narrows "
+            "the interval."
         )
         page.table(
             ["variation", "of", "order", "from so many differences"],
@@ -137,8 +141,13 @@ def write_page(judgement, title, command, path, figure, promise=None):
 
 def explanation(judgement):
     """What the errors are."""
-    norms = {"rms": "root of the mean square over time", "max": "largest difference over time", "end": "difference at the end"}
-    text = f"Errors are relative ({norms[judgement.options.norm]}) to the reference: {judgement.reference_label}"
+    norms = {
+        "rms": "root of the mean square over time",
+        "max": "largest difference over time",
+        "end": "difference at the end",
+    }
+    norm = norms[judgement.options.norm]
+    text = f"Errors are relative ({norm}) to the reference: {judgement.reference_label}"
     if not judgement.reference_runs and judgement.uncertainty == 0.0:
         return f"{text}."
     return (
@@ -172,7 +181,10 @@ def _style(i):
 
 def _draw_costs(judgement, ax, styles):
     best = advice.front(judgement.points.values())
-    ax.plot([p.record.cpu for p in best], [_shown(p) for p in best], color="0.8", lw=7, marker="o", ms=11, zorder=1, label="Pareto front")
+    ax.plot(
+        [p.record.cpu for p in best], [_shown(p) for p in best],
+        color="0.8", lw=7, marker="o", ms=11, zorder=1, label="Pareto front",
+    )
     for combination, style in styles.items():
         points = [
             point
@@ -182,16 +194,21 @@ def _draw_costs(judgement, ax, styles):
         if not points:
             continue
         line = points if len(judgement.refined) < 2 else advice.front(points)
-        ax.plot([p.record.cpu for p in line], [_shown(p) for p in line], color=style["color"], ls=style["ls"])
+        ax.plot(
+            [p.record.cpu for p in line], [_shown(p) for p in line], color=style["color"], ls=style["ls"]
+        )
         costs = [p.record.cpu for p in points]
         spread = [
             [cost - min(p.record.times) for cost, p in zip(costs, points)],
             [max(p.record.times) - cost for cost, p in zip(costs, points)],
         ]
         label = judgement.label_of(combination) or None
-        ax.errorbar(costs, [_shown(p) for p in points], xerr=spread, elinewidth=0.8, label=label, **{**style, "ls": ""})
+        shown = [_shown(point) for point in points]
+        style = {**style, "ls": ""}
+        ax.errorbar(costs, shown, xerr=spread, elinewidth=0.8, label=label, **style)
     _draw_band(ax, judgement.uncertainty)
-    ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error", title="What accuracy costs")
+    ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error")
+    ax.set_title("What accuracy costs")
     low, high = ax.get_xlim()
     numbers = [m * 10.0**k for k in range(-3, 6) for m in (1.0, 2.0, 5.0)]
     if high < 8.0 * low:
@@ -203,7 +220,7 @@ def _draw_costs(judgement, ax, styles):
 
 
 def _draw_lines(judgement, ax, a, styles):
-    """A curve per combination; hollow where a run is not far enough from the limit of its line to judge it."""
+    """A curve per combination; hollow where a run is too close to the limit of its line to judge it."""
     axis = judgement.axes[a]
     lines = [line for line in judgement.lines if line.axis == a]
     guides = {}
@@ -218,14 +235,16 @@ def _draw_lines(judgement, ax, a, styles):
             [line.numbers[i] for i in vague], [errors[i] for i in vague], ls="", marker=style["marker"],
             ms=style["ms"], color="white", mec=style["color"], zorder=4,
         )
-        if line.order:
+        if line.order and (line.order.half_width or 1.0) < 0.3:
             guides.setdefault(round(line.order.value), (line, errors))
     for order, (line, errors) in guides.items():
         sizes = [axis.size(0) * (n / line.numbers[0]) ** (1 if axis.shrinks else -1) for n in line.numbers]
         scale = 0.4 * errors[-2] / sizes[-2] ** order
         ax.plot(line.numbers[-3:], [scale * h**order for h in sizes[-3:]], color="0.5", lw=0.8, ls="--")
         end = (line.numbers[-1], scale * sizes[-1] ** order)
-        ax.annotate(f"order {order}", end, (-2, -10), textcoords="offset points", ha="right", color="0.4", fontsize=7)
+        ax.annotate(
+            f"order {order}", end, (-2, -10), textcoords="offset points", ha="right", color="0.4", fontsize=7
+        )
     ax.set(
         xscale="log", yscale="log", xlabel=axis.leaf, ylabel="relative error to its own limit",
         title=f"Convergence in {axis.leaf}",

@@ -86,15 +86,15 @@ class StudyRuns:
         for old in (folder, part):
             shutil.rmtree(old, ignore_errors=True)
         run = self._call(settings, part)
-        record = Record(
-            list(settings), run.exit, run.outcome, _reason(run), [run.cpu] if timed and run.succeeded else [], part
-        )
+        times = [run.cpu] if timed and run.succeeded else []
+        record = Record(list(settings), run.exit, run.outcome, _reason(run), times, part)
         if run.succeeded and not (part / "history.csv").exists():
             raise CulmError("the deck has no analysis that writes a history", 3)
         _keep(record)
         os.replace(part, folder)
         record.folder = folder
-        self.say(f"{run.cpu:9.2f} s  {label}" + ("" if run.succeeded else f": {record.reason}"))
+        reason = "" if run.succeeded else f": {record.reason}"
+        self.say(f"{run.cpu:9.2f} s  {label}{reason}")
         return record
 
     def _repeat(self, settings):
