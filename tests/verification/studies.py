@@ -76,7 +76,7 @@ def order(output, of, *values):
     """The observed order of the line that has these values."""
     for line in output.splitlines():
         if line.startswith(f"order in {of}: ") and all(value in line for value in values):
-            return float(line.split(": ")[1].split()[0])
+            return float(line.split(": ")[1].split()[0].rstrip(","))
     raise RuntimeError(f"no order in {of} of {values} in\n{output}")
 
 
