@@ -177,6 +177,7 @@ def print_times(results):
 GROUPS = (("elements, bodies", r"Beam|Rigid bod"), ("joints, supports", r"Joint|Support|Connection"),
           ("factorisation", "Factorisation"), ("solution", "Solution"),
           ("update, loads", "Update|Gravity|Force|Moment"), ("certificate", "Certificate"),
+          ("quantities", "Quantities"),
           ("output", "Output"))
 
 

@@ -7,7 +7,8 @@ from culm.resolved_deck import ResolvedDeck
 
 
 def deck(body):
-    return ResolvedDeck(f'<ParameterList name="culm">{body}</ParameterList>')
+    sections = entry("Sections", {}, entry("bar", {"Type": "Circle"}) + entry("rod", {"Type": "Circle"}))
+    return ResolvedDeck(f'<ParameterList name="culm">{sections}{body}</ParameterList>')
 
 
 def entry(name, parameters, below=""):
@@ -46,6 +47,14 @@ class Removals(unittest.TestCase):
         found = removals.find(deck(body))
         self.assertEqual(settings(found, "gravity"), [['Analyses/start/Inactive={"brake", "weight"}']])
         self.assertEqual(settings(found, "spring"), [])
+
+    def test_torsion_of_a_matrix_is_its_last_entry(self):
+        matrix = "{" + ", ".join(str(float(i)) for i in range(21)) + "}"
+        sections = entry("Sections", {}, entry("bar", {"Type": "Stiffness Matrix", "Stiffness": matrix}))
+        body = sections + entry("Structures", {}, entry("a", BEAM))
+        (found,) = settings(removals.find(ResolvedDeck(f"<ParameterList>{body}</ParameterList>")), "torsion")
+        self.assertTrue(found[0].startswith("Sections/bar/Stiffness={0.0, 1.0, "))
+        self.assertTrue(found[0].endswith("19.0, 200000.0}"))
 
     def test_damping_is_offered_where_there_is_some(self):
         beams = entry("a", {**BEAM, "Dissipation": "0.3", "Damping": "0"})

@@ -108,12 +108,16 @@ std::vector<output::HistoryColumn> ResultFiles::columns() const {
   return all;
 }
 
-void ResultFiles::add_history(double time, model::State& state) {
+std::vector<double> ResultFiles::evaluate(model::State& state) const {
   system_->synchronise(state);
   std::vector<double> numbers;
   for (const WatchedQuantity& watched : *watched_) {
     watched.quantity->evaluate(*system_, state, numbers);
   }
+  return numbers;
+}
+
+void ResultFiles::add_history(double time, const std::vector<double>& numbers) {
   on_root(system_->comm(), [&] {
     files_->recorder.add_history(time, numbers);
     files_->history.add(time, numbers);

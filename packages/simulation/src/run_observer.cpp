@@ -36,7 +36,9 @@ RunObserver::RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkp
       source_(source),
       earlier_(earlier),
       progress_(std::move(progress)),
-      output_effect_(ledger.add("Output")) {
+      quantities_effect_(ledger.add("Quantities")),
+      history_effect_(ledger.add("Output, history")),
+      states_effect_(ledger.add("Output, states")) {
   if (checkpoints_.are_active()) checkpoint_effect_ = ledger.add("Checkpoints");
 }
 
@@ -54,9 +56,23 @@ void RunObserver::begin(const std::string& name, std::size_t number, bool is_las
 }
 
 void RunObserver::start(model::State& state) {
-  const Ledger::Scope scope(ledger_, output_effect_);
-  files_.add_history(state.time, state);
-  files_.record(state.time, state);
+  add_history(state.time, state);
+  record(state.time, state);
+}
+
+void RunObserver::add_history(double time, model::State& state) {
+  std::vector<double> numbers;
+  {
+    const Ledger::Scope scope(ledger_, quantities_effect_);
+    numbers = files_.evaluate(state);
+  }
+  const Ledger::Scope scope(ledger_, history_effect_);
+  files_.add_history(time, numbers);
+}
+
+void RunObserver::record(double time, model::State& state) {
+  const Ledger::Scope scope(ledger_, states_effect_);
+  files_.record(time, state);
 }
 
 void RunObserver::step(const analysis::StepReport& report, model::State& state) {
@@ -70,10 +86,9 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
     steps_.rows.push_back(
         {report.time, static_cast<double>(outcome.iterations), outcome.history.back().force});
-    const Ledger::Scope scope(ledger_, output_effect_);
-    files_.add_history(report.time, state);
+    add_history(report.time, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
-    if (is_recorded_) files_.record(report.time, state);
+    if (is_recorded_) record(report.time, state);
   } else {
     ++rejected_;
   }
@@ -144,7 +159,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
 void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
                                   const model::State& state) {
   {
-    const Ledger::Scope scope(ledger_, output_effect_);
+    const Ledger::Scope scope(ledger_, states_effect_);
     files_.add_results(name_, report, state);
   }
   certificates_ += report.text;
@@ -156,7 +171,7 @@ void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
 
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
-  const Ledger::Scope scope(ledger_, output_effect_);
+  const Ledger::Scope scope(ledger_, states_effect_);
   // a run that fails leaves its last accepted state
   if (!is_recorded_) files_.record(state.time, state);
   std::vector<output::NamedScalar> numbers = {

@@ -42,6 +42,8 @@ class RunObserver final : public analysis::Observer {
  private:
   void save(Snapshot& snapshot) const;
   std::string convergence() const;
+  void add_history(double time, model::State& state);
+  void record(double time, model::State& state);
 
   Ledger& ledger_;
   ResultFiles& files_;
@@ -50,7 +52,9 @@ class RunObserver final : public analysis::Observer {
   const EarlierStates& earlier_;
   std::string linear_solver_;
   Progress progress_;
-  Ledger::Id output_effect_;
+  Ledger::Id quantities_effect_;
+  Ledger::Id history_effect_;
+  Ledger::Id states_effect_;
   Ledger::Id checkpoint_effect_ = 0;
   const analysis::Analysis* analysis_ = nullptr;
   analysis::Context* context_ = nullptr;  // of the analysis

@@ -125,7 +125,18 @@ def _size(effects):
 CONTENT = ["effect", "items", "unknowns", "entries/iteration", "calls", "time [s]", "share"]
 
 
+def _merged(effects):
+    """Lines of the same effect in several analyses as one, with the counts of the largest."""
+    merged = {}
+    for e in effects:
+        same = merged.setdefault((e.name, e.items), dataclasses.replace(e, calls=0, seconds=0.0))
+        same.calls += e.calls
+        same.seconds += e.seconds
+    return merged.values()
+
+
 def _content(effects):
+    effects = _merged(effects)
     total = sum(e.seconds for e in effects) or 1.0
     return [
         [

@@ -27,7 +27,7 @@ def fidelities(deck):
     """Shear and extension, large rotations, all flexibility; beams that are alike go together."""
     words = {
         "shear and extension": ("Kirchhoff", lambda beam: beam["Element"] == "Director"),
-        "large rotations within": ("Linear", lambda beam: beam["Element"] == "Director"),
+        "large rotations": ("Linear", lambda beam: beam["Element"] == "Director"),
         "flexibility": ("Rigid", lambda beam: True),
     }
     for names in _alike(deck):
@@ -39,24 +39,34 @@ def fidelities(deck):
 
 
 def torsion(deck):
-    """Twist of sections that give their torsional stiffness as a number."""
-    for name in deck.names_in("Sections"):
-        section = _parameters(deck, f"Sections/{name}")
-        if section.get("Type") == "Stiffness Values":
-            value = float(section["GIp"])
-            settings = [f"Sections/{name}/GIp={STIFF * value!r}"]
-            yield Removal("torsion", name, settings, f"GIp times {STIFF:g}")
+    """Twist of sections that give their stiffness as numbers."""
+    for beams, sections in _sections(deck):
+        settings = []
+        for name in sections:
+            section = _parameters(deck, f"Sections/{name}")
+            if section["Type"] == "Stiffness Values":
+                settings.append(f"Sections/{name}/GIp={STIFF * float(section['GIp'])!r}")
+            elif section["Type"] == "Stiffness Matrix":
+                # by rows in full, or their upper triangle: either way twist by twist is the last one
+                values = _numbers(section["Stiffness"])
+                settings.append(f"Sections/{name}/Stiffness={_numbers_text([*values[:-1], STIFF * values[-1]])}")
+        if settings:
+            yield Removal("torsion", beams, settings, f"stiffness times {STIFF:g}")
 
 
 def rotary_inertia(deck):
+    """Mass moments of sections about their own axes, where something moves."""
     if not _types(deck, "Analyses", "Dynamic", "Modal", "Campbell"):
         return
-    for name in deck.names_in("Sections"):
-        section = _parameters(deck, f"Sections/{name}")
-        values = {key: float(section.get(key) or 0.0) for key in ("rhoI1", "rhoI2")}
-        if section.get("Type") == "Stiffness Values" and any(values.values()):
-            settings = [f"Sections/{name}/{key}={LIGHT * value!r}" for key, value in values.items()]
-            yield Removal("rotary inertia", name, settings, f"times {LIGHT:g}")
+    for beams, sections in _sections(deck):
+        settings = []
+        for name in sections:
+            section = _parameters(deck, f"Sections/{name}")
+            for key in ("rhoI1", "rhoI2", "rhoI12"):
+                if float(section.get(key) or 0.0) != 0.0:
+                    settings.append(f"Sections/{name}/{key}={LIGHT * float(section[key])!r}")
+        if settings:
+            yield Removal("rotary inertia", beams, settings, f"times {LIGHT:g}")
 
 
 def enhanced_strains(deck):
@@ -97,11 +107,14 @@ def masses(deck):
 
 def dissipation(deck):
     """Numerical dissipation and physical damping."""
-    for place in ("Structures", "Materials"):
-        for key in ("Dissipation", "Velocity Dissipation", "Damping"):
-            for path in deck.matching(f"{place}/*/{key}"):
-                if float(deck.parameters[path]) > 0.0:
-                    yield Removal(key.lower(), path.split("/")[1], [f"{path}=0"])
+    for key in ("Dissipation", "Velocity Dissipation", "Damping"):
+        groups = [[f"Structures/{name}" for name in names] for names in _alike(deck)]
+        groups += [[f"Materials/{name}"] for name in deck.names_in("Materials")]
+        for group in groups:
+            paths = [f"{place}/{key}" for place in group]
+            if float(deck.parameters.get(paths[0]) or 0.0) > 0.0:
+                where = ", ".join(place.split("/")[1] for place in group)
+                yield Removal(key.lower(), where, [f"{path}=0" for path in paths])
 
 
 def prestress(deck):
@@ -135,6 +148,18 @@ def _alike(deck):
     return groups.values()
 
 
+def _sections(deck):
+    """Beams that are alike, as text, and the sections they alone name."""
+    told = set()
+    for names in _alike(deck):
+        beam = _parameters(deck, f"Structures/{names[0]}")
+        own = [beam["Section"]] if beam.get("Section") else _words(beam.get("Sections") or "{}")
+        new = [name for name in dict.fromkeys(own) if name not in told]
+        told.update(new)
+        if new:
+            yield ", ".join(names), new
+
+
 def _parameters(deck, path):
     """Parameters of a list by name, without those of lists below."""
     start = path + "/"
@@ -150,8 +175,19 @@ def _types(deck, path, *types):
 
 
 def _list(deck, analysis):
-    text = deck.parameters.get(f"Analyses/{analysis}/Inactive") or "{}"
+    return _words(deck.parameters.get(f"Analyses/{analysis}/Inactive") or "{}")
+
+
+def _words(text):
     return [word.strip().strip('"') for word in text.strip("{}").split(",") if word.strip()]
+
+
+def _numbers(text):
+    return [float(word) for word in _words(text)]
+
+
+def _numbers_text(numbers):
+    return "{" + ", ".join(repr(number) for number in numbers) + "}"
 
 
 def _array(names):

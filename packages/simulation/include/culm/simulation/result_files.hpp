@@ -57,8 +57,10 @@ class ResultFiles {
   /// How much there is, under "output/".
   void save(Snapshot& snapshot) const;
 
-  /// Adds a row to the history.
-  void add_history(double time, model::State& state);
+  /// The watched quantities of a state.
+  std::vector<double> evaluate(model::State& state) const;
+  /// Adds a row of them to the history.
+  void add_history(double time, const std::vector<double>& numbers);
   /// Whether a step is one of those to be recorded.
   bool is_due(int step) const { return step % settings_.every == 0; }
   /// Records a whole state.
