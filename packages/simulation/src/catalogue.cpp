@@ -13,6 +13,7 @@ Catalogue::Catalogue() {
   material::register_materials(materials);
   beam::register_structures(structures);
   shell::register_shells(shells);
+  hybrid::register_hybrids(hybrids);
   body::register_bodies(bodies);
   body::register_masses(masses);
   model::register_initial_motions(initial_conditions);
@@ -123,6 +124,7 @@ Variants with_common_fields(Variants analyses) {
 Schema Catalogue::deck_schema() const {
   Variants all_structures = structures.variants();
   all_structures.merge(shells.variants());
+  all_structures.merge(hybrids.variants());
   all_structures.merge(bodies.variants());
   return Schema("culm", "An input deck.")
       .add(text("Title", "What the deck shows.").optional(""))

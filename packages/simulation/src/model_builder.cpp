@@ -51,6 +51,9 @@ void build_structures(const Catalogue& catalogue, const Options& list,
     const std::string& type = entry.text("Type");
     if (catalogue.bodies.contains(type)) {
       build_one(catalogue.bodies, entry, bodies, bodies.issues);
+    } else if (catalogue.hybrids.contains(type)) {
+      hybrid::HybridContext both{beams, shells};
+      build_one(catalogue.hybrids, entry, both, bodies.issues);
     } else if (catalogue.shells.contains(type)) {
       build_one(catalogue.shells, entry, shells, bodies.issues);
     } else {

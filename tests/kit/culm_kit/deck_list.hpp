@@ -1,8 +1,7 @@
 /// Lists of the deck without a deck: what a type reads, made from its schema and a few values.
 #pragma once
 
-#include <culm/base/options.hpp>
-#include <culm/base/schema.hpp>
+#include <culm/base/default_list.hpp>
 
 #include <gtest/gtest.h>
 
@@ -17,15 +16,7 @@ using GivenValues = std::vector<std::pair<std::string, Value>>;
 /// The options a deck would hand to a type: the given values, and the defaults of the schema.
 inline Options deck_list(const Schema& schema, const GivenValues& given = {},
                          const std::string& name = "list") {
-  Options options(name, Where{"deck.xml", 1, name});
-  for (const Field& field : schema.fields()) {
-    if (field.default_value()) {
-      options.set(field.name(), *field.default_value(), false, options.where());
-    } else {
-      options.declare(field.name());
-    }
-  }
-  for (const Schema::Slot& slot : schema.lists()) options.declare_list(slot.name);
+  Options options = default_list(schema, name, Where{"deck.xml", 1, name});
   for (const auto& [field, value] : given) {
     EXPECT_TRUE(schema.find_field(field)) << "the schema has no '" << field << "'";
     options.set(field, value);

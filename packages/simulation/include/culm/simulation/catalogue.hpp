@@ -3,6 +3,7 @@
 
 #include <culm/analysis/register_analysis.hpp>
 #include <culm/beam/register_beam.hpp>
+#include <culm/hybrid/tube.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
 #include <culm/shell/shell_structure.hpp>
@@ -18,7 +19,8 @@ struct Catalogue {
   Registry<material::Section> sections;
   Registry<material::Material> materials;
   beam::StructureRegistry structures;
-  shell::ShellRegistry shells;    ///< structures, too
+  shell::ShellRegistry shells;  ///< structures, too
+  hybrid::HybridRegistry hybrids;
   model::BuilderRegistry bodies;  ///< and these
   model::BuilderRegistry masses;
   model::BuilderRegistry initial_conditions;

@@ -1,0 +1,16 @@
+/// Lists that no deck wrote.
+#pragma once
+
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
+
+#include <string>
+
+namespace culm {
+
+/// A list as a deck that says nothing would give it: the parameters of the schema with their
+/// defaults, and none of its lists. For types that are made of others, and for tests.
+/// @param where  what messages about it shall name
+Options default_list(const Schema& schema, std::string name, const Where& where);
+
+}  // namespace culm
