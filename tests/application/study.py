@@ -112,6 +112,22 @@ class Findings(StudyTest):
         self.assertEqual(errors[-1], 0.0)
         self.assertAlmostEqual(errors[0] / errors[1], 15.0 / 3.0, delta=0.5)
 
+    def test_target_that_was_not_reached(self):
+        words = ["--vary", "step=0.1,0.05", "--watch", "other end", "--repeat", "1"]
+        self.study(FLIGHT, *words, "--target", "0.02")
+        self.assertTrue((self.folder / "target.xml").exists())
+        self.study(FLIGHT, *words, "--target", "1e-7", exit_code=4)
+        self.assertFalse((self.folder / "target.xml").exists())
+
+    def test_deck_that_reads_a_file(self):
+        hook = INPUTS / "shell/raasch_hook.xml"
+        self.study(hook, "--vary", "mesh=1,2", "--finer", "0", "--repeat", "1", "--target", "0.5")
+        subprocess.run(
+            [CULM, "check", str(self.folder / "target.xml"), "--quiet"],
+            check=True,
+            env={**os.environ, **MPI_ENVIRONMENT},
+        )
+
     def test_failed_runs_do_not_stop_it(self):
         # 8 elements of order 1 have no solution beyond 0.6366 of the load: doc/verification/roll_up.md
         output = self.study(

@@ -50,6 +50,11 @@ class Sentence(unittest.TestCase):
     def test_names_only_the_tightest_of_the_decades_of_a_run(self):
         self.assertEqual(advice.sentence(FakeJudgement([point((0,), 0.5, 2e-3)])), "one per cent costs 0.5 s with step=0.4")
 
+    def test_costs_within_the_spread_are_equal(self):
+        points = [point((0,), 0.8, 0.008), point((1,), 0.9, 0.002), point((2,), 1.1, 0.0015)]
+        points[0].record.times = [0.7, 0.8, 1.0]
+        self.assertEqual(advice.sentence(FakeJudgement(points)), "one per cent costs 0.9 s with step=0.2")
+
     def test_admits_that_nothing_came_close(self):
         self.assertIn("no run reached ten per cent", advice.sentence(FakeJudgement([point((0,), 0.5, 0.4)])))
 

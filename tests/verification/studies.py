@@ -41,6 +41,11 @@ PAGES = {
         "--watch 'tower top' 'blade 1 tip' --hold-out 'blade 2 tip' 'tower base'",
         [3e-3, 3e-4, 1e-3],
     ),
+    "turbine_fidelity": (
+        f"{TURBINE} --vary step=0.04:0.005/2 fidelity=Full,Kirchhoff,Linear,Rigid "
+        "--watch 'tower top' 'blade 1 tip' --hold-out 'blade 2 tip'",
+        [],
+    ),
 }
 
 

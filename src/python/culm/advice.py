@@ -31,22 +31,30 @@ def front(points):
 def sentence(judgement):
     """'one per cent costs 0.8 s with …, 0.1 per cent 5 s with …'."""
     choices = []  # (decade, point): the tightest decade for which a run is the cheapest
-    best = front(judgement.points.values())
     for decade in DECADES:
-        cheapest = next((point for point in best if point.bound <= decade), None)
-        if cheapest is None:
+        reached = [point for point in judgement.points.values() if point.succeeded and point.bound <= decade]
+        if not reached:
             break
+        cheapest = _cheapest(reached)
         if choices and choices[-1][1] is cheapest:
             choices.pop()
         choices.append((decade, cheapest))
     if not choices:
-        return f"no run reached ten per cent; the best error is {min(p.bound for p in best):.2g}"
+        best = min(point.bound for point in judgement.points.values() if point.succeeded)
+        return f"no run reached ten per cent; the best error is {best:.2g}"
     parts = [
         f"{per_cent(decade)} {'costs ' if i == 0 else ''}{seconds(point.record.cpu)} with "
         f"{judgement.label(point.index)}"
         for i, (decade, point) in enumerate(choices[-4:])
     ]
     return "; ".join(parts)
+
+
+def _cheapest(points):
+    """The most accurate of those that cost as much as the cheapest one, by the spread of its times."""
+    least = min(points, key=lambda point: point.record.cpu)
+    as_cheap = [point for point in points if point.record.cpu <= max(least.record.times)]
+    return min(as_cheap, key=lambda point: (point.bound, point.record.cpu))
 
 
 def promises(judgement, target):

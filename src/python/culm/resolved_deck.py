@@ -27,6 +27,10 @@ class ResolvedDeck:
         words = pattern.split("/")
         return [path for path in self.parameters if _matches(path.split("/"), words)]
 
+    def files(self):
+        """Names of the files that it reads, relative to the deck or absolute."""
+        return {value for path, value in self.parameters.items() if path.endswith("/File Name")}
+
     def names_in(self, path):
         """The lists in a list: names_in('Output/History') are the quantities of the deck."""
         start = path + "/"

@@ -1,6 +1,7 @@
 """Measures what accuracy costs: varies a deck, compares with a reference, and advises."""
 
 import argparse
+import os
 import pathlib
 import shlex
 import sys
@@ -11,6 +12,8 @@ from .history import History
 from .judgement import Judgement
 from .resolved_deck import ResolvedDeck
 from .study_runs import StudyRuns
+
+TARGET = "target.xml"
 
 
 def declare(parser):
@@ -69,11 +72,11 @@ def main(arguments, program):
     axes = variation.pair([variation.parse(text, deck) for text in arguments.vary], arguments.paired)
     _check_values(program, arguments, axes)
     folder = arguments.output or pathlib.Path("studies") / arguments.deck.stem
-    runs = StudyRuns(program, arguments.deck, deck.text, folder, arguments.time_limit, _say)
+    runs = StudyRuns(program, arguments.deck, deck, folder, arguments.time_limit, _say)
     judgement = Judgement(axes, arguments.set, runs, _options(arguments, deck, axes))
     promise = _write_target(judgement, program, arguments, folder) if arguments.target else None
     _write(judgement, deck, arguments, folder, promise)
-    return 0
+    return 4 if arguments.target and not (folder / TARGET).exists() else 0
 
 
 def _check(arguments):
@@ -145,6 +148,8 @@ def _truth(given, axes):
 def _write_target(judgement, program, arguments, folder):
     """Writes the deck that reaches the target most cheaply, after running it; what it promises."""
     target = arguments.target
+    path = folder / TARGET
+    path.unlink(missing_ok=True)  # that of an earlier study
     for promise in advice.promises(judgement, target):
         settings = [*arguments.set, *promise.settings]
         record = judgement.runs.time(settings, arguments.repeat, f"{promise.label} (target)")
@@ -158,7 +163,6 @@ def _write_target(judgement, program, arguments, folder):
                 f"it promised {promise.error:.2g} and has {point.bound:.2g}."
             )
             continue
-        path = folder / "target.xml"
         text = (
             f"{promise.label}: promised error {promise.error:.2g} at {advice.seconds(promise.cpu)}; "
             f"measured {point.bound:.2g} at {advice.seconds(record.cpu)}"
@@ -173,10 +177,9 @@ def _write_target(judgement, program, arguments, folder):
 def _write_deck(program, deck, settings, path, comment):
     resolved = ResolvedDeck.of(program, deck, settings)
     head, _, body = resolved.text.partition("?>\n")
-    for name, value in resolved.parameters.items():
-        # files are found beside the deck
-        if name.endswith("/File Name") and not pathlib.Path(value).is_absolute():
-            body = body.replace(f'value="{value}"', f'value="{(deck.parent / value).resolve()}"')
+    for name in resolved.files():  # which are relative to the deck
+        place = os.path.relpath(deck.parent / name, path.parent)
+        body = body.replace(f'value="{name}"', f'value="{place}"')
     path.write_text(f"{head}?>\n<!-- {comment.replace('--', '- -')} -->\n{body}", encoding="utf-8")
 
 

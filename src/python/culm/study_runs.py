@@ -5,6 +5,7 @@ import dataclasses
 import hashlib
 import json
 import os
+import pathlib
 import shutil
 import statistics
 
@@ -44,10 +45,12 @@ class StudyRuns:
     """Makes runs, or finds them in the folder of the study."""
 
     def __init__(self, program, deck, resolved, folder, time_limit=None, say=print):
-        """@param resolved  text of the resolved deck: runs of another deck are not taken for its own"""
+        """@param resolved  ResolvedDeck: runs of another deck, of other files that it reads or of another
+        program are not taken for its own"""
         self.program = program
         self.deck = deck
-        self.identity = resolved
+        read = [pathlib.Path(program.path), *(deck.parent / name for name in sorted(resolved.files()))]
+        self.identity = "\n".join([resolved.text, *map(_digest, read)])
         self.folder = folder / "runs"
         self.time_limit = time_limit
         self.say = say
@@ -111,6 +114,10 @@ class StudyRuns:
     def _key(self, settings):
         text = "\n".join([self.identity, *sorted(settings)])
         return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _keep(record):
