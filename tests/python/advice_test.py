@@ -3,11 +3,12 @@
 import types
 import unittest
 
-from culm import advice, quantities
+from culm import quantities
 from culm.errors import CulmError
-from culm.judgement import Point
 from culm.resolved_deck import ResolvedDeck
-from culm.variation import Axis
+from culm.study import advice
+from culm.study.judgement import Point
+from culm.study.variation import Axis
 
 
 def point(index, cpu, error, uncertainty=0.0):

@@ -4,9 +4,9 @@ import unittest
 
 import numpy
 
-from culm.fit import order_of_differences, order_of_errors
 from culm.quantities import Measure, Watched
-from culm.reference import corner_limit, limit
+from culm.study.fit import order_of_differences, order_of_errors
+from culm.study.reference import corner_limit, limit
 
 SIZES = [0.8, 0.4, 0.2, 0.1, 0.05]
 

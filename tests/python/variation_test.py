@@ -2,9 +2,9 @@
 
 import unittest
 
-from culm import variation
 from culm.errors import CulmError
 from culm.resolved_deck import ResolvedDeck
+from culm.study import variation
 
 DECK = ResolvedDeck(
     """<ParameterList name="culm">

@@ -1,17 +1,17 @@
 """Measures what accuracy costs: varies a deck, compares with a reference, and advises."""
 
-import argparse
 import os
 import pathlib
 import shlex
 import sys
 
-from . import advice, quantities, variation
-from .errors import CulmError
-from .history import History
-from .judgement import Judgement
-from .resolved_deck import ResolvedDeck
-from .study_runs import StudyRuns
+from .. import quantities
+from ..errors import CulmError
+from ..history import History
+from ..resolved_deck import ResolvedDeck
+from . import advice, variation
+from .judgement import Judgement, Plan
+from .runs import StudyRuns
 
 TARGET = "target.xml"
 
@@ -73,7 +73,7 @@ def main(arguments, program):
     _check_values(program, arguments, axes)
     folder = arguments.output or pathlib.Path("studies") / arguments.deck.stem
     runs = StudyRuns(program, arguments.deck, deck, folder, arguments.time_limit, _say)
-    judgement = Judgement(axes, arguments.set, runs, _options(arguments, deck, axes))
+    judgement = Judgement(axes, arguments.set, runs, _plan(arguments, deck, axes))
     promise = _write_target(judgement, program, arguments, folder) if arguments.target else None
     _write(judgement, deck, arguments, folder, promise)
     return 4 if arguments.target and not (folder / TARGET).exists() else 0
@@ -96,7 +96,7 @@ def _check_values(program, arguments, axes):
             ResolvedDeck.of(program, arguments.deck, [*arguments.set, *axis.settings(i)])
 
 
-def _options(arguments, deck, axes):
+def _plan(arguments, deck, axes):
     watched = [quantities.parse(name, deck) for name in arguments.watch or deck.names_in("Output/History")]
     if not watched:
         raise CulmError("the deck has no Output / History: there is nothing to watch", 3)
@@ -106,7 +106,7 @@ def _options(arguments, deck, axes):
         if not path.is_file():
             raise CulmError(f"--reference {reference}: there is no such history", 6)
         reference = History(path)
-    return argparse.Namespace(
+    return Plan(
         watched=watched,
         held_out=[quantities.parse(name, deck) for name in arguments.hold_out],
         norm=arguments.norm or _usual_norm(deck),
@@ -184,19 +184,19 @@ def _write_deck(program, deck, settings, path, comment):
 
 
 def _write(judgement, deck, arguments, folder, promise):
-    from . import study_page
+    from . import outputs
 
     print()
-    print(study_page.table(*study_page.columns_and_rows(judgement)))
+    print(outputs.table(*outputs.columns_and_rows(judgement)))
     print()
-    for line in [study_page.explanation(judgement), *judgement.notes, *study_page.orders(judgement)]:
+    for line in [outputs.explanation(judgement), *judgement.notes, *outputs.orders(judgement)]:
         print(line)
     print(f"\n{advice.sentence(judgement)}")
     if promise:
         print(promise)
     command = "culm " + shlex.join(sys.argv[1:])
     title = deck.parameters.get("Title") or arguments.deck.stem
-    study_page.write_all(judgement, title, command, folder, promise)
+    outputs.write_all(judgement, title, command, folder, promise)
     print(f"\n{folder / 'study.html'}")
 
 

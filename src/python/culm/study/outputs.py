@@ -3,8 +3,9 @@
 import csv
 import pathlib
 
-from . import advice, drawing
-from .page import Page
+from .. import drawing
+from ..page import Page
+from . import advice
 
 BAND = "0.9"
 LEAST_DRAWN = 1e-14  # relative error
@@ -12,8 +13,8 @@ LEAST_DRAWN = 1e-14  # relative error
 
 def columns_and_rows(judgement):
     """Texts of the table: settings, cost, errors, remark."""
-    titles = [*judgement.measure.parts, *(w.name for w in judgement.options.watched if w.drift)]
-    held_out = [*judgement.held_out.parts, *(w.name for w in judgement.options.held_out if w.drift)]
+    titles = [*judgement.measure.parts, *(w.name for w in judgement.plan.watched if w.drift)]
+    held_out = [*judgement.held_out.parts, *(w.name for w in judgement.plan.held_out if w.drift)]
     names = [axis.leaf for axis in judgement.axes]
     columns = [*names, "CPU [s]", "spread", *titles, *(f"({title})" for title in held_out), ""]
     best = {id(point) for point in advice.front(judgement.points.values())}
@@ -146,7 +147,7 @@ def explanation(judgement):
         "max": "largest difference over time",
         "end": "difference at the end",
     }
-    norm = norms[judgement.options.norm]
+    norm = norms[judgement.plan.norm]
     text = f"Errors are relative ({norm}) to the reference: {judgement.reference_label}"
     if not judgement.reference_runs and judgement.uncertainty == 0.0:
         return f"{text}."
@@ -271,7 +272,7 @@ def write_all(judgement, deck, command, folder, promise=None):
     """study.csv, reference.csv, study.png, study.html in the folder of the study."""
     folder = pathlib.Path(folder)
     write_csv(judgement, folder / "study.csv")
-    if judgement.options.reference is None and judgement.measure.parts:
+    if judgement.plan.reference is None and judgement.measure.parts:
         write_reference(judgement, folder / "reference.csv")
     figure = draw(judgement)
     figure.savefig(folder / "study.png", dpi=110)

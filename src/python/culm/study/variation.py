@@ -9,7 +9,7 @@ import difflib
 import math
 import re
 
-from .errors import CulmError
+from ..errors import CulmError
 
 MOST_VALUES = 64
 

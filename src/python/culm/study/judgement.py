@@ -3,10 +3,25 @@
 import dataclasses
 import itertools
 
-from .errors import CulmError
+from ..errors import CulmError
+from ..quantities import Measure, drift
 from .fit import Order, order_of_differences, order_of_errors
-from .quantities import Measure, drift
 from .reference import ROUNDING, Limit, corner_limit, limit
+
+
+@dataclasses.dataclass
+class Plan:
+    """What is measured, against what, and how often."""
+
+    watched: list  # quantities.Watched
+    held_out: list  # the same, only shown
+    norm: str  # of quantities.NORMS
+    reference: object  # a History, or None: by refinement
+    finer: int  # levels of the reference beyond the finest run
+    repeat: int  # times of each run
+    jobs: int  # reference runs at once
+    truth: dict  # text of the value that the reference has, by axis
+    usual: dict  # number of that value where values are different models, by axis
 
 
 @dataclasses.dataclass
@@ -53,15 +68,12 @@ class Line:
 class Judgement:
     """Runs the grid, finds a reference, and measures all against it."""
 
-    def __init__(self, axes, fixed, runs, options):
-        """@param fixed    settings that all runs share
-        @param options  watched, held_out, norm, reference (a history or None), finer, repeat, jobs,
-                        truth {name: value}
-        """
+    def __init__(self, axes, fixed, runs, plan):
+        """@param fixed  settings that all runs share"""
         self.axes = axes
         self.fixed = list(fixed)
         self.runs = runs
-        self.options = options
+        self.plan = plan
         self.refined = [a for a, axis in enumerate(axes) if axis.is_refined]
         self.compared = [a for a, axis in enumerate(axes) if not axis.is_refined]
         self.reference_runs = []
@@ -102,8 +114,8 @@ class Judgement:
     def _run_grid(self):
         grid = list(itertools.product(*(range(len(axis.values)) for axis in self.axes)))
         # all once before any is repeated: what changes on the machine does not fall on one of them
-        for repeat in range(1, self.options.repeat + 1):
-            self.runs.say(f"{len(grid)} runs, {repeat} of {self.options.repeat}")
+        for repeat in range(1, self.plan.repeat + 1):
+            self.runs.say(f"{len(grid)} runs, {repeat} of {self.plan.repeat}")
             for index in grid:
                 self.points[index] = Point(index, self.runs.time(self.settings(index), repeat, self.label(index)))
                 self._check_watched(self.points[index].record)
@@ -115,7 +127,7 @@ class Judgement:
         """As soon as a run shows what there is."""
         if record.succeeded and not self._is_checked:
             history, scalars = record.history(), record.scalars()
-            for one in [*self.options.watched, *self.options.held_out]:
+            for one in [*self.plan.watched, *self.plan.held_out]:
                 if one.drift is None:
                     one.columns(history)
                 elif drift(scalars, one.drift) is None:
@@ -130,10 +142,10 @@ class Judgement:
             index: point.record.history() for index, point in self.points.items() if point.record.succeeded
         }
         histories = list(self._histories.values())
-        if self.options.reference is not None:
-            histories.append(self.options.reference)
-        self.measure = Measure(self.options.watched, self.options.norm, histories)
-        self.held_out = Measure(self.options.held_out, self.options.norm, histories)
+        if self.plan.reference is not None:
+            histories.append(self.plan.reference)
+        self.measure = Measure(self.plan.watched, self.plan.norm, histories)
+        self.held_out = Measure(self.plan.held_out, self.plan.norm, histories)
         # until there is a reference
         finest = max(self._histories)
         for measure in (self.measure, self.held_out):
@@ -149,15 +161,15 @@ class Judgement:
     def _along(self, a, index):
         """The successful runs through an index along an axis, from coarse to fine, with those that were
         made for the reference."""
-        count = len(self.axes[a].values) + self.options.finer
+        count = len(self.axes[a].values) + self.plan.finer
         through = [(*index[:a], i, *index[a + 1 :]) for i in range(count)]
         return [one for one in through if one in self._histories]
 
     # ---- the reference
 
     def _refer(self):
-        if self.options.reference is not None:
-            given = self.options.reference
+        if self.plan.reference is not None:
+            given = self.plan.reference
             limits = [Limit(m.state(given), dict.fromkeys(m.parts, 0.0)) for m in self._measures()]
             self.reference_label = "the history given"
         elif not any(measure.parts for measure in self._measures()):
@@ -183,9 +195,9 @@ class Judgement:
         return point
 
     def _judge(self, point, history, scalars):
-        point.errors = self._errors(self.measure, self.reference, self.options.watched, history, scalars)
+        point.errors = self._errors(self.measure, self.reference, self.plan.watched, history, scalars)
         point.held_out = self._errors(
-            self.held_out, self._held_out_reference, self.options.held_out, history, scalars
+            self.held_out, self._held_out_reference, self.plan.held_out, history, scalars
         )
         point.uncertainty = self.uncertainty
 
@@ -202,7 +214,7 @@ class Judgement:
 
     def _limits_by_refinement(self):
         combination = self._best_combination()
-        for finer in range(self.options.finer, -1, -1):
+        for finer in range(self.plan.finer, -1, -1):
             corner = self.at(combination, finer)
             lines = {a: self._towards(corner, a) for a in self.refined}
             needed = [corner, *(index for line in lines.values() for index in line)]
@@ -236,7 +248,7 @@ class Judgement:
         known = {*self.points, *(index for index, _ in self.reference_runs)}
         new = [index for index in indices if index not in known]
         wanted = [(self.settings(i), f"{self.label(i)} (reference)") for i in new]
-        for index, record in zip(new, self.runs.get(wanted, self.options.jobs)):
+        for index, record in zip(new, self.runs.get(wanted, self.plan.jobs)):
             self.reference_runs.append((index, record))
             if record.succeeded:
                 self._histories[index] = record.history()
@@ -250,10 +262,10 @@ class Judgement:
 
     def _may_be_true(self, a, i):
         axis = self.axes[a]
-        wanted = self.options.truth.get(axis.name)
+        wanted = self.plan.truth.get(axis.name)
         if wanted is not None:
             return axis.value(i) == wanted
-        return axis.is_same_solution or i == self.options.usual.get(axis.name, 0)
+        return axis.is_same_solution or i == self.plan.usual.get(axis.name, 0)
 
     def _uncertainty_of(self, combination):
         corner = self.at(combination)

@@ -9,9 +9,9 @@ import pathlib
 import shutil
 import statistics
 
-from .errors import CulmError
-from .history import History
-from .results import Results
+from ..errors import CulmError
+from ..history import History
+from ..results import Results
 
 
 @dataclasses.dataclass
