@@ -2,6 +2,7 @@
 #include <culm/beam/beam_elements.hpp>
 #include <culm/beam/beam_structure.hpp>
 #include <culm/beam/helical_beam.hpp>
+#include <culm/math/rotation.hpp>
 #include <culm/model/velocity_dissipation.hpp>
 
 #include <fmt/format.h>
@@ -53,6 +54,22 @@ std::vector<int> add_nodes(const Chain& chain, const SectionTable& sections, mod
   }
   structure.nodes.insert(structure.nodes.end(), numbers.begin(), numbers.end());
   return numbers;
+}
+
+// Moves and turns the nodes of an axis.
+void deviate(const model::Imperfection& imperfection, const std::string& name, Axis& axis) {
+  std::size_t count = 0;
+  for (const Chain& chain : axis.chains) count += chain.size();
+  const std::vector<Vec6>& motions = imperfection.of(name, count);
+  if (motions.empty()) return;
+  auto motion = motions.begin();
+  for (Chain& chain : axis.chains) {
+    for (AxisNode& node : chain) {
+      node.position += motion->head<3>();
+      node.triad = exp_rotation(motion->tail<3>()) * node.triad;
+      ++motion;
+    }
+  }
 }
 
 // Lengths near the ends of the range of numbers lose their squares.
@@ -164,8 +181,9 @@ void add_beam(const Options& options, StructureContext& context) {
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
   const Density density{order_of(kind), context.refinement};
-  const Axis axis = axes().make(curve.text("Type"), curve, density);
+  Axis axis = axes().make(curve.text("Type"), curve, density);
   check_finite(axis, curve);
+  if (context.imperfection != nullptr) deviate(*context.imperfection, options.name(), axis);
 
   model::Structure& structure = context.model.add_structure(options.name());
   double largest_turn = 0.0;

@@ -124,8 +124,9 @@ void add_as_beam(const Options& tube, HybridContext& context) {
       .set("Elements", tube.integers("Elements")[1]);
   list.add_list(std::move(curve));
   const std::map<std::string, material::Section> sections{{name, tube_section(tube, material)}};
-  beam::StructureContext beams{context.beams.model, sections, context.beams.issues,
-                               context.beams.log, context.beams.refinement};
+  beam::StructureContext beams{context.beams.model,      sections,
+                               context.beams.issues,     context.beams.log,
+                               context.beams.refinement, context.beams.imperfection};
   beam::add_beam(list, beams);
 }
 

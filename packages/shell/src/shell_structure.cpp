@@ -209,6 +209,15 @@ void join_folds(const ShellMesh& mesh, const std::vector<int>& nodes, const std:
   }
 }
 
+// Moves the nodes of a mesh and tilts its directors; the wall keeps its thickness.
+void deviate(const model::Imperfection& imperfection, const std::string& name, ShellMesh& mesh) {
+  const std::vector<Vec6>& motions = imperfection.of(name, mesh.positions.size());
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    mesh.positions[i] += motions[i].head<3>();
+    mesh.directors[i] = (mesh.directors[i] + motions[i].tail<3>()).normalized();
+  }
+}
+
 // A node of the mesh of the deck is, of the nodes in its elements, the one at its place; so both
 // sides of a fold find their own.
 model::DeckNumbers number_as_in_deck(const ShellMesh& coarse, const ShellMesh& fine,
@@ -251,6 +260,7 @@ void add_shell(const Options& options, ShellContext& context) {
                       : subdivide(facets, mesh, context.refinement);
     mesh = make_mesh(facets, fold_angle);
   }
+  if (context.imperfection != nullptr) deviate(*context.imperfection, options.name(), mesh);
   check_quality(mesh, options, context.log);
 
   model::Structure& structure = context.model.add_structure(options.name());

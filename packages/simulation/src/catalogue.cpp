@@ -4,6 +4,8 @@
 #include <culm/model/initial_motion.hpp>
 #include <culm/simulation/catalogue.hpp>
 
+#include "imperfections.hpp"
+
 #include <utility>
 
 namespace culm::simulation {
@@ -142,6 +144,7 @@ Schema Catalogue::deck_schema() const {
             Presence::defaulted)
       .list("Structures", Schema("Structures", "Parts of the model by name.")
                               .entries_by_type(std::move(all_structures)))
+      .list("Imperfections", imperfections_schema(), Presence::defaulted)
       .list("Masses",
             Schema("Masses", "Masses on nodes by name.").entries_by_type(masses.variants()),
             Presence::defaulted)

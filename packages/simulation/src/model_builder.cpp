@@ -1,5 +1,6 @@
 #include "model_builder.hpp"
 
+#include "imperfections.hpp"
 #include "silent_quantity.hpp"
 
 #include <algorithm>
@@ -141,8 +142,9 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
   const int refinement = deck.integer("Refinement");
-  beam::StructureContext beams{model, sections, issues, log, refinement};
-  shell::ShellContext shells{model, materials, log, refinement};
+  const model::Imperfection imperfection = read_imperfections(deck.list("Imperfections"));
+  beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection};
+  shell::ShellContext shells{model, materials, log, refinement, &imperfection};
   model::BuildContext context{model, functions, issues};
   build_structures(catalogue, deck.list("Structures"), beams, shells, context);
   // what follows refers to structures; without them every reference would be a mistake

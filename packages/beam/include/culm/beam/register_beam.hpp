@@ -5,6 +5,7 @@
 #include <culm/base/options.hpp>
 #include <culm/base/registry.hpp>
 #include <culm/material/section.hpp>
+#include <culm/model/imperfection.hpp>
 #include <culm/model/model.hpp>
 
 #include <map>
@@ -19,6 +20,7 @@ struct StructureContext {
   InputIssues& issues;
   const Log& log;
   int refinement = 1;  ///< elements for each one of the deck, along each of its directions
+  const model::Imperfection* imperfection = nullptr;  ///< none if null
 };
 
 /// Types of the deck's list "Structures". Each adds one structure under the name of its list.

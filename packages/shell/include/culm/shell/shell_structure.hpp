@@ -4,6 +4,7 @@
 #include <culm/base/log.hpp>
 #include <culm/base/registry.hpp>
 #include <culm/material/material.hpp>
+#include <culm/model/imperfection.hpp>
 #include <culm/model/model.hpp>
 
 #include <map>
@@ -17,6 +18,7 @@ struct ShellContext {
   const std::map<std::string, material::Material>& materials;  ///< list "Materials" of the deck
   const Log& log;
   int refinement = 1;  ///< elements for each one of the deck, along each of its directions
+  const model::Imperfection* imperfection = nullptr;  ///< none if null
 };
 
 /// Types of the deck's list "Structures" that are made of materials. @see Registry

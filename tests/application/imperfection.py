@@ -1,0 +1,59 @@
+"""Buckling shapes as imperfections of later runs: a column that is bent by a0 in its buckling shape bends further
+by a0 l / (1 - l) under the share l of its buckling load (Southwell)."""
+
+import argparse
+import pathlib
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "src/python"))
+from culm.program import Program  # noqa: E402
+
+INPUTS = ROOT / "inputs/buckling"
+AMPLITUDE = 1e-4  # of the length 1
+
+
+def entry(run, analysis="buckling", amplitude=AMPLITUDE):
+    given = {"Run": run, "Analysis": analysis, "Amplitude": amplitude}
+    return [f"Imperfections/bow/{name}={value}" for name, value in given.items()]
+
+
+def watch(node):
+    return ["Output/History/tip/Type=Displacement", f"Output/History/tip/Node={node}"]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--culm", required=True)
+    program = Program(parser.parse_args().culm)
+    complaints = []
+    with tempfile.TemporaryDirectory(prefix="culm") as folder:
+        shapes, loaded = (pathlib.Path(folder) / name for name in ("shapes", "loaded"))
+        found = program.run(INPUTS / "column.xml", shapes)
+        if not found.succeeded:
+            sys.exit(found.errors)
+        deck = INPUTS / "column_loaded.xml"
+        run = program.run(deck, loaded, [*entry(shapes), *watch("column/last")])
+        if not run.succeeded:
+            sys.exit(run.errors)
+        for level, bent in zip(run.history.levels[1:5], run.history.column("tip ux [m]")[1:5]):
+            expected = AMPLITUDE * level / (1.0 - level)
+            print(f"level {level:.4g}: tip {abs(bent):.6e} m, Southwell {expected:.6e} m")
+            # errors of the mesh and of the axial strain, 1e-5, grow as the bending does
+            if abs(abs(bent) - expected) > 1e-4 * expected / (1.0 - level):
+                complaints.append(f"level {level}: {bent}")
+        for settings, exit_code, words in (
+            (entry(shapes, analysis="bukling"), 6, "no analysis 'bukling' with shapes; it has buckling"),
+            ([*entry(shapes), "N=4"], 3, "the shape has 33 nodes for 'column', which has 9 here"),
+        ):
+            run = program.run(deck, loaded, settings)
+            if run.exit != exit_code or words not in run.errors:
+                complaints.append(f"{settings}: exit {run.exit}, {run.errors}")
+    for complaint in complaints:
+        print(f"FAILED: {complaint}")
+    sys.exit(1 if complaints else 0)
+
+
+if __name__ == "__main__":
+    main()
