@@ -128,6 +128,13 @@ class Findings(StudyTest):
             env={**os.environ, **MPI_ENVIRONMENT},
         )
 
+    def test_nothing_refined(self):
+        output = self.study(
+            FLIGHT, "--vary", "form=Null-Space,Multipliers", "--watch", "other end", "--repeat", "1"
+        )
+        self.assertIn("Nothing is refined: errors are differences from form=Null Space", output)
+        self.assertLess(float(self.rows()[1]["error of other end"]), 1e-10)
+
     def test_failed_runs_do_not_stop_it(self):
         # 8 elements of order 1 have no solution beyond 0.6366 of the load: doc/verification/roll_up.md
         output = self.study(

@@ -225,6 +225,11 @@ class Judgement:
             text = "no reference: the finest run failed; leave it out, or give one by --reference"
             raise CulmError(text, 4)
         self.reference_label = self.label(corner)
+        if not self.refined:
+            self.notes.append(
+                f"Nothing is refined: errors are differences from {self.reference_label}, "
+                "whose own error is not known."
+            )
         lines = {a: [index for index in line if index in self._histories] for a, line in lines.items()}
         return [
             corner_limit(self.state(corner, measure), self._sequences(lines, measure), measure)
