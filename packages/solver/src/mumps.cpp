@@ -39,9 +39,12 @@ MUMPS_INT info(const DMUMPS_STRUC_C& mumps, Info which) { return mumps.infog[whi
 
 }  // namespace
 
-Mumps::Mumps(const assembly::CrsMatrix& pattern, std::vector<int> place, const parallel::Comm& comm)
-    : pivots_(std::move(place)) {
-  mumps_.sym = 0;
+Mumps::Mumps(const assembly::CrsMatrix& pattern, Symmetry symmetry, std::vector<int> place,
+             const parallel::Comm& comm)
+    : symmetry_(symmetry), pivots_(std::move(place)) {
+  constexpr int unsymmetric = 0;
+  constexpr int symmetric_indefinite = 2;
+  mumps_.sym = symmetry == Symmetry::symmetric ? symmetric_indefinite : unsymmetric;
   mumps_.par = 1;  // the root works as well
   mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.handle()));
   run(-1);
@@ -60,11 +63,16 @@ Mumps::Mumps(const assembly::CrsMatrix& pattern, std::vector<int> place, const p
   for (std::size_t row = 0; row < pattern.getRowMap()->getNodeNumElements(); ++row) {
     const auto number = pattern.getRowMap()->getGlobalElement(static_cast<int>(row)) + 1;
     for (auto k = graph.row_map(row); k < graph.row_map(row + 1); ++k) {
+      const auto column = pattern.getColMap()->getGlobalElement(graph.entries(k)) + 1;
+      if (symmetry == Symmetry::symmetric) {
+        if (column > number) continue;
+        lower_.push_back(k);
+      }
       rows_.push_back(static_cast<MUMPS_INT>(number));
-      columns_.push_back(
-          static_cast<MUMPS_INT>(pattern.getColMap()->getGlobalElement(graph.entries(k)) + 1));
+      columns_.push_back(static_cast<MUMPS_INT>(column));
     }
   }
+  values_.resize(lower_.size());
   for (MUMPS_INT& pivot : pivots_) ++pivot;
   mumps_.n = static_cast<MUMPS_INT>(pattern.getGlobalNumRows());
   mumps_.nnz_loc = static_cast<MUMPS_INT8>(rows_.size());
@@ -78,9 +86,19 @@ Mumps::~Mumps() {
   dmumps_c(&mumps_);
 }
 
+void Mumps::pass_values(const assembly::CrsMatrix& matrix) {
+  const auto values = matrix.getLocalMatrixHost().values;
+  if (symmetry_ == Symmetry::none) {
+    // MUMPS takes the values as non-const but does not change them
+    mumps_.a_loc = const_cast<double*>(values.data());
+    return;
+  }
+  for (std::size_t k = 0; k < lower_.size(); ++k) values_[k] = values(lower_[k]);
+  mumps_.a_loc = values_.data();
+}
+
 bool Mumps::factor(const assembly::CrsMatrix& matrix) {
-  // MUMPS takes the values as non-const but does not change them
-  mumps_.a_loc = const_cast<double*>(matrix.getLocalMatrixHost().values.data());
+  pass_values(matrix);
   if (!analysed_) run(1);
   if (info(mumps_, status) < 0) throw_error();
   analysed_ = true;

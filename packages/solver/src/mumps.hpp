@@ -11,16 +11,23 @@
 
 namespace culm::solver {
 
-/// LU factors of an unsymmetric matrix that stays distributed by rows. All calls are collective,
-/// and outcomes and errors are the same on all ranks, because MUMPS shares its first error.
+/// What the values of a matrix are like.
+enum class Symmetry { none, symmetric };
+
+/// LU factors of an unsymmetric matrix that stays distributed by rows, or L D L^T of a symmetric
+/// one, which need not be definite, in half the time. All calls are collective, and outcomes and
+/// errors are the same on all ranks, because MUMPS shares its first error.
 class Mumps {
  public:
+  /// @param symmetry of all matrices that will come; of symmetric ones the lower triangle is read
   /// @param place of each global row among the pivots; on the root only
-  Mumps(const assembly::CrsMatrix& pattern, std::vector<int> place, const parallel::Comm& comm);
+  Mumps(const assembly::CrsMatrix& pattern, Symmetry symmetry, std::vector<int> place,
+        const parallel::Comm& comm);
   ~Mumps();
   Mumps(const Mumps&) = delete;
   Mumps& operator=(const Mumps&) = delete;
 
+  Symmetry symmetry() const { return symmetry_; }
   /// Factors the values of a matrix with the pattern; analyses it first if that is still to do.
   /// @return false if a pivot is zero. Throws NumericalError if the memory does not suffice.
   bool factor(const assembly::CrsMatrix& matrix);
@@ -30,11 +37,15 @@ class Mumps {
   void solve(std::span<double> b);
 
  private:
+  void pass_values(const assembly::CrsMatrix& matrix);
   void run(int job);
   bool has_run_out_of_workspace() const;
   void throw_error() const;
 
   DMUMPS_STRUC_C mumps_{};
+  Symmetry symmetry_;
+  std::vector<std::size_t> lower_;  ///< entries of this rank that are passed; of symmetric matrices
+  std::vector<double> values_;      ///< their values
   std::vector<MUMPS_INT> rows_;     ///< of the entries of this rank, from 1
   std::vector<MUMPS_INT> columns_;  ///< likewise
   std::vector<MUMPS_INT> pivots_;   ///< place of each row, from 1; on the root

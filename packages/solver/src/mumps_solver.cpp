@@ -3,10 +3,12 @@
 #include "matrix_checks.hpp"
 #include "mumps.hpp"
 #include "rooted_vector.hpp"
+#include "symmetry_check.hpp"
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace culm::solver {
@@ -22,7 +24,7 @@ class MumpsSolver final : public LinearSolver {
       : matrix_(matrix),
         comm_(comm),
         place_(std::move(ordering.place)),
-        mumps_(*matrix, place_, comm),
+        symmetry_(matrix),
         rooted_(*matrix->getRowMap(), comm),
         whole_(comm.is_root() ? matrix->getGlobalNumRows() : 0),
         columns_(matrix->getColMap()),
@@ -31,14 +33,24 @@ class MumpsSolver final : public LinearSolver {
 
   std::string name() const override { return "MUMPS"; }
 
-  bool factor() override { return std::isfinite(size()) && mumps_.factor(*matrix_); }
+  // By the present values alone, so that what goes on where a run stopped decides alike. Hardly any
+  // analysis has matrices of both kinds, so one set of factors is held and not two.
+  bool factor() override {
+    if (!std::isfinite(size())) return false;
+    const Symmetry symmetry = find_symmetry();
+    if (!mumps_ || mumps_->symmetry() != symmetry) {
+      mumps_.reset();
+      mumps_.emplace(*matrix_, symmetry, place_, comm_);
+    }
+    return mumps_->factor(*matrix_);
+  }
 
   double solve(const Vector& b, Vector& x) override {
-    apply_inverse(mumps_, b, x);
+    apply_inverse(*mumps_, b, x);
     double achieved = check(b, x);
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
     for (int i = 0; i < 2 && achieved > good_residual && std::isfinite(achieved); ++i) {
-      apply_inverse(mumps_, rest_, correction_);
+      apply_inverse(*mumps_, rest_, correction_);
       x.update(1.0, correction_, 1.0);
       const double refined = check(b, x);
       if (!(refined < achieved)) {
@@ -50,14 +62,14 @@ class MumpsSolver final : public LinearSolver {
     return achieved;
   }
 
-  Determinant determinant() override { return mumps_.determinant(); }
+  Determinant determinant() override { return mumps_ ? mumps_->determinant() : Determinant{}; }
 
   double weakest_direction(Vector& v) override {
     v.putScalar(0.0);
     const double largest = size();
     if (!std::isfinite(largest) || largest == 0.0) return 0.0;
     const auto shifted = shifted_copy(*matrix_, relative_shift * largest);
-    Mumps mumps(*shifted, place_, comm_);
+    Mumps mumps(*shifted, Symmetry::none, place_, comm_);
     if (!mumps.factor(*shifted)) return 0.0;
     const auto solve = [&](const Vector& b, Vector& x) { apply_inverse(mumps, b, x); };
     return inverse_iteration(*matrix_, solve, v) / largest;
@@ -65,8 +77,15 @@ class MumpsSolver final : public LinearSolver {
 
  private:
   static constexpr double good_residual = 1e-14;
+  // What is beyond, refinement finds in the residual.
+  static constexpr double largest_asymmetry = 1e-12;
 
   double size() const { return comm_.max(largest_entry(*matrix_)); }
+
+  Symmetry find_symmetry() {
+    return comm_.max(symmetry_.asymmetry()) <= largest_asymmetry ? Symmetry::symmetric
+                                                                 : Symmetry::none;
+  }
 
   void apply_inverse(Mumps& mumps, const Vector& b, Vector& x) {
     rooted_.gather(b, whole_);
@@ -88,7 +107,8 @@ class MumpsSolver final : public LinearSolver {
   Teuchos::RCP<const CrsMatrix> matrix_;
   parallel::Comm comm_;
   std::vector<int> place_;
-  Mumps mumps_;
+  std::optional<Mumps> mumps_;  // of the symmetry of the last matrix
+  SymmetryCheck symmetry_;
   RootedVector rooted_;
   std::vector<double> whole_;  // a vector in global order, on the root
   Vector columns_;             // values of all local columns

@@ -63,6 +63,17 @@ class ScatteredSystem {
     dense_.diagonal() *= factor;
   }
 
+  void set_entry(GlobalIndex row, GlobalIndex column, double value) const {
+    if (!map_->isNodeGlobalElement(row)) return;
+    const auto local = matrix_->getLocalMatrixHost();
+    const auto at = static_cast<std::size_t>(map_->getLocalElement(row));
+    for (auto k = local.graph.row_map(at); k < local.graph.row_map(at + 1); ++k) {
+      if (matrix_->getColMap()->getGlobalElement(local.graph.entries(k)) == column) {
+        local.values(k) = value;
+      }
+    }
+  }
+
   Vector distribute(const Eigen::VectorXd& whole) const {
     Vector v(map_);
     const auto values = values_of(v);
@@ -130,6 +141,56 @@ TEST_P(EachLinearSolver, KnowsTheDeterminant) {
     EXPECT_EQ(found.sign, exact > 0.0 ? 1 : -1) << exchanged;
     EXPECT_NEAR(found.log_size, std::log(std::abs(exact)), 1e-10);
   }
+}
+
+TEST_P(EachLinearSolver, SymmetricMatricesNeedNotBeDefinite) {
+  for (const int negative : {0, 1, 8}) {
+    Eigen::MatrixXd dense = band_with_far_entries();
+    dense = (dense + dense.transpose()).eval();
+    for (int i = 0; i < negative; ++i) dense(7 * i, 7 * i) *= -1.0;
+    const ScatteredSystem symmetric(dense);
+    const auto solver = make(GetParam(), symmetric);
+    ASSERT_TRUE(solver->factor());
+    const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(symmetric.size(), -1.0, 2.0);
+    Vector solution(symmetric.map());
+    EXPECT_LT(solver->solve(symmetric.distribute(dense * x), solution), 1e-14);
+    EXPECT_LT(symmetric.difference(solution, x), 1e-12);
+    const double exact = dense.determinant();
+    EXPECT_EQ(solver->determinant().sign, exact > 0.0 ? 1 : -1) << negative;
+    EXPECT_NEAR(solver->determinant().log_size, std::log(std::abs(exact)), 1e-10);
+  }
+}
+
+// One entry loses its mirror image, little or entirely, and finds it again.
+TEST_P(EachLinearSolver, SymmetryMayComeAndGo) {
+  Eigen::MatrixXd dense = band_with_far_entries();
+  dense = (dense + dense.transpose()).eval();
+  const ScatteredSystem other(dense);
+  const auto solver = make(GetParam(), other);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(other.size(), -1.0, 2.0);
+  Vector solution(other.map());
+  for (const double factor : {1.0, 1.0 + 1e-14, 1.0 + 1e-9, -2.0, 1.0}) {
+    Eigen::MatrixXd changed = dense;
+    changed(31, 30) *= factor;
+    other.set_entry(31, 30, changed(31, 30));
+    ASSERT_TRUE(solver->factor());
+    EXPECT_LT(solver->solve(other.distribute(changed * x), solution), 1e-14) << factor;
+    EXPECT_LT(other.difference(solution, x), 1e-12) << factor;
+    const double exact = changed.determinant();
+    EXPECT_EQ(solver->determinant().sign, exact > 0.0 ? 1 : -1) << factor;
+  }
+}
+
+TEST_P(EachLinearSolver, SingularSymmetricMatrixIsNoticed) {
+  Eigen::MatrixXd dense = band_with_far_entries();
+  dense = (dense + dense.transpose()).eval();
+  dense.row(5).setZero();
+  dense.col(5).setZero();
+  const ScatteredSystem free(dense);
+  const auto solver = make(GetParam(), free);
+  Vector x(free.map());
+  const Vector b = free.distribute(Eigen::VectorXd::Ones(free.size()));
+  EXPECT_TRUE(!solver->factor() || solver->solve(b, x) > 1e-8);
 }
 
 TEST_P(EachLinearSolver, NewValuesReplaceOldFactors) {

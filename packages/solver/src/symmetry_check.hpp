@@ -1,0 +1,29 @@
+/// Whether the values of a distributed matrix are symmetric.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+
+#include <vector>
+
+namespace culm::solver {
+
+/// Compares A x with A^T x for one x without symmetry, because the search for mirrored entries
+/// would have to cross ranks. Costs as much as two products with A.
+class SymmetryCheck {
+ public:
+  explicit SymmetryCheck(Teuchos::RCP<const assembly::CrsMatrix> matrix);
+
+  /// |(A - A^T) x| over |A| |x| in the worst row of this rank, for the present values: rounding if
+  /// and only if they are symmetric. Collective.
+  double asymmetry();
+
+ private:
+  Teuchos::RCP<const assembly::CrsMatrix> matrix_;
+  std::vector<int> diagonal_;    ///< local column of each row's diagonal entry
+  std::vector<double> weights_;  ///< x, of the local columns
+  std::vector<double> size_;     ///< |A| |x|
+  assembly::Vector difference_;  ///< A x - A^T x
+  assembly::Vector transposed_;  ///< -A^T x, what the rows of this rank add to it
+};
+
+}  // namespace culm::solver
