@@ -24,9 +24,10 @@ double weight_of(GlobalIndex column) {
 
 SymmetryCheck::SymmetryCheck(Teuchos::RCP<const CrsMatrix> matrix)
     : matrix_(std::move(matrix)),
-      size_(matrix_->getRowMap()->getNodeNumElements()),
-      difference_(matrix_->getRowMap()),
-      transposed_(matrix_->getColMap()) {
+      product_(matrix_->getRowMap()->getNodeNumElements()),
+      size_(product_.size()),
+      shares_(matrix_->getColMap()),
+      transposed_(matrix_->getRowMap()) {
   const auto& columns = *matrix_->getColMap();
   for (std::size_t column = 0; column < columns.getNodeNumElements(); ++column) {
     weights_.push_back(weight_of(columns.getGlobalElement(static_cast<int>(column))));
@@ -38,42 +39,42 @@ SymmetryCheck::SymmetryCheck(Teuchos::RCP<const CrsMatrix> matrix)
 }
 
 double SymmetryCheck::asymmetry() {
-  const auto local = matrix_->getLocalMatrixHost();
-  difference_.putScalar(0.0);
+  multiply();
   transposed_.putScalar(0.0);
-  {
-    const auto difference = values_of(difference_);
-    const auto transposed = values_of(transposed_);
-    for (std::size_t row = 0; row < size_.size(); ++row) {
-      const double weight = weights_[static_cast<std::size_t>(diagonal_[row])];
-      double sum = 0.0;
-      double size = 0.0;
-      for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
-        const int column = local.graph.entries(k);
-        if (column == diagonal_[row]) continue;
-        const double term = local.values(k) * weights_[static_cast<std::size_t>(column)];
-        sum += term;
-        size += std::abs(term);
-        transposed[static_cast<std::size_t>(column)] -= local.values(k) * weight;
-      }
-      difference[row] = sum;
-      size_[row] = size;
-    }
-  }
   const auto importer = matrix_->getGraph()->getImporter();
   if (importer.is_null()) {
-    difference_.update(1.0, transposed_, 1.0);
+    transposed_.assign(shares_);
   } else {
-    difference_.doExport(transposed_, *importer, Tpetra::ADD);
+    transposed_.doExport(shares_, *importer, Tpetra::ADD);
   }
   double worst = 0.0;
-  const auto difference = values_of(std::as_const(difference_));
+  const auto transposed = values_of(std::as_const(transposed_));
   for (std::size_t row = 0; row < size_.size(); ++row) {
-    if (difference[row] == 0.0) continue;
-    worst = std::max(worst, size_[row] > 0.0 ? std::abs(difference[row]) / size_[row]
+    const double difference = std::abs(product_[row] - transposed[row]);
+    if (difference == 0.0) continue;
+    worst = std::max(worst, size_[row] > 0.0 ? difference / size_[row]
                                              : std::numeric_limits<double>::infinity());
   }
   return worst;
+}
+
+// The diagonal is left out.
+void SymmetryCheck::multiply() {
+  const auto local = matrix_->getLocalMatrixHost();
+  shares_.putScalar(0.0);
+  const auto shares = values_of(shares_);
+  for (std::size_t row = 0; row < size_.size(); ++row) {
+    const double weight = weights_[static_cast<std::size_t>(diagonal_[row])];
+    product_[row] = size_[row] = 0.0;
+    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      const int column = local.graph.entries(k);
+      if (column == diagonal_[row]) continue;
+      const double term = local.values(k) * weights_[static_cast<std::size_t>(column)];
+      product_[row] += term;
+      size_[row] += std::abs(term);
+      shares[static_cast<std::size_t>(column)] += local.values(k) * weight;
+    }
+  }
 }
 
 }  // namespace culm::solver

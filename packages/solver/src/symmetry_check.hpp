@@ -8,7 +8,7 @@
 namespace culm::solver {
 
 /// Compares A x with A^T x for one x without symmetry, because the search for mirrored entries
-/// would have to cross ranks. Costs as much as two products with A.
+/// would have to cross ranks. Costs as much as two products with A. Every row has a diagonal entry.
 class SymmetryCheck {
  public:
   explicit SymmetryCheck(Teuchos::RCP<const assembly::CrsMatrix> matrix);
@@ -18,12 +18,15 @@ class SymmetryCheck {
   double asymmetry();
 
  private:
+  void multiply();
+
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
-  std::vector<int> diagonal_;    ///< local column of each row's diagonal entry
+  std::vector<int> diagonal_;    ///< local column of the diagonal entry of each row
   std::vector<double> weights_;  ///< x, of the local columns
+  std::vector<double> product_;  ///< A x
   std::vector<double> size_;     ///< |A| |x|
-  assembly::Vector difference_;  ///< A x - A^T x
-  assembly::Vector transposed_;  ///< -A^T x, what the rows of this rank add to it
+  assembly::Vector shares_;      ///< what the rows of this rank add to A^T x
+  assembly::Vector transposed_;  ///< A^T x
 };
 
 }  // namespace culm::solver

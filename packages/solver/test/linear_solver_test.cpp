@@ -1,6 +1,8 @@
 #include <culm/parallel/comm.hpp>
 #include <culm/solver/linear_solver.hpp>
 
+#include "../src/symmetry_check.hpp"
+
 #include <Eigen/Dense>
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -284,6 +286,22 @@ TEST_P(EachLinearSolver, NumbersThatAreNotFiniteHaveNoDirection) {
   Vector direction(system.map());
   EXPECT_EQ(solver->weakest_direction(direction), 0.0);
   EXPECT_EQ(direction.normInf(), 0.0);
+}
+
+TEST(SymmetryCheck, FindsOneEntryWithoutMirrorImageOnAnyNumberOfRanks) {
+  Eigen::MatrixXd dense = band_with_far_entries();
+  dense = (dense + dense.transpose()).eval();
+  const ScatteredSystem system(dense);
+  SymmetryCheck check(system.matrix());
+  const auto asymmetry = [&] { return system.comm().max(check.asymmetry()); };
+  EXPECT_LT(asymmetry(), 1e-15);
+  for (const double change : {1e-9, 1e-3}) {
+    system.set_entry(31, 30, (1.0 + change) * dense(31, 30));
+    EXPECT_GT(asymmetry(), 0.02 * change);
+    EXPECT_LT(asymmetry(), 1.01 * change);
+  }
+  system.set_entry(31, 30, dense(31, 30));
+  EXPECT_LT(asymmetry(), 1e-15);
 }
 
 TEST(ChooseLinearSolver, TakesMumpsForDenseFactorsOnly) {
