@@ -104,16 +104,23 @@ bool NewtonGroup::needs_tangent() const {
   return p.last_residual > 0.0 && relative_residual(evaluation_) > slow * p.last_residual;
 }
 
-// Residual and tangent in one pass: all but the last tangent of a step are used, and a separate
-// pass for the residual costs a third of the joint one. Modified Newton uses few of them.
+// Modified Newton uses few tangents, and the last one of a step is of no use: most steps end after
+// as many iterations as the step before.
+bool NewtonGroup::tangent_can_wait() const {
+  const NewtonProblem& p = *problem_;
+  if (p.settings.refresh == Refresh::on_slow_convergence && p.has_factors) return true;
+  return p.iterations > 0 && p.iterations == p.expected_iterations;
+}
+
+// Residual and tangent in one pass where both will be used: a separate pass for the residual costs
+// a third of the joint one.
 NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
   if (has_residual_) return Ok;
   swap_with_state();
   NewtonProblem& p = *problem_;
-  const bool reuse =
-      p.settings.refresh == Refresh::on_slow_convergence && p.has_factors && !tangent_wanted_;
-  evaluation_ =
-      p.system.evaluate(*p.state, p.stencil, reuse ? Want::residual : Want::residual_and_tangent);
+  const bool without_tangent = !tangent_wanted_ && tangent_can_wait();
+  evaluation_ = p.system.evaluate(*p.state, p.stencil,
+                                  without_tangent ? Want::residual : Want::residual_and_tangent);
   if (p.condition != nullptr && evaluation_.verdict == Verdict::ok) {
     evaluation_.constraint_violation =
         std::max(evaluation_.constraint_violation, p.condition->violation(*p.state));
@@ -121,7 +128,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
   swap_with_state();
   f_.get().assign(p.system.residual());
   has_residual_ = evaluation_.verdict == Verdict::ok;
-  has_tangent_ = has_residual_ && !reuse;
+  has_tangent_ = has_residual_ && !without_tangent;
   return has_residual_ ? Ok : Failed;
 }
 
@@ -176,6 +183,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeNewton(Teuchos::ParameterLi
   if (!solve_linear()) return Failed;
   NewtonProblem& p = *problem_;
   p.last_residual = relative_residual(evaluation_);
+  ++p.iterations;
   newton_.get().scale(-1.0);
   if (p.condition != nullptr && !solve_level()) return Failed;
   p.largest_increment = newton_.get().normInf();

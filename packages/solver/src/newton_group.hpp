@@ -31,6 +31,9 @@ struct NewtonProblem {
   bool has_factors = false;       ///< the linear solver holds factors of a tangent of this analysis
   double factored_inertia = 0.0;  ///< Stencil::inertia of that tangent
   double last_residual = 0.0;     ///< relative one of the iteration before; 0 before the first
+  int iterations = 0;             ///< of this step, so far
+  int expected_iterations = 0;    ///< those of the step before; 0 before the first
+  double seen_rounding = 0.0;     ///< share of the bound on rounding that a residual stood still at
   bool singular = false;          ///< the last factorisation failed
   bool not_finite = false;        ///< the last solution is infinite or not a number
   double largest_increment = 0.0;
@@ -76,6 +79,8 @@ class NewtonGroup final : public NOX::Abstract::Group {
   void swap_with_state();
   void forget_results();
   bool needs_tangent() const;
+  /// Whether the tangent at this point will hardly be asked for.
+  bool tangent_can_wait() const;
   /// Solves with new or old factors. @return false if the result is of no use
   bool solve_linear();
   /// Adds the share of the level to the Newton direction. @return false if there is none

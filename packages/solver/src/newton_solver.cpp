@@ -5,6 +5,7 @@
 #include <NOX.H>
 #include <Teuchos_oblackholestream.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace culm::solver {
@@ -20,7 +21,7 @@ constexpr double negligible = 1e-6;
 // Judges force and constraint rows separately, each relative to what it is made of.
 class BalanceTest final : public NOX::StatusTest::Generic {
  public:
-  explicit BalanceTest(const NewtonProblem& problem) : problem_(problem) {}
+  explicit BalanceTest(NewtonProblem& problem) : problem_(problem) {}
 
   void reset() {
     history_.clear();
@@ -45,6 +46,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const bool stalls = history_.size() > 1 && e.constraint_violation > 0.1 * previous_violation_;
     const bool constraints =
         e.constraint_violation <= (stalls ? 1.0 : share) * settings.constraint_tolerance;
+    if (forces && constraints) learn_rounding(e);
     previous_residual_ = e.force_residual;
     previous_violation_ = e.constraint_violation;
     if (history_.size() == 1) first_residual_ = e.force_residual;
@@ -58,18 +60,29 @@ class BalanceTest final : public NOX::StatusTest::Generic {
  private:
   // Below the bound that rounding can explain a force may also be a small load on a structure that
   // is stiff elsewhere. So it must be negligible beside what was out of balance at first, or have
-  // stopped falling. Rounding itself causes a tenth to a half of the bound, the more elements the
-  // more; without inertia soft structures would feel a half. With old factors a residual creeps,
-  // so it must have stopped.
+  // stopped falling. With old factors a residual creeps, so it must have stopped.
   bool is_rounding(double residual, double bound) const {
     if (residual == 0.0) return true;
     if (history_.size() < 2 || residual > bound) return false;
     if (problem_.settings.refresh == Refresh::on_slow_convergence) {
       return residual > 0.2 * previous_residual_;
     }
-    const double expected = (problem_.stencil.inertia != 0.0 ? 0.5 : 0.1) * bound;
     return residual > 0.1 * previous_residual_ ||
-           (residual <= expected && residual <= negligible * first_residual_);
+           (residual <= expected_rounding() * bound && residual <= negligible * first_residual_);
+  }
+  // Rounding causes about a tenth of the bound, in long meshes up to a half: twice what it was seen
+  // to cause, but not without inertia, where soft structures would feel it.
+  double expected_rounding() const {
+    return problem_.stencil.inertia == 0.0 ? 0.1
+                                           : std::clamp(2.0 * problem_.seen_rounding, 0.1, 0.5);
+  }
+  // A residual that stands still shows what rounding causes, any other that it causes less.
+  void learn_rounding(const assembly::Evaluation& e) {
+    if (history_.size() < 2 || e.force_residual > e.round_off_force) return;
+    const double share = e.force_residual / e.round_off_force;
+    const bool stands_still = e.force_residual > 0.5 * previous_residual_;
+    double& seen = problem_.seen_rounding;
+    seen = stands_still ? share : std::min(seen, 2.0 * share);
   }
   // an increment of thousands of model lengths or hundreds of turns will not come back
   bool is_hopeless(const assembly::Evaluation& e) const {
@@ -77,7 +90,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     return e.verdict != Verdict::ok || (problem_.largest_increment > size && history_.size() > 1);
   }
 
-  const NewtonProblem& problem_;
+  NewtonProblem& problem_;
   std::vector<IterationRecord> history_;
   double previous_residual_ = 0.0;
   double previous_violation_ = 0.0;
@@ -180,6 +193,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   nox.problem->first_determinant = {};
   nox.problem->singular = nox.problem->not_finite = false;
   nox.problem->largest_increment = nox.problem->last_residual = 0.0;
+  nox.problem->iterations = 0;
   nox.balance->reset();
   nox.group->start();
   nox.origin->init(0.0);
@@ -205,6 +219,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
     outcome.last_determinant = nox.problem->linear.determinant();
   }
   if (!outcome.converged()) nox.problem->has_factors = false;
+  nox.problem->expected_iterations = outcome.converged() ? outcome.iterations : 0;
   nox.group->finish();
   return outcome;
 }
@@ -213,6 +228,8 @@ void NewtonSolver::save(Snapshot& snapshot) const {
   const NewtonProblem& p = *nox_->problem;
   const std::vector<int> pivots = p.linear.pivots();
   snapshot.set("newton/pivots", {pivots.begin(), pivots.end()});
+  snapshot.set("newton/expected iterations", p.expected_iterations);
+  snapshot.set("newton/seen rounding", p.seen_rounding);
   if (p.settings.refresh == Refresh::every_iteration || !p.has_factors) return;
   // the matrix has not changed since it was factored
   snapshot.set("newton/inertia", p.factored_inertia);
@@ -221,6 +238,8 @@ void NewtonSolver::save(Snapshot& snapshot) const {
 
 void NewtonSolver::restore(const Snapshot& snapshot) {
   NewtonProblem& p = *nox_->problem;
+  p.expected_iterations = snapshot.integer("newton/expected iterations");
+  p.seen_rounding = snapshot.number("newton/seen rounding");
   const std::vector<double>& kept = snapshot.numbers("newton/pivots");
   // where they do not fit, the solver begins anew
   p.linear.set_pivots(std::vector<int>(kept.begin(), kept.end()));
