@@ -18,6 +18,9 @@ constexpr double lasting_share = 0.01;
 // Share of a residual at the start of a step that does not count at its end.
 constexpr double negligible = 1e-6;
 
+// So many times what quadratic convergence leaves of a residual is rounding and no remainder.
+constexpr double far_above = 10.0;
+
 // Judges force and constraint rows separately, each relative to what it is made of.
 class BalanceTest final : public NOX::StatusTest::Generic {
  public:
@@ -25,7 +28,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
 
   void reset() {
     history_.clear();
-    previous_residual_ = previous_violation_ = 0.0;
+    residual_before_ = previous_residual_ = previous_violation_ = 0.0;
     status_ = NOX::StatusTest::Unevaluated;
   }
   const std::vector<IterationRecord>& history() const { return history_; }
@@ -47,6 +50,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const bool constraints =
         e.constraint_violation <= (stalls ? 1.0 : share) * settings.constraint_tolerance;
     if (forces && constraints) learn_rounding(e);
+    residual_before_ = previous_residual_;
     previous_residual_ = e.force_residual;
     previous_violation_ = e.constraint_violation;
     if (history_.size() == 1) first_residual_ = e.force_residual;
@@ -67,14 +71,19 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     if (problem_.settings.refresh == Refresh::on_slow_convergence) {
       return residual > 0.2 * previous_residual_;
     }
-    return residual > 0.1 * previous_residual_ ||
-           (residual <= expected_rounding() * bound && residual <= negligible * first_residual_);
+    if (residual > 0.1 * previous_residual_) return true;
+    return residual <= expected_rounding(residual) * bound &&
+           residual <= negligible * first_residual_;
   }
   // Rounding causes about a tenth of the bound, in long meshes up to a half: twice what it was seen
-  // to cause, but not without inertia, where soft structures would feel it.
-  double expected_rounding() const {
-    return problem_.stencil.inertia == 0.0 ? 0.1
-                                           : std::clamp(2.0 * problem_.seen_rounding, 0.1, 0.5);
+  // to cause, where inertia lets no direction be soft. What the iteration leaves must be far less,
+  // for it always points the same way.
+  double expected_rounding(double residual) const {
+    if (problem_.stencil.inertia == 0.0 || history_.size() < 3) return 0.1;
+    const double fall = previous_residual_ / residual_before_;
+    const double remainder = fall * fall * previous_residual_;
+    if (residual < far_above * remainder) return 0.1;
+    return std::clamp(2.0 * problem_.seen_rounding, 0.1, 0.5);
   }
   // A residual that stands still shows what rounding causes, any other that it causes less.
   void learn_rounding(const assembly::Evaluation& e) {
@@ -82,7 +91,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const double share = e.force_residual / e.round_off_force;
     const bool stands_still = e.force_residual > 0.5 * previous_residual_;
     double& seen = problem_.seen_rounding;
-    seen = stands_still ? share : std::min(seen, 2.0 * share);
+    seen = stands_still ? share : std::min(seen, share);
   }
   // an increment of thousands of model lengths or hundreds of turns will not come back
   bool is_hopeless(const assembly::Evaluation& e) const {
@@ -92,6 +101,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
 
   NewtonProblem& problem_;
   std::vector<IterationRecord> history_;
+  double residual_before_ = 0.0;  // the last but one
   double previous_residual_ = 0.0;
   double previous_violation_ = 0.0;
   double first_residual_ = 0.0;
