@@ -74,11 +74,22 @@ def verify_loaded(culm, report):
     report.relative("BU-4: exact with the deflection before", found, 226.278, 5e-3)
 
 
+def verify_rounding(culm, report):
+    report.title("Stiffness ratios beyond rounding: told by a warning")
+    for ratio, told in ((1e9, False), (1e12, True), (1e15, True)):
+        stiff = [f"Sections/bar/{name}={ratio}" for name in ("EA", "GA1", "GA2")]
+        run = culm.run("buckling/column.xml", stiff)
+        error = run.tables["buckling/buckling"].at(1, "factor") / EULER - 1.0
+        report.check(f"EA/EI = {ratio:.0e}: off by {error:.1e}, warnings",
+                     run.errors.count("rounding leaves the factor"), int(told), 0)
+
+
 def verify(culm, report):
     verify_loaded(culm, report)
     verify_column(culm, report)
     verify_plate(culm, report)
     verify_tippling(culm, report)
+    verify_rounding(culm, report)
 
 
 def plot(culm, path):

@@ -184,6 +184,17 @@ def verify_matrices(culm, report):
         report.check(f"{form}: motions", P.shape[1], K.shape[0], 0)
 
 
+def verify_rounding(culm, report):
+    report.title("Stiffness ratios beyond rounding: told by a warning")
+    exact = CLAMPED_FREE[0] ** 2 / (2.0 * math.pi)
+    for ratio, told in ((1e10, False), (1e12, True), (1e15, True)):
+        stiff = [f"Sections/bar/{name}={ratio}" for name in ("EA", "GA1", "GA2")]
+        run = culm.run("modes/cantilever.xml", stiff)
+        error = run.tables["modes/modes"].at(1, "frequency [Hz]") / exact - 1.0
+        report.check(f"EA/EI = {ratio:.0e}: off by {error:.1e}, warnings",
+                     run.errors.count("rounding hides frequencies"), int(told), 0)
+
+
 def verify_campbell(culm, report):
     report.title("Campbell diagram: one analysis for all speeds")
     table = culm.table("diagram/campbell", "modes/campbell.xml")
@@ -204,6 +215,7 @@ def verify(culm, report):
     verify_damping(culm, report)
     verify_matrices(culm, report)
     verify_campbell(culm, report)
+    verify_rounding(culm, report)
 
 
 def plot(culm, path):

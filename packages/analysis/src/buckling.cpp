@@ -17,6 +17,9 @@ using assembly::Vector;
 // more rounding than a tangent.
 constexpr double largest_asymmetry_of_change = 1e-3;
 
+// Of a factor, that rounding may take: 0.05 %.
+constexpr double notable_share = 5e-4;
+
 // The linear response to the loads of another level. The matrix of the system is the tangent then.
 Vector linear_step(Context& context, model::State at, double level) {
   assembly::System& system = context.system;
@@ -84,6 +87,20 @@ void normalise(Shape& shape) {
   }
   const double scale = displacement > 1e-9 * rotation ? signed_displacement : rotation;
   for (Vec6& motion : shape.real) motion /= scale;
+}
+
+// Shapes have x^T K x = 1, of which large terms that cancel leave their rounding, a tenth of the
+// bound.
+void warn_of_rounding(const solver::EigenPairs& pairs, const Log& log) {
+  for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+    const double share = 0.1 * pairs.rounding[i];
+    if (share < notable_share) continue;
+    log.warning(
+        fmt::format("rounding leaves the factor of mode {} exact to {:.2g} % only: stiffnesses "
+                    "differ too much in size",
+                    i + 1, 100.0 * share));
+    return;
+  }
 }
 
 }  // namespace
@@ -165,6 +182,7 @@ AnalysisReport Buckling::advance(Context& context, model::State& state, Observer
     normalise(shape);
     report.shapes.push_back(std::move(shape));
   }
+  warn_of_rounding(pairs, context.log);
   if (pairs.values.empty()) report.text += "  none: the load cannot make the structure buckle\n";
   report.text +=
       fmt::format("eigensolver: {}, largest residual {:.1e}\n", pairs.solver, pairs.worst_residual);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace culm::analysis {
@@ -16,6 +17,9 @@ using Complex = std::complex<double>;
 constexpr double zero_bound = 4.0;
 // The same for lambda^2 of the quadratic problem, where a double zero is not exact to rounding.
 constexpr double quadratic_zero_bound = 1e3;
+
+// Where hidden frequencies reach this share of the lowest one, that is off by 1e-3 and more.
+constexpr double notable_share = 0.3;
 
 // Multiplies a vector, whose factor is arbitrary, so that the largest displacement, or else the
 // largest rotation, is positive and real. Of components that differ by rounding the first decides.
@@ -82,6 +86,7 @@ class Finder {
           "them");
     }
     set_.is_complex ? find_complex() : find_real();
+    warn_of_rounding();
     const ModeMasses masses(context_.system.model(), state_);
     set_.total = masses.total();
     for (std::size_t i = 0; i < set_.modes.size(); ++i) {
@@ -115,6 +120,7 @@ class Finder {
       mode.shape.real = motions(pairs.vectors.col(static_cast<Eigen::Index>(i)));
       set_.modes.push_back(std::move(mode));
     }
+    note_rounding(pairs.rounding);
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
   }
@@ -143,8 +149,29 @@ class Finder {
       mode.shape.imaginary = motions(x.imag());
       set_.modes.push_back(std::move(mode));
     }
+    note_rounding(pairs.rounding);
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
+  }
+
+  void note_rounding(const std::vector<double>& rounding) {
+    for (double of_square : rounding) {
+      hidden_ = std::max(hidden_, std::sqrt(zero_bound * of_square) / (2.0 * std::numbers::pi));
+    }
+  }
+
+  // Stiff directions leave their rounding in soft ones.
+  void warn_of_rounding() const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Mode& mode : set_.modes) {
+      const double frequency = std::abs(mode.eigenvalue) / (2.0 * std::numbers::pi);
+      if (!mode.is_zero()) lowest = std::min(lowest, frequency);
+    }
+    if (hidden_ <= notable_share * lowest) return;
+    context_.log.warning(fmt::format(
+        "rounding hides frequencies below {:.2g} Hz, and those next to it are inexact: stiffnesses "
+        "differ too much in size",
+        hidden_));
   }
 
   Context& context_;
@@ -153,6 +180,7 @@ class Finder {
   Linearisation linear_;
   solver::EigenSettings solver_;
   ModeSet set_;
+  double hidden_ = 0.0;  // frequency that may be nothing but rounding [Hz]
 };
 
 }  // namespace
