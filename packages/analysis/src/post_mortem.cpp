@@ -21,6 +21,8 @@ constexpr std::size_t kept_attempts = 8;
 constexpr double singular_ratio = 2e-15;  // |A v| / |A| of a direction that nothing resists
 constexpr double notable = 0.05;          // share in a direction of unit maximum norm
 constexpr std::size_t shown = 6;          // entries of a direction in a message
+constexpr double least_resistance = 4.0;  // of a motion that is not free; those of free ones are
+                                          // below 0.3
 
 constexpr const char* beyond_range =
     "Likely cause: a load, stiffness or length beyond the range of numbers.\n"
@@ -220,6 +222,20 @@ void PostMortem::refuse_singular(const model::State& state) {
                   time_word(), state.time, singular_cause(state, direction))));
 }
 
+double PostMortem::resistance(const Vector& motion) const {
+  using assembly::CrsMatrix;
+  CrsMatrix absolute(*context_.system.matrix(), Teuchos::Copy);
+  Vector image(motion.getMap());
+  absolute.apply(motion, image);
+  const double work = motion.dot(image);
+  const auto values = absolute.getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = std::abs(values(k));
+  Vector size(motion.getMap());
+  size.abs(motion);
+  absolute.apply(size, image);
+  return std::abs(work) / (std::numeric_limits<double>::epsilon() * size.dot(image));
+}
+
 // In a sound model K u + H^T lambda = 0 and H u = 0 hold with H^T lambda = 0 as well, because K has
 // no negative direction: redundant equations and a mechanism may come together, each for itself.
 std::string PostMortem::singular_cause(const model::State& state, const Vector& direction) const {
@@ -360,6 +376,13 @@ std::string PostMortem::rigid_motions(const model::State& state,
 
 std::string PostMortem::mechanism(const model::State& state, const Vector& motion) const {
   const std::map<int, Vec6> moved = moved_nodes(state, motion);
+  if (resistance(motion) > least_resistance) {
+    return "Likely cause: stiffnesses or masses that differ too much in size for double "
+           "precision.\n"
+           "Beside the stiffest, almost nothing resists this motion:\n" +
+           largest_motions(moved) +
+           "Try: check units; make what is stiff or heavy less so, or rigid.";
+  }
   return "Likely cause: a mechanism. Nothing resists this motion:\n" + largest_motions(moved) +
          rigid_motions(state, moved) +
          "Try: add a support or a joint that holds it, or give the section stiffness.";

@@ -80,6 +80,12 @@ class Program:
             command += ["--set", setting]
         return self._call(command, folder, time_limit)
 
+    def resume(self, folder, walltime, time_limit=None):
+        """Goes on from the checkpoint of a run for about `walltime` seconds; what the run wrote in
+        its folder is continued."""
+        command = [self.path, "resume", str(folder), "--walltime", str(walltime)]
+        return self._call(command, folder, time_limit)
+
     def resolve(self, deck, path, settings=()):
         """Writes the deck as it is used, with all defaults, to `path`. Raises CulmError with what
         the program says of a deck that is wrong."""

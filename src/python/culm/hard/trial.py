@@ -67,6 +67,8 @@ class Trial:
             evidence = judge.Evidence(run, value, reference)
             reference = reference or evidence
             verdict = judge.judge(evidence, case.checks)
+            if verdict.kind == judge.FAILED and not self._resumes(run):
+                verdict = judge.Verdict(judge.FAULTY, "its checkpoint does not resume", False)
             self._tidy(run.folder)
             return verdict
 
@@ -78,6 +80,16 @@ class Trial:
         self.cpu += run.cpu
         self.runs += 1
         return run
+
+    def _resumes(self, run):
+        """The checkpoint of a run that failed is usable; true if it failed before its first step
+        and so has none."""
+        if not (run.folder / "run.checkpoint").exists():
+            return run.results.scalars().get("accepted steps", 0) == 0
+        self.runs += 1
+        again = self.program.resume(run.folder, walltime=1, time_limit=self.time_limit)
+        self.cpu += again.cpu
+        return again.exit in (0, 4, 5, 7)
 
     def _tidy(self, folder):
         if not self.keep:

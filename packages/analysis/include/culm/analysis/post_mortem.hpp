@@ -63,6 +63,9 @@ class PostMortem {
   std::string cause(model::State& state, const Stencil& stencil);
   std::string path_cause() const;
   std::string dynamic_cause() const;
+  /// Work that a motion takes, over what rounding of the matrix may make of it: below 1 where
+  /// nothing resists.
+  double resistance(const assembly::Vector& motion) const;
   std::string singular_cause(const model::State& state, const assembly::Vector& direction) const;
   std::string redundant_constraints(const assembly::Vector& multipliers) const;
   std::string mechanism(const model::State& state, const assembly::Vector& motion) const;
