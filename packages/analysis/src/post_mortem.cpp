@@ -452,7 +452,8 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
     return singular_cause(state, direction);
   }
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
-    return "Likely cause: an element turns too far.\nTry: more elements.";
+    return "Likely cause: an element turns too far, or inside out.\n"
+           "Try: smaller steps, 'Line Search' = Backtrack, more elements.";
   }
   return fmt::format(
       "Likely cause: the iteration does not find the next equilibrium although the structure "

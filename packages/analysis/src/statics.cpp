@@ -1,6 +1,8 @@
 #include <culm/analysis/newton_options.hpp>
 #include <culm/analysis/statics.hpp>
 
+#include "mirrored_faces.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,6 +31,16 @@ void check_levels(const Options& options, InputIssues& issues) {
       return;
     }
   }
+}
+
+// An iteration that goes astray may find an equilibrium of shell elements turned inside out.
+void refuse_mirrored(Context& context, model::State& state, solver::StepOutcome& outcome) {
+  const model::Model& model = context.system.model();
+  const bool has_faces = std::ranges::any_of(
+      model.structures(), [](const model::Structure& s) { return !s.faces.empty(); });
+  if (!has_faces || !outcome.converged()) return;
+  context.system.synchronise(state);
+  if (has_mirrored_face(model, state.next)) outcome.end = solver::StepEnd::out_of_range;
 }
 
 }  // namespace
@@ -147,6 +159,7 @@ AnalysisReport Statics::advance(Context& context, model::State& state, Observer&
     context.system.begin_step(state, stencil);
     StepReport report{steps_, state.time, settings_.final_level,
                       taken,  true,       newton_->solve(state, stencil)};
+    refuse_mirrored(context, state, report.outcome);
     report.accepted = report.outcome.converged();
     if (report.accepted) report.step = ++steps_;
     report.is_last = report.accepted && state.time >= settings_.final_level;

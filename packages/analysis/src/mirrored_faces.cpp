@@ -1,0 +1,31 @@
+#include "mirrored_faces.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace culm::analysis {
+namespace {
+
+// The tangents at the centre and the sum of the directors, which in the reference form a
+// right-handed system.
+bool is_mirrored(const model::Face& face, const model::Coordinates& q) {
+  const auto at = [&](std::size_t corner, int slot) {
+    return Vec3(model::NodeTable::slots(q, face.nodes[corner]).col(slot));
+  };
+  const Vec3 first = at(1, 0) + at(2, 0) - at(0, 0) - at(3, 0);
+  const Vec3 second = at(2, 0) + at(3, 0) - at(0, 0) - at(1, 0);
+  const Vec3 director = at(0, 1) + at(1, 1) + at(2, 1) + at(3, 1);
+  return first.cross(second).dot(director) < 0.0;
+}
+
+}  // namespace
+
+bool has_mirrored_face(const model::Model& model, const model::Coordinates& q) {
+  return std::ranges::any_of(model.structures(), [&](const model::Structure& structure) {
+    return std::ranges::any_of(structure.faces,
+                               [&](const model::Face& face) { return is_mirrored(face, q); });
+  });
+}
+
+}  // namespace culm::analysis
