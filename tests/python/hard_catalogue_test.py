@@ -63,6 +63,17 @@ class MarginsTest(unittest.TestCase):
         self.assertFalse(entry().is_open)
         self.assertTrue(entry(first_bad=math.inf).is_open)
 
+    def test_shrinking(self):
+        def has_shrunk(last_good, resolution=1.1):
+            return margins.has_shrunk(entry(), entry(last_good=last_good), resolution)
+
+        self.assertFalse(has_shrunk(20.0))
+        self.assertFalse(has_shrunk(18.5))
+        self.assertTrue(has_shrunk(18.0))
+        self.assertFalse(has_shrunk(7.0, resolution=3.0))
+        self.assertTrue(has_shrunk(math.nan))
+        self.assertFalse(margins.has_shrunk(entry(last_good=math.nan), entry(), 1.1))
+
     def test_faults_at_the_limit_and_beyond(self):
         self.assertFalse(margins.is_faulty(entry()))
         self.assertTrue(margins.is_faulty(entry(kind="faulty")))

@@ -87,7 +87,7 @@ def _run(arguments, program, folder, cases, ill_posed, known, terminal):
         )
         found.append(entry)
         terminal.show(entry)
-        if before and not entry.margin >= before.margin / case.resolution:
+        if before and margins.has_shrunk(before, entry, case.resolution):
             shrunk.append(f"{case.name}: {before.margin:.3g} -> {entry.margin:.3g}")
     for one in ill_posed:
         refused.append(trial.refuse(one))

@@ -239,7 +239,7 @@ CASES = [
         "quick spin", "LR HF", "hard/quick_spin.xml",
         "spin times step", 0.2,
         lambda x: [*of_length("motion", x / 82.842712474619, 100), *sharper("motion")],
-        [uncut(), energy(), momenta()],
+        [uncut(), energy(1e-7), momenta(1e-8)],
         limit=1e3, growth=2,
     ),
     Case(
@@ -362,11 +362,18 @@ CASES = [
         limit=1e4, growth=2,
     ),
     Case(
-        "driven bars", "NS LR", "joint/driven_bars.xml",
-        "step [s]", 5e-3,
+        "driven bars, large steps", "NS LR", "joint/driven_bars.xml",
+        "step [s]", 0.01,
         lambda x: of_length("motion", x, 400),
-        [uncut(), energy(1e-8), constraints()],
-        limit=1e4, growth=2,
+        [uncut(), energy(), constraints()],
+        limit=1e3, growth=2,
+    ),
+    Case(
+        "driven bars, small steps", "ST LD", "joint/driven_bars.xml",
+        "steps per second", 50,
+        lambda x: of_length("motion", 1 / x, 400),
+        [uncut(), energy(), constraints()],
+        growth=4, resolution=ROUNDING,
     ),
     # stiffness
     Case(

@@ -44,6 +44,11 @@ def is_faulty(found):
     return judge.FAULTY in (found.kind, getattr(found, "beyond", ""))
 
 
+def has_shrunk(before, after, resolution):
+    """Below what it was by more than the search resolves; nothing can shrink below no margin."""
+    return not math.isnan(before.margin) and not after.margin >= before.margin / resolution
+
+
 def write(path, version, entries, refusals):
     data = {
         "culm": version,

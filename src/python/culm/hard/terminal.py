@@ -54,6 +54,8 @@ class Terminal:
 
 def describe(entry):
     """What happens beyond the margin, in a few words."""
+    if entry.kind == "good" and not entry.is_open:
+        return "good where it was not before: measure anew"
     words = KINDS[entry.kind]
     if entry.how:
         words += f": {entry.how}"

@@ -39,6 +39,8 @@ class Trial:
     def measure_again(self, case, known):
         """Confirms a margin by two runs: a little below the last good value and at the first bad
         one; measures anew where the former is not good."""
+        if math.isnan(known.last_good):
+            return self.measure(case)
         judge_value = self._judge_of(case)
         if any(check.compares for check in case.checks):
             judge_value(case.recommended)
