@@ -147,6 +147,27 @@ CASES = [
         ranks=True,
     ),
     Case(
+        "hard cases by key",
+        0,
+        deck=None,
+        args="hard --list --only MR IP",
+        prints=["mass ratio; beam/tip_mass.xml\n", "\na mechanism in statics "],
+    ),
+    Case(
+        "a hard case that there is not",
+        2,
+        deck=None,
+        args="hard --only unheard-of",
+        errors=["culm hard: no case has one of ['unheard-of'] in its keys or name; see --list"],
+    ),
+    Case(
+        "margins that are not there",
+        6,
+        deck=None,
+        args="hard --compare missing.json",
+        errors=["culm hard: missing.json: [Errno 2] No such file or directory: 'missing.json'"],
+    ),
+    Case(
         "reference of everything",
         0,
         args="reference",
