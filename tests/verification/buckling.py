@@ -43,6 +43,43 @@ def verify_column(culm, report):
         report.relative(f"GA = {value:g}", found, wanted, 1e-4)
 
 
+def constraint(name, kind, node, key, direction):
+    entry = f"Constraints/{name}"
+    return [f"{entry}/Type={kind}", f"{entry}/Node=column/{node}", f"{entry}/{key}={direction}"]
+
+
+# the head may not move sideways; nor turn; a foot that may turn must not twist
+HEAD = constraint("x", "Simple Support", "last", "Direction", "{1, 0, 0}")
+HEAD += constraint("y", "Simple Support", "last", "Direction", "{0, 1, 0}")
+UPRIGHT = constraint("about x", "Rotation", "last", "Axis", "{1, 0, 0}")
+UPRIGHT += constraint("about y", "Rotation", "last", "Axis", "{0, 1, 0}")
+HINGE = ["Constraints/foot/Type=Spherical Support", *constraint("z", "Rotation", "first", "Axis", "{0, 0, 1}")]
+
+
+def verify_supports(culm, report):
+    report.title("BU-1: other supports, pi^2 EI / (K L)^2")
+    clamped_pinned = 20.190728557  # smallest root of tan x = x, squared
+    cases = (("K = 1, hinges", [*HINGE, *HEAD], math.pi**2), ("K = 0.699", HEAD, clamped_pinned),
+             ("K = 0.5, clamps", [*HEAD, *UPRIGHT], 4.0 * math.pi**2))
+    for name, settings, wanted in cases:
+        report.relative(name, critical(culm, COLUMN, settings), wanted, 1e-3)
+
+
+def reissner(ea, ga):
+    """P (1 - P / EA + P / GA) = Euler's load: shear and compression before buckling, over it."""
+    a = 1.0 / ga - 1.0 / ea
+    return (math.sqrt(1.0 + 4.0 * a * EULER) - 1.0) / (2.0 * a) / EULER
+
+
+def verify_reissner(culm, report):
+    report.title("BU-1: shear-flexible and compressible column, about a state near the load")
+    for ea, ga, level in ((100.0, 50.0, 0.97), (100.0, 1000.0, 0.99)):
+        settings = [f"Sections/bar/EA={ea}", f"Sections/bar/GA1={ga}", f"Sections/bar/GA2={ga}",
+                    f"Analyses/loading/Final Level={level}"]
+        found = critical(culm, "buckling/column_loaded.xml", settings)
+        report.relative(f"EA = {ea:g}, GA = {ga:g}, level {level}", found, reissner(ea, ga), 1e-3)
+
+
 def verify_plate(culm, report):
     report.title("BU-2: plate pressed in one direction, first-order shear theory, limit of 16 and 32")
     for ratio, reference in NAVIER.items():
@@ -87,6 +124,8 @@ def verify_rounding(culm, report):
 def verify(culm, report):
     verify_loaded(culm, report)
     verify_column(culm, report)
+    verify_supports(culm, report)
+    verify_reissner(culm, report)
     verify_plate(culm, report)
     verify_tippling(culm, report)
     verify_rounding(culm, report)

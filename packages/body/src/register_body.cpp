@@ -64,7 +64,7 @@ Inertia read_inertia(const Options& options) {
 
 void build_point_mass(const Options& options, model::BuildContext& context) {
   const Vec3 offset = model::vector(options, "Offset");
-  for (int node : model::select_nodes(options, "Node", context)) {
+  for (int node : model::select_loaded_nodes(options, "Node", context)) {
     const Inertia point{options.number("Mass"), offset, Mat3::Zero()};
     context.model.masses("Point masses").add(node, mass_matrix(point));
   }

@@ -8,7 +8,7 @@ namespace {
 
 void build(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
-  const auto nodes = model::select_nodes(options, "Node", context);
+  const auto nodes = model::select_loaded_nodes(options, "Node", context);
   if (!function || nodes.empty()) return;
   const model::NodeTable& table = context.model.nodes();
   auto load = std::make_unique<SlotLoad>(effect_name("Director Force", options), table, *function);

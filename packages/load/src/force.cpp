@@ -8,7 +8,7 @@ namespace {
 
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
-  const auto nodes = model::select_nodes(request.options, "Node", request.context);
+  const auto nodes = model::select_loaded_nodes(request.options, "Node", request.context);
   check_components("Offset", nodes, request.options, request.context);
   if (request.frame == Frame::directors)
     check_components("Force", nodes, request.options, request.context);

@@ -194,7 +194,7 @@ Schema ground_schema() { return Schema("").add(model::node_field()).add(offset_f
 
 std::vector<LinkPoint> select_ground_points(const Options& options, model::BuildContext& context) {
   std::vector<LinkPoint> points;
-  const auto nodes = model::select_nodes(options, "Node", context);
+  const auto nodes = model::select_loaded_nodes(options, "Node", context);
   check_components("Offset", nodes, options, context);
   check_frame(nodes, "Node", options, context);
   for (int node : nodes) {

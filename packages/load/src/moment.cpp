@@ -9,7 +9,7 @@ namespace {
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
                                            request.frame);
-  const auto nodes = model::select_nodes(request.options, "Node", request.context);
+  const auto nodes = model::select_loaded_nodes(request.options, "Node", request.context);
   refuse_following_moment(request, nodes);
   for (int node : nodes) {
     load->add_moment(node, request.vector("Moment"));

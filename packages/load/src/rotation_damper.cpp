@@ -77,7 +77,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
     const model::NodeTable& nodes = context.model.nodes();
     auto damper = std::make_unique<RotationDamper>(effect_name(type, options), nodes,
                                                    read_damper(options, LinkUnits::angles()));
-    const auto selected = model::select_nodes(options, "Node", context);
+    const auto selected = model::select_loaded_nodes(options, "Node", context);
     if (!joint::have_triads(selected, "Node", options, context)) return;
     for (int node : selected) {
       const Mat3 triad = model::NodeTable::slots(nodes.reference(), node).rightCols<3>();

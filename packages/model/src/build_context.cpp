@@ -32,6 +32,18 @@ std::vector<int> select_nodes(const Options& options, const std::string& paramet
   return find_nodes(options.text(parameter), options.where(parameter), context);
 }
 
+std::vector<int> select_loaded_nodes(const Options& options, const std::string& parameter,
+                                     BuildContext& context) {
+  std::vector<int> nodes = select_nodes(options, parameter, context);
+  std::erase_if(nodes, [&](int node) {
+    const Structure* structure = context.model.structure_of(node);
+    if (structure == nullptr) return false;
+    const std::vector<int>& numbered = structure->numbered_nodes();
+    return std::find(numbered.begin(), numbered.end(), node) == numbered.end();
+  });
+  return nodes;
+}
+
 std::vector<int> find_nodes(const std::string& name, const Where& where, BuildContext& context) {
   std::vector<int> nodes = context.model.select_nodes(name);
   if (nodes.empty()) context.issues.add(where, unknown_node(name, context.model));

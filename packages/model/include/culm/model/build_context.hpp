@@ -33,6 +33,10 @@ Field node_field(std::string name = "Node",
 /// The nodes that a parameter names; none, and an issue, if there are none.
 std::vector<int> select_nodes(const Options& options, const std::string& parameter,
                               BuildContext& context);
+/// The same for what acts on each node by itself, such as forces and masses: of refined structures
+/// those that the deck has numbers for, so that the sum stays what it was.
+std::vector<int> select_loaded_nodes(const Options& options, const std::string& parameter,
+                                     BuildContext& context);
 
 /// The nodes of a name that stands at `where`; none, and an issue, if there are none.
 std::vector<int> find_nodes(const std::string& name, const Where& where, BuildContext& context);
