@@ -44,9 +44,9 @@ def old_results(folder):
     (out / "history.csv").write_text("time,tip x [m]\n" + "0,0\n" * 1000)
 
 
-def tube_of_ten(_, stdout):
+def describes_a_box(_, stdout):
     named = re.findall(r"^- `(.*?)`", stdout, re.MULTILINE)
-    wanted = ["Young Modulus", "Poisson Ratio", "Outer Radius", "Wall Thickness"]
+    wanted = ["Young Modulus", "Poisson Ratio", "Width", "Height"]
     lacking = [name for name in wanted if name not in named]
     return f"not described: {lacking}" if lacking else ""
 
@@ -141,9 +141,9 @@ CASES = [
     Case(
         "reference of a type",
         0,
-        args="reference Tube",
-        prints=["## Tube\n", "In `Sections / <name>`.\n"],
-        check=tube_of_ten,
+        args="reference Box",
+        prints=["## Box\n", "In `Sections / <name>`.\n"],
+        check=describes_a_box,
         ranks=True,
     ),
     Case(
