@@ -51,6 +51,17 @@ def describes_a_box(_, stdout):
     return f"not described: {lacking}" if lacking else ""
 
 
+def is_page(name, headings):
+    """Checks that a page is whole, and has its pictures within."""
+
+    def check(folder, _):
+        text = (folder / name).read_text(encoding="utf-8")
+        lacking = [one for one in [*(f"<h2>{h}</h2>" for h in headings), "data:image/png", "</html>"] if one not in text]
+        return f"{name} lacks {lacking}" if lacking else ""
+
+    return check
+
+
 TYPES = ["Stiffness Matrix", "Tube", "Beam", "Polyline", "Rigid Support", "Force", "Static"]
 
 CASES = [
@@ -145,6 +156,43 @@ CASES = [
         prints=["## Box\n", "In `Sections / <name>`.\n"],
         check=describes_a_box,
         ranks=True,
+    ),
+    Case(
+        "run with its page",
+        0,
+        args="run deck.xml --output out --report",
+        prints=["out/report.html\n"],
+        results="out",
+        last_level=1.0,
+        check=is_page("out/report.html", ["Histories", "Effects and what they cost", "Deck as it was used"]),
+    ),
+    Case(
+        "page of a run that is not there",
+        6,
+        deck=None,
+        args="report out",
+        errors=["culm report: there is no run.h5 in 'out'"],
+    ),
+    Case(
+        "effects",
+        0,
+        args="effects deck.xml --output out --only flexibility",
+        prints=["\nFor changes below 1 % this scene needs flexibility of "],
+        leaves=["out"],
+        check=is_page("out/effects.html", ["What it contains", "What happens without"]),
+    ),
+    Case(
+        "an effect that is not there",
+        2,
+        args="effects deck.xml --output out --only magnetism",
+        errors=["culm effects: --only magnetism: this scene has ..."],
+    ),
+    Case(
+        "effects of a mistake",
+        3,
+        change=[("Elements", "Elments")],
+        args="effects deck.xml --output out",
+        says=["unknown name 'Elments' – did you mean 'Elements'?"],
     ),
     Case(
         "hard cases by key",
