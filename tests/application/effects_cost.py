@@ -32,6 +32,7 @@ REPLACED = [
     ("Beam, director", SPAGHETTI, [], [f"{FIDELITY}=Rigid"]),
     ("Rigid beams", SPAGHETTI, [f"{FIDELITY}=Rigid"], [f"{FIDELITY}=Full"]),
     ("Beam, linear", SPAGHETTI, [f"{FIDELITY}=Linear"], [f"{FIDELITY}=Full"]),
+    ("Shell", "shell/tumbling_cylinder", [], ["Structures/tube/Fidelity=Rigid"]),
     ("Beam, Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
 ]
 

@@ -41,6 +41,13 @@ class Removals(unittest.TestCase):
         found = removals.find(deck(entry("Structures", {}, beams)))
         self.assertEqual([removal.effect for removal in found], ["flexibility"])
 
+    def test_shells_lose_their_flexibility_one_by_one(self):
+        shell = {"Type": "Shell", "Fidelity": "Full", "Enhanced Membrane": "None", "Enhanced Thickness": "None"}
+        walls = entry("a", {**shell, "Assumed Strains": "false"}) + entry("b", {**shell, "Assumed Strains": "true"})
+        found = removals.find(deck(entry("Structures", {}, walls)))
+        self.assertEqual(settings(found, "flexibility"), [["Structures/a/Fidelity=Rigid"], ["Structures/b/Fidelity=Rigid"]])
+        self.assertEqual(settings(found, "assumed strains"), [["Structures/b/Assumed Strains=false"]])
+
     def test_loads_join_those_that_are_inactive_already(self):
         body = entry("Loads", {}, entry("weight", {"Type": "Gravity"}) + entry("brake", {"Type": "Spring"}))
         body += entry("Analyses", {}, entry("start", {"Type": "Static", "Inactive": "{brake}"}))

@@ -51,6 +51,10 @@ Schema shell_schema() {
                 "Transverse shear from the edges and thickness strain from the corners; without "
                 "them the element locks, which shows what they are good for.")
                .optional(true))
+      .add(choice("Fidelity", {"Full", "Rigid"},
+                  "Full: all there is. Rigid: mass and inertia only; all nodes follow one that is "
+                  "added at their centre, as structure 'NAME body'.")
+               .optional("Full"))
       .add(number("Fold Angle", "rad",
                   "Elements whose normals differ by more at a common edge keep their own "
                   "directors there.")
@@ -165,28 +169,95 @@ bool is_crossed(const ShellMesh& mesh, const std::array<int, 4>& quad) {
                      [&](const Vec3& n) { return n.dot(normals[0]) <= 0.0; });
 }
 
+// An element of the mesh, if it is sound.
+template <class E>
+E make_element(const ShellMesh& mesh, std::size_t number,
+               const std::shared_ptr<const material::Layup>& layup, const ShellOptions& choice,
+               const Options& options) {
+  const ShellForms::Nodes reference = mesh.slots(static_cast<int>(number));
+  auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
+  if (is_crossed(mesh, mesh.quads[number])) {
+    mistakes.emplace_back("its corners are out of order, or it is bent double");
+  }
+  if (!mistakes.empty()) {
+    throw InputError(options.where(), fmt::format("element {}: {}", number, mistakes.front()));
+  }
+  return E(reference, layup, choice);
+}
+
+std::array<int, 4> nodes_of(const ShellMesh& mesh, std::size_t number,
+                            const model::Structure& structure) {
+  std::array<int, 4> nodes{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    nodes[a] = structure.nodes[static_cast<std::size_t>(mesh.quads[number][a])];
+  }
+  return nodes;
+}
+
+// The mass of all elements, on the slots (x, d1, d2, d3) of a node at `centre` that all nodes
+// follow, with directors along the axes of space: x = x0 + sum_k X_k d_k, d = sum_k D_k d_k.
+template <class E>
+SlotMatrix<4> rigid_mass(const ShellMesh& mesh, const std::shared_ptr<const material::Layup>& layup,
+                         const Options& options, const Vec3& centre) {
+  const ShellOptions choice = read_options(options);
+  SlotMatrix<4> mass = SlotMatrix<4>::Zero();
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    const E element = make_element<E>(mesh, e, layup, choice, options);
+    const ShellForms::Nodes q = mesh.slots(static_cast<int>(e));
+    Mat<8, 4> follow = Mat<8, 4>::Zero();
+    for (int a = 0; a < 4; ++a) {
+      follow(2 * a, 0) = 1.0;
+      follow.row(2 * a).tail<3>() = (q.col(2 * a) - centre).transpose();
+      follow.row(2 * a + 1).tail<3>() = q.col(2 * a + 1).transpose();
+    }
+    mass += follow.transpose() * element.mass() * follow;
+  }
+  return mass;
+}
+
+// A node with the mass of all, which all others follow. Elements are not there; their faces are,
+// for loads and pictures.
+void add_rigid(const ShellMesh& mesh, const SlotMatrix<4>& mass, const Vec3& centre,
+               double thickness, model::Structure& structure, model::Model& model) {
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
+    structure.cells.push_back({{nodes.begin(), nodes.end()}, nullptr, 0});
+    structure.faces.push_back({nodes, thickness});
+  }
+  model::NodeSlots slots;
+  slots << centre, Mat3::Identity();
+  const int body = model.nodes().add(slots);
+  if (mass(0, 0) > 0.0) model.masses("Rigid shells").add(body, mass);
+  for (int node : structure.nodes) model.add_rigid_link(structure.name + ", rigid", node, body);
+  model::Structure& shown = model.add_structure(structure.name + " body");
+  shown.nodes = {body};
+  shown.sets = {{"first", {body}}, {"last", {body}}, {"all", {body}}};
+  shown.cells.push_back({{body}, nullptr, 0});
+}
+
+Vec3 centre_of(const ShellMesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& x : mesh.positions) sum += x;
+  return sum / static_cast<double>(mesh.positions.size());
+}
+
 template <class E>
 void add_elements(const std::string& effect, const ShellMesh& mesh,
                   const std::shared_ptr<const material::Layup>& layup, const Options& options,
                   model::Structure& structure, model::Model& model) {
+  if (options.text("Fidelity") == "Rigid") {
+    const Vec3 centre = centre_of(mesh);
+    add_rigid(mesh, rigid_mass<E>(mesh, layup, options, centre), centre, layup->thickness(),
+              structure, model);
+    return;
+  }
   const ShellOptions choice = read_options(options);
   const material::Material& material = layup->layers.front().material;
   auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping});
   std::vector<int> items;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-    const ShellForms::Nodes reference = mesh.slots(static_cast<int>(e));
-    auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
-    if (is_crossed(mesh, mesh.quads[e])) {
-      mistakes.emplace_back("its corners are out of order, or it is bent double");
-    }
-    if (!mistakes.empty()) {
-      throw InputError(options.where(), fmt::format("element {}: {}", e, mistakes.front()));
-    }
-    std::array<int, 4> nodes{};
-    for (std::size_t a = 0; a < 4; ++a) {
-      nodes[a] = structure.nodes[static_cast<std::size_t>(mesh.quads[e][a])];
-    }
-    items.push_back(batch.add(E(reference, layup, choice), nodes));
+    const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
+    items.push_back(batch.add(make_element<E>(mesh, e, layup, choice, options), nodes));
     structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
     structure.faces.push_back({nodes, layup->thickness()});
   }
@@ -274,7 +345,9 @@ void add_shell(const Options& options, ShellContext& context) {
     add_elements<HyperelasticShell>("Shell, hyperelastic", mesh, layup, options, structure,
                                     context.model);
   }
-  join_folds(mesh, structure.nodes, structure.name, context.model);
+  if (options.text("Fidelity") == "Full") {
+    join_folds(mesh, structure.nodes, structure.name, context.model);
+  }
   add_sets(mesh, structure.nodes, context.model.nodes(), structure);
 }
 

@@ -1,6 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/material/isotropic.hpp>
 #include <culm/model/layer_source.hpp>
+#include <culm/model/mass_properties.hpp>
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/shell_structure.hpp>
 
@@ -37,8 +38,9 @@ class ShellStructure : public testing::Test {
   const model::Structure& add_to(model::Model& target, const std::string& mesh_type,
                                  const GivenValues& mesh) {
     const Schema schema = registry.variants().at("Shell");
-    Options options =
-        kit::deck_list(schema, {{"Material", std::string("steel")}, {"Thickness", 0.1}}, "wall");
+    Options options = kit::deck_list(
+        schema, {{"Material", std::string("steel")}, {"Thickness", 0.1}, {"Fidelity", fidelity}},
+        "wall");
     Options list = kit::deck_list(*schema.find_slot("Mesh")->find(mesh_type), mesh, "Mesh");
     list.set("Type", mesh_type);
     options.add_list(list);
@@ -49,6 +51,7 @@ class ShellStructure : public testing::Test {
   const model::Structure& add_plane() { return add("Plane", three_by_two); }
 
   int refinement = 1;
+  std::string fidelity = "Full";
   ShellRegistry registry;
   std::map<std::string, material::Material> materials;
   std::ostringstream printed;
@@ -213,6 +216,28 @@ TEST_F(ShellStructure, NumbersOfTheDeckKeepTheirPlacesWhenRefined) {
     }
     EXPECT_LT((mean - Vec3(0.5 + cell % 3, 0.5 + cell / 3, 0.0)).norm(), 1e-14);
   }
+}
+
+TEST_F(ShellStructure, RigidShellWeighsAndTurnsAsTheFullOne) {
+  const GivenValues tube{
+      {"Radius", 2.0}, {"Length", 5.0}, {"To", 4.0}, {"Elements", Integers{12, 3}}};
+  add("Cylinder", tube);
+  model::Model rigid;
+  fidelity = "Rigid";
+  add_to(rigid, "Cylinder", tube);
+  const auto total = [](const model::Model& one) {
+    model::MassProperties sum;
+    for (const auto& part : model::mass_properties(one, one.nodes().reference())) sum += part;
+    return sum;
+  };
+  const model::MassProperties full = total(model);
+  const model::MassProperties found = total(rigid);
+  EXPECT_NEAR(found.mass, full.mass, 1e-13 * full.mass);
+  EXPECT_LT((found.first - full.first).norm(), 1e-13 * full.first.norm());
+  EXPECT_LT((found.second - full.second).norm(), 1e-13 * full.second.norm());
+  rigid.freeze(model::Form::null_space);
+  EXPECT_EQ(rigid.unknowns().num_unknowns(), 6);
+  EXPECT_EQ(rigid.batches().size(), 1u) << "its mass and nothing else";
 }
 
 }  // namespace

@@ -119,7 +119,9 @@ std::unique_ptr<Quantity> make_layer_quantity(LayerQuantity::Kind kind, const Op
   if (structure == nullptr) return nullptr;
   if (structure->layers == nullptr) {
     context.issues.add(options.where("Structure"),
-                       "structure '" + structure->name + "' is no shell and has no layers");
+                       "structure '" + structure->name +
+                           (structure->faces.empty() ? "' is no shell" : "' is rigid") +
+                           " and has no layers");
     return nullptr;
   }
   const int layer = options.integer("Layer");

@@ -38,6 +38,12 @@ def fidelities(deck):
                 yield Removal(effect, ", ".join(names), settings)
 
 
+def shells_without_flexibility(deck):
+    for name in _types(deck, "Structures", "Shell"):
+        if deck.parameters[f"Structures/{name}/Fidelity"] == "Full":
+            yield Removal("flexibility", name, [f"Structures/{name}/Fidelity=Rigid"])
+
+
 def torsion(deck):
     """Twist of sections that give their stiffness as numbers."""
     for beams, sections in _sections(deck):
@@ -129,6 +135,7 @@ def prestress(deck):
 
 FINDERS = [
     fidelities,
+    shells_without_flexibility,
     torsion,
     rotary_inertia,
     enhanced_strains,
