@@ -35,6 +35,10 @@ std::vector<int> select_nodes(const Options& options, const std::string& paramet
 std::vector<int> select_loaded_nodes(const Options& options, const std::string& parameter,
                                      BuildContext& context) {
   std::vector<int> nodes = select_nodes(options, parameter, context);
+  const auto& structures = context.model.structures();
+  const bool is_refined = std::any_of(structures.begin(), structures.end(),
+                                      [](const Structure& s) { return !s.deck.nodes.empty(); });
+  if (!is_refined) return nodes;
   std::erase_if(nodes, [&](int node) {
     const Structure* structure = context.model.structure_of(node);
     if (structure == nullptr) return false;

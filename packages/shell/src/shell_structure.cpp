@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace culm::shell {
 
@@ -324,11 +325,12 @@ void add_shell(const Options& options, ShellContext& context) {
   const double fold_angle = options.number("Fold Angle");
   Facets facets = types.make(type, list, 1);
   ShellMesh mesh = make_mesh(facets, fold_angle);
-  const ShellMesh coarse = mesh;
+  ShellMesh coarse;  // as the deck describes it, if that is not what is built
   if (context.refinement > 1) {
+    coarse = std::move(mesh);
     const bool is_known = !facets.parents.empty();
     facets = is_known ? types.make(type, list, context.refinement)
-                      : subdivide(facets, mesh, context.refinement);
+                      : subdivide(facets, coarse, context.refinement);
     mesh = make_mesh(facets, fold_angle);
   }
   if (context.imperfection != nullptr) deviate(*context.imperfection, options.name(), mesh);

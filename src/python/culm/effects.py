@@ -4,7 +4,7 @@ import csv
 import dataclasses
 import pathlib
 
-from . import quantities, removals
+from . import effects_table, quantities, removals
 from .errors import CulmError
 from .page import Page
 from .resolved_deck import ResolvedDeck
@@ -59,7 +59,7 @@ def main(arguments, program):
         print(f"{run.cpu:9.2f} s  without {removal.effect} of {removal.where}")
     outcomes.sort(key=lambda one: (bool(one.failure), -one.change))
     present = whole.results.effects()
-    print("\n" + _text(CONTENT, _content(present)))
+    print("\n" + _text(effects_table.COLUMNS, effects_table.rows(present)))
     print(_text(RANKING, _ranking(outcomes, whole, arguments.accuracy)))
     print(_advice(outcomes, whole, arguments.accuracy))
     _write_csv(outcomes, whole, folder / "effects.csv")
@@ -120,34 +120,6 @@ def _size(effects):
     """Unknowns of the equations, and additions to the matrix per iteration."""
     unknowns = max((e.unknowns for e in effects if e.name.startswith("Factorisation") and e.unknowns), default=0)
     return unknowns, sum(e.entries or 0 for e in effects)
-
-
-CONTENT = ["effect", "items", "unknowns", "entries/iteration", "calls", "time [s]", "share"]
-
-
-def _merged(effects):
-    """Lines of the same effect in several analyses as one, with the counts of the largest."""
-    merged = {}
-    for e in effects:
-        same = merged.setdefault((e.name, e.items), dataclasses.replace(e, calls=0, seconds=0.0))
-        same.calls += e.calls
-        same.seconds += e.seconds
-    return merged.values()
-
-
-def _content(effects):
-    effects = _merged(effects)
-    total = sum(e.seconds for e in effects) or 1.0
-    return [
-        [
-            e.name,
-            *("–" if n is None else str(n) for n in (e.items, e.unknowns, e.entries)),
-            str(e.calls),
-            f"{e.seconds:.3g}",
-            f"{100.0 * e.seconds / total:.1f} %",
-        ]
-        for e in sorted(effects, key=lambda e: -e.seconds)
-    ]
 
 
 RANKING = ["without", "of", "largest change", "in", "time", "unknowns", "entries", "verdict"]
@@ -219,7 +191,7 @@ def _write_page(arguments, present, outcomes, whole, path):
     page = Page(f"Effects of {arguments.deck.name}", f"{whole.cpu:.3g} s CPU; accuracy asked {_per_cent(arguments.accuracy)}")
     page.paragraph(_advice(outcomes, whole, arguments.accuracy), "advice")
     page.heading("What it contains")
-    page.table(CONTENT, _content(present))
+    page.table(effects_table.COLUMNS, effects_table.rows(present))
     page.heading("What happens without")
     page.table(RANKING, _ranking(outcomes, whole, arguments.accuracy))
     figure = _draw(outcomes, whole, arguments.accuracy)

@@ -3,6 +3,7 @@
 import itertools
 import pathlib
 
+from . import effects_table
 from .errors import CulmError
 from .history import History
 from .page import Page
@@ -114,26 +115,16 @@ def _add_tables(page, results):
 
 
 def _add_effects(page, results, drawing):
-    effects = results.effects()
+    effects = effects_table.merged(results.effects())
     total = sum(effect.seconds for effect in effects)
-    if not effects or total <= 0.0:
+    if total <= 0.0:
         return
     page.heading("Effects and what they cost")
     figure, axes = drawing.plot(width=6.4, height=0.6 + 0.25 * len(effects))
-    ordered = sorted(effects, key=lambda effect: effect.seconds)
-    axes[0][0].barh([e.name for e in ordered], [100.0 * e.seconds / total for e in ordered])
+    shares = [100.0 * effect.seconds / total for effect in effects]
+    axes[0][0].barh(range(len(effects)), shares)
+    axes[0][0].set_yticks(range(len(effects)), [effect.name for effect in effects])
+    axes[0][0].invert_yaxis()
     axes[0][0].set(xlabel="share of the time [%]")
     _add_figure(page, drawing, figure, "share of each effect in the time of the run")
-    page.table(
-        ["effect", "items", "unknowns", "entries/iteration", "calls", "time [s]", "share"],
-        [
-            [
-                e.name,
-                *("–" if n is None else n for n in (e.items, e.unknowns, e.entries)),
-                e.calls,
-                f"{e.seconds:.3g}",
-                f"{100.0 * e.seconds / total:.1f} %",
-            ]
-            for e in effects
-        ],
-    )
+    page.table(effects_table.COLUMNS, effects_table.rows(results.effects()))
