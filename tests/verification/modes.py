@@ -3,6 +3,10 @@
 
 import math
 
+import numpy as np
+from laminate import Laminate, Ply, frequency
+from scipy.linalg import expm
+from scipy.optimize import brentq
 from verify import figure, main, mesh_axis, richardson, save
 
 BEAM = "modes/cantilever.xml"
@@ -16,8 +20,20 @@ FLAPPING = {1: 3.6816, 2: 4.1373, 3: 4.7973, 4: 5.5850, 6: 7.3604, 8: 9.2568, 10
 # NAFEMS FV52: simply supported, thickness 1; FV12: free, thickness 0.05 [Hz]
 FV52 = (45.897, 109.44, 109.44, 167.89)
 FV12 = (1.622, 2.360, 2.922, 4.190, 4.190, 7.356, 7.356, 7.668)
-# omega a^2 / h sqrt(rho / E2) of [45/-45] n times, over a/h
-REDDY_PHAN = {1: {10: 13.044, 20: 14.179, 50: 14.561, 100: 14.618}, 4: {10: 19.289, 100: 25.176}}
+# omega a^2 / h sqrt(rho / E2) of n plies [angle/-angle/...]: (angle, n, a/h, two sides free)
+KHDEIR = {
+    (30, 2, 10, False): 12.68, (30, 4, 10, False): 17.63, (30, 10, 10, False): 18.51,
+    (45, 2, 10, False): 13.04, (45, 4, 10, False): 18.46, (45, 10, 10, False): 19.38,
+    (30, 2, 10, True): 6.95, (30, 4, 10, True): 9.61, (30, 10, 10, True): 10.11,
+    (45, 2, 10, True): 4.76, (45, 4, 10, True): 6.26, (45, 10, 10, True): 6.57,
+}
+REDDY_PHAN = {
+    (45, 2, 5, False): 10.335, (45, 2, 10, False): 13.044, (45, 2, 20, False): 14.179,
+    (45, 2, 50, False): 14.561, (45, 2, 100, False): 14.618,
+    (45, 8, 5, False): 12.892, (45, 8, 10, False): 19.289, (45, 8, 20, False): 23.259,
+    (45, 8, 50, False): 24.909, (45, 8, 100, False): 25.176,
+}
+PLY = Ply(E1=40.0, E2=1.0, nu12=0.25, G12=0.6, G13=0.6, G23=0.5)
 
 
 def frequencies(culm, deck, settings=()):
@@ -83,6 +99,100 @@ def verify_free(culm, report):
             report.relative(f"{form}: omega", omega, reference, 2e-3)
 
 
+def constraint(name, kind, node, key, direction):
+    entry = f"Constraints/{name}"
+    return [f"{entry}/Type={kind}", f"{entry}/Node=beam/{node}", f"{entry}/{key}={direction}"]
+
+
+HINGE = ["Constraints/clamp/Type=Spherical Support", *constraint("twist", "Rotation", "first", "Axis", "{1, 0, 0}")]
+PROP = [*constraint("y", "Simple Support", "last", "Direction", "{0, 1, 0}"),
+        *constraint("z", "Simple Support", "last", "Direction", "{0, 0, 1}")]
+CLAMP = ["Constraints/other/Type=Rigid Support", "Constraints/other/Node=beam/last"]
+
+
+def verify_supports(culm, report):
+    report.title("MO-6: other supports, order 3, 16 elements: the first eight of both directions, nothing between")
+    cases = (
+        ("hinged at both ends, beta L = n pi", [*HINGE, *PROP], [n * math.pi for n in range(1, 9)]),
+        ("clamped and hinged, tan x = tanh x", PROP, [3.92660231, 7.06858275, 10.2101761, 13.3517688, 16.4933614]),
+        ("clamped at both ends, cos x cosh x = 1", CLAMP, [*FREE_FREE, 17.2787597]),
+    )
+    for name, settings, roots in cases:
+        weak = [beta**2 for beta in roots]
+        wanted = sorted(weak + [2.0 * w for w in weak])[:7]
+        more = [f"{CURVE}=16", "Structures/beam/Order=3", "Analyses/modes/Modes=7"]
+        found = omegas(frequencies(culm, BEAM, [*settings, *more]))
+        for omega, reference in zip(found, wanted, strict=True):
+            report.relative(f"{name}: omega", omega, reference, 1e-4)
+
+
+def verify_linkage(culm, report):
+    report.title("MO-6: free linkage of four bars: seven zeros, no spurious modes, whatever form and method")
+    deck = "modes/linkage.xml"
+    reference = frequencies(culm, deck, ["Solver/Form=Multipliers", "Analyses/modes/Solver=Spectra"])[7:]
+    rigid = [f"Structures/{bar}/Fidelity=Rigid" for bar in ("lower", "right", "upper", "left")]
+    for form in ("Null Space", "Multipliers"):
+        for solver in ("Dense", "Spectra"):
+            settings = [f"Solver/Form={form}", f"Analyses/modes/Solver={solver}"]
+            found = frequencies(culm, deck, settings)
+            report.check(f"{form}, {solver}: modes at 0 Hz", sum(f == 0.0 for f in found), 7, 0)
+            report.relative("    the others", found[7:], reference, 1e-9)
+        found = frequencies(culm, deck, [*rigid, f"Solver/Form={form}", "Analyses/modes/Solver=Dense"])
+        report.check(f"{form}, rigid bars: as many modes at 0 Hz", sum(f == 0.0 for f in found), 7, 0)
+        report.check("    and no others", len(found), 7, 0)
+
+
+def l_frame_exact(rotary, shear=5.0 / 6.0):
+    """Frequencies of the L-frame out of its plane [Hz]: transfer matrices of (w, slope, twist, V, M, T) along the legs
+    of Timoshenko beams; rotary inertia of bending [kg m] and shear factor as given."""
+    width, height, length, E, G, density = 3e-3, 30e-3, 0.24, 71240e6, 71240e6 / 2.62, 5000.0
+    area, bending = width * height, height * width**3 / 12.0
+    polar = bending + width * height**3 / 12.0
+
+    def free_end(frequency):
+        square = (2.0 * math.pi * frequency) ** 2
+        A = np.zeros((6, 6))
+        A[0, 1], A[0, 3] = 1.0, 1.0 / (shear * G * area)
+        A[1, 4], A[2, 5] = 1.0 / (E * bending), 1.0 / (G * 0.312e-12 * 30.0 * 27.0)
+        A[3, 0], A[4, 3], A[4, 1], A[5, 2] = -density * area * square, -1.0, -rotary * square, -density * polar * square
+        leg = expm(A * length)
+        corner = np.eye(6)  # slope and twist change places, and so do their moments
+        for i in (1, 4):
+            corner[i : i + 2, i : i + 2] = [[0.0, 1.0], [-1.0, 0.0]]
+        return np.linalg.det((leg @ corner @ leg)[3:, 3:])
+
+    samples = np.arange(5.0, 300.0, 1.0)
+    signs = [free_end(f) for f in samples]
+    return [brentq(free_end, f, f + 1.0, xtol=1e-12) for f, a, b in zip(samples, signs, signs[1:]) if a * b < 0.0]
+
+
+def verify_l_frame(culm, report):
+    report.title("MO-5: L-frame, 2 x 16 elements of order 2, out of its plane")
+    section, density = "Sections/strip", 5000.0
+    inertia = {"weak": density * 30e-3 * 3e-3**3 / 12.0, "strong": density * 3e-3 * 30e-3**3 / 12.0}
+    table = culm.table("modes/modes", "modes/l_frame.xml", ["Structures/frame/Curve/Elements={16, 16}"])
+    rows = zip(table.column("frequency [Hz]"), table.column("effective mass y [kg]"))
+    found = [f for f, mass in rows if mass > 1e-9]
+    for f, exact in zip(found, l_frame_exact(inertia["weak"])):
+        report.relative("frequency [Hz], transfer matrices", f, exact, 1e-4)
+    for f, printed in zip(l_frame_exact(inertia["strong"], math.inf), (11.2732, 30.5269)):
+        report.relative("transfer matrices, no shear, rotary inertias exchanged; printed", f, printed, 1e-5)
+    for f, printed in zip(found, (11.2732, 30.5269)):
+        report.relative("frequency [Hz], printed", f, printed, 0.01)
+
+
+def verify_cylinder(culm, report):
+    report.title("MO-5: clamped cylinder, limit of 48 x 16 and 96 x 32")
+    tables = [culm.table("modes/modes", "modes/clamped_cylinder.xml", [f"N={n}"]) for n in (16, 32)]
+    pairs = [table.column("frequency [Hz]") for table in tables]
+    report.relative("two waves around, one half wave along", richardson(pairs[0][0], pairs[1][0]), 1701.0, 0.01)
+    shares = tables[1].column("effective inertia z [kg m^2]")
+    torsion = max(range(len(shares)), key=lambda i: shares[i])
+    report.check("number of the torsional mode", torsion + 1, 13, 0)
+    exact = math.sqrt(200e9 / 2.6 / 7800.0) / 0.8
+    report.relative("torsion, sqrt(G/rho)/(2 L)", richardson(pairs[0][12], pairs[1][12]), exact, 1e-3)
+
+
 def rotating(culm, speed, settings=()):
     """Edgewise and flapping frequencies of the first pair: those that displace along y and z."""
     table = culm.table("modes/modes", ROTATING, [f"Loads/rotation/Speed={speed}", *settings])
@@ -121,21 +231,32 @@ def verify_plates(culm, report):
     report.check("free: modes at 0 Hz", sum(f == 0.0 for f in found), 6, 0)
 
 
+def angle_ply(culm, case, elements):
+    """omega a^2 / h sqrt(rho / E2)."""
+    angle, plies, ratio, free = case
+    settings = [
+        f"N={elements}",
+        f"Structures/shell/Thickness={1.0 / (plies * ratio)}",
+        f"Structures/shell/Angles={{{angle}*pi/180, -{angle}*pi/180}}",
+        f"Structures/shell/Repeat={plies // 2}",
+    ]
+    if free:
+        settings += ["Node Sets/rim/Nodes={shell/u0, shell/u1}",
+                     "Analyses/modes/Inactive={across y, tilt along x}"]
+    found = frequencies(culm, "modes/angle_ply.xml", settings)
+    return omegas([f for f in found if f > 0.0])[0] * ratio
+
+
 def verify_laminates(culm, report):
-    report.title("MO-5: angle-ply plates [45/-45], Reddy and Phan 1985, limit of 8 and 16")
-    for repeat, references in REDDY_PHAN.items():
-        for ratio, reference in references.items():
-            values = []
-            for n in (8, 16):
-                settings = [
-                    f"Structures/shell/Mesh/Elements={{{n}, {n}}}",
-                    f"Structures/shell/Thickness={1.0 / (2 * repeat * ratio)}",
-                    f"Structures/shell/Repeat={repeat}",
-                ]
-                omega = omegas(frequencies(culm, "modes/angle_ply.xml", settings))[0]
-                values.append(omega * ratio)
-            what = f"{2 * repeat} plies, a/h = {ratio}"
-            report.relative(what, richardson(*values), reference, 0.01)
+    for name, table in (("Khdeir 1988", KHDEIR), ("Reddy and Phan 1985", REDDY_PHAN)):
+        report.title(f"MO-5: angle-ply plates, {name}, limit of 8 x 8 and 16 x 16")
+        for case, printed in table.items():
+            angle, plies, ratio, free = case
+            what = f"[{angle}/-{angle}], {plies} plies, a/h = {ratio}{', two sides free' if free else ''}"
+            limit = richardson(*(angle_ply(culm, case, n) for n in (8, 16)))
+            laminate = Laminate(PLY, [angle, -angle] * (plies // 2), 1.0 / ratio)
+            report.relative(what, limit, printed, 0.01)
+            report.relative("    own solution of the theory", limit, frequency(laminate, 1.0, 1.0, free) * ratio, 1e-3)
 
 
 def verify_damping(culm, report):
@@ -209,34 +330,77 @@ def verify(culm, report):
     verify_cantilever(culm, report)
     verify_solvers(culm, report)
     verify_free(culm, report)
+    verify_supports(culm, report)
+    verify_linkage(culm, report)
     verify_rotating(culm, report)
     verify_plates(culm, report)
     verify_laminates(culm, report)
+    verify_cylinder(culm, report)
+    verify_l_frame(culm, report)
     verify_damping(culm, report)
     verify_matrices(culm, report)
     verify_campbell(culm, report)
     verify_rounding(culm, report)
 
 
-def plot(culm, path):
-    fig, (left, right) = figure(columns=2)
+def plot_orders(culm, axes):
     counts = (8, 16, 32, 64)
     for order, mark in ((1, "o-"), (2, "s-"), (3, "^-")):
         errors = [bending(culm, n, order, 3)[2] / CLAMPED_FREE[2] ** 2 - 1 for n in counts]
-        left.loglog(counts, [abs(e) for e in errors], mark, ms=4, label=f"order {order}")
-    left.set_xlabel("elements")
-    left.set_ylabel("relative error of the third bending mode")
-    mesh_axis(left, counts)
-    left.legend()
+        axes.loglog(counts, [abs(e) for e in errors], mark, ms=4, label=f"order {order}")
+    axes.set_xlabel("elements")
+    axes.set_ylabel("relative error of the third bending mode")
+    mesh_axis(axes, counts)
+    axes.legend()
+
+
+def plot_rotating(culm, axes):
     speeds = [0.01, *FLAPPING]
     pairs = [rotating(culm, s) for s in speeds]
-    right.plot(speeds, [p[1] for p in pairs], label="flapping, culm")
-    right.plot(speeds, [p[0] for p in pairs], label="edgewise, culm")
-    right.plot([0, *FLAPPING], [3.5160, *FLAPPING.values()], "k.", label="Wright et al. 1982")
-    right.plot(speeds, speeds, ":", color="0.5", label="once per turn")
-    right.set_xlabel(r"speed $\Omega\sqrt{\rho A L^4/EI}$")
-    right.set_ylabel(r"$\omega\sqrt{\rho A L^4/EI}$")
-    right.legend()
+    axes.plot(speeds, [p[1] for p in pairs], label="flapping, culm")
+    axes.plot(speeds, [p[0] for p in pairs], label="edgewise, culm")
+    axes.plot([0, *FLAPPING], [3.5160, *FLAPPING.values()], "k.", label="Wright et al. 1982")
+    axes.plot(speeds, speeds, ":", color="0.5", label="once per turn")
+    axes.set_xlabel(r"speed $\Omega\sqrt{\rho A L^4/EI}$")
+    axes.set_ylabel(r"$\omega\sqrt{\rho A L^4/EI}$")
+    axes.legend()
+
+
+LAMINATE_AXIS = r"$\omega a^2/h\,\sqrt{\rho/E_2}$"
+
+
+def plot_slenderness(culm, axes):
+    ratios = (4, 5, 7, 10, 20, 50, 100)
+    for plies in (2, 8):
+        values = [angle_ply(culm, (45, plies, ratio, False), 16) for ratio in ratios]
+        axes.semilogx(ratios, values, label=f"{plies} plies, culm, 16 x 16")
+        points = {ratio: value for (_, n, ratio, _), value in REDDY_PHAN.items() if n == plies}
+        axes.plot(points.keys(), points.values(), "k.", label="Reddy and Phan 1985" if plies == 8 else None)
+    mesh_axis(axes, ratios)
+    axes.set_xlabel("a/h")
+    axes.set_ylabel(f"[45/-45 ...]: {LAMINATE_AXIS}")
+    axes.legend()
+
+
+def plot_plies(culm, axes):
+    plies = (2, 4, 6, 10)
+    for free in (False, True):
+        for angle in (30, 45):
+            values = [angle_ply(culm, (angle, n, 10, free), 16) for n in plies]
+            axes.plot(plies, values, label=f"[{angle}/-{angle}], {'two sides free' if free else 'supported'}")
+    axes.plot([case[1] for case in KHDEIR], KHDEIR.values(), "k.", label="Khdeir 1988")
+    axes.set_xticks(plies)
+    axes.set_xlabel("plies, a/h = 10")
+    axes.set_ylabel(LAMINATE_AXIS)
+    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.61), fontsize=7)
+
+
+def plot(culm, path):
+    fig, _ = figure(2, 7.0)
+    fig.clf()
+    panels = fig.subplots(2, 2).ravel()
+    for draw, axes in zip((plot_orders, plot_rotating, plot_slenderness, plot_plies), panels):
+        draw(culm, axes)
     save(fig, path)
 
 

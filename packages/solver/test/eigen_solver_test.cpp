@@ -147,6 +147,14 @@ TEST_P(EachEigenSolver, FindsRigidMotionsAtZero) {
   EXPECT_GT(pairs.values[2], 1e6 * pairs.rounding[2]);
 }
 
+// The nearer the shift is to values, the more of their vectors rounding mixes into the others.
+TEST_P(EachEigenSolver, FindsElasticModesBesideRigidMotionsAtTheShift) {
+  for (double shift : {-1e-9, -1e-11, -1e-12}) {
+    const Pencil pencil({2, 30, false});
+    pencil.expect_right(pencil.solve(settings(6, shift)), 6);
+  }
+}
+
 TEST_P(EachEigenSolver, FindsTheValuesNextToAShift) {
   const Chains chains{1, 40, true};
   const Pencil pencil(chains);
