@@ -82,10 +82,15 @@ def verify_hard_cases(culm, report):
 
 
 def verify(culm, report):
-    verify_flights(culm, report, 100000)
-    verify_dissipation(culm, report, 100000)
+    verify_flights(culm, report, 20000)
+    verify_dissipation(culm, report, 20000)
     verify_spin(culm, report)
     verify_hard_cases(culm, report)
+
+
+def fine(culm, report):
+    verify_flights(culm, report, 100000)
+    verify_dissipation(culm, report, 100000)
 
 
 def plot(culm, path):
@@ -104,4 +109,4 @@ def plot(culm, path):
     save(fig, path)
 
 
-main(verify, plot)
+main(verify, plot, fine)
