@@ -112,10 +112,12 @@ Variants with_common_fields(Variants analyses) {
     schema
         .add(text("Start From",
                   "Where it starts: the name of an earlier analysis, 'Reference', or the results "
-                  "folder or checkpoint of another run with the same structures; the last state if "
+                  "folder, run.h5 or checkpoint of another run with the same structures; the last "
+                  "state if "
                   "absent.")
                  .optional())
-        .add(texts("Inactive", "Loads and constraints that do not act in it, by name.")
+        .add(texts("Inactive",
+                   "Loads, constraints and imperfections that do not act in it, by name.")
                  .optional(std::vector<std::string>{}));
   }
   return analyses;

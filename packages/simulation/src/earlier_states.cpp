@@ -18,7 +18,7 @@ EarlierStates::EarlierStates(const Options& analyses) {
       const std::string& from = entry.text("Start From");
       std::error_code ignored;
       if (std::find(before.begin(), before.end(), from) != before.end()) {
-        wanted_.insert(from);
+        if (from != reference) wanted_.insert(from);
       } else if (!std::filesystem::exists(from, ignored)) {
         issues.add(entry.where("Start From"), "there is no earlier analysis and no checkpoint '" +
                                                   from + "'" + did_you_mean(from, before));
@@ -27,6 +27,13 @@ EarlierStates::EarlierStates(const Options& analyses) {
     before.push_back(entry.name());
   }
   issues.throw_if_any();
+}
+
+bool EarlierStates::wants_reference(const Options& analyses) {
+  return std::any_of(analyses.entries().begin(), analyses.entries().end(),
+                     [](const Options& entry) {
+                       return entry.has("Start From") && entry.text("Start From") == reference;
+                     });
 }
 
 void EarlierStates::keep(const std::string& name, std::size_t analysis, Snapshot state) {

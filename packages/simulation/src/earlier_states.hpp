@@ -1,4 +1,4 @@
-/// States that later analyses start from.
+/// States of earlier analyses that later ones start from.
 #pragma once
 
 #include <culm/base/options.hpp>
@@ -21,6 +21,9 @@ class EarlierStates {
   /// that
   ///                  does not come before it
   explicit EarlierStates(const Options& analyses);
+
+  /// Whether an analysis starts from there.
+  static bool wants_reference(const Options& analyses);
 
   /// A state, and the analysis at whose end it was.
   struct Kept {

@@ -1,6 +1,5 @@
 #include "model_builder.hpp"
 
-#include "imperfections.hpp"
 #include "silent_quantity.hpp"
 
 #include <algorithm>
@@ -135,6 +134,7 @@ std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const O
 }  // namespace
 
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
+                                         const Imperfections& imperfections,
                                          const Inactive& inactive, const Log& log,
                                          model::Model& model) {
   InputIssues issues;
@@ -142,7 +142,7 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
   const int refinement = deck.integer("Refinement");
-  const model::Imperfection imperfection = read_imperfections(deck.list("Imperfections"));
+  const model::Imperfection imperfection = imperfections.sum(inactive);
   beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection};
   shell::ShellContext shells{model, materials, log, refinement, &imperfection};
   model::BuildContext context{model, functions, issues};

@@ -5,6 +5,7 @@
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
 
+#include "imperfections.hpp"
 #include "phase.hpp"
 
 namespace culm::simulation {
@@ -12,6 +13,7 @@ namespace culm::simulation {
 /// Fills the model with all that the deck lists but what does not act, and freezes it. Throws
 /// InputError with all mistakes. @return the quantities that the history watches
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
+                                         const Imperfections& imperfections,
                                          const Inactive& inactive, const Log& log,
                                          model::Model& model);
 

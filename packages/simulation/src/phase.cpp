@@ -2,6 +2,7 @@
 
 #include <culm/base/nearest.hpp>
 
+#include "earlier_states.hpp"
 #include "model_builder.hpp"
 #include "silent_quantity.hpp"
 
@@ -11,7 +12,6 @@
 namespace culm::simulation {
 namespace {
 
-// Names of a list of loads or constraints.
 void add_names(const Options& list, std::vector<std::string>& names) {
   for (const Options& entry : list.entries()) names.push_back(entry.name());
 }
@@ -20,11 +20,13 @@ Inactive read_inactive(const Options& deck, const Options& analysis) {
   std::vector<std::string> known;
   add_names(deck.list("Loads"), known);
   add_names(deck.list("Constraints"), known);
+  add_names(deck.list("Imperfections"), known);
   Inactive inactive;
   for (const std::string& name : analysis.texts("Inactive")) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw InputError(analysis.where("Inactive"),
-                       "there is no load or constraint '" + name + "'" + did_you_mean(name, known));
+                       "there is no load, constraint or imperfection '" + name + "'" +
+                           did_you_mean(name, known));
     }
     inactive.insert(name);
   }
@@ -89,27 +91,61 @@ std::vector<double> move_ranges(const std::vector<double>& values,
 
 }  // namespace
 
-Phases::Phases(const Catalogue& catalogue, const Options& deck, const Log& log)
-    : linear_solver_(deck.list("Solver").text("Linear Solver")) {
-  for (const Options& analysis : deck.list("Analyses").entries()) {
-    by_analysis_.push_back(&find_or_build(catalogue, deck, log, read_inactive(deck, analysis)));
+Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
+               const Log& log)
+    : catalogue_(catalogue), deck_(deck), imperfections_(imperfections), log_(log) {
+  const std::vector<Options>& analyses = deck.list("Analyses").entries();
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    Inactive inactive = read_inactive(deck, analyses[i]);
+    inactive.merge(imperfections.unknown_in(i));
+    by_analysis_.push_back(&find_or_build(inactive));
   }
-  complete_columns(deck.list("Output").list("History"));
+  refuse_jumps();
+  complete_columns();
 }
 
-Phase& Phases::find_or_build(const Catalogue& catalogue, const Options& deck, const Log& log,
-                             const Inactive& inactive) {
+Phase& Phases::find_or_build(const Inactive& inactive) {
   for (Phase& phase : phases_) {
     if (phase.inactive == inactive) return phase;
   }
   Phase& phase = phases_.emplace_back();
   phase.inactive = inactive;
-  phase.watched = build_model(catalogue, deck, inactive, log, phase.model);
+  phase.bent_by = imperfections_.acting(inactive);
+  build(phase);
   return phase;
 }
 
+void Phases::build(Phase& phase) const {
+  phase.watched.clear();
+  phase.model = std::make_unique<model::Model>();
+  phase.watched =
+      build_model(catalogue_, deck_, imperfections_, phase.inactive, log_, *phase.model);
+}
+
+// A state of one geometry would be under stress in another.
+void Phases::refuse_jumps() const {
+  const std::vector<Options>& analyses = deck_.list("Analyses").entries();
+  InputIssues issues;
+  for (std::size_t i = 1; i < analyses.size(); ++i) {
+    std::size_t origin = i - 1;
+    if (analyses[i].has("Start From")) {
+      const std::string& from = analyses[i].text("Start From");
+      const auto found = std::find_if(analyses.begin(), analyses.begin() + static_cast<long>(i),
+                                      [&](const Options& one) { return one.name() == from; });
+      origin = static_cast<std::size_t>(found - analyses.begin());
+      if (origin == i) continue;  // the reference, or another run
+    }
+    if (of(origin).bent_by == of(i).bent_by) continue;
+    issues.add(analyses[i].where("Start From"),
+               "imperfections give it another stress-free geometry than '" +
+                   analyses[origin].name() + "' has; start it from 'Reference'");
+  }
+  issues.throw_if_any();
+}
+
 // Where a load does not act, the columns of its quantity are known from where it does.
-void Phases::complete_columns(const Options& history) {
+void Phases::complete_columns() {
+  const Options& history = deck_.list("Output").list("History");
   InputIssues issues;
   for (std::size_t i = 0; i < history.entries().size(); ++i) {
     const Quantity* sounding = nullptr;
@@ -132,19 +168,28 @@ void Phases::complete_columns(const Options& history) {
 
 Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& ledger) {
   Phase& phase = *by_analysis_[analysis];
-  if (phase.system == nullptr) {
-    phase.system = std::make_unique<assembly::System>(phase.model, comm, ledger);
-    phase.linear = solver::choose_linear_solver(linear_solver_, phase.system->matrix(), comm);
+  if (phase.system != nullptr) return phase;
+  if (!phase.bent_by.empty()) {
+    build(phase);  // it was straight as long as nobody knew the shapes
+    complete_columns();
+  }
+  phase.system = std::make_unique<assembly::System>(*phase.model, comm, ledger);
+  phase.linear = solver::choose_linear_solver(deck_.list("Solver").text("Linear Solver"),
+                                              phase.system->matrix(), comm);
+  if (EarlierStates::wants_reference(deck_.list("Analyses"))) {
+    model::State state = phase.model->initial_state();
+    phase.system->save(state, phase.reference);
   }
   return phase;
 }
 
 Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to) {
   Snapshot moved = saved;
-  moved.set("state/multipliers", move_ranges(saved.numbers("state/multipliers"),
-                                             multipliers_of(from.model), multipliers_of(to.model)));
-  moved.set("system/batches", move_ranges(saved.numbers("system/batches"), memories_of(from.model),
-                                          memories_of(to.model)));
+  moved.set("state/multipliers",
+            move_ranges(saved.numbers("state/multipliers"), multipliers_of(*from.model),
+                        multipliers_of(*to.model)));
+  moved.set("system/batches", move_ranges(saved.numbers("system/batches"), memories_of(*from.model),
+                                          memories_of(*to.model)));
   moved.set("system/carried", std::vector<double>{});
   return moved;
 }

@@ -5,43 +5,56 @@
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
 
+#include "imperfections.hpp"
+
 #include <deque>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace culm::simulation {
 
-/// Loads and constraints that do not act, by name.
+/// Loads, constraints and imperfections that do not act, by name.
 using Inactive = std::set<std::string>;
 
-/// The model of analyses in which the same loads and constraints act.
+/// The model of analyses in which the same loads, constraints and imperfections act.
 struct Phase {
   Inactive inactive;
-  model::Model model;
+  std::set<std::string> bent_by;  ///< imperfections that analyses of this run find
+  std::unique_ptr<model::Model> model;
   std::vector<WatchedQuantity> watched;
   std::unique_ptr<assembly::System> system;  ///< made when it is first needed
   solver::ChosenSolver linear;
+  Snapshot reference;  ///< its state at the beginning, if an analysis starts from there
 };
 
 /// The phases of a deck. Nodes are the same in all of them; unknowns, equations and batches are
-/// not.
+/// not, nor is the stress-free geometry once an analysis has found an imperfection of it.
 class Phases {
  public:
-  /// Builds all models. Throws InputError with all mistakes of the first one that has any.
-  Phases(const Catalogue& catalogue, const Options& deck, const Log& log);
+  /// Builds all models. Throws InputError with all mistakes of the first one that has any, and
+  /// where an analysis would go on with another stress-free geometry.
+  /// @param imperfections  those of the deck; both are referred to
+  Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
+         const Log& log);
 
-  /// The phase of an analysis, ready to work on; collective.
+  /// The phase of an analysis, ready to work on; collective. What bends its geometry has been
+  /// found.
   Phase& enter(std::size_t analysis, const parallel::Comm& comm, Ledger& ledger);
   const Phase& of(std::size_t analysis) const { return *by_analysis_[analysis]; }
 
  private:
-  Phase& find_or_build(const Catalogue& catalogue, const Options& deck, const Log& log,
-                       const Inactive& inactive);
-  void complete_columns(const Options& history);
+  Phase& find_or_build(const Inactive& inactive);
+  void build(Phase& phase) const;
+  void refuse_jumps() const;
+  void complete_columns();
 
-  std::string linear_solver_;
+  const Catalogue& catalogue_;
+  const Options& deck_;
+  const Imperfections& imperfections_;
+  const Log& log_;
   std::deque<Phase> phases_;
   std::vector<Phase*> by_analysis_;
 };

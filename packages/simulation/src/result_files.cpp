@@ -31,8 +31,9 @@ LayerSettings read_layer_settings(const Options& shell, const model::Model& mode
   return settings;
 }
 
-ResultFiles::ResultFiles(assembly::System& system, ResultSettings settings,
-                         const std::vector<WatchedQuantity>& watched, const Snapshot* from)
+ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
+                         ResultSettings settings, const std::vector<WatchedQuantity>& watched,
+                         const Snapshot* from)
     : system_(&system), settings_(std::move(settings)), watched_(&watched) {
   if (from != nullptr) {
     frames_ = static_cast<std::size_t>(from->integer("output/states"));
@@ -40,7 +41,10 @@ ResultFiles::ResultFiles(assembly::System& system, ResultSettings settings,
     const std::vector<double>& memories = from->numbers("output/memories", watched.size());
     for (std::size_t i = 0; i < watched.size(); ++i) watched[i].quantity->restore(memories[i]);
   }
-  on_root(system_->comm(), [&] { from == nullptr ? open() : reopen(); });
+  on_root(system_->comm(), [&] {
+    const auto meshes = meshes_of(drawn, settings_.layers);
+    from == nullptr ? open(meshes) : reopen(meshes);
+  });
 }
 
 void ResultFiles::save(Snapshot& snapshot) const {
@@ -60,7 +64,7 @@ void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantit
   watched_ = &watched;
 }
 
-void ResultFiles::open() {
+void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   const std::filesystem::path& folder = settings_.folder;
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
@@ -69,7 +73,6 @@ void ResultFiles::open() {
   const std::filesystem::path checkpoint = checkpoint_path(folder);
   std::filesystem::remove(checkpoint, failure);
   std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
-  const auto meshes = meshes_of(system_->model(), settings_.layers);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
@@ -80,9 +83,8 @@ void ResultFiles::open() {
 }
 
 // The result file is cut to the time of the checkpoint; the others are made again from it.
-void ResultFiles::reopen() {
+void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes) {
   const std::filesystem::path& folder = settings_.folder;
-  const auto meshes = meshes_of(system_->model(), settings_.layers);
   const auto recorded = output::find_recorded(folder / "run.h5", frames_, rows_);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), recorded);
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);

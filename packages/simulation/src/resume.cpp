@@ -62,6 +62,8 @@ FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesyste
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
       content = read_newest(path);
+    } else if (path.filename() == "run.h5") {
+      content = read_newest(path.parent_path());
     } else {
       content = {path, read_sound(path), {}};
     }

@@ -29,12 +29,14 @@ output::NamedTable effects_table(const Ledger& ledger) {
 }  // namespace
 
 RunObserver::RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
-                         const DeckSource& source, const EarlierStates& earlier, Progress progress)
+                         const DeckSource& source, const EarlierStates& earlier,
+                         const Imperfections& imperfections, Progress progress)
     : ledger_(ledger),
       files_(files),
       checkpoints_(checkpoints),
       source_(source),
       earlier_(earlier),
+      imperfections_(imperfections),
       progress_(std::move(progress)),
       quantities_effect_(ledger.add("Quantities")),
       history_effect_(ledger.add("Output, history")),
@@ -118,6 +120,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set("run/analysis", static_cast<double>(number_));
   source_.save(snapshot);
   earlier_.save(snapshot);
+  imperfections_.save(snapshot);
   snapshot.set("run/counts",
                {static_cast<double>(accepted_), static_cast<double>(rejected_),
                 static_cast<double>(iterations_), static_cast<double>(most_iterations_),

@@ -7,6 +7,7 @@
 
 #include "checkpoints.hpp"
 #include "earlier_states.hpp"
+#include "imperfections.hpp"
 
 namespace culm::simulation {
 
@@ -16,7 +17,8 @@ class RunObserver final : public analysis::Observer {
   static constexpr int checkpoint_format = 1;
 
   RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
-              const DeckSource& source, const EarlierStates& earlier, Progress progress);
+              const DeckSource& source, const EarlierStates& earlier,
+              const Imperfections& imperfections, Progress progress);
 
   /// Records the reference state.
   void start(model::State& state);
@@ -50,6 +52,7 @@ class RunObserver final : public analysis::Observer {
   Checkpoints& checkpoints_;
   const DeckSource& source_;
   const EarlierStates& earlier_;
+  const Imperfections& imperfections_;
   std::string linear_solver_;
   Progress progress_;
   Ledger::Id quantities_effect_;

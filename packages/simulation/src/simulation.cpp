@@ -29,22 +29,16 @@ struct Simulation::Parts {
   Options deck;
   DeckSource source;
   Log log;
-  Phases phases;
-  EarlierStates earlier;
-  Ledger ledger;
+  Imperfections imperfections = Imperfections(deck);
+  Phases phases = Phases(catalogue, deck, imperfections, log);
+  EarlierStates earlier = EarlierStates(deck.list("Analyses"));
+  Ledger ledger = {};
   std::size_t present = 0;  ///< the analysis whose phase the state belongs to
 };
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log)
-    : parts_(new Parts{comm,
-                       catalogue,
-                       deck,
-                       std::move(source),
-                       log,
-                       Phases(catalogue, deck, log),
-                       EarlierStates(deck.list("Analyses")),
-                       {}}) {
+    : parts_(new Parts{comm, catalogue, deck, std::move(source), log}) {
   parts_->phases.enter(0, comm, parts_->ledger);
 }
 
@@ -56,22 +50,24 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   const Options& output = p.deck.list("Output");
   Checkpoints checkpoints(p.comm, settings.folder, output.flag("Checkpoints"),
                           output.number("Checkpoint Interval"), request);
-  p.present = from == nullptr ? 0 : static_cast<std::size_t>(from->integer("run/analysis"));
+  if (from != nullptr) {
+    p.present = static_cast<std::size_t>(from->integer("run/analysis"));
+    p.imperfections.restore(*from, *p.phases.of(p.present).model);
+  }
   Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);
-  ResultFiles files(*phase.system,
+  ResultFiles files(*phase.system, *p.phases.of(0).model,
                     {settings.folder,
                      {p.deck.text("Title"), std::string(version), deck::resolved(p.deck)},
                      output.integer("Every"),
                      output.flag("Pictures"),
-                     read_layer_settings(output.list("Shell"), phase.model)},
+                     read_layer_settings(output.list("Shell"), *phase.model)},
                     phase.watched, from);
-  RunObserver observer(p.ledger, files, checkpoints, p.source, p.earlier,
+  RunObserver observer(p.ledger, files, checkpoints, p.source, p.earlier, p.imperfections,
                        Progress(p.log, settings.quiet, settings.terminal));
-  model::State state = phase.model.initial_state();
+  model::State state = phase.model->initial_state();
   try {
     if (from == nullptr) {
       observer.start(state);
-      keep_state(EarlierStates::reference, state);
     } else {
       phase.system->restore(*from, state);
       observer.restore(*from);
@@ -109,6 +105,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
       const auto report = resumes ? analysis->resume(context, state, observer, *from)
                                   : analysis->run(context, state, observer);
       observer.finish_analysis(report, state);
+      p.imperfections.keep(entries[i].name(), *phase.model, report);
     } catch (const Error& error) {
       // other tolerances or steps may find the way that these did not
       if (is_numerical(error)) write_last_checkpoint(state, observer);
@@ -129,13 +126,15 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
     if (&phase == &before) return;
     Snapshot saved;
     before.system->save(state, saved);
-    state = phase.model.initial_state();
+    state = phase.model->initial_state();
     phase.system->restore(hand_over(saved, before, phase), state);
     return;
   }
   const std::string& name = entry.text("Start From");
-  state = phase.model.initial_state();
-  if (p.earlier.wants(name)) {
+  state = phase.model->initial_state();
+  if (name == EarlierStates::reference) {
+    phase.system->restore(phase.reference, state);
+  } else if (p.earlier.wants(name)) {
     const EarlierStates::Kept& kept = p.earlier.find(name);
     phase.system->restore(hand_over(kept.state, p.phases.of(kept.analysis), phase), state);
   } else {
@@ -179,7 +178,7 @@ void Simulation::write_last_checkpoint(model::State& state, RunObserver& observe
 
 std::string Simulation::summary() const {
   const Phase& phase = parts_->phases.of(0);
-  const model::Model& model = phase.model;
+  const model::Model& model = *phase.model;
   const auto entries = phase.system->matrix()->getGlobalNumEntries();
   std::string text = report_masses(model) + '\n';
   if (const std::string constraints = report_constraints(model); !constraints.empty()) {

@@ -47,8 +47,9 @@ struct ResultSettings {
 /// FileError on all of them.
 class ResultFiles {
  public:
-  /// @param from  checkpoint of an earlier run, to go on with its files as they were then
-  ResultFiles(assembly::System& system, ResultSettings settings,
+  /// @param drawn  has the geometry that displacements in pictures start from
+  /// @param from   checkpoint of an earlier run, to go on with its files as they were then
+  ResultFiles(assembly::System& system, const model::Model& drawn, ResultSettings settings,
               const std::vector<WatchedQuantity>& watched, const Snapshot* from);
 
   /// Goes on with another system of the same structures, and its quantities of the same names.
@@ -84,8 +85,8 @@ class ResultFiles {
     std::optional<output::Pictures> pictures;
   };
 
-  void open();
-  void reopen();
+  void open(const std::vector<output::StructureMesh>& meshes);
+  void reopen(const std::vector<output::StructureMesh>& meshes);
   std::vector<output::HistoryColumn> columns() const;
 
   assembly::System* system_;

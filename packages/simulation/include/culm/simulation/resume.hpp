@@ -21,7 +21,8 @@ struct FoundCheckpoint {
 };
 
 /// Reads a checkpoint.
-/// @param path  the file, or the folder of the run: then the newest one that is whole, with a
+/// @param path  the file, or the folder of the run or its run.h5: then the newest one that is
+/// whole, with a
 ///              warning when it is not the newest one
 /// Throws FileError on all ranks.
 FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesystem::path& path,
