@@ -2,14 +2,29 @@
 """BU-1, BU-2, BU-4: columns, plates, a cantilever that tips. Page: doc/verification/buckling.md."""
 
 import math
+import pathlib
+import re
+import tempfile
 
-from verify import figure, main, mesh_axis, richardson, save
+import numpy as np
+from laminate import Laminate, Ply, buckling_force
+from verify import figure, main, mesh_axis, richardson, romberg, save  # puts the package culm on the path
+
+from culm.program import Program
 
 COLUMN = "buckling/column.xml"
 TIPPLING = "buckling/tippling.xml"
+TIPPLING_PATH = "buckling/tippling_path.xml"
 PLATE = "buckling/plate.xml"
-# k = N b^2 / (pi^2 D), simply supported, kappa = 5/6
-NAVIER = {20: 3.94439, 50: 3.99100, 100: 3.99775}
+CROSS_PLY = "buckling/cross_ply.xml"
+ISOTROPIC = Ply(E1=1.0, E2=1.0, nu12=0.3, G12=1.0 / 2.6, G13=1.0 / 2.6, G23=1.0 / 2.6)
+PLY = Ply(E1=40.0, E2=1.0, nu12=0.25, G12=0.6, G13=0.6, G23=0.5)
+# k = N b^2 / (pi^2 D) over a/h, simply supported, first-order shear theory, kappa = 5/6
+NAVIER = {5: 3.26373, 10: 3.78645, 20: 3.94439, 50: 3.99100, 100: 3.99775}
+# N a^2 / (E2 h^3), a/h = 10; of a thin plate 36.1597
+CROSS_PLIES = {(0, 90, 0): 22.3151, (0, 90, 90, 0): 23.4529}
+THIN = 36.1597
+TIPS = 226.278  # with the deflection before buckling
 EULER = math.pi**2 / 4.0  # clamped-free, EI = L = 1
 
 
@@ -80,20 +95,67 @@ def verify_reissner(culm, report):
         report.relative(f"EA = {ea:g}, GA = {ga:g}, level {level}", found, reissner(ea, ga), 1e-3)
 
 
+# A film in the middle surface, so thin that it does not bend and so stiff that it carries 99.99 % of the force
+FILM_THICKNESS, FILM_STIFFNESS = 1e-5, 1e9
+
+
+def plate_force(culm, ply, angles, ratio, elements, film=False):
+    """Force per length over E2 h^3 / a^2 on one mesh; the shear correction is the deck's, 5/6."""
+    layers = [("ply", angle, 1.0 / len(angles)) for angle in angles]
+    if film:
+        if len(layers) % 2 == 1:  # the middle ply in two halves
+            layers = [(name, angle, 0.5 * share) for name, angle, share in layers for _ in range(2)]
+        layers = [(name, angle, (1.0 - FILM_THICKNESS) * share) for name, angle, share in layers]
+        layers.insert(len(layers) // 2, ("film", 0, FILM_THICKNESS))
+    settings = [f"N={elements}", f"h={1.0 / ratio}"]
+    for key, value in ply._asdict().items():
+        settings.append(f"Materials/ply/{key}={'correction*' if key in ('G13', 'G23') else ''}{value}")
+    settings += [f"Materials/ply/{key}={ply.nu12 if ply == ISOTROPIC else 0.0}" for key in ("nu13", "nu23")]
+    stiff = FILM_STIFFNESS * ply.E1
+    values = {"Type": "Orthotropic", "E1": stiff, "E2": stiff, "E3": 1, "nu12": 0, "nu13": 0, "nu23": 0,
+              "G12": 0.5 * stiff, "G13": 0.5, "G23": 0.5}
+    settings += [f"Materials/film/{key}={value}" for key, value in values.items()] if film else []
+    settings += [f"Structures/plate/{key}={{{', '.join(str(part) for part in parts)}}}" for key, parts in (
+        ("Materials", [name for name, _, _ in layers]),
+        ("Angles", [f"{angle}*pi/180" for _, angle, _ in layers]),
+        ("Thicknesses", [f"{share!r}*h" for _, _, share in layers]))]
+    return critical(culm, CROSS_PLY, settings)
+
+
+def plate_limit(culm, ply, angles, ratio, film=False):
+    return richardson(*(plate_force(culm, ply, angles, ratio, n, film) for n in (8, 16)))
+
+
+def theory(ply, angles, ratio, solid):
+    return buckling_force(Laminate(ply, angles, 1.0 / ratio), 1.0, 1.0, solid) * ratio**3
+
+
+FACTOR = 12.0 * (1.0 - 0.3**2) / math.pi**2  # k over N a^2 / (E h^3)
+
+
 def verify_plate(culm, report):
-    report.title("BU-2: plate pressed in one direction, first-order shear theory, limit of 16 and 32")
+    report.title("BU-2: plate pressed in one direction, limit of 8 x 8 and 16 x 16")
     for ratio, reference in NAVIER.items():
-        h = 1.0 / ratio
-        force = math.pi**2 * 1e9 * h**3 / (12.0 * (1.0 - 0.09))
-        values = []
-        for n in (16, 32):
-            settings = [
-                f"Structures/plate/Mesh/Elements={{{n}, {n}}}",
-                f"Structures/plate/Thickness={h}",
-                f"Loads/pressure/Force={{{-force}, 0, 0}}",
-            ]
-            values.append(critical(culm, PLATE, settings))
-        report.relative(f"k, a/h = {ratio}", richardson(*values), reference, 5e-3)
+        what = f"k, a/h = {ratio}"
+        report.relative(f"{what}: Navier, own and collection", FACTOR * theory(ISOTROPIC, (0,), ratio, False), reference, 1e-5)
+        found = FACTOR * plate_limit(culm, ISOTROPIC, (0,), ratio)
+        report.relative(f"{what}: solid", found, FACTOR * theory(ISOTROPIC, (0,), ratio, True), 5e-4)
+        found = FACTOR * plate_limit(culm, ISOTROPIC, (0,), ratio, film=True)
+        report.relative(f"{what}: the force in the middle surface", found, reference, 5e-4)
+    found = critical(culm, PLATE)
+    report.relative("plate.xml, a/h = 100, 16 x 16", found, NAVIER[100], 0.01)
+
+
+def verify_cross_ply(culm, report):
+    report.title("BU-2: cross-ply plates, a/h = 10, limit of 8 x 8 and 16 x 16")
+    for angles, reference in CROSS_PLIES.items():
+        what = f"[{'/'.join(str(angle) for angle in angles)}]"
+        report.relative(f"{what}: Navier, own and collection", theory(PLY, angles, 10, False), reference, 1e-5)
+        report.relative(f"{what}: the same, thin", theory(PLY, angles, 1e5, False), THIN, 1e-5)
+        report.relative(f"{what}: solid", plate_limit(culm, PLY, angles, 10), theory(PLY, angles, 10, True), 5e-4)
+        found = plate_limit(culm, PLY, angles, 10, film=True)
+        report.relative(f"{what}: the force in the middle surface", found, reference, 5e-4)
+        report.relative(f"{what}: thin, a/h = 1000", plate_limit(culm, PLY, angles, 1000), THIN, 1e-3)
 
 
 def verify_tippling(culm, report):
@@ -109,6 +171,76 @@ def verify_loaded(culm, report):
     report.relative("BU-1: column at 90 %", critical(culm, "buckling/column_loaded.xml"), 1.0, 1e-3)
     found = 230 * critical(culm, "buckling/tippling_loaded.xml")
     report.relative("BU-4: exact with the deflection before", found, 226.278, 5e-3)
+
+
+def fine(culm, report):
+    report.title("BU-2: plates, a/h = 10, three meshes up to 32 x 32")
+    for ply, angles in ((ISOTROPIC, (0,)), *((PLY, angles) for angles in CROSS_PLIES)):
+        for film in (False, True):
+            values = [plate_force(culm, ply, angles, 10, n, film) for n in (8, 16, 32)]
+            what = f"{angles}{', the force in the middle surface' if film else ''}"
+            report.relative(what, romberg(values), theory(ply, angles, 10, not film), 2e-5)
+
+
+SHORT = ["Analyses/loading/First Increment=0.02", "Analyses/loading/Largest Length=1"]
+
+
+def tippling_bifurcation(culm, settings=()):
+    """The load at which the path of the perfect beam is crossed, and the first one on the crossing path."""
+    run = culm.run(TIPPLING_PATH, [*SHORT, "Analyses/loading/Watch/Final Displacement=0.1", *settings], quiet=False)
+    patterns = (r"^  bifurcation at level ([^ ,]+),", r"^on the crossing path from level (\S+)$")
+    return [100.0 * float(re.search(pattern, run.output, re.MULTILINE).group(1)) for pattern in patterns]
+
+
+def sideways(history):
+    """Load and displacement across of a beam that is pushed or bent sideways."""
+    return 100.0 * np.array(history.levels), np.array(history.column("tip uy [m]"))
+
+
+NEAR = ["skew={}", "Analyses/loading/First Increment=0.02", "Analyses/loading/Largest Length=2",
+        "Analyses/loading/Watch/Final Displacement=1"]
+
+
+def pushed(culm, skew):
+    return sideways(culm.history(TIPPLING_PATH, [setting.format(skew) for setting in NEAR]))
+
+
+def bent(culm, amplitude):
+    """The same of a beam that is bent in the shape found by buckling.xml, without a load across."""
+    program = Program(culm.program)
+    with tempfile.TemporaryDirectory(prefix="culm") as place:
+        place = pathlib.Path(place)
+        shapes, loaded = place / "shapes", place / "loaded"
+        inputs = pathlib.Path(__file__).resolve().parents[2] / "inputs"
+        first = program.run(inputs / TIPPLING, shapes, ["N=16", "Output/Pictures=false"])
+        entry = {"Run": shapes, "Analysis": "buckling", "Shape": 1, "Amplitude": amplitude}
+        settings = [f"Imperfections/bow/{key}={value}" for key, value in entry.items()]
+        settings += [setting.format(0) for setting in NEAR]
+        second = program.run(inputs / TIPPLING_PATH, loaded, [*settings, "Output/Pictures=false"])
+        if not (first.succeeded and second.succeeded):
+            raise ArithmeticError(first.errors + second.errors)
+        load, across = sideways(second.history)
+    return load, across * np.sign(across[-1])
+
+
+def southwell(load, across, power):
+    """The critical load from displacements a = c load^power / (1 - (load / critical)^2), where the square counts both
+    signs of the load: from the slope of a / load^power over a load^(2 - power)."""
+    near = (load > 0.95 * TIPS) & (load < 0.995 * TIPS)
+    assert near.sum() >= 3
+    slope = np.polyfit(across[near] * load[near] ** (2 - power), across[near] / load[near] ** power, 1)[0]
+    return slope**-0.5
+
+
+def verify_tippling_path(culm, report):
+    report.title("BU-4: path of the cantilever that tips")
+    crossing, branch = tippling_bifurcation(culm)
+    report.relative("bifurcation of the perfect beam", crossing, TIPS, 1e-4)
+    report.relative("first point on the crossing path", branch, TIPS, 1e-4)
+    # what is neglected, the square of the displacement, grows with the imperfection
+    for skew, allowed in ((1e-3, 5e-3), (1e-4, 1e-3)):
+        report.relative(f"Southwell, force across {skew:g}", southwell(*pushed(culm, skew), 1), TIPS, allowed)
+    report.relative("Southwell, bent by 3 mm of 30 m", southwell(*bent(culm, 3e-3), 2), TIPS, 1e-3)
 
 
 def verify_rounding(culm, report):
@@ -127,12 +259,13 @@ def verify(culm, report):
     verify_supports(culm, report)
     verify_reissner(culm, report)
     verify_plate(culm, report)
+    verify_cross_ply(culm, report)
     verify_tippling(culm, report)
+    verify_tippling_path(culm, report)
     verify_rounding(culm, report)
 
 
-def plot(culm, path):
-    fig, (left, right) = figure(columns=2)
+def plot_column(culm, axes):
     counts = (4, 8, 16, 32)
     for order, mark in ((1, "o-"), (2, "s-"), (3, "^-")):
         settings = [f"Structures/column/Order={order}", *stiffness(1e4)]
@@ -140,21 +273,62 @@ def plot(culm, path):
             abs(critical(culm, COLUMN, [*settings, f"Structures/column/Curve/Elements={n}"]) / shear_flexible(1e4) - 1)
             for n in counts
         ]
-        left.loglog(counts, errors, mark, ms=4, label=f"order {order}")
-    left.set_xlabel("elements")
-    left.set_ylabel("relative error of the Euler load")
-    mesh_axis(left, counts)
-    left.legend()
+        axes.loglog(counts, errors, mark, ms=4, label=f"order {order}")
+    axes.set_xlabel("elements")
+    axes.set_ylabel("relative error of the Euler load")
+    mesh_axis(axes, counts)
+    axes.legend()
+
+
+def plot_shear(culm, axes):
     values = [10 ** (k / 4) for k in range(4, 17)]
     found = [critical(culm, COLUMN, stiffness(v)) for v in values]
-    right.semilogx(values, [f / EULER for f in found], label="culm")
-    wanted = [shear_flexible(v) / EULER for v in values]
-    right.semilogx(values, wanted, "k.", label="P (1 + P/GA) = Euler's load")
-    right.set_xlabel("GA L²/EI")
-    right.set_ylabel("critical load over Euler's")
-    right.legend()
+    axes.semilogx(values, [f / EULER for f in found], label="culm")
+    axes.semilogx(values, [shear_flexible(v) / EULER for v in values], "k.", label="P (1 + P/GA) = Euler's load")
+    axes.set_xlabel("GA L²/EI")
+    axes.set_ylabel("critical load over Euler's")
+    axes.legend()
+
+
+def plot_plates(culm, axes):
+    ratios = (5, 6, 7, 10, 15, 20, 50, 100)
+    for film, label in ((True, "culm, force in the middle surface"), (False, "culm, uniform stress")):
+        values = [FACTOR * plate_limit(culm, ISOTROPIC, (0,), ratio, film) for ratio in ratios]
+        axes.semilogx(ratios, values, label=label)
+    axes.plot(ratios, [FACTOR * theory(ISOTROPIC, (0,), r, False) for r in ratios], "k.", label="first-order theory")
+    solid = [FACTOR * theory(ISOTROPIC, (0,), r, True) for r in ratios]
+    axes.plot(ratios, solid, "kx", ms=5, label="the same, stress on the director too")
+    mesh_axis(axes, ratios)
+    axes.set_xlabel("a/h")
+    axes.set_ylabel(r"$k=N b^2/(\pi^2 D)$, limit of 8 and 16 elements")
+    axes.legend(loc="lower right", fontsize=7)
+
+
+def plot_tippling(culm, axes):
+    branch = culm.history(TIPPLING_PATH, ["Analyses/loading/Watch/Final Displacement=2"])
+    load, across = sideways(branch)
+    followed = across > 0.0
+    axes.plot(np.append(0.0, across[followed]), np.append(load[followed][0], load[followed]), label="perfect, crossing path")
+    for skew in (1e-4, 1e-3, 1e-2):
+        settings = ["Analyses/loading/Watch/Final Displacement=2", "Analyses/loading/Largest Length=2"]
+        load, across = sideways(culm.history(TIPPLING_PATH, [f"skew={skew}", *settings]))
+        axes.plot(across, load, lw=1, label=f"force across {skew:g}")
+    axes.plot(0.0, TIPS, "ko", ms=5, label="226.278, exact")
+    axes.axhline(221.159, color="0.5", ls=":", label="221.159, about the straight beam")
+    axes.set_ylim(150, 235)
+    axes.set_xlabel("displacement of the tip across")
+    axes.set_ylabel("tip force")
+    axes.legend(loc="lower right", fontsize=7)
+
+
+def plot(culm, path):
+    fig, _ = figure(2, 7.0)
+    fig.clf()
+    panels = fig.subplots(2, 2).ravel()
+    for draw, axes in zip((plot_column, plot_shear, plot_plates, plot_tippling), panels):
+        draw(culm, axes)
     save(fig, path)
 
 
 if __name__ == "__main__":
-    main(verify, plot)
+    main(verify, plot, fine)
