@@ -2,15 +2,11 @@
 """BU-1, BU-2, BU-4: columns, plates, a cantilever that tips. Page: doc/verification/buckling.md."""
 
 import math
-import pathlib
 import re
-import tempfile
 
 import numpy as np
 from laminate import Laminate, Ply, buckling_force
-from verify import figure, main, mesh_axis, richardson, romberg, save  # puts the package culm on the path
-
-from culm.program import Program
+from verify import figure, main, mesh_axis, richardson, romberg, save
 
 COLUMN = "buckling/column.xml"
 TIPPLING = "buckling/tippling.xml"
@@ -137,7 +133,8 @@ def verify_plate(culm, report):
     report.title("BU-2: plate pressed in one direction, limit of 8 x 8 and 16 x 16")
     for ratio, reference in NAVIER.items():
         what = f"k, a/h = {ratio}"
-        report.relative(f"{what}: Navier, own and collection", FACTOR * theory(ISOTROPIC, (0,), ratio, False), reference, 1e-5)
+        own = FACTOR * theory(ISOTROPIC, (0,), ratio, False)
+        report.relative(f"{what}: Navier, own and collection", own, reference, 1e-5)
         found = FACTOR * plate_limit(culm, ISOTROPIC, (0,), ratio)
         report.relative(f"{what}: solid", found, FACTOR * theory(ISOTROPIC, (0,), ratio, True), 5e-4)
         found = FACTOR * plate_limit(culm, ISOTROPIC, (0,), ratio, film=True)
@@ -206,20 +203,9 @@ def pushed(culm, skew):
 
 
 def bent(culm, amplitude):
-    """The same of a beam that is bent in the shape found by buckling.xml, without a load across."""
-    program = Program(culm.program)
-    with tempfile.TemporaryDirectory(prefix="culm") as place:
-        place = pathlib.Path(place)
-        shapes, loaded = place / "shapes", place / "loaded"
-        inputs = pathlib.Path(__file__).resolve().parents[2] / "inputs"
-        first = program.run(inputs / TIPPLING, shapes, ["N=16", "Output/Pictures=false"])
-        entry = {"Run": shapes, "Analysis": "buckling", "Shape": 1, "Amplitude": amplitude}
-        settings = [f"Imperfections/bow/{key}={value}" for key, value in entry.items()]
-        settings += [setting.format(0) for setting in NEAR]
-        second = program.run(inputs / TIPPLING_PATH, loaded, [*settings, "Output/Pictures=false"])
-        if not (first.succeeded and second.succeeded):
-            raise ArithmeticError(first.errors + second.errors)
-        load, across = sideways(second.history)
+    """The same of a beam that is bent in its buckling shape, without a force across."""
+    entry = ["Imperfections/bow/Analysis=buckling", f"Imperfections/bow/Amplitude={amplitude}"]
+    load, across = sideways(culm.history(TIPPLING_PATH, [*entry, *(setting.format(0) for setting in NEAR)]))
     return load, across * np.sign(across[-1])
 
 
@@ -308,7 +294,8 @@ def plot_tippling(culm, axes):
     branch = culm.history(TIPPLING_PATH, ["Analyses/loading/Watch/Final Displacement=2"])
     load, across = sideways(branch)
     followed = across > 0.0
-    axes.plot(np.append(0.0, across[followed]), np.append(load[followed][0], load[followed]), label="perfect, crossing path")
+    points = (np.append(value, values) for value, values in ((0.0, across[followed]), (load[followed][0], load[followed])))
+    axes.plot(*points, label="perfect, crossing path")
     for skew in (1e-4, 1e-3, 1e-2):
         settings = ["Analyses/loading/Watch/Final Displacement=2", "Analyses/loading/Largest Length=2"]
         load, across = sideways(culm.history(TIPPLING_PATH, [f"skew={skew}", *settings]))

@@ -1,9 +1,9 @@
 """Laminated plates by first-order shear theory, exact along x and by polynomials along y; shares nothing with culm.
 
-The sides x = 0, a are held across and in the plane across themselves, and slide along themselves (SS-2), so that sines
-and cosines are exact: u, w, Y ~ sin(m pi x / a) and v, X ~ cos(m pi x / a), where X, Y are the displacements of a director
-along x, y. The sides y = 0, b are supported in the same way or free. This fits symmetric cross-ply and antisymmetric
-angle-ply laminates, which do not couple other pairs. Supported on all sides the lowest value is that of Navier's solution.
+The sides x = 0, a are simply supported and slide along themselves, so that sines and cosines are exact: u, w, Y ~
+sin(m pi x / a) and v, X ~ cos(m pi x / a), where X, Y are the displacements of a director along x, y. The sides y = 0, b are
+supported in the same way or free. This fits symmetric cross-ply and antisymmetric angle-ply laminates, which do not
+couple other pairs. Supported on all sides the lowest value is that of Navier's solution.
 """
 
 from typing import NamedTuple
