@@ -117,7 +117,7 @@ Schema Buckling::schema() {
                   "The reference load is the load at this level less the present one. If absent, "
                   "level 1, or level 0 where 1 is reached.")
                .optional())
-      .add(choice("Solver", solver::eigen_solver_names(),
+      .add(choice("Solver", solver::buckling_solver_names(),
                   "Of the eigenproblem: Spectra for large models; Dense reduces whole matrices, "
                   "best for small ones and to check; Automatic decides.")
                .optional(defaults.solver));

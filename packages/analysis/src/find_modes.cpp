@@ -38,14 +38,16 @@ void fix_phase(Shape& shape) {
   const double rotation = largest(3);
   const int first = displacement > 1e-6 * rotation ? 0 : 3;
   const double size = first == 0 ? displacement : rotation;
-  Complex factor = 1.0;
-  for (std::size_t node = 0; node < shape.real.size() && factor == 1.0; ++node) {
-    for (int i = first; i < first + 3; ++i) {
-      if (std::abs(at(node, i)) < 0.999 * size) continue;
-      factor = std::conj(at(node, i)) / std::abs(at(node, i));
-      break;
+  const auto phase_of_first = [&]() -> Complex {
+    for (std::size_t node = 0; node < shape.real.size(); ++node) {
+      for (int i = first; i < first + 3; ++i) {
+        const Complex one = at(node, i);
+        if (std::abs(one) > 0.0 && std::abs(one) >= 0.999 * size) return one / std::abs(one);
+      }
     }
-  }
+    return 1.0;
+  };
+  const Complex factor = std::conj(phase_of_first());
   for (std::size_t node = 0; node < shape.real.size(); ++node) {
     if (shape.imaginary.empty()) {
       shape.real[node] *= factor.real();

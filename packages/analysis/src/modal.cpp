@@ -109,7 +109,8 @@ Schema& add_modal_fields(Schema& schema) {
                 "modes are complex then.")
                .optional(defaults.damping))
       .add(choice("Solver", solver::eigen_solver_names(),
-                  "Of the eigenproblem: Spectra for large models; Dense reduces whole matrices, "
+                  "Of the eigenproblem: Spectra for large models on one process; Anasazi for those "
+                  "on several, complex modes by Spectra as well; Dense reduces whole matrices, "
                   "best for small ones and to check; Automatic decides.")
                .optional(defaults.solver));
 }

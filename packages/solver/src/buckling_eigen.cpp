@@ -17,7 +17,7 @@ class Buckling {
       : pencil_(pencil),
         settings_(settings),
         inverse_(combine({{1.0, pencil.K}}), settings.linear_solver, comm),
-        method_(method(settings, inverse_.size())),
+        method_(general_method(settings, inverse_.size())),
         vectors_(inverse_.size(), 0),
         K_vectors_(inverse_.size(), 0) {}
 

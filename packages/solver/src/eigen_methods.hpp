@@ -10,10 +10,19 @@ namespace culm::solver {
 /// Below it whole matrices cost less than a Krylov space.
 constexpr int small_problem = 250;
 
-/// The name of the method in place of `Automatic`.
-inline std::string method(const EigenSettings& settings, int size) {
+/// The name of the method in place of `Automatic`, where Arnoldi's method is one of them.
+inline std::string general_method(const EigenSettings& settings, int size) {
+  if (settings.solver == "Anasazi") return "Spectra";
   if (settings.solver != "Automatic") return settings.solver;
   return size <= small_problem || 6 * settings.count > size ? "Dense" : "Spectra";
+}
+
+/// The same for a symmetric pencil, which has a method with distributed vectors as well.
+inline std::string symmetric_method(const EigenSettings& settings, int size,
+                                    const parallel::Comm& comm) {
+  if (settings.solver != "Automatic") return settings.solver;
+  const std::string alone = general_method(settings, size);
+  return alone == "Spectra" && comm.size() > 1 ? "Anasazi" : alone;
 }
 
 /// (A - shift B)^-1 B of a symmetric pencil, hence nu = 1 / (lambda - shift).
@@ -36,6 +45,11 @@ InvertedPairs solve_dense(const ShiftedPencil& op);
 /// The first `count` by size in the B-orthogonal complement of the columns of `found`: implicitly
 /// restarted Lanczos of Spectra, alike on all ranks.
 InvertedPairs solve_lanczos(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found);
+
+/// The same by block Krylov-Schur of Anasazi: vectors are distributed, and whole only at the end.
+InvertedPairs solve_krylov_schur(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found);
+
+[[noreturn]] void throw_unconverged(int converged, int count, int restarts);
 
 /// Any real operator: y = T x.
 struct Operator {

@@ -1,6 +1,9 @@
 #include <culm/solver/eigen_solver.hpp>
 
 #include "eigen_methods.hpp"
+#include "multiple_values.hpp"
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +14,9 @@
 namespace culm::solver {
 namespace {
 
+// Found beside those that are wanted: the last vectors of a space are the least exact.
+constexpr int guards = 2;
+
 void append(InvertedPairs& all, const InvertedPairs& more, Eigen::Index count) {
   const Eigen::Index before = all.nu.size();
   all.nu.conservativeResize(before + count);
@@ -20,14 +26,15 @@ void append(InvertedPairs& all, const InvertedPairs& more, Eigen::Index count) {
 }
 
 // Values in the complement of those that are found, until they are all further from the shift.
-InvertedPairs search(const ShiftedPencil& op, int count) {
+template <class Method>
+InvertedPairs search(const ShiftedPencil& op, int count, const Method& method) {
   constexpr int probes = 2;
   const int size = op.inverse.size();
-  InvertedPairs all = solve_lanczos(op, count, Eigen::MatrixXd(size, 0));
+  InvertedPairs all = method(op, std::min(count + guards, size / 3), Eigen::MatrixXd(size, 0));
   const auto least = [&] { return all.nu.cwiseAbs().minCoeff(); };
   const Eigen::Index most = std::min<Eigen::Index>(size / 3, 4 * count);
   while (all.nu.size() < most) {
-    const InvertedPairs more = solve_lanczos(op, probes, all.vectors);
+    const InvertedPairs more = method(op, probes, all.vectors);
     const Eigen::Index missed = (more.nu.array().abs() > (1.0 - 1e-8) * least()).count();
     if (missed == 0) break;
     append(all, more, missed);
@@ -46,12 +53,28 @@ void sort_by_size(InvertedPairs& pairs) {
 }
 
 // One more application of the operator takes away what has no B in a vector and is no part of it.
-void finish(const ShiftedPencil& op, Eigen::Ref<Eigen::VectorXd> x) {
-  Eigen::VectorXd Bx(x.size());
-  op.inverse.multiply(*op.pencil.B, x, Bx);
-  op.inverse.solve(Bx, x);
-  op.inverse.multiply(*op.pencil.B, x, Bx);
-  x /= std::sqrt(x.dot(Bx));
+// But it enlarges what is left of vectors with larger nu, so the vectors are those of the operator
+// within the span of all; real ones also where rounding made a complex pair of two.
+InvertedPairs finish(const ShiftedPencil& op, Eigen::MatrixXd vectors) {
+  const auto product = [&](const auto& x) {
+    Eigen::VectorXd Bx(x.size());
+    op.inverse.multiply(*op.pencil.B, x, Bx);
+    return Bx;
+  };
+  Eigen::MatrixXd B_vectors(vectors.rows(), vectors.cols());
+  Eigen::MatrixXd images(vectors.rows(), vectors.cols());
+  for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
+    auto x = vectors.col(i);
+    op.inverse.solve(product(x), x);
+    x /= std::sqrt(x.dot(product(x)));
+    B_vectors.col(i) = product(x);
+    op.inverse.solve(B_vectors.col(i), images.col(i));
+  }
+  const Eigen::MatrixXd S = B_vectors.transpose() * images;
+  const Eigen::MatrixXd G = B_vectors.transpose() * vectors;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> within(0.5 * (S + S.transpose()),
+                                                                         0.5 * (G + G.transpose()));
+  return {within.eigenvalues(), vectors * within.eigenvectors()};
 }
 
 // Values much nearer to the shift than the others, as those of rigid motions are, leave rounding in
@@ -71,15 +94,21 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
                       settings.linear_solver, comm);
   const ShiftedPencil op{inverse, pencil, settings.shift};
   EigenPairs result;
-  result.solver = method(settings, inverse.size());
-  InvertedPairs pairs = result.solver == "Dense" ? solve_dense(op) : search(op, settings.count);
+  result.solver = symmetric_method(settings, inverse.size(), comm);
+  InvertedPairs pairs = result.solver == "Dense" ? solve_dense(op)
+                        : result.solver == "Anasazi"
+                            ? search(op, settings.count, solve_krylov_schur)
+                            : search(op, settings.count, solve_lanczos);
   sort_by_size(pairs);
   if (const auto shift = clear_shift(pairs.nu, settings.shift); shift && may_move) {
     EigenSettings moved = settings;
     moved.shift = *shift;
     return solve_at(pencil, moved, comm, false);
   }
-  const auto count = std::min<Eigen::Index>(pairs.nu.size(), settings.count);
+  const auto kept = std::min<Eigen::Index>(pairs.nu.size(), settings.count + guards);
+  pairs = finish(op, pairs.vectors.leftCols(kept));
+  sort_by_size(pairs);
+  const auto count = std::min<Eigen::Index>(kept, settings.count);
 
   constexpr double eps = std::numeric_limits<double>::epsilon();
   struct Found {
@@ -89,15 +118,9 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
   std::vector<Found> found;
   Eigen::VectorXd Ax(inverse.size()), Bx(inverse.size());
   for (Eigen::Index i = 0; i < count; ++i) {
-    Eigen::Ref<Eigen::VectorXd> x = pairs.vectors.col(i);
-    finish(op, x);
-    inverse.multiply(*pencil.A, x, Ax);
-    inverse.multiply(*pencil.B, x, Bx);
-    const Eigen::VectorXd terms = inverse.absolute(*pencil.A, x);
-    const double value = x.dot(Ax);  // Rayleigh quotient
-    found.push_back({value, eps * x.cwiseAbs().dot(terms), i});
-    result.worst_residual = std::max(
-        result.worst_residual, (Ax - value * Bx).lpNorm<Eigen::Infinity>() / terms.maxCoeff());
+    const Eigen::VectorXd x = pairs.vectors.col(i);
+    found.push_back({inverse.quotient(*pencil.A, x),
+                     eps * x.cwiseAbs().dot(inverse.absolute(*pencil.A, x)), i});
   }
   std::sort(found.begin(), found.end(),
             [](const Found& a, const Found& b) { return a.value < b.value; });
@@ -107,12 +130,26 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
     result.rounding.push_back(found[i].rounding);
     result.vectors.col(static_cast<Eigen::Index>(i)) = pairs.vectors.col(found[i].column);
   }
+  align_multiple(result);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Eigen::VectorXd x = result.vectors.col(static_cast<Eigen::Index>(i));
+    inverse.multiply(*pencil.A, x, Ax);
+    inverse.multiply(*pencil.B, x, Bx);
+    result.worst_residual =
+        std::max(result.worst_residual, (Ax - result.values[i] * Bx).lpNorm<Eigen::Infinity>() /
+                                            inverse.absolute(*pencil.A, x).maxCoeff());
+  }
   return result;
 }
 
 }  // namespace
 
 const std::vector<std::string>& eigen_solver_names() {
+  static const std::vector<std::string> names = {"Automatic", "Spectra", "Anasazi", "Dense"};
+  return names;
+}
+
+const std::vector<std::string>& buckling_solver_names() {
   static const std::vector<std::string> names = {"Automatic", "Spectra", "Dense"};
   return names;
 }

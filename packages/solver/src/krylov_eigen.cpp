@@ -83,13 +83,17 @@ void run(Solver& solver, int count) {
   const auto converged = solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
                                         Spectra::SortRule::LargestMagn);
   if (solver.info() == Spectra::CompInfo::Successful) return;
-  throw NumericalError(
-      fmt::format("The eigenproblem was not solved: {} of {} values converged in {} restarts.\n"
-                  "Try: more or fewer modes, another shift, or 'Solver' = Dense.",
-                  converged, count, most_restarts));
+  throw_unconverged(static_cast<int>(converged), count, most_restarts);
 }
 
 }  // namespace
+
+void throw_unconverged(int converged, int count, int restarts) {
+  throw NumericalError(
+      fmt::format("The eigenproblem was not solved: {} of {} values converged in {} restarts.\n"
+                  "Try: more or fewer modes, another shift, or 'Solver' = Dense.",
+                  converged, count, restarts));
+}
 
 InvertedPairs solve_lanczos(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found) {
   SolveOp solve(op, found);

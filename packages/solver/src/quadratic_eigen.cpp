@@ -78,7 +78,7 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
   const int n = problem.size();
   const Operator op{2 * n, [&](const auto& z, auto result) { problem.apply(z, result); }};
   ComplexPairs result;
-  result.solver = method(settings, 2 * n);
+  result.solver = general_method(settings, 2 * n);
   // both of a pair, and one more so that none is cut
   const GeneralPairs pairs = result.solver == "Dense"
                                  ? solve_dense(op)

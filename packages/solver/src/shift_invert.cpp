@@ -51,10 +51,14 @@ void ShiftInvert::multiply(const CrsMatrix& matrix, const ConstColumn& x, Column
   whole_.join(out_, y);
 }
 
+void ShiftInvert::solve(const Vector& x, Vector& y) {
+  const double residual = linear_->solve(x, y);
+  if (!(residual <= useless)) refuse();
+}
+
 void ShiftInvert::solve(const ConstColumn& x, Column y) {
   whole_.take(x, in_);
-  const double residual = linear_->solve(in_, out_);
-  if (!(residual <= useless)) refuse();
+  solve(in_, out_);
   whole_.join(out_, y);
 }
 
@@ -72,6 +76,21 @@ Eigen::VectorXd ShiftInvert::absolute(const CrsMatrix& matrix, const Eigen::Vect
   Eigen::VectorXd all(size());
   whole_.join(out_, all);
   return all;
+}
+
+double ShiftInvert::quotient(const CrsMatrix& matrix, const Eigen::VectorXd& x) const {
+  const auto local = matrix.getLocalMatrixHost();
+  const auto& columns = *matrix.getColMap();
+  double total = 0.0;
+  for (std::size_t row = 0; row < whole_.rows().size(); ++row) {
+    long double sum = 0.0;
+    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      sum += static_cast<long double>(local.values(k)) *
+             x[columns.getGlobalElement(local.graph.entries(k))];
+    }
+    total += x[whole_.rows()[row]] * static_cast<double>(sum);
+  }
+  return comm_.sum(total);
 }
 
 Eigen::MatrixXd ShiftInvert::dense(const CrsMatrix& matrix) const {

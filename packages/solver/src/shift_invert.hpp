@@ -26,11 +26,16 @@ class ShiftInvert {
               const parallel::Comm& comm);
 
   int size() const { return whole_.size(); }
+  const WholeVector& whole() const { return whole_; }
   /// y = A^-1 x. Throws NumericalError if the factors are useless.
+  void solve(const Vector& x, Vector& y);
   void solve(const ConstColumn& x, Column y);
   void multiply(const assembly::CrsMatrix& matrix, const ConstColumn& x, Column y) const;
   /// |A| |x|: what a product is made of, and rounding grows with.
   Eigen::VectorXd absolute(const assembly::CrsMatrix& matrix, const Eigen::VectorXd& x) const;
+  /// x^T A x, the sums of rows in extended precision: for eigenvectors these are small differences
+  /// of large terms, and in double precision the order of terms would show.
+  double quotient(const assembly::CrsMatrix& matrix, const Eigen::VectorXd& x) const;
   /// A matrix whole on every rank.
   Eigen::MatrixXd dense(const assembly::CrsMatrix& matrix) const;
 

@@ -166,6 +166,31 @@ TEST_P(EachEigenSolver, FindsTheValuesNextToAShift) {
   }
 }
 
+// Three copies of each value, so that vectors are any basis of their spaces.
+TEST_P(EachEigenSolver, GivesTheSameVectorsAsAnyOther) {
+  const Pencil pencil({3, 30, true});
+  const EigenPairs pairs = pencil.solve(settings(9, -1e-3));
+  const EigenPairs dense = pencil.solve({"Dense", "KLU2", 9, -1e-3});
+  ASSERT_EQ(pairs.vectors.cols(), 9);
+  for (int i = 0; i < 9; ++i) {
+    const Eigen::VectorXd x = pairs.vectors.col(i);
+    const Eigen::VectorXd y = dense.vectors.col(i);
+    EXPECT_LT((x - std::copysign(1.0, x.dot(y)) * y).norm(), 1e-9);
+  }
+  // the first copy moves in the first chain, where unknowns come first, the next in the second
+  const Eigen::VectorXd second = pairs.vectors.col(1).segment(31, 30);
+  EXPECT_NEAR(second.norm(), 1.0, 1e-9);
+}
+
+TEST(EigenSolver, TakesTheMethodThatFitsSizeAndRanks) {
+  const Pencil small({1, 40, true});
+  EXPECT_EQ(small.solve({"Automatic", "KLU2", 4, -1e-3}).solver, "Dense");
+  const Pencil large({2, 150, true});
+  const EigenPairs pairs = large.solve({"Automatic", "KLU2", 4, -1e-5});
+  EXPECT_EQ(pairs.solver, large.comm().size() > 1 ? "Anasazi" : "Spectra");
+  large.expect_right(pairs, 4);
+}
+
 TEST(EigenSolver, GivesAsManyAsThereAre) {
   const Pencil pencil({1, 4, true});
   EXPECT_EQ(pencil.solve({"Automatic", "KLU2", 10, -1e-3}).values.size(), 3U);

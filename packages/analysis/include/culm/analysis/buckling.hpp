@@ -16,7 +16,7 @@ struct BucklingSettings {
   /// reached.
   std::optional<double> reference_level;
   Where where;                       ///< of the level in the deck
-  std::string solver = "Automatic";  ///< one of solver::eigen_solver_names()
+  std::string solver = "Automatic";  ///< one of solver::buckling_solver_names()
 };
 
 /// Linear buckling about the present state, which stays as it is: (K + mu DK) phi = 0, where DK is

@@ -39,12 +39,17 @@ struct EigenPairs {
 
 /// What decks may write, the default first.
 const std::vector<std::string>& eigen_solver_names();
+/// The same for solve_buckling.
+const std::vector<std::string>& buckling_solver_names();
 
 /// The eigenvalues next to the shift, by shift-invert; fewer if there are fewer finite ones.
 /// `Dense` reduces whole matrices and needs time and memory for them; the others find values by a
 /// Krylov space and then search once more beside what they found, because a space from few start
-/// vectors may miss copies of multiple values. Throws NumericalError if A - shift B is singular or
-/// the iteration does not converge. Collective.
+/// vectors may miss copies of multiple values: `Spectra` (Lanczos) with whole vectors, alike on all
+/// ranks, `Anasazi` (block Krylov-Schur) with distributed ones. `Automatic` takes `Dense` for small
+/// pencils, else `Spectra` on one rank and `Anasazi` on several. Vectors of multiple values are
+/// turned so that they do not depend on the method. Throws NumericalError if A - shift B is
+/// singular or the iteration does not converge. Collective.
 EigenPairs solve_eigenproblem(const SymmetricPencil& pencil, const EigenSettings& settings,
                               const parallel::Comm& comm);
 
@@ -57,7 +62,8 @@ struct BucklingPencil {
 };
 
 /// The values mu next to zero of both signs, by their size; vectors with |x^T K x| = 1. K must have
-/// an inverse. Complex values are left out. Settings as in solve_eigenproblem, with shift 0.
+/// an inverse. Complex values are left out. Settings as in solve_eigenproblem, with shift 0, but
+/// for `Anasazi`: K is no inner product about an unstable state, and D may be unsymmetric.
 EigenPairs solve_buckling(const BucklingPencil& pencil, const EigenSettings& settings,
                           const parallel::Comm& comm);
 
@@ -79,7 +85,7 @@ struct ComplexPairs {
 };
 
 /// The eigenvalues next to the shift, a real number >= 0, by the linearised problem of twice the
-/// size and Arnoldi's method. @source formulation 5.4
+/// size and Arnoldi's method; `Anasazi` means `Spectra` here. @source formulation 5.4
 ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
                              const parallel::Comm& comm);
 
