@@ -348,6 +348,7 @@ void PathFollowing::take(Context& context, model::State& state, StepReport& repo
   report.final_time = std::numeric_limits<double>::infinity();
   if (report.accepted) {
     report.step = ++steps_;
+    failures_ = 0;
     last_length_ = condition_->length(state);
     condition_->accept(state);
     behind_ = here_;
@@ -366,7 +367,7 @@ void PathFollowing::take(Context& context, model::State& state, StepReport& repo
   } else {
     reject(state);
     report.step = steps_;
-    size_ *= 0.5;
+    size_ *= ++failures_ == 1 ? 0.5 : 0.25;
   }
   post_mortem_->record(report);
   observer.step(report, state);

@@ -436,7 +436,7 @@ std::string PostMortem::worst_rows() const {
 
 std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
   if (level_step_ == 0.0) return dynamic_cause();
-  if (!std::isfinite(attempts_.back().final_time)) return path_cause();
+  if (!std::isfinite(attempts_.back().final_time)) return path_cause(state, stencil);
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;
   if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
@@ -463,14 +463,23 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
       100.0 * remaining);
 }
 
-std::string PostMortem::path_cause() const {
+std::string PostMortem::path_cause(model::State& state, const Stencil& stencil) {
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
     return "Likely cause: an element turns too far.\nTry: more elements.";
   }
-  return "Likely cause: the path bends more sharply than the shortest step can follow, crosses\n"
-         "another path, or ends where loads or prescribed motions do.\n"
-         "Try: a smaller 'Smallest Length' or 'First Increment', another 'Control', or a small\n"
-         "imperfection.";
+  std::string text =
+      "Likely cause: the path bends more sharply than the shortest step can follow, crosses\n"
+      "another path, or ends where loads or prescribed motions do.\n";
+  const double flexibility = load_flexibility(state, stencil, level_step_);
+  if (is_factored_ && std::isfinite(flexibility)) {
+    Vector direction(context_.system.layout().row_map());
+    context_.linear.weakest_direction(direction);
+    text += "Here the structure is weakest against this motion, in which it may buckle:\n" +
+            largest_motions(moved_nodes(state, direction));
+  }
+  return text +
+         "Try: a smaller 'Smallest Length' or 'First Increment', another 'Control', a mesh that\n"
+         "resolves this motion, or a small imperfection.";
 }
 
 std::string PostMortem::dynamic_cause() const {

@@ -246,6 +246,99 @@ TEST(PathFollowing, FindsABifurcationAndFollowsIt) {
   EXPECT_NEAR(branch.levels.back(), 2.0 * end[1] / std::pow(branch.length(), 3), 1e-10);
 }
 
+// A small truss pushed through a long bar that is far softer: at a limit point of the truss the bar
+// springs back, and the path turns by nearly 180 degrees within a small share of the first step.
+class SoftlyPushedTruss : public Observer {
+ public:
+  static constexpr double size = 1e-3;     // of the truss
+  static constexpr double softness = 1e3;  // of the bar, over that of the truss
+
+  SoftlyPushedTruss() {
+    const auto add = [&](const Vec3& x, const char* fixed) {
+      model::NodeSlots slots;
+      slots << x, Mat3::Identity();
+      const int node = model.nodes().add(slots);
+      model.add_structure(std::string(1, static_cast<char>('a' + node))).nodes = {node};
+      model.nodes().fix(node, std::bitset<6>(fixed));
+      return node;
+    };
+    const int left = add({-size, 0.0, 0.0}, "111111"), right = add({size, 0.0, 0.0}, "111111");
+    const int apex = add({0.0, 0.5 * size, 0.0}, "111101");
+    const int pushed = add({0.0, 0.5 * size + length, 0.0}, "111101");
+    auto& bars = model::elements<Bar>(model, "Bar");
+    const auto join = [&](int from, int to, double stiffness) {
+      Slots<8> reference;
+      reference << model::NodeTable::slots(model.nodes().reference(), from),
+          model::NodeTable::slots(model.nodes().reference(), to);
+      bars.add(Bar(reference, stiffness), {from, to});
+    };
+    join(left, apex, 1.0);
+    join(right, apex, 1.0);
+    join(apex, pushed, length / (softness * size));
+    model.add_load(std::make_unique<Push>(pushed, Vec3(0.0, -1.0, 0.0)));
+    model.freeze(model::Form::null_space);
+  }
+
+  AnalysisReport follow(const PathSettings& settings) {
+    assembly::System system(model, comm, ledger);
+    const auto linear = solver::make_rooted_klu2(system.matrix(), comm);
+    model::State state = model.initial_state();
+    Context context{system, *linear, ledger, log};
+    PathFollowing path(settings);
+    return path.run(context, state, *this);
+  }
+
+  void step(const StepReport& report, model::State& now) override {
+    if (!report.accepted) return;
+    heights.push_back(model::NodeTable::slots(now.next, 2)(1, 0) / size);
+    levels.push_back(now.time);
+  }
+
+  std::vector<double> heights;  // of the apex, over the size
+  std::vector<double> levels;
+
+ private:
+  static constexpr double length = 10.0;
+  parallel::Comm comm;
+  Ledger ledger;
+  std::ostringstream said;
+  Log log{said, LogLevel::info};
+  model::Model model;
+};
+
+TEST(PathFollowing, TurnsBackSharplyWhereASmallPartUnloadsALargeOne) {
+  SoftlyPushedTruss truss;
+  PathSettings settings;
+  settings.first_increment = 0.05;
+  settings.limit_points = 2;
+  settings.steps = 1000;
+  const AnalysisReport report = truss.follow(settings);
+  const double w = 0.5 / std::sqrt(3.0);
+  const double limit = (0.25 - w * w) * w / std::pow(1.25, 1.5);
+  EXPECT_NEAR(number(report, "limit point 1, level"), limit, 1e-3 * limit);
+  EXPECT_NEAR(number(report, "limit point 2, level"), -limit, 1e-3 * limit);
+  for (std::size_t i = 0; i < truss.heights.size(); ++i) {
+    const double h = truss.heights[i];
+    EXPECT_NEAR(truss.levels[i], (0.25 - h * h) * h / std::pow(1.25, 1.5), 1e-8);
+  }
+}
+
+TEST(PathFollowing, TellsWhatMovesWhereThePathEnds) {
+  SoftlyPushedTruss truss;
+  PathSettings settings;
+  settings.first_increment = 0.05;
+  settings.smallest_length = 0.1;
+  try {
+    truss.follow(settings);
+    FAIL() << "no step is short enough";
+  } catch (const NumericalError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("bends more sharply"), std::string::npos) << text;
+    EXPECT_NE(text.find("c/0, y"), std::string::npos) << text;
+    EXPECT_EQ(text.find("d/0, x"), std::string::npos) << text;
+  }
+}
+
 TEST(PathFollowing, RefusesAPathOnWhichNothingChanges) {
   Truss truss(1.0, 0.5, Vec3::Zero());
   EXPECT_THROW(truss.follow(), NumericalError);

@@ -30,7 +30,7 @@ struct PathSettings {
   /// First change of the level [-]; with displacement control of the displacement [m].
   double first_increment = 0.1;
   int desired_iterations = 5;
-  double smallest_length = 1e-4;  ///< over the first one [-]
+  double smallest_length = 1e-6;  ///< over the first one [-]
   double largest_length = 10.0;   ///< likewise
   int steps = 200;                ///< at most
   std::optional<double> final_level;
@@ -82,6 +82,7 @@ class PathFollowing final : public Analysis {
 
   PathSettings settings_;
   int steps_ = 0;
+  int failures_ = 0;           ///< since the last step that was taken
   double size_ = 0.0;          ///< of the next step [m]
   double first_size_ = 0.0;    ///< of the first one
   double last_length_ = 0.0;   ///< between the last two points [m]

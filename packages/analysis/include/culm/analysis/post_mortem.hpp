@@ -61,7 +61,7 @@ class PostMortem {
   std::string history() const;
   std::string worst_rows() const;
   std::string cause(model::State& state, const Stencil& stencil);
-  std::string path_cause() const;
+  std::string path_cause(model::State& state, const Stencil& stencil);
   std::string dynamic_cause() const;
   /// Work that a motion takes, over what rounding of the matrix may make of it: below 1 where
   /// nothing resists.
