@@ -455,6 +455,25 @@ def verify_transition(culm, report):
                      history.vector("full last row")[1] / axial, across)
 
 
+def fold_ratio(culm, angle, thickness, n):
+    """Deflection of a folded strip over that of a frame with a stiff corner."""
+    history = culm.history("shell/folded_strip.xml",
+                           [f"a={angle}", f"t={thickness}", f"N={n}"])
+    cosine = math.cos(math.radians(angle))
+    reach = 1.0 - cosine
+    bending = cosine**2 / 3.0 + (reach**3 - (reach - 1.0) ** 3) / 3.0
+    return history.vector("tip")[1] * 1e6 * thickness**3 / 12.0 / 1e-4 / bending
+
+
+def verify_folds(culm, report):
+    report.title("Folded strip against a frame with a stiff corner, 10 and 20 elements per wall; 0.5 %")
+    for angle in (170, 90, 45, 20, 6):
+        for thickness in (0.02, 0.05):
+            for n in (10, 20):
+                report.relative(f"{angle} degrees, t = {thickness}, {n}",
+                                fold_ratio(culm, angle, thickness, n), 1.0, 5e-3)
+
+
 def verify_z_section(culm, report):
     report.title("SS-9: Z-section under torque (NAFEMS LE5), axial stress at the edge of a flange [MPa]")
     for n in (2, 4, 8):
@@ -566,6 +585,7 @@ def verify(culm, report):
     verify_sandwich(culm, report)
     verify_angle_ply(culm, report)
     verify_transition(culm, report)
+    verify_folds(culm, report)
     verify_z_section(culm, report)
     verify_layers(culm, report)
     verify_uniaxial(culm, report)

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <utility>
 
 namespace culm::joint {
 namespace {
@@ -42,6 +43,27 @@ void add_length_row(int node, int num_nodes, const Eigen::Matrix3Xd& q, Constrai
                                           attached_vector(node, num_nodes, Vec3::UnitX()), q));
 }
 
+// (d_A - b d_B) . (d_B - b d_A) = 0 of unit directors at the angle phi, b = tan(pi/4 - phi/2), over
+// what makes it the change of the angle. By a director its gradient is normal to this director, so
+// that it carries a moment and does not pull at the thickness; d_A . d_B alone would, with
+// moment * cot phi, which makes a sharp edge soft.
+void add_angle_row(const Eigen::Matrix3Xd& q, Constraint& joint) {
+  const double size_a = q.col(1).norm();
+  const double size_b = q.col(5).norm();
+  const Vec3 a = q.col(1) / size_a;
+  const Vec3 b = q.col(5) / size_b;
+  const double sine = a.cross(b).norm();
+  const double tangent = a.dot(b) / (1.0 + sine);
+  const double scale = 0.5 * (1.0 + sine) / sine;
+  SlotSum first(8, 0.0);
+  SlotSum second(8, 0.0);
+  first[1] = scale / size_a;
+  first[5] = -scale * tangent / size_b;
+  second[1] = -tangent / size_a;
+  second[5] = 1.0 / size_b;
+  joint.rows.push_back(model::product_row(std::move(first), std::move(second), q));
+}
+
 }  // namespace
 
 Constraint hinge_connection(const NodeTable& nodes, int first, int second) {
@@ -60,8 +82,7 @@ Constraint fold_connection(const NodeTable& nodes, int first, int second, bool i
   if (parallel) {
     add_slot_rows(1, d_first.dot(d_second) > 0.0 ? -1.0 : 1.0, q, joint);
   } else {
-    joint.rows.push_back(model::product_row(attached_vector(0, 2, Vec3::UnitX()),
-                                            attached_vector(1, 2, Vec3::UnitX()), q));
+    add_angle_row(q, joint);
   }
   if (inextensible) {
     add_length_row(0, 2, q, joint);

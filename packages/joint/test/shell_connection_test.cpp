@@ -154,9 +154,43 @@ TEST_F(ShellConnections, HingesJoinNodesOfAnyKind) {
   EXPECT_THAT(messages(), ElementsAre());
 }
 
+// Walls of any angle, made thicker or thinner alike, keep it; the moment of a fold does not pull at
+// its directors; and its row tells by how much they turn.
+TEST_F(ShellConnections, FoldsHoldTheAngleAndNoThickness) {
+  for (const double angle : {0.1, 0.5, 1.2, 1.6, 2.4, 3.05}) {
+    NodeTable nodes;
+    for (const double a : {0.0, angle}) {
+      model::NodeSlots slots = model::NodeSlots::Zero();
+      slots.col(1) = exp_rotation(a * Vec3::UnitY()) * Vec3::UnitZ();
+      nodes.add(slots, NodeKind::node6);
+    }
+    const model::Constraint fold = fold_connection(nodes, 0, 1);
+    const model::ConstraintRow& row = fold.rows.back();
+    const Eigen::Matrix3Xd q = model::slots_of(fold, nodes.reference());
+    EXPECT_NEAR(model::row_value(row, q), 0.0, 1e-14);
+    EXPECT_NEAR(model::row_value(row, 1.3 * q), 0.0, 1e-13) << angle;
+
+    const double h = 1e-5;
+    for (const int slot : {1, 5}) {
+      const auto change = [&](const Vec3& motion) {
+        Eigen::Matrix3Xd ahead = q;
+        Eigen::Matrix3Xd behind = q;
+        ahead.col(slot) += h * motion;
+        behind.col(slot) -= h * motion;
+        return (model::row_value(row, ahead) - model::row_value(row, behind)) / (2.0 * h);
+      };
+      const Vec3 d = q.col(slot);
+      EXPECT_NEAR(change(d), 0.0, 1e-9) << "thickness, angle " << angle;
+      const double opens = slot == 1 ? 1.0 : -1.0;  // d_A towards d_B lets the cosine grow
+      EXPECT_NEAR(change(Vec3::UnitY().cross(d)), opens, 1e-9) << "turn, angle " << angle;
+      EXPECT_NEAR(change(Vec3::UnitY()), 0.0, 1e-9) << "tilt, angle " << angle;
+    }
+  }
+}
+
 // Forces of a fold balance at the middle of a step between places where it holds.
 TEST_F(ShellConnections, FoldsKeepTheMomenta) {
-  make(Vec3::UnitX());
+  make(Vec3(0.6, 0.0, -0.8));
   join("Fold Connection");
   const model::Constraint& fold = model.constraints().front();
   Eigen::Matrix3Xd q = Eigen::Matrix3Xd::Zero(3, 8);

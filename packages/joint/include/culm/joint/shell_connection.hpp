@@ -5,14 +5,16 @@
 
 namespace culm::joint {
 
-/// Directors with a smaller sine of the angle between them count as parallel: the row d_A . d_B has
-/// no derivative by their relative rotation then. @source formulation 2.5
+/// Directors with a smaller sine of the angle between them count as parallel: the row of the angle
+/// has no derivative by their relative rotation where they are. @source formulation 2.5
 constexpr double parallel_directors = 0.05;
 
 /// x_A - x_B: three linear rows, between nodes of any kind.
 model::Constraint hinge_connection(const model::NodeTable& nodes, int first, int second);
-/// x_A - x_B and the angle between the directors, d_A . d_B: four rows. Between parallel directors
-/// x_A - x_B and d_A -+ d_B: six linear rows.
+/// x_A - x_B and the angle phi between the directors, (d_A - b d_B) . (d_B - b d_A) with
+/// b = tan(pi/4 - phi/2): four rows. The pair in brackets is orthogonal, and directors that change
+/// their lengths alike keep the angle. Between parallel directors x_A - x_B and d_A -+ d_B: six
+/// linear rows.
 /// @param inextensible  holds both lengths as well, 1/2 d . d: two more rows
 model::Constraint fold_connection(const model::NodeTable& nodes, int first, int second,
                                   bool inextensible = false);
