@@ -3,12 +3,19 @@
 
 import math
 
+import numpy as np
+from scipy.spatial.transform import Rotation
 from verify import figure, main, save
 
 TOP = "body/heavy_top.xml"
 # centre of mass of the heavy top, Runge-Kutta on quaternion and body rates, 8 digits
 TOP_REFERENCE = {0.2: (0.605550561, 0.598957682, -0.523983028),
-                 0.5: (-0.702468297, -0.021165184, -0.711400257)}
+                 0.5: (-0.702468297, -0.021165184, -0.711400257),
+                 1.0: (0.173343964, 0.640088591, -0.748490792),
+                 1.5: (-0.968165715, 0.250306064, -0.001422084),
+                 2.0: (-0.150416824, -0.724165592, -0.673022268)}
+# Jacobi functions: the spin about the intermediate axis changes its sign
+FLIPS = (2.74106806, 7.76699719)
 # other end of the spatial spaghetti at 10 s on a converged mesh
 SPAGHETTI_END = (38.312, 5.196, 4.252)
 
@@ -27,6 +34,65 @@ def verify_order(culm, report):
     for i in (0, 1):
         order = math.log2(errors[i] / errors[i + 1])
         report.check(f"order from {steps[i]} to {steps[i + 1]}", order, 2.0, 0.05)
+
+
+def verify_top(culm, report):
+    report.title("DY-5: heavy top over 2 s in steps of 1e-4 s")
+    history = culm.history(TOP, ["Analyses/motion/Step=1e-4", "Analyses/motion/End Time=2"])
+    for time, reference in TOP_REFERENCE.items():
+        report.check(f"centre at {time} s", history.vector("centre", time), list(reference), 1e-3)
+
+
+def verify_flips(culm, report):
+    report.title("DY-6: torque-free body in steps of 1e-3 s: where it turns over, half a period apart")
+    settings = ["Analyses/motion/Step=1e-3", "Analyses/motion/End Time=8", "Output/Every=1"]
+    settings += ["Output/History/turn/Type=Rotation", "Output/History/turn/Node=body"]
+    history = culm.history("body/torque_free.xml", settings)
+    names = [name for name in history.names if name.startswith("turn ")]
+    turned = Rotation.from_rotvec(np.column_stack([history.column(name) for name in names]))
+    spin = (turned[:-1].inv() * turned[1:]).as_rotvec()[:, 1]
+    times = np.array(history.levels)
+    middle = 0.5 * (times[1:] + times[:-1])
+    at = np.flatnonzero(spin[1:] * spin[:-1] < 0.0)
+    found = middle[at] + (middle[at + 1] - middle[at]) * spin[at] / (spin[at] - spin[at + 1])
+    report.check("number of flips", len(found), 2, 0)
+    report.relative("period [s]", 2.0 * (found[1] - found[0]), 2.0 * (FLIPS[1] - FLIPS[0]), 1e-4)
+    report.check("flips at [s]", list(found), list(FLIPS), 1e-3)
+
+
+def centres_of_mass(culm, deck, elements):
+    """Times and centres of mass of equal elements with uniform mass."""
+    settings = ["Output/Every=1"]
+    for node in range(elements + 1):
+        settings += [f"Output/History/n{node}/Type=Position", f"Output/History/n{node}/Node=beam/{node}"]
+    history = culm.history(deck, settings)
+    weights = np.full(elements + 1, 1.0 / elements)
+    weights[[0, -1]] *= 0.5
+    positions = [[history.column(f"n{node} {axis} [m]") for node in range(elements + 1)] for axis in "xyz"]
+    return np.array(history.levels), np.einsum("n,ant->at", weights, np.array(positions))
+
+
+def verify_centres(culm, report):
+    report.title("DY-1: spaghetti in the plane, centre of mass over 10 s; exact for steps that meet 2.5 s")
+    times, centre = centres_of_mass(culm, "flight/spaghetti_2d.xml", 10)
+    exact = np.where(times <= 2.5, 3.0 + 0.4 * times**2, 5.5 + 2.0 * (times - 2.5))
+    report.holds("x, largest over 10 m", np.abs(centre[0] - exact).max() / 10.0, 1e-10)
+    report.holds("y, z, largest over 10 m", np.abs(centre[1:] - [[4.0], [0.0]]).max() / 10.0, 1e-10)
+    report.title("DY-2: spaghetti in space, centre of mass")
+    times, centre = centres_of_mass(culm, "flight/spaghetti_3d.xml", 20)
+    late = times >= 5.0 - 1e-9
+    # the scheme integrates the two ramps of the triangle with opposite errors
+    error = np.abs(centre[0] - (15.5 + 5.0 * (times - 5.0)))[late].max()
+    report.holds("x from 5 s on, largest over 10 m", error / 10.0, 1e-10)
+    report.holds("y, z, largest over 10 m", np.abs(centre[1:] - [[4.0], [0.0]]).max() / 10.0, 1e-10)
+
+
+def fine(culm, report):
+    report.title("DY-6: torque-free body over 1e6 steps of 1e-3 s")
+    settings = ["Analyses/motion/Step=1e-3", "Analyses/motion/End Time=1000", "Output/Every=100000"]
+    run = culm.run("body/torque_free.xml", settings, quiet=False)
+    for what in ("energy balance", "angular momentum"):
+        report.holds(what, run.drift(what), 1e-10)
 
 
 def verify_adaptive(culm, report):
@@ -97,6 +163,9 @@ def verify_loops(culm, report):
 
 def verify(culm, report):
     verify_order(culm, report)
+    verify_top(culm, report)
+    verify_flips(culm, report)
+    verify_centres(culm, report)
     verify_adaptive(culm, report)
     verify_balances(culm, report)
     verify_spaghetti(culm, report)
@@ -119,4 +188,4 @@ def plot(culm, path):
     save(fig, path)
 
 
-main(verify, plot)
+main(verify, plot, fine)
