@@ -174,10 +174,16 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     std::fill(target.values.begin(), target.values.end(), 0.0);
   }
   Verdict verdict = Verdict::ok;
+  std::optional<Ledger::Scope> scope;
   for (std::size_t b = 0; b < batches_.size(); ++b) {
-    const Ledger::Scope scope(ledger_, effects_[b]);
+    if (scope) {
+      scope->pass_to(effects_[b]);
+    } else {
+      scope.emplace(ledger_, effects_[b]);
+    }
     verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
   }
+  scope.reset();
   if (stencil.inertia != 0.0 && carried_) {
     for (std::size_t row = 0; row < carried_->size(); ++row) {
       target.residual[row] += (*carried_)[row] / stencil.step;

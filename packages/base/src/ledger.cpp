@@ -109,6 +109,13 @@ Ledger::Scope::Scope(Ledger& ledger, Id id) : ledger_(ledger), outer_(ledger.inn
   ++ledger_.entries_[static_cast<std::size_t>(id_)].calls;
 }
 
+void Ledger::Scope::pass_to(Id id) {
+  CULM_ASSERT(id >= 0 && static_cast<std::size_t>(id) < ledger_.entries_.size());
+  ledger_.book();
+  id_ = id;
+  ++ledger_.entries_[static_cast<std::size_t>(id)].calls;
+}
+
 Ledger::Scope::~Scope() {
   ledger_.book();
   ledger_.innermost_ = outer_;

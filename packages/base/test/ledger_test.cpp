@@ -43,6 +43,23 @@ TEST(Ledger, TimeIsCountedOnceWhenScopesNest) {
   EXPECT_LE(ledger.seconds(), elapsed);
 }
 
+TEST(Ledger, AScopePassesToAnotherEntry) {
+  Ledger ledger;
+  const Ledger::Id first = ledger.add("Gravity");
+  const Ledger::Id second = ledger.add("Force");
+  {
+    Ledger::Scope scope(ledger, first);
+    wait(2e-3);
+    scope.pass_to(second);
+    wait(5e-3);
+  }
+  EXPECT_EQ(ledger.entry(first).calls, 1);
+  EXPECT_EQ(ledger.entry(second).calls, 1);
+  EXPECT_GE(ledger.entry(first).seconds, 2e-3);
+  EXPECT_LT(ledger.entry(first).seconds, ledger.entry(second).seconds);
+  EXPECT_GE(ledger.entry(second).seconds, 5e-3);
+}
+
 TEST(Ledger, ScopesMayRegisterEffects) {
   Ledger ledger;
   const Ledger::Id first = ledger.add("first");

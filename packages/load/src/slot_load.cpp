@@ -13,6 +13,21 @@ namespace {
 using Motion = model::ItemMotion<SlotLoad::max_nodes>;
 using ItemSlots = Motion::Slots;
 
+// Slots of an item as in Motion; its arms would cost more than the work of the forces.
+struct Ends {
+  Ends(const std::vector<int>& nodes, const model::State& state, double theta)
+      : mid(3, 4 * static_cast<int>(nodes.size())), next(mid) {
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const int at = 4 * static_cast<int>(a);
+      next.middleCols<4>(at) = model::NodeTable::slots(state.next, nodes[a]);
+      mid.middleCols<4>(at) = (1.0 - theta) * model::NodeTable::slots(state.prev, nodes[a]) +
+                              theta * next.middleCols<4>(at);
+    }
+  }
+
+  ItemSlots mid, next;
+};
+
 // x = sum_s T_s q_s of a material point
 Eigen::VectorXd point_factors(const model::Marker& point) {
   Eigen::VectorXd T(4 * static_cast<int>(point.nodes.size()));
@@ -167,9 +182,10 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-    const Motion motion(nodes_, item.nodes, state, stencil.theta);
-    const ItemSlots f = factor * (item.constant + motion.mid * item.linear.transpose());
-    add_item_work(f, motion, item.nodes, state, works, work);
+    const Ends ends(item.nodes, state, stencil.theta);
+    ItemSlots f = factor * item.constant;
+    if (item.follows) f.noalias() += factor * ends.mid.lazyProduct(item.linear.transpose());
+    add_item_work(f, ends, item.nodes, state, works, work);
   }
   return work;
 }

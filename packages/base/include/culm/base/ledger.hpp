@@ -54,6 +54,10 @@ class Ledger {
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
+    /// Goes on with another entry: what follows counts there. One look at the clock for two scopes
+    /// in a row.
+    void pass_to(Id id);
+
    private:
     Ledger& ledger_;
     Scope* outer_;

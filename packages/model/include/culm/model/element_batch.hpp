@@ -195,7 +195,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
     double taken = 0.0;
     Strain y;
-    Response<M> response;
+    [[maybe_unused]] Response<M> response;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
       const int item = placement_.items[i];
@@ -203,11 +203,15 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       for (int p = 0; p < E::num_points; ++p) {
         const Strain& prev = strain_prev_[at(i, p)];
         element(item).strain(p, q, y);
-        Internals internals{};
-        if constexpr (has_internals) internals = internals_.at(at(i, p), y);
-        respond(i, p, y, damped, internals, response);
         // what the stress takes beyond the change of the stored energy
-        taken += response.stress.dot(y - prev) - (energy_of(i, p, y) - energy_of(i, p, prev));
+        if constexpr (HasStiffness<E>) {
+          taken += (2.0 * damped.theta_strain - 1.0) * element(item).energy(p, y - prev);
+        } else {
+          Internals internals{};
+          if constexpr (has_internals) internals = internals_.at(at(i, p), y);
+          respond(i, p, y, damped, internals, response);
+          taken += response.stress.dot(y - prev) - (energy_of(i, p, y) - energy_of(i, p, prev));
+        }
       }
     }
     StepWork work;
