@@ -243,8 +243,8 @@ void PathFollowing::refuse_idle_level(const model::State& state) const {
   throw NumericalError(fmt::format(
       "There is no path to follow at level {:.6g}: nothing that moves the structure changes with "
       "the level there.\n"
-      "Try: a load or prescribed motion with a function that grows with the level. The default "
-      "'Ramp' ends at level 1; 'Linear' goes on.",
+      "Try: a load or prescribed motion with a function that grows with the level, such as "
+      "'Ramp'.",
       state.time));
 }
 
@@ -334,8 +334,7 @@ void PathFollowing::refuse_end_of_loads(Context& context, model::State& state) c
   throw NumericalError(
       fmt::format("The path ends at level {:.6g}: the growth of loads or prescribed motions with "
                   "the level changes abruptly there.\n"
-                  "Try: functions without corners. The default 'Ramp' is held below level 0 and "
-                  "above level 1; 'Linear' goes on.",
+                  "Try: functions without corners, such as 'Ramp'.",
                   state.time));
 }
 

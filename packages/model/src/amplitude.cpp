@@ -21,6 +21,10 @@ Amplitude Amplitude::ramp() {
   return of_time([](double time) { return std::clamp(time, 0.0, 1.0); });
 }
 
+Amplitude Amplitude::level() {
+  return of_time([](double time) { return time; });
+}
+
 Amplitude Amplitude::constant(double value) {
   Amplitude amplitude = of_time([value](double) { return value; });
   amplitude.is_constant_ = true;

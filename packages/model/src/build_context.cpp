@@ -117,9 +117,10 @@ Vec3 vector(const Options& options, const std::string& parameter) {
 }
 
 Field function_field(std::string fallback, std::string name) {
-  return text(std::move(name),
-              "Function of time, from the list Functions; 'Ramp' is time held between 0 and 1, "
-              "'Constant' is 1.")
+  return text(
+             std::move(name),
+             "Function of time, from the list Functions; 'Ramp' is time held between 0 and 1, in a "
+             "Path the level; 'Constant' is 1.")
       .optional(std::move(fallback));
 }
 

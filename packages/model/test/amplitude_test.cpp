@@ -68,6 +68,11 @@ TEST_F(Functions, RampIsTheLoadParameter) {
   EXPECT_EQ(Amplitude::ramp().at(7.0), 1.0);
 }
 
+TEST_F(Functions, ThatOfAPathHasNoBounds) {
+  EXPECT_EQ(Amplitude::level().at(-0.5), -0.5);
+  EXPECT_EQ(Amplitude::level().at(7.0), 7.0);
+}
+
 TEST_F(Functions, ActInAStepAtTheta) {
   const Amplitude amplitude = make("Linear", {{"Duration", 1.0}});
   EXPECT_DOUBLE_EQ(in_step(amplitude, 0.2, 0.6, 0.5), 0.4);

@@ -134,15 +134,15 @@ std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const O
 }  // namespace
 
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
-                                         const Imperfections& imperfections,
-                                         const Inactive& inactive, const Log& log,
-                                         model::Model& model) {
+                                         const Imperfections& imperfections, const Setting& setting,
+                                         const Log& log, model::Model& model) {
   InputIssues issues;
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
-  const auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
+  auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
+  if (setting.is_path) functions.emplace("Ramp", model::Amplitude::level());
   const int refinement = deck.integer("Refinement");
-  const model::Imperfection imperfection = imperfections.sum(inactive);
+  const model::Imperfection imperfection = imperfections.sum(setting.inactive);
   beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection};
   shell::ShellContext shells{model, materials, log, refinement, &imperfection};
   model::BuildContext context{model, functions, issues};
@@ -152,10 +152,11 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   add_node_sets(deck.list("Node Sets"), context);
   add_element_sets(deck.list("Element Sets"), context);
   build_all(catalogue.masses, deck.list("Masses"), context);
-  build_all(catalogue.constraints, deck.list("Constraints"), context, inactive);
-  build_all(catalogue.loads, deck.list("Loads"), context, inactive);
+  build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
+  build_all(catalogue.loads, deck.list("Loads"), context, setting.inactive);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
-  auto watched = make_quantities(catalogue, deck.list("Output").list("History"), inactive, context);
+  auto watched =
+      make_quantities(catalogue, deck.list("Output").list("History"), setting.inactive, context);
   issues.throw_if_any();
   const bool null_space = deck.list("Solver").text("Form") == "Null Space";
   for (const std::string& note :

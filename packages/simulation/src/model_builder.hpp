@@ -13,8 +13,7 @@ namespace culm::simulation {
 /// Fills the model with all that the deck lists but what does not act, and freezes it. Throws
 /// InputError with all mistakes. @return the quantities that the history watches
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
-                                         const Imperfections& imperfections,
-                                         const Inactive& inactive, const Log& log,
-                                         model::Model& model);
+                                         const Imperfections& imperfections, const Setting& setting,
+                                         const Log& log, model::Model& model);
 
 }  // namespace culm::simulation

@@ -7,6 +7,7 @@
 #include "silent_quantity.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace culm::simulation {
@@ -44,6 +45,20 @@ class Occurrences {
  private:
   std::map<std::string, int> counts_;
 };
+
+// The analysis whose last state an analysis starts from, if it is one of this run.
+std::optional<std::size_t> origin_of(const std::vector<Options>& analyses, std::size_t i) {
+  if (!analyses[i].has("Start From")) return i == 0 ? std::nullopt : std::optional(i - 1);
+  for (std::size_t earlier = 0; earlier < i; ++earlier) {
+    if (analyses[earlier].name() == analyses[i].text("Start From")) return earlier;
+  }
+  return {};
+}
+
+bool moves(const Options& analysis) {
+  const std::string& type = analysis.text("Type");
+  return type == "Static" || type == "Path" || type == "Dynamic";
+}
 
 struct Range {
   std::size_t first = 0;
@@ -96,21 +111,24 @@ Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfecti
     : catalogue_(catalogue), deck_(deck), imperfections_(imperfections), log_(log) {
   const std::vector<Options>& analyses = deck.list("Analyses").entries();
   for (std::size_t i = 0; i < analyses.size(); ++i) {
-    Inactive inactive = read_inactive(deck, analyses[i]);
-    inactive.merge(imperfections.unknown_in(i));
-    by_analysis_.push_back(&find_or_build(inactive));
+    Setting setting{read_inactive(deck, analyses[i]), analyses[i].text("Type") == "Path"};
+    setting.inactive.merge(imperfections.unknown_in(i));
+    // what looks at a state has the loads that led there
+    const std::optional<std::size_t> origin = origin_of(analyses, i);
+    if (origin && !moves(analyses[i])) setting.is_path = of(*origin).setting.is_path;
+    by_analysis_.push_back(&find_or_build(setting));
   }
   refuse_jumps();
   complete_columns();
 }
 
-Phase& Phases::find_or_build(const Inactive& inactive) {
+Phase& Phases::find_or_build(const Setting& setting) {
   for (Phase& phase : phases_) {
-    if (phase.inactive == inactive) return phase;
+    if (phase.setting == setting) return phase;
   }
   Phase& phase = phases_.emplace_back();
-  phase.inactive = inactive;
-  phase.bent_by = imperfections_.acting(inactive);
+  phase.setting = setting;
+  phase.bent_by = imperfections_.acting(setting.inactive);
   build(phase);
   return phase;
 }
@@ -118,27 +136,19 @@ Phase& Phases::find_or_build(const Inactive& inactive) {
 void Phases::build(Phase& phase) const {
   phase.watched.clear();
   phase.model = std::make_unique<model::Model>();
-  phase.watched =
-      build_model(catalogue_, deck_, imperfections_, phase.inactive, log_, *phase.model);
+  phase.watched = build_model(catalogue_, deck_, imperfections_, phase.setting, log_, *phase.model);
 }
 
 // A state of one geometry would be under stress in another.
 void Phases::refuse_jumps() const {
   const std::vector<Options>& analyses = deck_.list("Analyses").entries();
   InputIssues issues;
-  for (std::size_t i = 1; i < analyses.size(); ++i) {
-    std::size_t origin = i - 1;
-    if (analyses[i].has("Start From")) {
-      const std::string& from = analyses[i].text("Start From");
-      const auto found = std::find_if(analyses.begin(), analyses.begin() + static_cast<long>(i),
-                                      [&](const Options& one) { return one.name() == from; });
-      origin = static_cast<std::size_t>(found - analyses.begin());
-      if (origin == i) continue;  // the reference, or another run
-    }
-    if (of(origin).bent_by == of(i).bent_by) continue;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    const std::optional<std::size_t> origin = origin_of(analyses, i);
+    if (!origin || of(*origin).bent_by == of(i).bent_by) continue;
     issues.add(analyses[i].where("Start From"),
                "imperfections give it another stress-free geometry than '" +
-                   analyses[origin].name() + "' has; start it from 'Reference'");
+                   analyses[*origin].name() + "' has; start it from 'Reference'");
   }
   issues.throw_if_any();
 }

@@ -19,9 +19,17 @@ namespace culm::simulation {
 /// Loads, constraints and imperfections that do not act, by name.
 using Inactive = std::set<std::string>;
 
+/// What an analysis wants of its model.
+struct Setting {
+  Inactive inactive;
+  bool is_path = false;  ///< 'Ramp' goes on below level 0 and above level 1
+
+  bool operator==(const Setting&) const = default;
+};
+
 /// The model of analyses in which the same loads, constraints and imperfections act.
 struct Phase {
-  Inactive inactive;
+  Setting setting;
   std::set<std::string> bent_by;  ///< imperfections that analyses of this run find
   std::unique_ptr<model::Model> model;
   std::vector<WatchedQuantity> watched;
@@ -46,7 +54,7 @@ class Phases {
   const Phase& of(std::size_t analysis) const { return *by_analysis_[analysis]; }
 
  private:
-  Phase& find_or_build(const Inactive& inactive);
+  Phase& find_or_build(const Setting& setting);
   void build(Phase& phase) const;
   void refuse_jumps() const;
   void complete_columns();

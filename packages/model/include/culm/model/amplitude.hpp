@@ -21,6 +21,8 @@ class Amplitude {
   static Amplitude of_step(OfStep function);
   /// Time, held between 0 and 1: the load parameter of a static analysis.
   static Amplitude ramp();
+  /// Time: the load parameter of a path, which goes below 0 and beyond 1.
+  static Amplitude level();
   static Amplitude constant(double value = 1.0);
 
   /// What acts in a step: the value at (1 - theta) time_prev + theta time, or that of the step.
