@@ -55,6 +55,11 @@ class Removals(unittest.TestCase):
         self.assertEqual(settings(found, "gravity"), [['Analyses/start/Inactive={"brake", "weight"}']])
         self.assertEqual(settings(found, "spring"), [])
 
+    def test_followers_stop_turning(self):
+        loads = entry("push", {"Type": "Follower Force", "Turning": "true"}) + entry("pull", {"Type": "Force"})
+        found = removals.find(deck(entry("Loads", {}, loads)))
+        self.assertEqual(settings(found, "turning of the load"), [["Loads/push/Turning=false"]])
+
     def test_torsion_of_a_matrix_is_its_last_entry(self):
         matrix = "{" + ", ".join(str(float(i)) for i in range(21)) + "}"
         sections = entry("Sections", {}, entry("bar", {"Type": "Stiffness Matrix", "Stiffness": matrix}))

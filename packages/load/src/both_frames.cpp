@@ -10,27 +10,45 @@ void add_type(model::BuilderRegistry& registry, const std::string& type, Schema 
   registry.add(type, std::move(schema), [=](const Options& options, model::BuildContext& context) {
     auto function = model::find_function(options, context);
     if (!function) return;
-    auto load = make({options, context, effect_name(type, options), *std::move(function), frame});
+    const bool turns = frame == Frame::directors && options.flag("Turning");
+    auto load =
+        make({options, context, effect_name(type, options), *std::move(function), frame, turns});
     if (load) context.model.add_load(std::move(load));
   });
 }
 
 }  // namespace
 
+Vec3 LoadRequest::components(const std::string& parameter, const model::Marker& point) const {
+  if (turns || frame == Frame::space) return vector(parameter);
+  Mat3 directors = Mat3::Zero();
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    directors += point.weights[a] *
+                 model::NodeTable::slots(nodes().reference(), point.nodes[a]).rightCols<3>();
+  }
+  return directors * vector(parameter);
+}
+
 void register_both_frames(model::BuilderRegistry& registry, const LoadType& type,
                           const Schema& fields, MakeLoad make) {
-  const auto add = [&](const std::string& name, const char* frame_doc, const char* components,
-                       Frame frame) {
-    add_type(registry, name,
-             Schema(name, type.doc + frame_doc)
-                 .add_all(fields)
-                 .add(model::vector_field(type.quantity, type.unit, components))
-                 .add(model::function_field("Ramp")),
-             frame, make);
+  const auto schema = [&](const std::string& name, const char* frame_doc, const char* components) {
+    return Schema(name, type.doc + frame_doc)
+        .add_all(fields)
+        .add(model::vector_field(type.quantity, type.unit, components))
+        .add(model::function_field("Ramp"));
   };
-  add(type.name, ", fixed in space.", "Components in space at function value 1.", Frame::space);
-  add("Follower " + type.name, ", turning with the directors.",
-      "Components in the directors at function value 1.", Frame::directors);
+  add_type(registry, type.name,
+           schema(type.name, ", fixed in space.", "Components in space at function value 1."),
+           Frame::space, make);
+  const std::string follower = "Follower " + type.name;
+  add_type(registry, follower,
+           schema(follower, ", turning with the directors.",
+                  "Components in the directors at function value 1.")
+               .add(flag("Turning",
+                         "Whether it turns; if not, it keeps the direction that the directors of "
+                         "the reference give it.")
+                        .optional(true)),
+           Frame::directors, make);
 }
 
 void check_components(const std::string& parameter, const std::vector<int>& nodes,

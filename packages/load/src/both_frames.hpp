@@ -16,9 +16,14 @@ struct LoadRequest {
   model::BuildContext& context;
   std::string effect;  ///< name in the ledger
   model::Amplitude function;
-  Frame frame;
+  Frame frame;         ///< of the components in the deck
+  bool turns = false;  ///< with the directors; if not, it keeps the direction of the reference
 
   Vec3 vector(const std::string& parameter) const { return model::vector(options, parameter); }
+  /// Frame in which the load keeps its components.
+  Frame kept_in() const { return turns ? Frame::directors : Frame::space; }
+  /// Components of a vector in that frame, at a point.
+  Vec3 components(const std::string& parameter, const model::Marker& point) const;
   const model::NodeTable& nodes() const { return context.model.nodes(); }
 };
 

@@ -15,7 +15,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   for (int node : nodes) {
     model::Marker point = model::marker_at(node);
     point.offset = request.vector("Offset");
-    load->add_force(point, request.vector("Force"), request.frame);
+    load->add_force(point, request.components("Force", point), request.kept_in());
   }
   return load;
 }

@@ -17,7 +17,8 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
     check_components("Force", nodes, request.options, request.context);
   for (model::LinePoint point : points) {
     point.marker.offset += request.vector("Offset");
-    load->add_force(point.marker, point.length * request.vector("Force"), request.frame);
+    load->add_force(point.marker, point.length * request.components("Force", point.marker),
+                    request.kept_in());
   }
   return load;
 }

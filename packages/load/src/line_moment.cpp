@@ -25,9 +25,9 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   if (points.empty()) return nullptr;
   refuse_following_moment(request, points.front().marker.nodes);
   auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
-                                           request.frame);
+                                           request.kept_in());
   for (const auto& [node, length] : lengths_of_nodes(points)) {
-    load->add_moment(node, length * request.vector("Moment"));
+    load->add_moment(node, length * request.components("Moment", model::marker_at(node)));
   }
   return load;
 }

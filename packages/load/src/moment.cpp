@@ -8,11 +8,11 @@ namespace {
 
 std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
-                                           request.frame);
+                                           request.kept_in());
   const auto nodes = model::select_loaded_nodes(request.options, "Node", request.context);
   refuse_following_moment(request, nodes);
   for (int node : nodes) {
-    load->add_moment(node, request.vector("Moment"));
+    load->add_moment(node, request.components("Moment", model::marker_at(node)));
   }
   return load;
 }

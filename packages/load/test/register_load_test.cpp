@@ -189,6 +189,24 @@ TEST_F(Loads, FollowerLineMomentsTurnWithTheirNodes) {
   EXPECT_LT((total.moment - expected).norm(), round_off);
 }
 
+TEST_F(Loads, FollowersThatDoNotTurnKeepTheDirectionOfTheReference) {
+  build("Follower Force",
+        {{"Node", std::string("line/last")}, {"Force", numbers}, {"Turning", false}});
+  const Mat3 directors = triad(model::marker_at(2), model.nodes().reference());
+  const model::Coordinates q = moved();
+  EXPECT_LT((kit::resultant_of(slot_forces(q), q).force - directors * components).norm(),
+            round_off);
+}
+
+TEST_F(Loads, FollowerMomentsThatDoNotTurnKeepTheDirectionOfTheReference) {
+  build("Follower Moment",
+        {{"Node", std::string("line/last")}, {"Moment", numbers}, {"Turning", false}});
+  const Mat3 directors = triad(model::marker_at(2), model.nodes().reference());
+  const model::Coordinates q = moved();
+  EXPECT_LT((kit::resultant_of(slot_forces(q), q).moment - directors * components).norm(),
+            round_off);
+}
+
 TEST_F(Loads, EachSelectedNodeCarriesTheWholeForce) {
   build("Force", {{"Node", std::string("line")}, {"Force", numbers}});
   const model::Coordinates q = moved();

@@ -105,6 +105,13 @@ def loads(deck):
             yield Removal(kind, name, settings)
 
 
+def following(deck):
+    """The turning of forces and moments with the directors, and with it the stiffness of that."""
+    for name in deck.names_in("Loads"):
+        if deck.parameters.get(f"Loads/{name}/Turning") == "true":
+            yield Removal("turning of the load", name, [f"Loads/{name}/Turning=false"])
+
+
 def masses(deck):
     for name in deck.names_in("Masses"):
         value = float(deck.parameters[f"Masses/{name}/Mass"])
@@ -141,6 +148,7 @@ FINDERS = [
     enhanced_strains,
     thickness_stretch,
     loads,
+    following,
     masses,
     dissipation,
     prestress,
