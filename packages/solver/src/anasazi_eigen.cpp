@@ -119,7 +119,7 @@ InvertedPairs solve_krylov_schur(const ShiftedPencil& op, int count, const Eigen
   internal_check(problem->setProblem(), "Anasazi takes the problem");
   Teuchos::ParameterList list = parameters(count, whole.size() - static_cast<int>(found.cols()));
   Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, LinearOp> solver(problem, list);
-  const bool converged = solver.solve() == Anasazi::Converged;
+  const bool converged = guarded([&] { return solver.solve(); }) == Anasazi::Converged;
   const auto& solution = problem->getSolution();
   if (!converged) throw_unconverged(solution.numVecs, count, most_restarts);
 

@@ -1,8 +1,11 @@
 /// The methods behind the eigensolvers: large eigenvalues nu of an operator that inverts.
 #pragma once
 
+#include <culm/base/error.hpp>
+
 #include "shift_invert.hpp"
 
+#include <exception>
 #include <functional>
 
 namespace culm::solver {
@@ -50,6 +53,21 @@ InvertedPairs solve_lanczos(const ShiftedPencil& op, int count, const Eigen::Mat
 InvertedPairs solve_krylov_schur(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found);
 
 [[noreturn]] void throw_unconverged(int converged, int count, int restarts);
+/// Of a Krylov space that is exhausted before it holds what is looked for.
+[[noreturn]] void throw_broken_down();
+
+/// Runs a method of a library, which may throw where a space is exhausted and numbers grow beyond
+/// all bounds.
+template <class Method>
+auto guarded(const Method& method) {
+  try {
+    return method();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception&) {
+    throw_broken_down();
+  }
+}
 
 /// Any real operator: y = T x.
 struct Operator {

@@ -139,6 +139,8 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
         std::max(result.worst_residual, (Ax - result.values[i] * Bx).lpNorm<Eigen::Infinity>() /
                                             inverse.absolute(*pencil.A, x).maxCoeff());
   }
+  constexpr double useless = 1e-3;  // sound vectors have 1e-8 and less
+  if (result.worst_residual > useless) throw_broken_down();
   return result;
 }
 

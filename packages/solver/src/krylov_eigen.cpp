@@ -79,9 +79,11 @@ int space(int count, int size) { return std::min(size, std::max(2 * count + 1, c
 
 template <class Solver>
 void run(Solver& solver, int count) {
-  solver.init();
-  const auto converged = solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
-                                        Spectra::SortRule::LargestMagn);
+  const auto converged = guarded([&] {
+    solver.init();
+    return solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
+                          Spectra::SortRule::LargestMagn);
+  });
   if (solver.info() == Spectra::CompInfo::Successful) return;
   throw_unconverged(static_cast<int>(converged), count, most_restarts);
 }
@@ -93,6 +95,13 @@ void throw_unconverged(int converged, int count, int restarts) {
       fmt::format("The eigenproblem was not solved: {} of {} values converged in {} restarts.\n"
                   "Try: more or fewer modes, another shift, or 'Solver' = Dense.",
                   converged, count, restarts));
+}
+
+void throw_broken_down() {
+  throw NumericalError(
+      "The eigenproblem was not solved: the vectors found do not fulfil its equations.\n"
+      "Likely cause: more modes are asked for than the model has, or nothing in it is elastic.\n"
+      "Try: fewer modes, or 'Solver' = Dense.");
 }
 
 InvertedPairs solve_lanczos(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found) {
