@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Equilibrium paths: SB-4, HY-7, HY-8, SB-6, SB-7, SS-6, SS-8. Page: doc/verification/paths.md."""
+"""Equilibrium paths: SB-4, HY-6 to HY-8, SB-6, SB-7, SS-6, SS-8. Page: doc/verification/paths.md."""
 
 import math
 import re
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 from lee_frame import TABLE, mesh
-from verify import figure, main, save
+from verify import figure, main, richardson, save
 
 # force over 3000, deflection of the centre; Sze, Liu, Lo (2004), 3.8, by way of a test file
 ROOF_THICK = [
@@ -237,6 +237,83 @@ def verify_hybrid(culm, report):
     report.check("u, v at the lowest load, slide", [low[1], -low[2]], [47.0, 31.0], 4.0)
 
 
+BLADE_DECK = "shell/blade_path.xml"
+BLADE_SLIDE = (3.2, 0.17), (8.5, 0.145)  # deflection and level at the limit, at the end of the plateau
+PLY = {"E1": 40e9, "E2": 10e9, "nu12": 0.3, "G12": 4e9}
+PLIES = ((0.02, 0.0), (0.03, 90.0))  # thickness, angle
+
+
+def blade(culm, n, *settings):
+    """Level and deflection of the tip, and the events; long steps beyond the buckling."""
+    history, events = follow(culm, BLADE_DECK, [f"n={n}", *settings])
+    return curve_of(history, "tip uy [m]"), events
+
+
+def blade_buckles(culm, n):
+    """The same in short steps, to where the load grows again after the skin has buckled."""
+    return blade(culm, n, "Analyses/bending/Desired Iterations=3",
+                 "Analyses/bending/Watch/Final Displacement=1.75")
+
+
+def blade_whole(culm, n):
+    return blade(culm, n, "Analyses/bending/Largest Length=2")
+
+
+def blade_flexibility(chord=2.0, thickness=0.35, length=14.0, at=0.6, pieces=4000):
+    """Deflection by a unit force at the tip of a thin-walled beam: bending and shear flow [m/N]."""
+    e1, e2, nu, g = PLY.values()
+    q11, q22, q12 = np.array([e1, e2, nu * e2]) / (1.0 - nu**2 * e2 / e1)
+    wall = sum(t for t, _ in PLIES)
+    along = sum(t * (q11 if a == 0.0 else q22) for t, a in PLIES)
+    around = sum(t * (q22 if a == 0.0 else q11) for t, a in PLIES)
+    tension = along - (wall * q12) ** 2 / around  # of a wall that is free to become narrower
+    root = 1.0 - 2.0 * np.linspace(0.0, 1.0, pieces + 1)
+    x = root**2
+    rest = x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)))
+    y = 5.0 * thickness * (0.2969 * root + np.where(root < 0.0, -rest, rest))
+    points = chord * np.column_stack([x, y])
+    d, middle = np.diff(points, axis=0), 0.5 * (points[1:] + points[:-1])
+    ds = np.linalg.norm(d, axis=1)
+    inertia = (ds * (middle[:, 1] ** 2 + d[:, 1] ** 2 / 12.0)).sum()
+    first = ds * middle[:, 1]
+    flow = -(np.cumsum(first) - 0.5 * first) / inertia
+    flow /= (flow * d[:, 1]).sum()
+    arm = middle[:, 0] * d[:, 1] - middle[:, 1] * d[:, 0]
+    flow += (at - (flow * arm).sum()) / arm.sum()  # the force at its place
+    shear = (flow**2 * ds).sum() / (g * wall)
+    return length**3 / (3.0 * tension * inertia) + length * shear
+
+
+def verify_blade(culm, report):
+    report.title("HY-6: blade bent by a force at its tip; level in MN")
+    limits, buckles = [], []
+    for n in (1, 1.5):
+        buckled, events = blade_buckles(culm, n)
+        peak_load, valley = levels_of(events, "limit point")[:2]
+        path, events = blade_whole(culm, n)
+        limit, deflection = max((level, u) for kind, level, u in events if kind == "limit point")
+        limits.append(limit)
+        buckles.append(peak_load)
+        report.note(f"refinement {n}: skin buckles at {peak_load:.4f}, then {valley:.4f}, limit "
+                    f"{limit:.4f} at {deflection:.2f} m, end {path[-1, 0]:.4f}")
+        report.relative("deflection of the first step, thin-walled beam", path[1, 1],
+                        1e6 * path[1, 0] * blade_flexibility(), 0.02)
+    ends = richardson(*limits, ratio=1.5), richardson(*buckles, ratio=1.5)
+    report.note(f"extrapolated: skin buckles at {ends[1]:.4f}, limit {ends[0]:.4f}")
+    report.relative("limit, refinement 1.5 against extrapolated", limits[1], ends[0], 0.03)
+    report.relative("buckling, refinement 1.5 against extrapolated", buckles[1], ends[1], 0.05)
+    report.holds("the load drops when the skin buckles: valley over peak", valley / peak_load, 0.99)
+    before = buckled[: buckled[:, 0].argmax()]
+    secant = before[1:, 1] / before[1:, 0]
+    report.holds("deflection over load grows before that", secant[-3] / secant[0] - 1.0, 0.1)
+    (at_limit, high), (at_end, low) = BLADE_SLIDE
+    report.check("plateau over limit, slide", path[-1, 0] / limit, low / high, 0.05)
+    report.check("it reaches so many deflections at the limit, slide", path[-1, 1] / deflection,
+                 at_end / at_limit, 0.5)
+    beyond = path[path[:, 1] > buckled[-1, 1], 0]
+    report.holds("from the buckling to the end, load below limit", 1.0 - beyond.min() / limit, 0.2)
+
+
 FRAME_DECK = "beam/right_angle_frame.xml"
 BUCKLING = ((1, 1.08752), (-1, 0.68043))
 
@@ -339,13 +416,31 @@ def verify(culm, report):
     verify_controls(culm, report)
     verify_half(culm, report)
     verify_hybrid(culm, report)
+    verify_blade(culm, report)
     verify_lateral(culm, report)
     verify_ring(culm, report)
     verify_roofs(culm, report)
 
 
+def verify_fine_blade(culm, report):
+    report.title("HY-6: blade, refinements 2 and 3 against those of refinements 1 and 1.5; 0.5 %")
+
+    def levels(n):
+        first = levels_of(blade_buckles(culm, n)[1], "limit point")[0]
+        return [first, max(levels_of(blade_whole(culm, n)[1], "limit point"))]
+
+    coarse = richardson(levels(1), levels(1.5), ratio=1.5)
+    fine_levels = levels(2), levels(3)
+    for n, (buckling_level, limit) in zip((2, 3), fine_levels):
+        report.note(f"refinement {n}: skin buckles at {buckling_level:.4f}, limit {limit:.4f}")
+    finest = richardson(*fine_levels, ratio=1.5)
+    for k, name in enumerate(("buckling of the skin", "limit")):
+        report.relative(f"{name}, extrapolated", coarse[k], finest[k], 5e-3)
+
+
 def fine(culm, report):
     verify_cylinder(culm, report)
+    verify_fine_blade(culm, report)
 
 
 def plot_frames(culm, axes, deck, frame, unit):
@@ -370,6 +465,26 @@ def plot_hybrid(culm, axes):
     axes.set(title="HY-7 beams and walls; dots rods", xlabel="displacement",
              ylabel="force / 175 kN", ylim=(-0.3, 1.2), xlim=(0, 60))
     axes.legend(fontsize=7)
+
+
+def plot_blade(culm, axes, skin):
+    (at_limit, high), (at_end, low) = BLADE_SLIDE
+    for n, style in ((1, ":"), (1.5, "--"), (2, "-")):
+        whole, _ = blade_whole(culm, n)
+        axes.plot(whole[:, 1], whole[:, 0], style, color="C0", label=f"{n}")
+        path, _ = blade_buckles(culm, n)
+        skin.plot(path[:, 1], path[:, 0], style, color="C0", label=f"{n}")
+    limit, place = max((p, u) for p, u in whole if u > 2.0)
+    axes.plot(np.array([at_limit, at_end]) / at_limit * place, np.array([high, low]) / high * limit,
+              "o", color="C1")
+    ends = np.array([0.0, 0.45])
+    axes.plot(1e6 * blade_flexibility() * ends, ends, "C1--", linewidth=0.8)
+    axes.set(title="HY-6 blade; dots slide, scaled; dashes beam", xlabel="deflection [m]",
+             ylabel="force [MN]")
+    skin.set(title="HY-6, where the skin buckles", xlabel="deflection [m]", ylabel="force [MN]",
+             xlim=(1.2, 1.8), ylim=(0.36, 0.5))
+    for panel in (axes, skin):
+        panel.legend(fontsize=7)
 
 
 def plot_lateral(culm, axes):
@@ -414,9 +529,9 @@ def plot_cylinder(culm, axes):
 
 
 def plot(culm, path):
-    fig, _ = figure(2, 12.8)
+    fig, _ = figure(2, 16.0)
     fig.clf()
-    panels = fig.subplots(4, 2).ravel()
+    panels = fig.subplots(5, 2).ravel()
     plot_frames(culm, panels[0], LEE_DECK, LEE, 1.0)
     plot_frames(culm, panels[1], HALF_DECK, HALF, 1e5)
     plot_lateral(culm, panels[2])
@@ -425,6 +540,7 @@ def plot(culm, path):
     plot_cylinder(culm, panels[5])
     for axes, (name, thickness, points) in zip(panels[6:], ROOFS):
         plot_roof(culm, axes, name, thickness, points)
+    plot_blade(culm, panels[8], panels[9])
     save(fig, path)
 
 
