@@ -4,6 +4,8 @@
 #include <culm/math/small_product.hpp>
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
+#include <culm/model/element_contribution.hpp>
+#include <culm/model/element_motion.hpp>
 #include <culm/model/inertia.hpp>
 #include <culm/model/internal_store.hpp>
 #include <culm/model/model.hpp>
@@ -182,8 +184,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
       const int item = placement_.items[i];
-      add_item_momentum<K, S>(element(item).mass(), gather(item, q), gather(item, velocity),
-                              momentum);
+      add_item_momentum<K, S>(masses_.empty() ? element(item).mass() : masses_[i], gather(item, q),
+                              gather(item, velocity), momentum);
     }
   }
 
@@ -249,6 +251,9 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
   static constexpr bool has_internals = ElementWithInternals<E>;
+  using Motion = ElementMotion<E>;
+  template <class Space>
+  using Contribution = ElementContribution<Space, E>;
   struct Nothing {};
   template <class T, bool wanted>
   struct InternalTypes {
@@ -287,33 +292,9 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     return item * E::num_points + static_cast<std::size_t>(point);
   }
 
-  ItemSlots gather(int item, const Coordinates& q) const {
-    ItemSlots slots;
-    for (int a = 0; a < N; ++a) {
-      slots.template middleCols<K>(K * a) =
-          NodeTable::slots(q, nodes(item)[static_cast<std::size_t>(a)]).template leftCols<K>();
-    }
-    return slots;
-  }
-
-  using ItemArms = std::array<Arms<K>, N>;
-
-  // arms_of, of slots that are at hand
-  ItemArms arms_of_item(int item, const ItemSlots& slots, const Coordinates& q) const {
-    ItemArms arms;
-    for (int a = 0; a < N; ++a) {
-      const int node = nodes(item)[static_cast<std::size_t>(a)];
-      Arms<K>& arm = arms[static_cast<std::size_t>(a)];
-      arm.slots = slots.template middleCols<K>(K * a);
-      arm.turns =
-          E::node_kind == NodeKind::node12 || (form_ == Form::null_space && nodes_.turns(node));
-      if (nodes_.is_slave(node)) {
-        arm.slots.col(0) -= NodeTable::slots(q, nodes_.master(node)).col(0);
-      } else {
-        arm.slots.col(0).setZero();
-      }
-    }
-    return arms;
+  ItemSlots gather(int item, const Coordinates& q) const { return gather_slots<K>(nodes(item), q); }
+  Motion motion_of(std::size_t i, const State& state, double theta) const {
+    return Motion(nodes_, nodes(placement_.items[i]), state, theta, form_);
   }
 
   template <class Space>
@@ -327,53 +308,10 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     return verdict;
   }
 
-  // Slots of an item at both ends of the step and where forces act, and the arms there.
-  struct Motion {
-    ItemSlots prev, next, mid;
-    ItemArms arms_next, arms_mid;
-  };
-
-  Motion gather_motion(int item, const State& state, double theta) const {
-    Motion m;
-    m.next = gather(item, state.next);
-    m.arms_next = arms_of_item(item, m.next, state.next);
-    if (theta == 1.0) {
-      m.mid = m.next;
-      m.arms_mid = m.arms_next;
-      return m;
-    }
-    m.prev = gather(item, state.prev);
-    m.mid = (1.0 - theta) * m.prev + theta * m.next;
-    const ItemArms arms_prev = arms_of_item(item, m.prev, state.prev);
-    for (std::size_t a = 0; a < N; ++a) {
-      m.arms_mid[a] = at_theta(theta, arms_prev[a], m.arms_next[a]);
-    }
-    return m;
-  }
-
-  // What an item adds: residual and tangent in unknowns, and the parts of the tangent that come
-  // from scalars between slots and from forces on slots.
-  template <class Space>
-  struct Contribution {
-    static constexpr int W = Space::width;
-    Vec<W* N> residual = Vec<W * N>::Zero();
-    RowMat<W * N, W * N> tangent;
-    SlotMatrix<S> scalars;
-    Vec<3 * S> slot_force;
-    bool with_tangent;
-
-    explicit Contribution(bool tangent_wanted) : with_tangent(tangent_wanted) {
-      if (!with_tangent) return;
-      tangent.setZero();
-      scalars.setZero();
-      slot_force.setZero();
-    }
-  };
-
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) {
-    const Motion motion = gather_motion(placement_.items[i], state, stencil.theta);
+    const Motion motion = motion_of(i, state, stencil.theta);
     Contribution<Space> c(want == Want::residual_and_tangent);
     Verdict verdict = Verdict::ok;
     if constexpr (ActsOnSlots<E>) {
@@ -383,7 +321,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     }
     if (stencil.inertia != 0.0) add_inertia(i, motion, state, stencil, c);
     if (!std::isfinite(c.residual.sum())) return Verdict::not_finite;
-    scatter(i, motion, stencil.theta, c, target);
+    c.scatter(i, motion, stencil.theta, placement_.scatter, target);
     return verdict;
   }
 
@@ -502,38 +440,9 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
         E::add_stiffness(motion.mid, motion.next, response.tangent, 1.0, c.tangent);
       }
     }
-    add_slot_force(force, motion, c);
-    if (c.with_tangent) turn_tangent(motion, c);
+    c.add_slot_force(force, motion);
+    if (c.with_tangent) c.turn_tangent(motion);
     return verdict;
-  }
-
-  // P_theta^T f
-  template <class Space>
-  static void add_slot_force(const ItemSlots& force, const Motion& motion, Contribution<Space>& c) {
-    for (int a = 0; a < N; ++a) {
-      const Vec<3 * K> slots =
-          force.template middleCols<K>(K * a).template reshaped<Eigen::AutoOrder>();
-      Vec<Space::width> reduced;
-      Space::reduce_rows(slots, motion.arms_mid[static_cast<std::size_t>(a)], reduced);
-      c.residual.template segment<Space::width>(Space::width * a) += reduced;
-    }
-  }
-
-  // From slots to the unknowns of the masters that some nodes turn with.
-  template <class Space>
-  static void turn_tangent(const Motion& motion, Contribution<Space>& c) {
-    constexpr int W = Space::width;
-    RowMat<W, W * N> reduced;
-    for (int a = 0; a < N; ++a) {
-      const auto at = static_cast<std::size_t>(a);
-      if (!motion.arms_next[at].turns) continue;
-      const RowMat<W, W* N> rows = c.tangent.template middleRows<W>(W * a);
-      Space::reduce_rows(rows, motion.arms_mid[at], reduced);
-      c.tangent.template middleRows<W>(W * a) = reduced;
-      const RowMat<W, W* N> columns = c.tangent.template middleCols<W>(W * a).transpose();
-      Space::reduce_rows(columns, motion.arms_next[at], reduced);
-      c.tangent.template middleCols<W>(W * a) = reduced.transpose();
-    }
   }
 
   // M a with a = inertia (q_next - q_prev) + offset
@@ -546,49 +455,24 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     force += stencil.inertia *
              (motion.next - (stencil.theta == 1.0 ? gather(item, state.prev) : motion.prev));
     force = inertia_force<S>(mass, force);
-    add_slot_force(force, motion, c);
+    c.add_slot_force(force, motion);
     if (!c.with_tangent) return;
     c.slot_force += force.template reshaped<Eigen::AutoOrder>();
     c.scalars += stencil.inertia * mass;
   }
 
-  template <class Space>
-  void scatter(std::size_t i, const Motion& motion, double theta, Contribution<Space>& c,
-               Target& target) {
-    constexpr int W = Space::width;
-    target.force_scale =
-        std::max(target.force_scale, c.residual.template lpNorm<Eigen::Infinity>());
-    for (int a = 0; a < N; ++a) {
-      placement_.scatter.add_residual(i, a, c.residual.data() + W * a, target);
-    }
-    if (!c.with_tangent) return;
-    const Eigen::Map<const ItemSlots> slot_forces(c.slot_force.data());
-    for (int a = 0; a < N; ++a) {
-      for (int b = 0; b < N; ++b) {
-        auto block = c.tangent.template block<W, W>(W * a, W * b);
-        const Arms<K>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
-        Space::add_pairs(c.scalars.template block<K, K>(K * a, K * b),
-                         motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
-        if (a == b) {
-          Space::add_turning(slot_forces.template middleCols<K>(K * a), arms_next, theta, block);
-        }
-        placement_.scatter.add_tangent(i, a, b, block, target);
-      }
-    }
-  }
-
   // P^T M P at the end of the step
   template <class Space>
   Verdict assemble_mass(std::size_t i, const State& state, Target& target) {
-    const Motion motion = gather_motion(placement_.items[i], state, 1.0);
+    const Motion motion = motion_of(i, state, 1.0);
     Contribution<Space> c(true);
     c.scalars = element(placement_.items[i]).mass();
-    scatter(i, motion, 1.0, c, target);
+    c.scatter(i, motion, 1.0, placement_.scatter, target);
     return Verdict::ok;
   }
 
   template <class Space>
-  static void reduce(const Gradient<S, M>& B, const ItemArms& arms,
+  static void reduce(const Gradient<S, M>& B, const typename Motion::ItemArms& arms,
                      RowMat<Space::width * N, M>& R) {
     for (int a = 0; a < N; ++a) {
       Space::reduce_rows(B.template middleRows<3 * K>(3 * K * a), arms[static_cast<std::size_t>(a)],

@@ -1,0 +1,83 @@
+/// What an element adds to the equations, and how it gets there.
+#pragma once
+
+#include <culm/model/batch.hpp>
+#include <culm/model/element_motion.hpp>
+
+#include <algorithm>
+
+namespace culm::model {
+
+/// Residual and tangent of an element in the unknowns of a space, and the parts of the tangent that
+/// come from scalars between slots and from forces on slots. @source formulation 5.2
+template <class Space, class E>
+struct ElementContribution {
+  static constexpr int W = Space::width;
+  static constexpr int K = slots_of(E::node_kind);  ///< slots per node
+  static constexpr int N = E::num_nodes;
+  static constexpr int S = E::num_slots;
+  using Motion = ElementMotion<E>;
+
+  /// @param tangent_wanted  its parts are left undefined if not
+  explicit ElementContribution(bool tangent_wanted) : with_tangent(tangent_wanted) {
+    if (!with_tangent) return;
+    tangent.setZero();
+    scalars.setZero();
+    slot_force.setZero();
+  }
+
+  /// residual += P_theta^T f
+  void add_slot_force(const Slots<S>& force, const Motion& motion) {
+    for (int a = 0; a < N; ++a) {
+      const Vec<3 * K> slots =
+          force.template middleCols<K>(K * a).template reshaped<Eigen::AutoOrder>();
+      Vec<W> reduced;
+      Space::reduce_rows(slots, motion.arms_mid[static_cast<std::size_t>(a)], reduced);
+      residual.template segment<W>(W * a) += reduced;
+    }
+  }
+
+  /// Takes the tangent from slots to the unknowns of the masters that some nodes turn with.
+  void turn_tangent(const Motion& motion) {
+    RowMat<W, W * N> reduced;
+    for (int a = 0; a < N; ++a) {
+      const auto at = static_cast<std::size_t>(a);
+      if (!motion.arms_next[at].turns) continue;
+      const RowMat<W, W* N> rows = tangent.template middleRows<W>(W * a);
+      Space::reduce_rows(rows, motion.arms_mid[at], reduced);
+      tangent.template middleRows<W>(W * a) = reduced;
+      const RowMat<W, W* N> columns = tangent.template middleCols<W>(W * a).transpose();
+      Space::reduce_rows(columns, motion.arms_next[at], reduced);
+      tangent.template middleCols<W>(W * a) = reduced.transpose();
+    }
+  }
+
+  /// Adds everything to the global residual and matrix. @param i  local number of the element
+  void scatter(std::size_t i, const Motion& motion, double theta, const Scatter& places,
+               Target& target) {
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    for (int a = 0; a < N; ++a) places.add_residual(i, a, residual.data() + W * a, target);
+    if (!with_tangent) return;
+    const Eigen::Map<const Slots<S>> slot_forces(slot_force.data());
+    for (int a = 0; a < N; ++a) {
+      for (int b = 0; b < N; ++b) {
+        auto block = tangent.template block<W, W>(W * a, W * b);
+        const Arms<K>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
+        Space::add_pairs(scalars.template block<K, K>(K * a, K * b),
+                         motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
+        if (a == b) {
+          Space::add_turning(slot_forces.template middleCols<K>(K * a), arms_next, theta, block);
+        }
+        places.add_tangent(i, a, b, block, target);
+      }
+    }
+  }
+
+  Vec<W* N> residual = Vec<W * N>::Zero();
+  RowMat<W * N, W * N> tangent;
+  SlotMatrix<S> scalars;
+  Vec<3 * S> slot_force;
+  bool with_tangent;
+};
+
+}  // namespace culm::model
