@@ -1,0 +1,191 @@
+#include <culm/assembly/system.hpp>
+#include <culm/base/error.hpp>
+
+#include "block_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace culm::assembly {
+namespace {
+
+// Rates of the six unknowns of a node at the start of the step.
+Vec6 velocity_of(const model::NodeTable& nodes, const model::State& state, int node) {
+  return nodes.unknown_motion(node, model::NodeTable::slots(state.velocity, node), state.prev);
+}
+
+}  // namespace
+
+double System::project_position(model::State& state, const Solve& solve_mass) {
+  const model::Coordinates start = state.next;
+  const Stencil stencil = Stencil::statics();
+  begin_step(state, stencil);
+  constexpr int most_iterations = 50;
+  for (int iteration = 0;; ++iteration) {
+    const Evaluation found = evaluate(state, stencil, Want::residual);
+    if (found.constraint_violation <= 1e-14) break;
+    if (iteration == most_iterations || !std::isfinite(found.constraint_violation)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    Vector rhs(*residual_, Teuchos::Copy);
+    evaluate(state, stencil, Want::mass);
+    const auto b = values_of(rhs);
+    for (std::size_t row = 0; row < b.size(); ++row) b[row] = is_force_row_[row] ? 0.0 : -b[row];
+    Vector change(layout_.row_map());
+    solve_mass(rhs, change);
+    const auto u = values_of(change);
+    for (std::size_t row = 0; row < u.size(); ++row) {
+      if (!is_force_row_[row]) u[row] = 0.0;  // its multipliers are no forces
+    }
+    const bool stalls = comm_.max(change.normInf()) < 1e-15 * size_;
+    move(state, change, 1.0);
+    if (stalls) break;  // at round-off
+  }
+  double largest = 0.0;
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (block.kind != model::BlockKind::node) continue;
+    const auto change = model::NodeTable::slots(state.next, block.owner) -
+                        model::NodeTable::slots(start, block.owner);
+    largest = std::max(largest, change.cwiseAbs().maxCoeff());
+  }
+  state.prev = state.next;
+  return comm_.max(largest);
+}
+
+// Calls action(node, shape) for nodes here that have unknowns of their own.
+template <class Action>
+void System::each_moving_node(Action action) const {
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (block.kind == model::BlockKind::node && block.shape.active > 0) {
+      action(block.owner, block.shape);
+    }
+  }
+}
+
+System::Motions System::motions(const model::State& state) const {
+  Motions motions(index(model_.nodes().size()), Vec6::Zero());
+  each_moving_node([&](int node, const model::BlockShape&) {
+    motions[index(node)] = model_.nodes().motion(node, state.prev, state.next);
+  });
+  return motions;
+}
+
+System::Motions System::velocities(const model::State& state) const {
+  Motions velocities(index(model_.nodes().size()), Vec6::Zero());
+  each_moving_node([&](int node, const model::BlockShape&) {
+    velocities[index(node)] = velocity_of(model_.nodes(), state, node);
+  });
+  return velocities;
+}
+
+void System::move_nodes(model::State& state, const Motions& motions) const {
+  each_moving_node([&](int node, const model::BlockShape& shape) {
+    Vec6 u = motions[index(node)];
+    for (int i = 0; i < 6 && shape.width == 6; ++i) {
+      if (shape.position[index(i)] < 0) u[i] = 0.0;
+    }
+    model_.nodes().move(node, u, state.next);
+  });
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
+  if (velocity_dissipation_ != nullptr) complete(state.next);
+}
+
+std::vector<double> System::gather_motions(const Motions& motions) const {
+  std::vector<double> numbers;
+  for (int node = 0; node < model_.nodes().size(); ++node) {
+    const bool mine = layout_.owners()[index(model_.unknowns().node_block(node))] == comm_.rank();
+    for (int i = 0; i < 6; ++i) numbers.push_back(mine ? motions[index(node)][i] : nothing);
+  }
+  comm_.sum(numbers);
+  return numbers;
+}
+
+System::Motions System::spread_motions(const std::vector<double>& numbers) const {
+  Motions motions(index(model_.nodes().size()), Vec6::Zero());
+  each_moving_node([&](int node, const model::BlockShape&) {
+    motions[index(node)] = Eigen::Map<const Vec6>(numbers.data() + 6 * node);
+  });
+  return motions;
+}
+
+// dg/dt of all constraint rows at state.time: h = h_q - g, so g is what h loses while q stays.
+// Second-order differences; zero without work when nothing is driven.
+std::vector<double> System::drive_speed(model::State& state, double probe) {
+  std::vector<double> speed(is_force_row_.size(), 0.0);
+  const auto& equations = model_.equations();
+  if (std::none_of(equations.begin(), equations.end(),
+                   [](const model::Constraint& c) { return static_cast<bool>(c.drive); })) {
+    return speed;
+  }
+  const double time = state.time;
+  for (const auto& [fraction, weight] : {std::pair{1.0, 1.0}, {0.5, -4.0}, {0.0, 3.0}}) {
+    state.time = time + fraction * probe;
+    begin_step(state, Stencil::statics());
+    evaluate(state, Stencil::statics(), Want::residual);
+    const auto h = values_of(static_cast<const Vector&>(*residual_));
+    for (std::size_t row = 0; row < speed.size(); ++row) speed[row] += weight / probe * h[row];
+  }
+  return speed;
+}
+
+double System::project_velocity(model::State& state, double probe, const Solve& solve_mass) {
+  // velocities given to eliminated nodes are those of their masters
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
+  const std::vector<double> speed = drive_speed(state, probe);
+  const Evaluation found = evaluate(state, Stencil::statics(), Want::mass);
+  internal_check(found.verdict == Verdict::ok, "a mass matrix is not finite");
+  const model::UnknownTable& unknowns = model_.unknowns();
+  const bool null_space = unknowns.form() == model::Form::null_space;
+  Vector velocity(layout_.row_map());
+  const auto u = values_of(velocity);
+  const auto each_unknown = [&](auto action) {
+    for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+      const model::Block& block = unknowns.block(local.block);
+      if (block.kind != model::BlockKind::node) continue;
+      action(local, block);
+    }
+  };
+  each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
+    if (!local.owned) return;
+    const Vec6 rigid = velocity_of(model_.nodes(), state, block.owner);
+    const auto slots = model::NodeTable::slots(state.velocity, block.owner);
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[index(i)];
+      if (at >= 0) u[index(local.first_column + at)] = null_space ? rigid[i] : slots.data()[i];
+    }
+  });
+  // only the constraint rows are out of balance: H v = dg/dt
+  Vector rhs(layout_.row_map());
+  matrix_->apply(velocity, rhs);
+  const auto b = values_of(rhs);
+  for (std::size_t row = 0; row < b.size(); ++row)
+    b[row] = is_force_row_[row] ? 0.0 : speed[row] - b[row];
+  Vector change(layout_.row_map());
+  solve_mass(rhs, change);
+  velocity.update(1.0, change, 1.0);
+
+  const model::Coordinates before = state.velocity;
+  const std::span<const double> all = values_of(import(velocity));
+  std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
+  each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
+    const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);
+    model::NodeTable::slots(state.velocity, block.owner) =
+        slot_motion(model_, block.owner, w, state.next);
+  });
+  for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
+  if (velocity_dissipation_ != nullptr) complete(state.velocity);
+  double largest = 0.0;
+  each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
+    if (model_.nodes().is_slave(block.owner)) return;  // its master may be elsewhere
+    const auto first = static_cast<std::size_t>(model::NodeTable::offset(block.owner));
+    for (std::size_t i = first; i < first + 12; ++i) {
+      largest = std::max(largest, std::abs(state.velocity[i] - before[i]));
+    }
+  });
+  return comm_.max(largest);
+}
+
+}  // namespace culm::assembly

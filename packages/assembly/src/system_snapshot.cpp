@@ -1,0 +1,124 @@
+#include <culm/assembly/system.hpp>
+
+#include "block_values.hpp"
+
+#include <algorithm>
+
+namespace culm::assembly {
+namespace {
+
+std::size_t global_index(const Map& map, std::size_t row) {
+  return static_cast<std::size_t>(map.getGlobalElement(static_cast<int>(row)));
+}
+
+}  // namespace
+
+void System::complete(model::Coordinates& values) const {
+  if (comm_.size() == 1 || values.empty()) return;
+  const model::UnknownTable& unknowns = model_.unknowns();
+  for (int node = 0; node < model_.nodes().size(); ++node) {
+    if (layout_.owners()[index(unknowns.node_block(node))] == comm_.rank()) continue;
+    model::NodeTable::slots(values, node).setConstant(nothing);
+  }
+  comm_.sum(values);
+}
+
+void System::synchronise(model::State& state) {
+  gathered_reactions_ = reactions_;
+  if (comm_.size() == 1) return;
+  complete(state.next);
+  complete(state.velocity);
+  const model::UnknownTable& unknowns = model_.unknowns();
+  for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
+    const model::Block& block = unknowns.block(b);
+    if (block.kind != model::BlockKind::multipliers) continue;
+    if (layout_.owners()[index(b)] == comm_.rank()) continue;
+    std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, nothing);
+  }
+  comm_.sum(state.multipliers);
+  comm_.sum(gathered_reactions_);
+}
+
+void System::save(model::State& state, Snapshot& snapshot) {
+  synchronise(state);
+  snapshot.set("state/time", state.time);
+  snapshot.set("state/position", state.next);
+  snapshot.set("state/velocity", state.velocity);
+  snapshot.set("state/multipliers", state.multipliers);
+  snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
+  snapshot.set("system/multiplier scale", multiplier_scale_);
+  snapshot.set("system/carried", gather_carried());
+  std::vector<double> memory;
+  for (const model::Batch* batch : batches_) {
+    std::vector<double> part(batch->memory_size(), nothing);
+    batch->save(part);
+    memory.insert(memory.end(), part.begin(), part.end());
+  }
+  comm_.sum(memory);
+  snapshot.set("system/batches", std::move(memory));
+}
+
+void System::restore(const Snapshot& snapshot, model::State& state) {
+  state.time = state.time_prev = snapshot.number("state/time");
+  state.next = state.prev = snapshot.numbers("state/position", state.next.size());
+  state.velocity = snapshot.numbers("state/velocity");
+  state.acceleration_offset.assign(state.velocity.size(), 0.0);
+  state.multipliers = snapshot.numbers("state/multipliers", state.multipliers.size());
+  state.multipliers_prev = state.multipliers;
+  state.at_rest = snapshot.number("state/at rest") != 0.0;
+  multiplier_scale_ = snapshot.number("system/multiplier scale");
+  restore_carried(snapshot.numbers("system/carried"));
+  std::size_t size = 0;
+  for (const model::Batch* batch : batches_) size += batch->memory_size();
+  std::span<const double> memory = snapshot.numbers("system/batches", size);
+  for (model::Batch* batch : batches_) {
+    batch->restore(memory.first(batch->memory_size()));
+    memory = memory.subspan(batch->memory_size());
+  }
+}
+
+// By global row, so that it does not depend on the number of ranks.
+std::vector<double> System::gather_carried() const {
+  if (!carried_) return {};
+  std::vector<double> all(layout_.row_map()->getGlobalNumElements(), nothing);
+  for (std::size_t row = 0; row < carried_->size(); ++row) {
+    all[global_index(*layout_.row_map(), row)] = (*carried_)[row];
+  }
+  comm_.sum(all);
+  return all;
+}
+
+void System::restore_carried(const std::vector<double>& all) {
+  carried_.reset();
+  if (all.empty()) return;
+  carried_.emplace(is_force_row_.size());
+  for (std::size_t row = 0; row < carried_->size(); ++row) {
+    (*carried_)[row] = all[global_index(*layout_.row_map(), row)];
+  }
+}
+
+void System::save_matrix(Snapshot& snapshot) const {
+  const auto values = matrix_->getLocalMatrixHost().values;
+  const std::vector<double> all =
+      comm_.gather(std::span<const double>(values.data(), values.extent(0)));
+  snapshot.set("matrix/ranks", comm_.size());
+  snapshot.set("matrix/values", all);
+}
+
+bool System::restore_matrix(const Snapshot& snapshot) {
+  if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
+  const auto values = matrix_->getLocalMatrixHost().values;
+  const std::vector<double>& all =
+      snapshot.numbers("matrix/values", static_cast<std::size_t>(matrix_->getGlobalNumEntries()));
+  // pieces are in the order of the ranks
+  std::vector<double> ends(index(comm_.size()), 0.0);
+  for (int rank = comm_.rank(); rank < comm_.size(); ++rank) {
+    ends[index(rank)] = static_cast<double>(values.extent(0));
+  }
+  comm_.sum(ends);
+  const auto begin = index(static_cast<int>(ends[index(comm_.rank())])) - values.extent(0);
+  std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(begin), values.extent(0), values.data());
+  return true;
+}
+
+}  // namespace culm::assembly

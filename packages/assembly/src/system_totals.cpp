@@ -1,0 +1,82 @@
+#include <culm/assembly/system.hpp>
+#include <culm/model/reaction_source.hpp>
+
+#include "block_values.hpp"
+
+namespace culm::assembly {
+
+Vec6 System::reaction(int node, const model::State& state) const {
+  const model::UnknownTable& unknowns = model_.unknowns();
+  const model::BlockShape& shape = unknowns.block(unknowns.node_block(node)).shape;
+  Vec6 reaction = Vec6::Zero();
+  if (unknowns.form() == model::Form::null_space) {
+    for (int i = 0; i < 6; ++i) {
+      const int at = shape.position[index(i)];
+      if (at < 0) reaction[i] = gathered_reactions_[index(shape.first_reaction - 1 - at)];
+    }
+  }
+  return reaction + equation_reaction("", node, state);
+}
+
+Vec6 System::reaction_of(const std::string& constraint, int node, const model::State& state) const {
+  return equation_reaction(constraint, node, state);
+}
+
+Vec6 System::equation_reaction(const std::string& constraint, int node,
+                               const model::State& state) const {
+  Vec6 reaction = Vec6::Zero();
+  for (const auto& batch : model_.constraint_batches()) {
+    reaction += batch->reaction(node, state, constraint);
+  }
+  for (const auto& load : model_.loads()) {
+    if (const auto* source = dynamic_cast<const model::ReactionSource*>(load.get())) {
+      reaction += source->reaction(node, state, constraint);
+    }
+  }
+  return reaction;
+}
+
+double System::strain_energy(const model::Coordinates& q) const {
+  double energy = 0.0;
+  for (const auto& batch : model_.element_batches()) energy += batch->stored_energy(q);
+  return comm_.sum(energy);
+}
+
+Energies System::energies(const model::Coordinates& q, const model::Momentum& momentum) const {
+  Energies energies;
+  energies.kinetic = momentum.kinetic_energy;
+  energies.strain = strain_energy(q);
+  for (const auto& load : model_.loads()) energies.potential += load->stored_energy(q);
+  energies.potential = comm_.sum(energies.potential);
+  return energies;
+}
+
+model::Momentum System::momentum(const model::Coordinates& q,
+                                 const model::Coordinates& velocity) const {
+  model::Momentum total;
+  for (const auto& batch : model_.element_batches()) {
+    if (const auto* source = dynamic_cast<const model::MassSource*>(batch.get())) {
+      source->add_momentum(q, velocity, total);
+    }
+  }
+  total.kinetic_energy = comm_.sum(total.kinetic_energy);
+  comm_.sum(std::span(total.linear.data(), 3));
+  comm_.sum(std::span(total.angular.data(), 3));
+  return total;
+}
+
+model::StepWork System::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork total;
+  for (const model::Batch* batch : batches_) total += batch->step_work(state, stencil);
+  double scalars[4] = {total.external, total.drives, total.damping, total.dissipation};
+  comm_.sum(scalars);
+  total.external = scalars[0];
+  total.drives = scalars[1];
+  total.damping = scalars[2];
+  total.dissipation = scalars[3];
+  comm_.sum(std::span(total.force.data(), 3));
+  comm_.sum(std::span(total.moment.data(), 3));
+  return total;
+}
+
+}  // namespace culm::assembly
