@@ -33,6 +33,7 @@ REPLACED = [
     ("Rigid beams", SPAGHETTI, [f"{FIDELITY}=Rigid"], [f"{FIDELITY}=Full"]),
     ("Beam, linear", SPAGHETTI, [f"{FIDELITY}=Linear"], [f"{FIDELITY}=Full"]),
     ("Shell", "shell/tumbling_cylinder", [], ["Structures/tube/Fidelity=Rigid"]),
+    ("Shell, linear", "shell/cantilever_shear", ["Structures/strip/Fidelity=Linear"], ["Structures/strip/Fidelity=Full"]),
     ("Beam, Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
 ]
 

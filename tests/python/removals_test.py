@@ -48,6 +48,14 @@ class Removals(unittest.TestCase):
         self.assertEqual(settings(found, "flexibility"), [["Structures/a/Fidelity=Rigid"], ["Structures/b/Fidelity=Rigid"]])
         self.assertEqual(settings(found, "assumed strains"), [["Structures/b/Assumed Strains=false"]])
 
+    def test_shells_are_linear_where_their_materials_are(self):
+        shell = {"Type": "Shell", "Fidelity": "Full", "Enhanced Membrane": "None", "Enhanced Thickness": "None"}
+        shell["Assumed Strains"] = "false"
+        walls = entry("a", {**shell, "Material": "steel"}) + entry("b", {**shell, "Materials": "{steel, rubber}"})
+        materials = entry("steel", {"Type": "Isotropic"}) + entry("rubber", {"Type": "Neo-Hooke"})
+        found = removals.find(deck(entry("Structures", {}, walls) + entry("Materials", {}, materials)))
+        self.assertEqual(settings(found, "large rotations"), [["Structures/a/Fidelity=Linear"]])
+
     def test_loads_join_those_that_are_inactive_already(self):
         body = entry("Loads", {}, entry("weight", {"Type": "Gravity"}) + entry("brake", {"Type": "Spring"}))
         body += entry("Analyses", {}, entry("start", {"Type": "Static", "Inactive": "{brake}"}))

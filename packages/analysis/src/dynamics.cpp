@@ -2,6 +2,9 @@
 #include <culm/analysis/newton_options.hpp>
 #include <culm/base/error.hpp>
 
+#include "mirrored_faces.hpp"
+#include "missed_pulses.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -207,6 +210,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
   // where momenta are kept at all; what is carried moves stiff parts a little more than rounding
   // does
   const bool carries = scheme_->conserves() && certificate_->is_free();
+  MissedPulses pulses(system.model().functions());
   while (state.time < end_time) {
     state.time = control_->end_of_step(state.time_prev);
     const double taken = state.time - state.time_prev;
@@ -215,10 +219,12 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
     predictor_->predict(state, taken);
     StepReport report{steps_, state.time, end_time, taken, true, newton_->solve(state, stencil)};
     if (report.outcome.converged()) report.outcome.end = control_->judge(state, stencil);
+    refuse_mirrored(context, state, report.outcome);
     report.accepted = report.outcome.converged();
     if (report.accepted) {
       report.step = ++steps_;
       report.is_last = state.time >= end_time;
+      pulses.check(state.time_prev, state.time, context.log);
       control_->accept(state, taken);
       predictor_->accept(state, taken);
       if (carries) system.carry_residual(taken);

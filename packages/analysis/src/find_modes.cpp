@@ -1,6 +1,7 @@
 #include <culm/analysis/find_modes.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,6 +59,25 @@ void fix_phase(Shape& shape) {
         factor.real() * shape.imaginary[node] + factor.imag() * shape.real[node];
     shape.real[node] = real;
   }
+}
+
+// Whether a shape displaces all nodes as one rigid body would, to 1e-3 of its size.
+bool is_rigid(const Shape& shape, const model::Coordinates& q) {
+  const auto count = static_cast<Eigen::Index>(shape.real.size());
+  Eigen::MatrixXd motions(3 * count, 6);
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(3 * count, 2);  // real and imaginary part
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    motions.middleRows<3>(3 * i).leftCols<3>().setIdentity();
+    motions.middleRows<3>(3 * i).rightCols<3>() =
+        -skew(model::NodeTable::slots(q, static_cast<int>(i)).col(0));
+    moved.col(0).segment<3>(3 * i) = shape.real[node].head<3>();
+    if (!shape.imaginary.empty()) {
+      moved.col(1).segment<3>(3 * i) = shape.imaginary[node].head<3>();
+    }
+  }
+  const Eigen::MatrixXd fitted = motions * motions.colPivHouseholderQr().solve(moved);
+  return (moved - fitted).norm() < 1e-3 * moved.norm();
 }
 
 std::string name_of(std::size_t number, const Mode& mode) {
@@ -169,11 +189,28 @@ class Finder {
       const double frequency = std::abs(mode.eigenvalue) / (2.0 * std::numbers::pi);
       if (!mode.is_zero()) lowest = std::min(lowest, frequency);
     }
+    if (std::isinf(lowest)) {
+      warn_of_silence();
+      return;
+    }
     if (hidden_ <= notable_share * lowest) return;
     context_.log.warning(fmt::format(
         "rounding hides frequencies below {:.2g} Hz, and those next to it are inexact: stiffnesses "
         "differ too much in size",
         hidden_));
+  }
+
+  // Nothing but zeros: right for what floats freely, or has joints without stiffness.
+  void warn_of_silence() const {
+    const bool floats = std::ranges::all_of(
+        set_.modes, [&](const Mode& mode) { return is_rigid(mode.shape, state_.next); });
+    if (floats) return;
+    context_.log.warning(fmt::format(
+        "all {} modes are at 0 Hz within rounding, which hides frequencies below {:.2g} Hz, and "
+        "not all of them are motions of the whole as a rigid body: mechanisms, or vibrations that "
+        "are lost because stiffnesses differ too much in size; ask for more modes, or make what is "
+        "very stiff rigid",
+        set_.modes.size(), hidden_));
   }
 
   Context& context_;

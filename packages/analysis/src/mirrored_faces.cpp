@@ -19,13 +19,22 @@ bool is_mirrored(const model::Face& face, const model::Coordinates& q) {
   return first.cross(second).dot(director) < 0.0;
 }
 
-}  // namespace
-
 bool has_mirrored_face(const model::Model& model, const model::Coordinates& q) {
   return std::ranges::any_of(model.structures(), [&](const model::Structure& structure) {
     return std::ranges::any_of(structure.faces,
                                [&](const model::Face& face) { return is_mirrored(face, q); });
   });
+}
+
+}  // namespace
+
+void refuse_mirrored(Context& context, model::State& state, solver::StepOutcome& outcome) {
+  const model::Model& model = context.system.model();
+  const bool has_faces = std::ranges::any_of(
+      model.structures(), [](const model::Structure& s) { return !s.faces.empty(); });
+  if (!has_faces || !outcome.converged()) return;
+  context.system.synchronise(state);
+  if (has_mirrored_face(model, state.next)) outcome.end = solver::StepEnd::out_of_range;
 }
 
 }  // namespace culm::analysis

@@ -2,6 +2,8 @@
 #include <culm/analysis/path_following.hpp>
 #include <culm/base/error.hpp>
 
+#include "mirrored_faces.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -197,7 +199,7 @@ void PathFollowing::start(Context& context, model::State& state) {
   context.system.begin_step(state, stencil);
   context.system.choose_multiplier_scale(state, stencil);
   post_mortem_.emplace(context, state, stencil, state.time + 1e3 * condition_->level_difference());
-  balance_start(state);
+  balance_start(context, state);
   condition_->begin(settings_.first_increment);
   const auto [tangent, determinant] = find_tangent(context, state);
   here_ = {state.time, condition_->watched_displacement(state.next), tangent, determinant};
@@ -208,10 +210,11 @@ void PathFollowing::start(Context& context, model::State& state) {
 }
 
 // Loads that do not grow with the level act at its start already.
-void PathFollowing::balance_start(model::State& state) {
+void PathFollowing::balance_start(Context& context, model::State& state) {
   StepReport report;
   report.time = report.final_time = state.time;
   report.outcome = newton_->solve(state, Stencil::statics());
+  refuse_mirrored(context, state, report.outcome);
   report.accepted = report.outcome.converged();
   post_mortem_->record(report);
   if (report.accepted) {
@@ -295,6 +298,7 @@ StepReport PathFollowing::attempt(Context& context, model::State& state) {
   if (!outcome.converged()) return report;
   land(context, state, outcome);
   keep_to_path();
+  refuse_mirrored(context, state, outcome);
   return report;
 }
 
@@ -393,6 +397,7 @@ void PathFollowing::switch_branch(Context& context, model::State& state, Observe
     context.system.move(state, motion, factor);
     StepReport report;
     report.outcome = newton_->solve(state, stencil, &*condition_);
+    refuse_mirrored(context, state, report.outcome);
     if (!report.outcome.converged()) {
       reject(state);
       continue;

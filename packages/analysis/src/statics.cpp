@@ -33,16 +33,6 @@ void check_levels(const Options& options, InputIssues& issues) {
   }
 }
 
-// An iteration that goes astray may find an equilibrium of shell elements turned inside out.
-void refuse_mirrored(Context& context, model::State& state, solver::StepOutcome& outcome) {
-  const model::Model& model = context.system.model();
-  const bool has_faces = std::ranges::any_of(
-      model.structures(), [](const model::Structure& s) { return !s.faces.empty(); });
-  if (!has_faces || !outcome.converged()) return;
-  context.system.synchronise(state);
-  if (has_mirrored_face(model, state.next)) outcome.end = solver::StepEnd::out_of_range;
-}
-
 }  // namespace
 
 Schema Statics::schema() {

@@ -1,5 +1,6 @@
 #include <culm/assembly/system.hpp>
 #include <culm/base/error.hpp>
+#include <culm/model/massless.hpp>
 
 #include "block_values.hpp"
 
@@ -177,11 +178,21 @@ double System::project_velocity(model::State& state, double probe, const Solve& 
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   if (velocity_dissipation_ != nullptr) complete(state.velocity);
+  // what moves no mass, such as the frame of a linear shell, has no velocity of its own
+  std::vector<bool> moves_mass = model::slots_with_mass(model_);
+  for (int slave : slaves_) {
+    for (std::size_t s = 0; s < 4; ++s) {
+      if (!moves_mass[4 * index(slave) + s]) continue;
+      const auto master = static_cast<std::ptrdiff_t>(4 * model_.nodes().master(slave));
+      std::fill_n(moves_mass.begin() + master, 4, true);
+    }
+  }
   double largest = 0.0;
   each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
     if (model_.nodes().is_slave(block.owner)) return;  // its master may be elsewhere
     const auto first = static_cast<std::size_t>(model::NodeTable::offset(block.owner));
     for (std::size_t i = first; i < first + 12; ++i) {
+      if (!moves_mass[i / 3]) continue;
       largest = std::max(largest, std::abs(state.velocity[i] - before[i]));
     }
   });

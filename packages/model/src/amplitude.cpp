@@ -31,6 +31,11 @@ Amplitude Amplitude::constant(double value) {
   return amplitude;
 }
 
+Amplitude& Amplitude::with_corners(std::vector<double> times) {
+  corners_ = std::move(times);
+  return *this;
+}
+
 double Amplitude::in_step(const State& state, const Stencil& stencil) const {
   if (of_step_) return of_step_(state.time_prev, state.time);
   return of_time_((1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time);

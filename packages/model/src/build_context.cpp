@@ -128,6 +128,7 @@ std::optional<Amplitude> find_function(const Options& options, BuildContext& con
                                        const std::string& parameter) {
   const std::string& name = options.text(parameter);
   if (const auto found = context.functions.find(name); found != context.functions.end()) {
+    context.model.add_function(name, found->second);
     return found->second;
   }
   if (name == "Ramp") return Amplitude::ramp();

@@ -21,15 +21,19 @@ Schema with_intensity(const char* name, const char* doc, const char* unit = "1")
 }
 
 /// A type whose value is intensity x shape(time, span), where `span` is a duration of the deck.
+/// @param corners  of the shape, over the span
 using Shape = double (*)(double time, double span);
 void add_shape(Registry<Amplitude>& registry, const char* name, const char* doc, Field span,
-               Shape shape) {
+               Shape shape, std::vector<double> corners = {}) {
   const std::string parameter = span.name();
   registry.add(name, with_intensity(name, doc).add(std::move(span)),
-               [parameter, shape](const Options& options) {
+               [parameter, shape, corners = std::move(corners)](const Options& options) {
                  const double a = options.number("Intensity");
                  const double t0 = options.number(parameter);
-                 return Amplitude::of_time([=](double t) { return a * shape(t, t0); });
+                 std::vector<double> times = corners;
+                 for (double& time : times) time *= t0;
+                 return Amplitude::of_time([=](double t) { return a * shape(t, t0); })
+                     .with_corners(std::move(times));
                });
 }
 
@@ -39,14 +43,15 @@ void add_shapes(Registry<Amplitude>& registry) {
   add_shape(registry, "Linear", "t / Duration without end (legacy: linear).", duration(),
             [](double t, double t0) { return t / t0; });
   add_shape(registry, "Linear Then Zero", "t / Duration, 0 after it (legacy: linear0).", duration(),
-            [](double t, double t0) { return t <= t0 ? t / t0 : 0.0; });
+            [](double t, double t0) { return t <= t0 ? t / t0 : 0.0; }, {0.0, 1.0});
   add_shape(registry, "Linear Then Constant", "t / Duration, 1 after it (legacy: linearC).",
             duration(), [](double t, double t0) { return std::fmin(t / t0, 1.0); });
   add_shape(registry, "Triangle",
             "Up to 1 at half the Duration, down to 0 at its end (legacy: triangle).", duration(),
-            [](double t, double t0) { return std::fmax(1.0 - std::abs(2.0 * t / t0 - 1.0), 0.0); });
+            [](double t, double t0) { return std::fmax(1.0 - std::abs(2.0 * t / t0 - 1.0), 0.0); },
+            {0.0, 0.5, 1.0});
   add_shape(registry, "Square", "1 during the Duration, 0 after it (legacy: square).", duration(),
-            [](double t, double t0) { return t <= t0 ? 1.0 : 0.0; });
+            [](double t, double t0) { return t <= t0 ? 1.0 : 0.0; }, {0.0, 1.0});
   add_shape(registry, "Heaviside", "0 before Start, 1 from there on (legacy: heaviside).",
             number("Start", "s", "Time of the jump."),
             [](double t, double t0) { return t < t0 ? 0.0 : 1.0; });
@@ -126,7 +131,9 @@ void add_random(Registry<Amplitude>& registry) {
 
 Amplitude interpolation(const Options& options, TimeTable table) {
   const double a = options.number("Intensity");
-  return Amplitude::of_time([a, table = std::move(table)](double t) { return a * table.value(t); });
+  std::vector<double> corners = table.times;
+  return Amplitude::of_time([a, table = std::move(table)](double t) { return a * table.value(t); })
+      .with_corners(std::move(corners));
 }
 
 void add_tables(Registry<Amplitude>& registry) {

@@ -22,19 +22,17 @@ const Mat6& modulus(const material::Layer& layer) {
 ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const material::Layup> layup,
                            const ShellOptions& options)
     : ShellForms(reference),
-      geometry_(reference, layup->thickness(), options),
-      layup_(std::move(layup)),
+      wall_{ShellGeometry(reference, layup->thickness(), options), layup},
       stiffness_(Stiffness::Zero()),
-      mass_(shell_mass(geometry_, *layup_)),
-      thickness_parameter_(Strain::Zero()) {
-  internal_check(layup_->is_linear(), "ElasticShell wants a linear layup");
+      mass_(shell_mass(wall_.geometry, *layup)) {
+  internal_check(layup->is_linear(), "ElasticShell wants a linear layup");
   const int enhanced = options.enhancement.size();
   Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(enhanced, num_strains);
   Eigen::MatrixXd enhanced_stiffness = Eigen::MatrixXd::Zero(enhanced, enhanced);
   visit_volume(
-      *layup_, 2,
+      *layup, 2,
       [&](const material::Layer& layer, double xi, double eta, double zeta, double weight) {
-        const ShellGeometry::Point point = geometry_.at(xi, eta, zeta, layer.angle);
+        const ShellGeometry::Point point = wall_.geometry.at(xi, eta, zeta, layer.angle);
         const Mat6 C = weight * point.J * modulus(layer);
         const ShellGeometry::StrainMap CL = C * point.strain;
         stiffness_.noalias() += point.strain.transpose() * CL;
@@ -47,7 +45,7 @@ ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const materia
     const Eigen::MatrixXd parameters = -factor.solve(coupling);
     stiffness_.noalias() += coupling.transpose() * parameters;
     if (options.enhancement.thickness > 0) {
-      thickness_parameter_ = parameters.row(options.enhancement.membrane);
+      wall_.thickness_parameter = parameters.row(options.enhancement.membrane);
     }
   }
   stiffness_ = 0.5 * (stiffness_ + stiffness_.transpose()).eval();
@@ -70,19 +68,19 @@ double ElasticShell::energy(int, const Strain& y) const noexcept {
 
 const ShellForms::Stiffness& ElasticShell::stiffness(int) const noexcept { return stiffness_; }
 
-EnhancedParameters ElasticShell::enhanced_at_centre(const Strain& y) const noexcept {
-  const Enhancement& enhancement = geometry_.options().enhancement;
+EnhancedParameters ElasticWall::enhanced_at_centre(const ShellForms::Strain& y) const noexcept {
+  const Enhancement& enhancement = geometry.options().enhancement;
   EnhancedParameters parameters = EnhancedParameters::Zero(enhancement.size());
-  if (enhancement.thickness > 0) parameters[enhancement.membrane] = thickness_parameter_.dot(y);
+  if (enhancement.thickness > 0) parameters[enhancement.membrane] = thickness_parameter.dot(y);
   return parameters;
 }
 
-ShellResultants ElasticShell::resultants(int, const Strain& y) const noexcept {
-  return DeformedShell{geometry_, *layup_, y, enhanced_at_centre(y)}.resultants();
+ShellResultants ElasticWall::resultants(const ShellForms::Strain& y) const noexcept {
+  return DeformedShell{geometry, *layup, y, enhanced_at_centre(y)}.resultants();
 }
 
-LayerState ElasticShell::layer_state(int layer, double height, const Strain& y) const {
-  return DeformedShell{geometry_, *layup_, y, enhanced_at_centre(y)}.layer_state(layer, height);
+LayerState ElasticWall::layer_state(int layer, double height, const ShellForms::Strain& y) const {
+  return DeformedShell{geometry, *layup, y, enhanced_at_centre(y)}.layer_state(layer, height);
 }
 
 }  // namespace culm::shell

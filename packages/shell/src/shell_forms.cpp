@@ -1,6 +1,6 @@
 #include <culm/shell/shell_forms.hpp>
 
-#include <array>
+#include "shell_modes.hpp"
 
 namespace culm::shell {
 
@@ -8,51 +8,6 @@ namespace {
 
 constexpr int num_modes = ShellForms::num_modes;
 constexpr int num_forms = ShellForms::num_strains;
-
-// ∂p_m/∂q_s: the share of slot (x or d, node) in a mode
-using ModesOfSlots = std::array<std::array<double, num_modes>, 8>;
-
-constexpr ModesOfSlots modes_of_slots() {
-  constexpr double xi[] = {-1.0, 1.0, 1.0, -1.0};
-  constexpr double eta[] = {-1.0, -1.0, 1.0, 1.0};
-  ModesOfSlots H{};
-  for (std::size_t a = 0; a < 4; ++a) {
-    H[2 * a] = {0.25 * xi[a], 0.25 * eta[a], 0.25 * xi[a] * eta[a], 0.0, 0.0, 0.0, 0.0};
-    H[2 * a + 1] = {0.0, 0.0, 0.0, 0.25, 0.25 * xi[a], 0.25 * eta[a], 0.25 * xi[a] * eta[a]};
-  }
-  return H;
-}
-
-constexpr ModesOfSlots H = modes_of_slots();
-
-constexpr double share(int slot, int mode) {
-  return H[static_cast<std::size_t>(slot)][static_cast<std::size_t>(mode)];
-}
-
-// Rows of modes (three each) to rows of slots by sums and differences; H without its products.
-template <int Columns>
-void spread(const RowMat<3 * num_modes, Columns>& modes, RowMat<24, Columns>& slots) noexcept {
-  const auto mode = [&](int m, int c) { return modes.row(3 * m + c); };
-  for (int c = 0; c < 3; ++c) {
-    const auto slot = [&](int node, int s) { return slots.row(6 * node + 3 * s + c); };
-    slot(2, 0) = 0.25 * (mode(0, c) + mode(1, c));
-    slot(1, 0) = 0.25 * (mode(0, c) - mode(1, c));
-    slot(0, 0) = 0.25 * mode(2, c) - slot(2, 0);
-    slot(3, 0) = -0.25 * mode(2, c) - slot(1, 0);
-    slot(2, 0) += 0.25 * mode(2, c);
-    slot(1, 0) -= 0.25 * mode(2, c);
-
-    // with ± for the even (1, ξη) and the odd (ξ, η) part at nodes 2, 0 and 1, 3
-    const auto even = 0.25 * (mode(3, c) + mode(6, c));
-    const auto odd = 0.25 * (mode(4, c) + mode(5, c));
-    slot(2, 1) = even + odd;
-    slot(0, 1) = even - odd;
-    const auto even_ = 0.25 * (mode(3, c) - mode(6, c));
-    const auto odd_ = 0.25 * (mode(4, c) - mode(5, c));
-    slot(1, 1) = even_ + odd_;
-    slot(3, 1) = even_ - odd_;
-  }
-}
 
 }  // namespace
 
@@ -135,7 +90,7 @@ void ShellForms::add_stiffness(const Nodes& mid, const Nodes& next, const Stiffn
     }
   }
   RowMat<24, num_forms> BC;
-  spread<num_forms>(pC, BC);
+  spread(pC, BC);
   const RowMat<num_forms, 24> CB = BC.transpose();
   RowMat<3 * num_modes, 24> rCB;
   for (int k = 0; k < num_modes; ++k) {
@@ -145,7 +100,7 @@ void ShellForms::add_stiffness(const Nodes& mid, const Nodes& next, const Stiffn
     }
   }
   RowMat<24, 24> transposed;
-  spread<24>(rCB, transposed);
+  spread(rCB, transposed);
   K += transposed.transpose();
 }
 

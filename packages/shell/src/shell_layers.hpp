@@ -26,12 +26,13 @@ class ShellLayers final : public model::LayerSource {
     const int item = items_[static_cast<std::size_t>(cell)];
     const E& element = batch_.element(item);
     const auto& nodes = batch_.nodes(item);
-    ShellForms::Nodes slots;
-    for (int a = 0; a < 4; ++a) {
+    constexpr int K = slots_of(E::node_kind);
+    Slots<E::num_slots> slots;
+    for (int a = 0; a < E::num_nodes; ++a) {
       const model::NodeSlots node = model::NodeTable::slots(q, nodes[static_cast<std::size_t>(a)]);
-      slots.middleCols<2>(2 * a) = node.leftCols<2>();
+      slots.template middleCols<K>(K * a) = node.leftCols<K>();
     }
-    ShellForms::Strain y;
+    typename E::Strain y;
     element.strain(0, slots, y);
     if constexpr (ElementWithInternals<E>) {
       typename E::Internals internals = E::Internals::Zero();

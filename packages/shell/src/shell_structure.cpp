@@ -2,12 +2,15 @@
 #include <culm/model/element_batch.hpp>
 #include <culm/shell/elastic_shell.hpp>
 #include <culm/shell/hyperelastic_shell.hpp>
+#include <culm/shell/linear_shell.hpp>
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/shell_structure.hpp>
 #include <culm/shell/subdivision.hpp>
 
+#include "shell_frame.hpp"
 #include "shell_layers.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,6 +27,9 @@ constexpr double degree = 0.017453292519943295;
 // Beyond these, elements still work but are poor.
 constexpr double poor_aspect = 20.0;
 constexpr double poor_angle = 20.0 * degree;
+// Thickness over size below which rounding shows in bending: a pinched hemisphere is off by 1e-6 at
+// 2e-6, 4e-4 at 6e-7 and 1 % at 2e-7; a cantilever by 4e-11 at 1e-6, and fails at 1e-7.
+constexpr double thinnest = 1e-6;
 // Folds below this may be curved surfaces with few elements.
 constexpr double flat_fold = 50.0 * degree;
 
@@ -52,9 +58,11 @@ Schema shell_schema() {
                 "Transverse shear from the edges and thickness strain from the corners; without "
                 "them the element locks, which shows what they are good for.")
                .optional(true))
-      .add(choice("Fidelity", {"Full", "Rigid"},
-                  "Full: all there is. Rigid: mass and inertia only; all nodes follow one that is "
-                  "added at their centre, as structure 'NAME body'.")
+      .add(choice("Fidelity", {"Full", "Linear", "Rigid"},
+                  "Full: all there is. Linear: small displacements seen from a frame that moves "
+                  "along at will, added as structure 'NAME frame'; materials must be linear. "
+                  "Rigid: mass and inertia only; all nodes follow one that is added at their "
+                  "centre, as structure 'NAME body'.")
                .optional("Full"))
       .add(number("Fold Angle", "rad",
                   "Elements whose normals differ by more at a common edge keep their own "
@@ -106,6 +114,21 @@ void check_quality(const ShellMesh& mesh, const Options& options, const Log& log
                     "are poor",
                     where, quality.largest_aspect, quality.smallest_angle / degree));
   }
+}
+
+// Of the stiffness of a wall, bending is the part (t / L)^2. Coordinates of the size L are rounded
+// to 1e-16 of it, and forces with the stiffness of the membrane.
+void check_thickness(const ShellMesh& mesh, double thickness, const Options& options,
+                     const Log& log) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.positions) box.extend(x);
+  const double size = box.diagonal().norm();
+  if (thickness >= thinnest * size) return;
+  log.warning(fmt::format(
+      "{}: the wall is {:.2g} m thick and the shell {:.3g} m large: bending is {:.1g} of its "
+      "stiffness, which rounding hides; deflections may be wrong by per cents, or steps fail, "
+      "below a thickness of {:g} of the size",
+      to_string(options.where()), thickness, size, std::pow(thickness / size, 2), thinnest));
 }
 
 std::vector<int> add_nodes(const ShellMesh& mesh, model::Model& model) {
@@ -265,6 +288,31 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
   structure.layers = std::make_shared<ShellLayers<E>>(batch, std::move(items));
 }
 
+// Elements that all see one frame besides their own nodes.
+void add_linear(const ShellMesh& mesh, const std::shared_ptr<const material::Layup>& layup,
+                const Options& options, model::Structure& structure, model::Model& model) {
+  const ShellOptions choice = read_options(options);
+  const material::Material& material = layup->layers.front().material;
+  auto& batch = model::elements<LinearShell>(model, "Shell, linear",
+                                             {material.dissipation, material.damping});
+  const int frame = add_frame(structure.name, structure.nodes, model);
+  std::vector<int> items;
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
+    const std::array<int, 5> all{frame, nodes[0], nodes[1], nodes[2], nodes[3]};
+    LinearShell::Nodes reference;
+    for (std::size_t a = 0; a < all.size(); ++a) {
+      reference.middleCols<4>(4 * static_cast<int>(a)) =
+          model::NodeTable::slots(model.nodes().reference(), all[a]);
+    }
+    const auto full = make_element<ElasticShell>(mesh, e, layup, choice, options);
+    items.push_back(batch.add(LinearShell(full, reference), all));
+    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
+    structure.faces.push_back({nodes, layup->thickness()});
+  }
+  structure.layers = std::make_shared<ShellLayers<LinearShell>>(batch, std::move(items));
+}
+
 // Walls that meet keep their place and their angle: one joint from each node of a fold to the next.
 void join_folds(const ShellMesh& mesh, const std::vector<int>& nodes, const std::string& structure,
                 model::Model& model) {
@@ -319,6 +367,12 @@ model::DeckNumbers number_as_in_deck(const ShellMesh& coarse, const ShellMesh& f
 void add_shell(const Options& options, ShellContext& context) {
   const auto layup =
       std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
+  if (options.text("Fidelity") == "Linear" && !layup->is_linear()) {
+    throw InputError(
+        options.where("Fidelity"),
+        "'Linear' is for small strains, but a material of this shell is for large ones "
+        "(Neo-Hooke): take 'Full' or 'Rigid', or a linear material");
+  }
   const Options& list = options.list("Mesh");
   const MeshRegistry types = meshes();
   const std::string& type = list.text("Type");
@@ -335,19 +389,25 @@ void add_shell(const Options& options, ShellContext& context) {
   }
   if (context.imperfection != nullptr) deviate(*context.imperfection, options.name(), mesh);
   check_quality(mesh, options, context.log);
+  if (options.text("Fidelity") != "Rigid") {
+    check_thickness(mesh, layup->thickness(), options, context.log);
+  }
 
   model::Structure& structure = context.model.add_structure(options.name());
   structure.nodes = add_nodes(mesh, context.model);
   if (context.refinement > 1) {
     structure.deck = number_as_in_deck(coarse, mesh, facets.parents, structure.nodes);
   }
-  if (layup->is_linear()) {
+  const std::string& fidelity = options.text("Fidelity");
+  if (layup->is_linear() && fidelity == "Linear") {
+    add_linear(mesh, layup, options, structure, context.model);
+  } else if (layup->is_linear()) {
     add_elements<ElasticShell>("Shell", mesh, layup, options, structure, context.model);
   } else {
     add_elements<HyperelasticShell>("Shell, hyperelastic", mesh, layup, options, structure,
                                     context.model);
   }
-  if (options.text("Fidelity") == "Full") {
+  if (fidelity != "Rigid") {
     join_folds(mesh, structure.nodes, structure.name, context.model);
   }
   add_sets(mesh, structure.nodes, context.model.nodes(), structure);

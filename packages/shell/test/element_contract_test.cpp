@@ -4,8 +4,8 @@
 
 namespace culm::kit {
 
-using Shells =
-    testing::Types<shell::ElasticShellCase, shell::PlainShellCase, shell::FullyEnhancedShellCase>;
+using Shells = testing::Types<shell::ElasticShellCase, shell::PlainShellCase,
+                              shell::FullyEnhancedShellCase, shell::LinearShellCase>;
 
 INSTANTIATE_TYPED_TEST_SUITE_P(ElasticShell, ElementContract, Shells);
 

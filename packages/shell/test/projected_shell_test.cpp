@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char* effect = "shell";
 
-/// One element, and on demand a triad node that the first of its nodes follow.
-void fill(model::Model& model, int slaves) {
+/// Four nodes, and on demand a triad node that the first of them follow.
+std::array<int, 4> add_nodes(model::Model& model, int slaves) {
   const Nodes reference = warped_reference();
   std::array<int, 4> nodes{};
   for (int a = 0; a < 4; ++a) {
@@ -20,35 +20,60 @@ void fill(model::Model& model, int slaves) {
     slots.leftCols<2>() = reference.middleCols<2>(2 * a);
     nodes[static_cast<std::size_t>(a)] = model.nodes().add(slots, NodeKind::node6);
   }
-  model::elements<ElasticShell>(model, effect).add(ElasticShell(reference, mixed_layup()), nodes);
-  if (slaves == 0) return;
+  if (slaves == 0) return nodes;
   const int master = model.nodes().add(kit::random_node(20));
   for (int a = 0; a < slaves; ++a) {
     model.add_rigid_link("link", nodes[static_cast<std::size_t>(a)], master);
   }
+  return nodes;
+}
+
+/// One element of a kind.
+using Fill = void (*)(model::Model& model, int slaves);
+
+void fill_elastic(model::Model& model, int slaves) {
+  const std::array<int, 4> nodes = add_nodes(model, slaves);
+  model::elements<ElasticShell>(model, effect).add(ElasticShellCase::make(), nodes);
+}
+
+void fill_linear(model::Model& model, int slaves) {
+  const auto [a, b, c, d] = add_nodes(model, slaves);
+  const LinearShell::Nodes reference = LinearShellCase::reference();
+  const int frame = model.nodes().add(reference.leftCols<4>());
+  model::elements<LinearShell>(model, effect).add(LinearShellCase::make(), {frame, a, b, c, d});
 }
 
 /// What ElementBatch makes of a shell whose nodes are free, or follow a body.
-class ProjectedShell : public testing::TestWithParam<int> {};
+class ProjectedShell : public testing::TestWithParam<std::tuple<Fill, int>> {
+ protected:
+  static void fill(model::Model& model) {
+    const auto [fill_one, slaves] = GetParam();
+    fill_one(model, slaves);
+  }
+};
 
 TEST_P(ProjectedShell, TangentIsDerivativeOfResidual) {
-  kit::expect_tangent_is_derivative([](model::Model& model) { fill(model, GetParam()); }, effect);
+  kit::expect_tangent_is_derivative(fill, effect);
 }
 
 TEST_P(ProjectedShell, AssembleAllocatesNothing) {
-  model::Model model;
-  fill(model, GetParam());
-  model.freeze(model::Form::null_space);
-  kit::DenseAssembly dense(model);
-  const model::State state = kit::random_state(model, 3);
-  const Stencil stencil = Stencil::midpoint(0.4);
-  dense.begin_step(state, stencil);
-  const kit::DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
-  kit::NoHeap guard;
-  EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
+  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
+    model::Model model;
+    fill(model);
+    model.freeze(form);
+    kit::DenseAssembly dense(model);
+    const model::State state = kit::random_state(model, 3);
+    const Stencil stencil = Stencil::midpoint(0.4);
+    dense.begin_step(state, stencil);
+    const kit::DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
+    kit::NoHeap guard;
+    EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(SlaveNodes, ProjectedShell, testing::Values(0, 1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Slaves, ProjectedShell,
+                         testing::Combine(testing::Values(fill_elastic, fill_linear),
+                                          testing::Values(0, 1, 2, 4)));
 
 }  // namespace
 }  // namespace culm::shell

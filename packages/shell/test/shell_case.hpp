@@ -3,8 +3,9 @@
 
 #include <culm/material/isotropic.hpp>
 #include <culm/material/orthotropic.hpp>
-#include <culm/shell/elastic_shell.hpp>
+#include <culm/shell/linear_shell.hpp>
 
+#include <culm_kit/dense_assembly.hpp>
 #include <culm_kit/rigid_motion.hpp>
 
 namespace culm::shell {
@@ -87,6 +88,25 @@ struct PlainShellCase : ElasticShellCase {
 /// With all enhanced modes there are.
 struct FullyEnhancedShellCase : ElasticShellCase {
   static Type make() { return {reference(), mixed_layup(), {.enhancement = {7, 4}}}; }
+};
+
+/// A frame node, and the nodes of a shell with two empty slots each.
+inline LinearShell::Nodes with_frame(const Slots<4>& frame, const Nodes& shell) {
+  LinearShell::Nodes q = LinearShell::Nodes::Zero();
+  q.leftCols<4>() = frame;
+  for (int a = 0; a < 4; ++a) q.middleCols<2>(4 * (a + 1)) = shell.middleCols<2>(2 * a);
+  return q;
+}
+
+/// To first order, seen from a frame.
+struct LinearShellCase {
+  using Type = LinearShell;
+  static Slots<20> reference() { return with_frame(kit::random_node(30), warped_reference()); }
+  static Slots<20> state(int seed) {
+    return with_frame(kit::random_node(31 + seed), random_state(seed));
+  }
+  static Type make() { return {ElasticShellCase::make(), reference()}; }
+  static double total_mass() { return ElasticShellCase::total_mass(); }
 };
 
 }  // namespace culm::shell

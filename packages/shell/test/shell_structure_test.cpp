@@ -6,6 +6,7 @@
 #include <culm/shell/shell_structure.hpp>
 
 #include <culm_kit/deck_list.hpp>
+#include <culm_kit/rigid_motion.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,6 +31,7 @@ class ShellStructure : public testing::Test {
     register_shells(registry);
     materials.emplace("steel",
                       material::Material{material::IsotropicMaterial::law(2e11, 0.3), 7850.0});
+    materials.emplace("rubber", material::Material{material::NeoHooke::from_moduli(1e6, 0.4)});
   }
 
   const model::Structure& add(const std::string& mesh_type, const GivenValues& mesh) {
@@ -39,8 +41,7 @@ class ShellStructure : public testing::Test {
                                  const GivenValues& mesh) {
     const Schema schema = registry.variants().at("Shell");
     Options options = kit::deck_list(
-        schema, {{"Material", std::string("steel")}, {"Thickness", 0.1}, {"Fidelity", fidelity}},
-        "wall");
+        schema, {{"Material", material}, {"Thickness", thickness}, {"Fidelity", fidelity}}, "wall");
     Options list = kit::deck_list(*schema.find_slot("Mesh")->find(mesh_type), mesh, "Mesh");
     list.set("Type", mesh_type);
     options.add_list(list);
@@ -51,7 +52,9 @@ class ShellStructure : public testing::Test {
   const model::Structure& add_plane() { return add("Plane", three_by_two); }
 
   int refinement = 1;
+  double thickness = 0.1;
   std::string fidelity = "Full";
+  std::string material = "steel";
   ShellRegistry registry;
   std::map<std::string, material::Material> materials;
   std::ostringstream printed;
@@ -238,6 +241,68 @@ TEST_F(ShellStructure, RigidShellWeighsAndTurnsAsTheFullOne) {
   rigid.freeze(model::Form::null_space);
   EXPECT_EQ(rigid.unknowns().num_unknowns(), 6);
   EXPECT_EQ(rigid.batches().size(), 1u) << "its mass and nothing else";
+}
+
+TEST_F(ShellStructure, LinearShellHasAFrameAmidItsNodes) {
+  fidelity = "Linear";
+  add("Cylinder", {{"Radius", 1.0}, {"Length", 2.0}, {"Elements", Integers{8, 3}}});
+  ASSERT_EQ(model.element_batches().size(), 1u);
+  EXPECT_EQ(model.element_batches().front()->effect(), "Shell, linear");
+  EXPECT_EQ(model.element_batches().front()->size(), 24);
+  EXPECT_EQ(model.find_structure("wall")->layers->layers(), 1);
+  ASSERT_EQ(model.select_nodes("wall frame").size(), 1u);
+  const int frame = model.select_nodes("wall frame").front();
+  const auto slots = model::NodeTable::slots(model.nodes().reference(), frame);
+  EXPECT_LT((slots.rightCols<3>().transpose() * slots.rightCols<3>() - Mat3::Identity()).norm(),
+            1e-14);
+  EXPECT_LT((slots.col(0) - Vec3(0, 0, 1)).norm(), 0.3);
+  model.freeze(model::Form::null_space);
+  EXPECT_EQ(model.unknowns().num_unknowns(), 6 * 32 + 6 + 6) << "nodes, frame and its constraints";
+}
+
+// The frame is where a rigid motion of the shell takes it, and nowhere else.
+TEST_F(ShellStructure, FrameMovesWithTheShell) {
+  fidelity = "Linear";
+  add_plane();
+  const model::Constraint& fit = model.constraints().back();
+  const kit::RigidMotion move = kit::RigidMotion::random(5);
+  Eigen::Matrix3Xd q = model::slots_of(fit, model.nodes().reference());
+  Eigen::Matrix3Xd moved = q;
+  for (Eigen::Index s = 0; s < q.cols(); s += 4) {
+    const Mat<3, 4> node = q.middleCols<4>(s);
+    moved.middleCols<4>(s) = move(node, NodeKind::node12);
+  }
+  for (const model::ConstraintRow& row : fit.rows) {
+    EXPECT_NEAR(model::row_value(row, moved), 0.0, 1e-14);
+  }
+  EXPECT_EQ(fit.rows.size(), 6u);
+}
+
+TEST_F(ShellStructure, WallsWhoseBendingIsLostAreTold) {
+  thickness = 5e-6;  // 1.4e-6 of the diagonal
+  add_plane();
+  EXPECT_THAT(printed.str(), testing::Not(HasSubstr("rounding hides")));
+  thickness = 3e-6;
+  model::Model thin;
+  add_to(thin, "Plane", three_by_two);
+  EXPECT_THAT(printed.str(), HasSubstr("bending is 7e-13 of its stiffness, which rounding hides"));
+  printed.str("");
+  fidelity = "Rigid";
+  model::Model rigid;
+  add_to(rigid, "Plane", three_by_two);
+  EXPECT_THAT(printed.str(), testing::Not(HasSubstr("rounding hides")));
+}
+
+TEST_F(ShellStructure, LinearShellWantsLinearMaterials) {
+  fidelity = "Linear";
+  material = "rubber";
+  try {
+    add_plane();
+    FAIL() << "no complaint";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("'Linear' is for small strains"));
+    EXPECT_THAT(e.what(), HasSubstr("'Full' or 'Rigid'"));
+  }
 }
 
 }  // namespace

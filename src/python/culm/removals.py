@@ -38,10 +38,14 @@ def fidelities(deck):
                 yield Removal(effect, ", ".join(names), settings)
 
 
-def shells_without_flexibility(deck):
+def fidelities_of_shells(deck):
+    """Large rotations, where materials are linear; all flexibility."""
     for name in _types(deck, "Structures", "Shell"):
-        if deck.parameters[f"Structures/{name}/Fidelity"] == "Full":
-            yield Removal("flexibility", name, [f"Structures/{name}/Fidelity=Rigid"])
+        if deck.parameters[f"Structures/{name}/Fidelity"] != "Full":
+            continue
+        if not _stretches_far(deck, name):
+            yield Removal("large rotations", name, [f"Structures/{name}/Fidelity=Linear"])
+        yield Removal("flexibility", name, [f"Structures/{name}/Fidelity=Rigid"])
 
 
 def torsion(deck):
@@ -142,7 +146,7 @@ def prestress(deck):
 
 FINDERS = [
     fidelities,
-    shells_without_flexibility,
+    fidelities_of_shells,
     torsion,
     rotary_inertia,
     enhanced_strains,
@@ -173,6 +177,13 @@ def _sections(deck):
         told.update(new)
         if new:
             yield ", ".join(names), new
+
+
+def _stretches_far(deck, shell):
+    """Whether a layer of a shell is of a material for large strains."""
+    entry = _parameters(deck, f"Structures/{shell}")
+    names = [entry["Material"]] if entry.get("Material") else _words(entry.get("Materials") or "{}")
+    return any(deck.parameters.get(f"Materials/{name}/Type") == "Neo-Hooke" for name in names)
 
 
 def _parameters(deck, path):

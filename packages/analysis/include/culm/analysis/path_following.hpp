@@ -59,7 +59,7 @@ class PathFollowing final : public Analysis {
   AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
 
   void make_tools(Context& context);
-  void balance_start(model::State& state);
+  void balance_start(Context& context, model::State& state);
   /// Tangent of the path and determinant of the stiffness at state.next.
   std::pair<PathTangent, solver::Determinant> find_tangent(Context& context, model::State& state);
   /// Throws NumericalError if nothing changes with the level.

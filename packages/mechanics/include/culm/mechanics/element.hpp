@@ -66,11 +66,13 @@ concept HasStiffness = requires(const E& e, int point) {
 };
 
 /// An element that multiplies by its gradient faster than by the matrix that gradient() writes.
+/// Stiffness stands in the six unknowns of each of its nodes: dx and dθ of a triad, with
+/// dd_i = dθ x d_i for d_i of `mid` in rows and of `next` in columns; dx and dd of a shell node.
 template <class E>
-concept ActsOnSlots = requires(const Slots<E::num_slots>& q, const Vec<E::num_strains>& y,
-                               const RowMat<E::num_strains, E::num_strains>& C,
-                               Slots<E::num_slots>& f,
-                               RowMat<3 * E::num_slots, 3 * E::num_slots>& K) {
+concept ActsOnUnknowns = requires(const Slots<E::num_slots>& q, const Vec<E::num_strains>& y,
+                                  const RowMat<E::num_strains, E::num_strains>& C,
+                                  Slots<E::num_slots>& f,
+                                  RowMat<6 * E::num_nodes, 6 * E::num_nodes>& K) {
   { E::add_force(q, y, f) }
   noexcept->std::same_as<void>;  // f += B(q) y
   { E::add_stiffness(q, q, C, 1.0, K) }

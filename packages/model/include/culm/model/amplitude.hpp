@@ -6,6 +6,7 @@
 #include <culm/model/state.hpp>
 
 #include <functional>
+#include <vector>
 
 namespace culm::model {
 
@@ -25,6 +26,11 @@ class Amplitude {
   static Amplitude level();
   static Amplitude constant(double value = 1.0);
 
+  /// Says where the pieces of a function of time meet, its corners and jumps. @param times  rising
+  Amplitude& with_corners(std::vector<double> times);
+  /// Empty where they are not known.
+  const std::vector<double>& corners() const { return corners_; }
+
   /// What acts in a step: the value at (1 - theta) time_prev + theta time, or that of the step.
   /// @source formulation 3.5
   double in_step(const State& state, const Stencil& stencil) const;
@@ -42,6 +48,7 @@ class Amplitude {
   bool is_constant_ = false;
   OfTime of_time_;
   OfStep of_step_;
+  std::vector<double> corners_;
 };
 
 /// All types of the deck's list "Functions".

@@ -314,8 +314,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     const Motion motion = motion_of(i, state, stencil.theta);
     Contribution<Space> c(want == Want::residual_and_tangent);
     Verdict verdict = Verdict::ok;
-    if constexpr (ActsOnSlots<E>) {
-      verdict = add_stress_to_slots(i, motion, stencil, c);
+    if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
+      verdict = add_stress_to_unknowns(i, motion, stencil, c);
     } else {
       verdict = add_stress(i, motion, stencil, c);
     }
@@ -412,9 +412,8 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
 
   // The same by products that the element knows how to do faster.
   template <class Space>
-  Verdict add_stress_to_slots(std::size_t i, const Motion& motion, const Stencil& stencil,
-                              Contribution<Space>& c) {
-    static_assert(E::node_kind == NodeKind::node6, "slots are unknowns where nodes are free");
+  Verdict add_stress_to_unknowns(std::size_t i, const Motion& motion, const Stencil& stencil,
+                                 Contribution<Space>& c) {
     const E& element = this->element(placement_.items[i]);
     Verdict verdict = Verdict::ok;
     Strain y;
@@ -441,7 +440,7 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
       }
     }
     c.add_slot_force(force, motion);
-    if (c.with_tangent) c.turn_tangent(motion);
+    if (c.with_tangent) c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
     return verdict;
   }
 

@@ -37,17 +37,20 @@ struct ElementContribution {
     }
   }
 
-  /// Takes the tangent from slots to the unknowns of the masters that some nodes turn with.
-  void turn_tangent(const Motion& motion) {
+  /// Takes the tangent from slots of shell nodes to the unknowns of the masters that some of them
+  /// turn with; triads have theirs already (ActsOnUnknowns).
+  void turn_tangent(const Motion& motion, const NodeTable& table, const std::array<int, N>& nodes) {
     RowMat<W, W * N> reduced;
     for (int a = 0; a < N; ++a) {
       const auto at = static_cast<std::size_t>(a);
-      if (!motion.arms_next[at].turns) continue;
+      if (!motion.arms_next[at].turns || table.kind(nodes[at]) == NodeKind::node12) continue;
+      const Arms<2> arms_mid{motion.arms_mid[at].slots.template leftCols<2>(), true};
+      const Arms<2> arms_next{motion.arms_next[at].slots.template leftCols<2>(), true};
       const RowMat<W, W* N> rows = tangent.template middleRows<W>(W * a);
-      Space::reduce_rows(rows, motion.arms_mid[at], reduced);
+      Space::reduce_rows(rows, arms_mid, reduced);
       tangent.template middleRows<W>(W * a) = reduced;
       const RowMat<W, W* N> columns = tangent.template middleCols<W>(W * a).transpose();
-      Space::reduce_rows(columns, motion.arms_next[at], reduced);
+      Space::reduce_rows(columns, arms_next, reduced);
       tangent.template middleCols<W>(W * a) = reduced.transpose();
     }
   }

@@ -55,8 +55,7 @@ struct ElementMotion {
       const int node = nodes[static_cast<std::size_t>(a)];
       Arms<K>& arm = arms[static_cast<std::size_t>(a)];
       arm.slots = slots.template middleCols<K>(K * a);
-      arm.turns =
-          E::node_kind == NodeKind::node12 || (form == Form::null_space && table.turns(node));
+      arm.turns = form == Form::null_space && table.turns(node);
       if (table.is_slave(node)) {
         arm.slots.col(0) -= NodeTable::slots(q, table.master(node)).col(0);
       } else {

@@ -1,6 +1,7 @@
 /// The whole mechanical system: nodes, structures, elements, constraints, loads.
 #pragma once
 
+#include <culm/model/amplitude.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/constraint.hpp>
 #include <culm/model/constraint_batch.hpp>
@@ -70,6 +71,10 @@ class Model {
   /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
   void add_rigid_link(std::string name, int slave, int master);
   void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
+  /// Notes a function of the deck that a load or a constraint follows.
+  void add_function(const std::string& name, const Amplitude& function) {
+    functions_.emplace(name, function);
+  }
 
   /// Keeps equations that follow from others; for tests that look at rows one by one.
   void keep_redundant_rows() { keeps_redundant_rows_ = true; }
@@ -105,6 +110,8 @@ class Model {
   const std::vector<std::unique_ptr<Batch>>& element_batches() const { return element_batches_; }
 
   const std::vector<std::unique_ptr<Batch>>& loads() const { return loads_; }
+  /// Functions of the deck that are followed, by name.
+  const std::map<std::string, Amplitude>& functions() const { return functions_; }
   const std::vector<std::unique_ptr<ConstraintBatch>>& constraint_batches() const {
     return constraint_batches_;
   }
@@ -137,6 +144,7 @@ class Model {
   std::vector<Constraint> equations_;
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
+  std::map<std::string, Amplitude> functions_;
   std::vector<InitialVelocity> initial_velocities_;
   std::vector<InitialDisplacement> initial_displacements_;
   bool keeps_redundant_rows_ = false;

@@ -9,6 +9,22 @@
 
 namespace culm::shell {
 
+/// What the forms of a shell of linear layers mean for stresses.
+struct ElasticWall {
+  ShellGeometry geometry;
+  std::shared_ptr<const material::Layup> layup;
+  /// All enhanced modes vanish at the centre, but for the one linear in ζ alone: its parameter is
+  /// this row times the forms.
+  ShellForms::Strain thickness_parameter = ShellForms::Strain::Zero();
+
+  ShellResultants resultants(const ShellForms::Strain& y) const noexcept;
+  /// At the centre of the element, at `height` within a layer: -1 bottom, 0 middle, 1 top.
+  LayerState layer_state(int layer, double height, const ShellForms::Strain& y) const;
+
+ private:
+  EnhancedParameters enhanced_at_centre(const ShellForms::Strain& y) const noexcept;
+};
+
 /// Four-node solid-degenerate shell of St. Venant-Kirchhoff layers: Green-Lagrange strains with all
 /// powers of ζ, assumed transverse shear and thickness strains, enhanced membrane and thickness
 /// strains. Enhanced parameters are linear in the forms, hence condensed once and for all: what
@@ -32,26 +48,23 @@ class ElasticShell : public ShellForms {
   /// The constant C of the law: symmetric, stress = C y at rest.
   const Stiffness& stiffness(int point) const noexcept;
 
-  ShellResultants resultants(int point, const Strain& y) const noexcept;
+  ShellResultants resultants(int, const Strain& y) const noexcept { return wall_.resultants(y); }
   static constexpr const auto& resultant_names() { return shell_resultant_names; }
   /// At the centre of the element, at `height` within a layer: -1 bottom, 0 middle, 1 top.
-  LayerState layer_state(int layer, double height, const Strain& y) const;
-  const material::Layup& layup() const { return *layup_; }
+  LayerState layer_state(int layer, double height, const Strain& y) const {
+    return wall_.layer_state(layer, height, y);
+  }
+  const material::Layup& layup() const { return *wall_.layup; }
+  const ElasticWall& wall() const { return wall_; }
 
  private:
-  EnhancedParameters enhanced_at_centre(const Strain& y) const noexcept;
-
-  ShellGeometry geometry_;
-  std::shared_ptr<const material::Layup> layup_;
+  ElasticWall wall_;
   Stiffness stiffness_;
   SlotMatrix<num_slots> mass_;
-  // All enhanced modes vanish at the centre, but for the one linear in ζ alone: its parameter is
-  // this row times y.
-  Strain thickness_parameter_;
 };
 
 static_assert(Element<ElasticShell>);
 static_assert(HasResultants<ElasticShell>);
-static_assert(HasStiffness<ElasticShell> && ActsOnSlots<ElasticShell>);
+static_assert(HasStiffness<ElasticShell> && ActsOnUnknowns<ElasticShell>);
 
 }  // namespace culm::shell

@@ -1,0 +1,78 @@
+#include "missed_pulses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace culm::analysis {
+namespace {
+
+// A pulse counts if it is a tenth of the largest value, and comes back by half of its height.
+constexpr double notable_height = 0.1;
+constexpr double end_difference = 0.5;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// On both sides of a time: functions may jump there.
+std::pair<double, double> values_beside(const model::Amplitude& function, double time) {
+  return {function.at(std::nextafter(time, -infinity)),
+          function.at(std::nextafter(time, infinity))};
+}
+
+double largest_corner(const model::Amplitude& function) {
+  double size = 0.0;
+  for (double time : function.corners()) {
+    const auto [before, after] = values_beside(function, time);
+    size = std::max({size, std::abs(before), std::abs(after)});
+  }
+  return size;
+}
+
+// What the function does between the ends of a step beyond a straight line between them; `at_start`
+// is its value there.
+bool is_missed(const model::Amplitude& function, double size, double at_start, double start,
+               double end) {
+  const std::vector<double>& corners = function.corners();
+  const auto first = std::ranges::lower_bound(corners, start);
+  const auto last = std::ranges::lower_bound(corners, end);
+  if (last - first < 2) return false;
+  const double at_end = function.at(end);
+  double height = 0.0;
+  for (auto corner = first; corner != last; ++corner) {
+    const double share = (*corner - start) / (end - start);
+    const double line = (1.0 - share) * at_start + share * at_end;
+    const auto [before, after] = values_beside(function, *corner);
+    if (corner != first) height = std::max(height, std::abs(before - line));
+    height = std::max(height, std::abs(after - line));
+  }
+  return height > notable_height * size && std::abs(at_end - at_start) < end_difference * height;
+}
+
+}  // namespace
+
+MissedPulses::MissedPulses(const std::map<std::string, model::Amplitude>& functions) {
+  for (const auto& [name, function] : functions) {
+    if (function.corners().size() < 2) continue;
+    candidates_.push_back({name, function, largest_corner(function)});
+  }
+}
+
+void MissedPulses::check(double start, double end, const Log& log) {
+  std::erase_if(candidates_, [&](const Candidate& candidate) {
+    const model::Amplitude& function = candidate.function;
+    // what begins with the motion, as a square does, has not acted before
+    const bool begins = is_first_ && start == function.corners().front();
+    const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -infinity));
+    if (!is_missed(function, candidate.size, at_start, start, end)) return false;
+    log.warning(fmt::format(
+        "function '{}' has a pulse that begins and ends within the time step from {:.6g} s to "
+        "{:.6g} s: it acts in part or not at all; take steps that are shorter than the pulse",
+        candidate.name, start, end));
+    return true;
+  });
+  is_first_ = false;
+}
+
+}  // namespace culm::analysis

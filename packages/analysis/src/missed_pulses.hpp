@@ -1,0 +1,33 @@
+/// Pulses of loads that are shorter than a time step.
+#pragma once
+
+#include <culm/base/log.hpp>
+#include <culm/model/amplitude.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace culm::analysis {
+
+/// Warns once of each function that rises and falls within one step, so that a scheme that sees it
+/// at one time of the step takes a part of it or nothing. Functions without known corners are not
+/// looked at.
+class MissedPulses {
+ public:
+  explicit MissedPulses(const std::map<std::string, model::Amplitude>& functions);
+
+  /// Looks at the step from `start` to `end` [s]; the first call is for the first step of a motion.
+  void check(double start, double end, const Log& log);
+
+ private:
+  struct Candidate {
+    std::string name;
+    model::Amplitude function;
+    double size;  // of the values at the corners
+  };
+  std::vector<Candidate> candidates_;
+  bool is_first_ = true;
+};
+
+}  // namespace culm::analysis

@@ -1,0 +1,83 @@
+#include "../src/missed_pulses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace culm::analysis {
+namespace {
+
+using model::Amplitude;
+
+// Linear between points, constant outside.
+Amplitude table(const std::vector<double>& times, const std::vector<double>& values) {
+  return Amplitude::of_time([=](double t) {
+           if (t <= times.front()) return values.front();
+           for (std::size_t i = 1; i < times.size(); ++i) {
+             if (t > times[i]) continue;
+             const double share = (t - times[i - 1]) / (times[i] - times[i - 1]);
+             return (1.0 - share) * values[i - 1] + share * values[i];
+           }
+           return values.back();
+         })
+      .with_corners(times);
+}
+
+Amplitude square(double duration) {
+  return Amplitude::of_time([=](double t) { return t <= duration ? 1.0 : 0.0; })
+      .with_corners({0.0, duration});
+}
+
+// Warnings of steps of one length from 0 to 2.
+int warnings(const Amplitude& function, double step) {
+  std::ostringstream printed;
+  const Log log{printed, LogLevel::info};
+  MissedPulses pulses({{"hit", function}});
+  for (int n = 0; n * step < 2.0; ++n) pulses.check(n * step, (n + 1) * step, log);
+  int count = 0;
+  const std::string text = printed.str();
+  for (auto at = text.find("'hit'"); at != std::string::npos; at = text.find("'hit'", at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(MissedPulses, ShortPulsesAreTold) {
+  EXPECT_EQ(warnings(table({1.02, 1.03, 1.04}, {0.0, 1.0, 0.0}), 0.1), 1);
+  EXPECT_EQ(warnings(table({0.0, 0.01, 0.02}, {0.0, 1.0, 0.0}), 0.1), 1);
+  EXPECT_EQ(warnings(table({0.0, 0.01}, {1.0, 0.0}), 0.1), 1);
+  EXPECT_EQ(warnings(square(0.03), 0.1), 1);
+  EXPECT_EQ(warnings(table({1.0, 1.01, 1.02, 1.03}, {5.0, 5.0, 2.0, 5.0}), 0.1), 1);
+}
+
+TEST(MissedPulses, EachFunctionOnce) {
+  EXPECT_EQ(warnings(table({1.01, 1.02, 1.03, 1.11, 1.12, 1.13}, {0, 1, 0, 0, 1, 0}), 0.1), 1);
+}
+
+TEST(MissedPulses, WhatStepsResolveIsNot) {
+  EXPECT_EQ(warnings(table({1.0, 1.1, 1.2}, {0.0, 1.0, 0.0}), 0.1), 0);
+  EXPECT_EQ(warnings(table({1.02, 1.03, 1.04}, {0.0, 1.0, 0.0}), 0.01), 0);
+  EXPECT_EQ(warnings(square(0.5), 0.1), 0);
+}
+
+TEST(MissedPulses, JumpsAndRipplesAreNoPulses) {
+  EXPECT_EQ(warnings(table({0.0, 1.0, 1.001}, {1.0, 1.0, 0.0}), 0.1), 0);
+  EXPECT_EQ(warnings(table({0.0, 1.05, 1.051}, {1.0, 1.0, 0.0}), 0.1), 0);
+  EXPECT_EQ(warnings(table({0.0, 0.001}, {0.0, 1.0}), 0.1), 0);
+  std::vector<double> times, values;
+  for (int i = 0; i <= 2000; ++i) {
+    times.push_back(1e-3 * i);
+    values.push_back(std::sin(3.0 * times.back()) + 0.01 * (i % 2));
+  }
+  EXPECT_EQ(warnings(table(times, values), 0.1), 0);
+}
+
+TEST(MissedPulses, FunctionsWithoutCornersAreNotLookedAt) {
+  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return std::sin(100.0 * t); }), 0.1), 0);
+}
+
+}  // namespace
+}  // namespace culm::analysis

@@ -1,0 +1,94 @@
+#include "shell_frame.hpp"
+
+#include <culm/model/constraint_batch.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <limits>
+
+namespace culm::shell {
+
+namespace {
+
+using Points = Eigen::Matrix3Xd;
+
+Points positions(const std::vector<int>& nodes, const model::NodeTable& table) {
+  Points x(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    x.col(static_cast<Eigen::Index>(i)) =
+        model::NodeTable::slots(table.reference(), nodes[i]).col(0);
+  }
+  return x;
+}
+
+// Columns of points that are far from each other: first the one farthest from the mean, then
+// always the one farthest from all before.
+std::vector<Eigen::Index> spread_out(const Points& x, int most) {
+  Eigen::RowVectorXd distance = (x.colwise() - x.rowwise().mean()).colwise().norm();
+  const double size = distance.maxCoeff();
+  std::vector<Eigen::Index> chosen;
+  Eigen::Index farthest = 0;
+  while (static_cast<int>(chosen.size()) < most && distance.maxCoeff(&farthest) > 1e-6 * size) {
+    if (chosen.empty()) distance.setConstant(std::numeric_limits<double>::infinity());
+    chosen.push_back(farthest);
+    distance = distance.cwiseMin((x.colwise() - x.col(farthest)).colwise().norm());
+  }
+  return chosen;
+}
+
+}  // namespace
+
+int add_frame(const std::string& shell, const std::vector<int>& nodes, model::Model& model) {
+  constexpr int most = model::ConstraintBatch::max_nodes - 1;
+  std::vector<int> chosen;
+  for (Eigen::Index column : spread_out(positions(nodes, model.nodes()), most)) {
+    chosen.push_back(nodes[static_cast<std::size_t>(column)]);
+  }
+  Points x = positions(chosen, model.nodes());
+  const Vec3 mean = x.rowwise().mean();
+  x.colwise() -= mean;
+  const Eigen::SelfAdjointEigenSolver<Mat3> inertia(x * x.transpose());
+  const Vec3 largest = inertia.eigenvectors().col(2);
+  const Vec3 second = inertia.eigenvectors().col(1);
+
+  model::NodeSlots slots;
+  slots << mean, largest, second, largest.cross(second);
+  const int frame = model.nodes().add(slots);
+  model::Structure& structure = model.add_structure(shell + " frame");
+  structure.nodes = {frame};
+  structure.sets = {{"first", {frame}}, {"last", {frame}}, {"all", {frame}}};
+  structure.cells.push_back({{frame}, nullptr, 0});
+
+  model::Constraint c;
+  c.name = structure.name;
+  c.type = "Shell Frame";
+  c.is_internal = true;
+  c.is_structural = true;
+  c.nodes = {frame};
+  c.nodes.insert(c.nodes.end(), chosen.begin(), chosen.end());
+  const auto count = static_cast<int>(c.nodes.size());
+  // sum of factors times the positions of the chosen nodes
+  const auto sum = [&](const Eigen::RowVectorXd& factors) {
+    model::SlotSum result(static_cast<std::size_t>(4 * count), 0.0);
+    for (Eigen::Index a = 0; a < factors.size(); ++a) {
+      result[static_cast<std::size_t>(4 * (a + 1))] = factors[a];
+    }
+    return result;
+  };
+  const auto director = [&](int i) { return model::attached_vector(0, count, Vec3::Unit(i)); };
+  const Eigen::Matrix3Xd q = model::slots_of(c, model.nodes().reference());
+  model::SlotSum from_frame = sum(Eigen::RowVectorXd::Constant(x.cols(), 1.0 / (count - 1)));
+  from_frame[0] = -1.0;
+  for (int i = 0; i < 3; ++i) c.rows.push_back(model::product_row(from_frame, director(i), q));
+  const model::SlotSum first_axis = sum(largest.transpose() * x / inertia.eigenvalues()[2]);
+  const model::SlotSum second_axis = sum(second.transpose() * x / inertia.eigenvalues()[1]);
+  c.rows.push_back(model::product_row(first_axis, director(2), q));
+  c.rows.push_back(model::product_row(second_axis, director(2), q));
+  c.rows.push_back(model::product_row(first_axis, director(1), q));
+  model.add_constraint(std::move(c));
+  return frame;
+}
+
+}  // namespace culm::shell
