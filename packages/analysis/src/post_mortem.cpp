@@ -465,7 +465,7 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
 
 std::string PostMortem::path_cause(model::State& state, const Stencil& stencil) {
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
-    return "Likely cause: an element turns too far.\nTry: more elements.";
+    return "Likely cause: an element turns too far, or inside out.\nTry: more elements.";
   }
   std::string text =
       "Likely cause: the path bends more sharply than the shortest step can follow, crosses\n"
@@ -484,7 +484,8 @@ std::string PostMortem::path_cause(model::State& state, const Stencil& stencil) 
 
 std::string PostMortem::dynamic_cause() const {
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
-    return "Likely cause: an element turns too far in a step.\nTry: a smaller step, more elements.";
+    return "Likely cause: an element turns too far in a step, or inside out.\n"
+           "Try: a smaller step, more elements.";
   }
   if (attempts_.back().outcome.end == solver::StepEnd::turned_too_far) {
     return "Likely cause: a body spins too fast for the steps.\nTry: a smaller step.";
