@@ -4,6 +4,7 @@
 #include <culm/material/isotropic.hpp>
 #include <culm/shell/elastic_shell.hpp>
 #include <culm/shell/hyperelastic_shell.hpp>
+#include <culm/shell/linear_shell.hpp>
 
 #include <benchmark/benchmark.h>
 
@@ -67,6 +68,37 @@ void ElasticShell_Evaluate(benchmark::State& run) {
   }
 }
 
+// The same of an element seen from a frame: 30 unknowns instead of 24.
+void LinearShell_Evaluate(benchmark::State& run) {
+  const ElasticShell full(reference(), layup(material::IsotropicMaterial::law(3.0, 0.3), 1));
+  const auto with_frame = [](const ShellForms::Nodes& shell) {
+    LinearShell::Nodes q = LinearShell::Nodes::Zero();
+    q.middleCols<3>(1).setIdentity();
+    for (int a = 0; a < 4; ++a) q.middleCols<2>(4 * (a + 1)) = shell.middleCols<2>(2 * a);
+    return q;
+  };
+  const std::vector<LinearShell> elements(500, LinearShell(full, with_frame(reference())));
+  LinearShell::Nodes q = with_frame(deformed());
+  LinearShell::Strain y;
+  LinearShell::Strain S;
+  std::size_t next = 0;
+  for (auto _ : run) {
+    const LinearShell& element = elements[next++ % elements.size()];
+    LinearShell::Nodes f = LinearShell::Nodes::Zero();
+    RowMat<30, 30> K = RowMat<30, 30>::Zero();
+    SlotMatrix<20> A = SlotMatrix<20>::Zero();
+    element.strain(0, q, y);
+    S.noalias() = element.stiffness(0) * y;
+    LinearShell::add_force(q, S, f);
+    LinearShell::add_stiffness(q, q, element.stiffness(0), 1.0, K);
+    element.add_curvature(0, S, A);
+    benchmark::DoNotOptimize(f.data());
+    benchmark::DoNotOptimize(K.data());
+    benchmark::DoNotOptimize(A.data());
+    q(0, 8) += 1e-12;
+  }
+}
+
 void HyperelasticShell_Respond(benchmark::State& run) {
   const HyperelasticShell element(reference(), layup(material::NeoHooke::from_moduli(3.0, 0.3),
                                                      static_cast<int>(run.range(0))));
@@ -92,6 +124,7 @@ void ElasticShell_Construct(benchmark::State& run) {
 }
 
 BENCHMARK(ElasticShell_Evaluate)->Arg(1)->Arg(4)->Arg(20);
+BENCHMARK(LinearShell_Evaluate);
 BENCHMARK(HyperelasticShell_Respond)->Arg(1)->Arg(4)->Arg(20);
 BENCHMARK(ElasticShell_Construct)->Arg(1)->Arg(4)->Arg(20);
 
