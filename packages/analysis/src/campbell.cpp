@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace culm::analysis {
@@ -41,30 +42,65 @@ void climb(Context& context, model::State& state, solver::NewtonSolver& newton, 
   } while (state.time_prev < level);
 }
 
-// Which of the new modes goes on with each followed one: pairs in the order of their likeness. A
-// mode that none is like is lost, -1.
-std::vector<int> match(const model::Model& model, const model::State& state,
-                       const std::vector<Shape>& followed, const std::vector<Mode>& modes) {
+// A mode on its way through the levels.
+struct Followed {
+  Shape shape;
+  double rate = 0.0;  // [rad/s]; negative beyond the speed at which a backward whirl stands still
+};
+
+// The same motion, told with the frequency of the other sign.
+Shape conjugate(Shape shape) {
+  for (Vec6& motion : shape.imaginary) motion = -motion;
+  return shape;
+}
+
+Followed make_followed(const Mode& mode, bool is_conjugate) {
+  const double rate = mode.eigenvalue.imag();
+  if (is_conjugate) return {conjugate(mode.shape), -rate};
+  return {mode.shape, rate};
+}
+
+struct Match {
+  int mode = -1;  // or none is like it: lost
+  bool is_conjugate = false;
+};
+
+// Which of the new modes goes on with each followed one: pairs in the order of their likeness. Seen
+// at rest, a frequency of a rotor changes by about the change of its speed; so one near zero may go
+// on below, as the conjugate of what is found.
+std::vector<Match> match(const model::Model& model, const model::State& state,
+                         const std::vector<Followed>& followed, const std::vector<Mode>& modes,
+                         double change_of_speed) {
   struct Pair {
-    double assurance;
+    long assurance;  // in millionths: rounding decides nothing, of equal ones the first counts
     std::size_t old;
-    std::size_t now;
+    Match now;
   };
   std::vector<Pair> pairs;
+  const auto add = [&](std::size_t i, const Match& now) {
+    const Followed next =
+        make_followed(modes[static_cast<std::size_t>(now.mode)], now.is_conjugate);
+    const bool crosses = next.rate * followed[i].rate < 0.0 || now.is_conjugate;
+    if (crosses && std::abs(next.rate - followed[i].rate) > 1.5 * change_of_speed) return;
+    const double assurance = modal_assurance(model, state, followed[i].shape, next.shape);
+    pairs.push_back({std::lround(1e6 * assurance), i, now});
+  };
   for (std::size_t i = 0; i < followed.size(); ++i) {
-    for (std::size_t j = 0; j < modes.size(); ++j) {
-      pairs.push_back({modal_assurance(model, state, followed[i], modes[j].shape), i, j});
+    for (int j = 0; j < static_cast<int>(modes.size()); ++j) {
+      add(i, {j, false});
+      if (change_of_speed > 0.0) add(i, {j, true});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.assurance > b.assurance; });
-  std::vector<int> found(followed.size(), -1);
+  std::vector<Match> found(followed.size());
   std::vector<bool> taken(modes.size(), false);
   for (const Pair& pair : pairs) {
-    if (pair.assurance < least_assurance) break;
-    if (found[pair.old] >= 0 || taken[pair.now]) continue;
-    found[pair.old] = static_cast<int>(pair.now);
-    taken[pair.now] = true;
+    if (1e-6 * static_cast<double>(pair.assurance) < least_assurance) break;
+    const auto mode = static_cast<std::size_t>(pair.now.mode);
+    if (found[pair.old].mode >= 0 || taken[mode]) continue;
+    found[pair.old] = pair.now;
+    taken[mode] = true;
   }
   return found;
 }
@@ -84,7 +120,7 @@ void check_levels(const Options& options, InputIssues& issues) {
 Schema Campbell::schema() {
   Schema schema("Campbell",
                 "Equilibrium and modes at several load levels, modes followed by their shapes: the "
-                "Campbell diagram of a model in a rotating frame.");
+                "Campbell diagram of a model with a rotating frame.");
   schema.add(numbers("Levels", "1",
                      "Load levels, rising; the speed of a rotating frame grows with "
                      "them by its function.")
@@ -109,7 +145,9 @@ AnalysisReport Campbell::advance(Context& context, model::State& state, Observer
   ModalSettings wider = settings_.modes;
   wider.modes += std::max(4, settings_.modes.modes / 2);
   ReportTable table{"campbell", {"level"}, {}, {}};
-  std::vector<Shape> followed;
+  std::vector<std::string> meaning;  // of the modes at the last level
+  std::vector<Followed> followed;
+  double speed = 0.0;  // of a turning rotor
   state.time = state.time_prev = std::min(state.time, settings_.levels.front());
   for (double level : settings_.levels) {
     climb(context, state, newton, level);
@@ -118,25 +156,28 @@ AnalysisReport Campbell::advance(Context& context, model::State& state, Observer
       const auto count =
           std::min(set.modes.size(), static_cast<std::size_t>(settings_.modes.modes));
       for (std::size_t i = 0; i < count; ++i) {
-        followed.push_back(set.modes[i].shape);
+        followed.push_back(make_followed(set.modes[i], false));
         table.columns.push_back(fmt::format("frequency {} [Hz]", i + 1));
       }
       for (std::size_t i = 0; i < count; ++i) {
         table.columns.push_back(fmt::format("damping ratio {}", i + 1));
       }
     }
-    const std::vector<int> found = match(model, state, followed, set.modes);
+    const auto found = match(model, state, followed, set.modes, std::abs(set.rotor_speed - speed));
+    speed = set.rotor_speed;
     std::vector<double> row{level};
     std::vector<double> damping;
+    meaning.assign(followed.size(), "lost");
     for (std::size_t i = 0; i < found.size(); ++i) {
       constexpr double lost = std::numeric_limits<double>::quiet_NaN();
-      if (found[i] < 0) {
+      if (found[i].mode < 0) {
         row.push_back(lost);
         damping.push_back(lost);
         continue;
       }
-      const Mode& mode = set.modes[static_cast<std::size_t>(found[i])];
-      followed[i] = mode.shape;
+      const Mode& mode = set.modes[static_cast<std::size_t>(found[i].mode)];
+      followed[i] = make_followed(mode, found[i].is_conjugate);
+      meaning[i] = describe(mode, model);
       row.push_back(mode.frequency());
       damping.push_back(mode.damping());
     }
@@ -150,6 +191,9 @@ AnalysisReport Campbell::advance(Context& context, model::State& state, Observer
     for (std::size_t i = 1; i <= followed.size(); ++i)
       report.text += fmt::format(" {:>9.5g}", row[i]);
     report.text += '\n';
+  }
+  for (std::size_t i = 0; i < meaning.size(); ++i) {
+    report.text += fmt::format("{:>10}  mode {}: {}\n", i == 0 ? "at last" : "", i + 1, meaning[i]);
   }
   report.tables.push_back(std::move(table));
   return report;

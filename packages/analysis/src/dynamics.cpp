@@ -1,5 +1,6 @@
 #include <culm/analysis/dynamics.hpp>
 #include <culm/analysis/newton_options.hpp>
+#include <culm/analysis/turning_rotor.hpp>
 #include <culm/base/error.hpp>
 
 #include "mirrored_faces.hpp"
@@ -149,6 +150,7 @@ void Dynamics::measure_hidden_constraints(Context& context, const model::State& 
 }
 
 void Dynamics::start(Context& context, model::State& state) {
+  warn_of_turning_part(context.system.model(), context.log);
   assembly::System& system = context.system;
   if (system.velocity_dissipation() != nullptr && !scheme_->conserves()) {
     throw InputError(settings_.scheme,

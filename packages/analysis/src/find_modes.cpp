@@ -94,15 +94,23 @@ class Finder {
   Finder(Context& context, model::State& state, const ModalSettings& settings)
       : context_(context), state_(state), settings_(settings), linear_(linearise(context, state)) {
     context.system.synchronise(state);
+    if (settings.rotor) {
+      rotor_.emplace(context.system, state, *settings.rotor);
+      linear_ = rotor_->transform(linear_, settings.damping);
+      set_.rotor_speed = rotor_->speed();
+    } else {
+      warn_of_turning_part(context.system.model(), context.log);
+    }
     solver_.solver = settings.solver;
     solver_.linear_solver = context.linear.name();
     solver_.count = settings.modes;
   }
 
   ModeSet find() {
+    const bool counts = settings_.damping || rotor_;  // a rotor keeps gyroscopic forces alone
     set_.is_complex =
-        linear_.asymmetry > largest_asymmetry || (settings_.damping && !linear_.damping.is_null());
-    if (!linear_.damping.is_null() && !settings_.damping) {
+        linear_.asymmetry > largest_asymmetry || (counts && !linear_.damping.is_null());
+    if (!linear_.damping.is_null() && !counts) {
       context_.log.info(
           "note: modes are those without damping and gyroscopic forces; 'Damping' = true counts "
           "them");
@@ -125,7 +133,13 @@ class Finder {
   double lowest_shift() const { return -1e-10 * typical_eigenvalue(linear_, context_.system); }
 
   std::vector<Vec6> motions(const Eigen::VectorXd& unknowns) const {
-    return node_motions(context_.system, state_, unknowns);
+    return node_motions(context_.system, state_,
+                        rotor_ ? rotor_->unknowns(unknowns) : Eigen::VectorXd(unknowns));
+  }
+
+  void add(Mode mode, const Eigen::VectorXcd& x) {
+    if (rotor_) mode.whirl = rotor_->whirl(x);
+    set_.modes.push_back(std::move(mode));
   }
 
   void find_real() {
@@ -139,8 +153,9 @@ class Finder {
       if (std::abs(square) > zero_bound * pairs.rounding[i]) {
         mode.eigenvalue = square > 0.0 ? Complex(0.0, std::sqrt(square)) : std::sqrt(-square);
       }
-      mode.shape.real = motions(pairs.vectors.col(static_cast<Eigen::Index>(i)));
-      set_.modes.push_back(std::move(mode));
+      const Eigen::VectorXd x = pairs.vectors.col(static_cast<Eigen::Index>(i));
+      mode.shape.real = motions(x);
+      add(std::move(mode), x.cast<Complex>());
     }
     note_rounding(pairs.rounding);
     set_.solver = pairs.solver;
@@ -149,7 +164,7 @@ class Finder {
 
   void find_complex() {
     Teuchos::RCP<const assembly::CrsMatrix> damping = linear_.damping;
-    if (damping.is_null() || !settings_.damping) {
+    if (damping.is_null() || !(settings_.damping || rotor_)) {
       const auto none = Teuchos::rcp(new assembly::CrsMatrix(*linear_.mass, Teuchos::Copy));
       const auto values = none->getLocalMatrixHost().values;
       for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = 0.0;
@@ -169,7 +184,7 @@ class Finder {
       const Eigen::VectorXcd x = pairs.vectors.col(static_cast<Eigen::Index>(i));
       mode.shape.real = motions(x.real());
       mode.shape.imaginary = motions(x.imag());
-      set_.modes.push_back(std::move(mode));
+      add(std::move(mode), x);
     }
     note_rounding(pairs.rounding);
     set_.solver = pairs.solver;
@@ -217,6 +232,7 @@ class Finder {
   model::State& state_;
   const ModalSettings& settings_;
   Linearisation linear_;
+  std::optional<TurningRotor> rotor_;
   solver::EigenSettings solver_;
   ModeSet set_;
   double hidden_ = 0.0;  // frequency that may be nothing but rounding [Hz]
@@ -227,6 +243,18 @@ class Finder {
 double Mode::frequency() const { return eigenvalue.imag() / (2.0 * std::numbers::pi); }
 
 double Mode::damping() const { return is_zero() ? 0.0 : -eigenvalue.real() / std::abs(eigenvalue); }
+
+std::string describe(const Mode& mode, const model::Model& model) {
+  std::string text = describe_shares(model, mode.properties.energy);
+  if (!mode.whirl) return text;
+  const std::pair<const char*, double> patterns[] = {{"collective", mode.whirl->collective},
+                                                     {"backward whirl", mode.whirl->backward},
+                                                     {"forward whirl", mode.whirl->forward}};
+  const auto& most = *std::ranges::max_element(
+      patterns, {}, [](const auto& pattern) { return std::lround(1e3 * pattern.second); });
+  if (most.second > 0.05) text += fmt::format("; {} {:.0f} %", most.first, 100.0 * most.second);
+  return text;
+}
 
 ModeSet find_modes(Context& context, model::State& state, const ModalSettings& settings) {
   return Finder(context, state, settings).find();

@@ -1,5 +1,7 @@
 #include <culm/analysis/matrices.hpp>
 
+#include "whole_matrix.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,25 +13,14 @@ using assembly::CrsMatrix;
 
 // The entries that are not zero, of all ranks, on rank 0.
 ReportMatrix gather(const std::string& name, const CrsMatrix& matrix, const parallel::Comm& comm) {
-  std::vector<int> row, column;
-  std::vector<double> value;
-  const auto local = matrix.getLocalMatrixHost();
-  for (std::size_t r = 0; r < static_cast<std::size_t>(local.numRows()); ++r) {
-    for (auto k = local.graph.row_map(r); k < local.graph.row_map(r + 1); ++k) {
-      if (local.values(k) == 0.0) continue;
-      row.push_back(static_cast<int>(matrix.getRowMap()->getGlobalElement(static_cast<int>(r))));
-      column.push_back(
-          static_cast<int>(matrix.getColMap()->getGlobalElement(local.graph.entries(k))));
-      value.push_back(local.values(k));
-    }
-  }
+  const Entries mine = entries_of(matrix);
   const auto size = static_cast<int>(matrix.getGlobalNumRows());
   return {name,
           size,
           size,
-          comm.gather(std::span<const int>(row)),
-          comm.gather(std::span<const int>(column)),
-          comm.gather(std::span<const double>(value))};
+          comm.gather(std::span<const int>(mine.row)),
+          comm.gather(std::span<const int>(mine.column)),
+          comm.gather(std::span<const double>(mine.value))};
 }
 
 // Number of each unknown among the motions, or -1 - k for the k-th multiplier.

@@ -29,6 +29,11 @@ ReportTable make_table(const ModeSet& set, const model::Model& model) {
                    "effective inertia x [kg m^2]",
                    "effective inertia y [kg m^2]",
                    "effective inertia z [kg m^2]"};
+  if (!set.modes.empty() && set.modes.front().whirl) {
+    for (const char* share : {"collective", "backward whirl", "forward whirl"}) {
+      table.columns.emplace_back(share);
+    }
+  }
   for (std::size_t i = 0; i < set.modes.size(); ++i) {
     const Mode& mode = set.modes[i];
     std::vector<double> row = {
@@ -37,8 +42,11 @@ ReportTable make_table(const ModeSet& set, const model::Model& model) {
     const Vec6& p = mode.properties.participation;
     row.insert(row.end(), p.data(), p.data() + 6);
     for (int d = 0; d < 6; ++d) row.push_back(p[d] * p[d]);
+    if (mode.whirl) {
+      row.insert(row.end(), {mode.whirl->collective, mode.whirl->backward, mode.whirl->forward});
+    }
     table.rows.push_back(std::move(row));
-    table.remarks.push_back(describe_shares(model, mode.properties.energy));
+    table.remarks.push_back(describe(mode, model));
   }
   return table;
 }
@@ -112,7 +120,16 @@ Schema& add_modal_fields(Schema& schema) {
                   "Of the eigenproblem: Spectra for large models on one process; Anasazi for those "
                   "on several, complex modes by Spectra as well; Dense reduces whole matrices, "
                   "best for small ones and to check; Automatic decides.")
-               .optional(defaults.solver));
+               .optional(defaults.solver))
+      .list("Rotor",
+            Schema("Rotor",
+                   "A rotor that turns steadily while the rest stands: the structures that the "
+                   "load 'Rotating Frame' names. Frequencies are those of an observer at rest.")
+                .add(texts("Blades",
+                           "Three or more structures with equal meshes, evenly spaced about the "
+                           "axis; none if the rotor is symmetric about its axis.")
+                         .optional()),
+            Presence::optional);
 }
 
 ModalSettings read_modal_settings(const Options& options) {
@@ -121,6 +138,12 @@ ModalSettings read_modal_settings(const Options& options) {
   if (options.has("Near")) settings.near = options.number("Near");
   settings.damping = options.flag("Damping");
   settings.solver = options.text("Solver");
+  if (options.has_list("Rotor")) {
+    const Options& rotor = options.list("Rotor");
+    settings.rotor.emplace();
+    settings.rotor->where = rotor.where("Blades");
+    if (rotor.has("Blades")) settings.rotor->blades = rotor.texts("Blades");
+  }
   return settings;
 }
 

@@ -6,6 +6,9 @@
 #include "slot_kernel.hpp"
 #include "types.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -32,6 +35,26 @@ Motion::Slots accelerations(const Motion& motion, const std::vector<int>& nodes,
   return a;
 }
 
+// The nodes of the structures that a deck names; false, with an issue, if one does not exist.
+bool select_structures(const Options& options, model::BuildContext& context,
+                       std::vector<int>& nodes) {
+  bool found = true;
+  for (const std::string& name : options.texts("Structures")) {
+    const model::Structure* structure = context.model.find_structure(name);
+    if (structure == nullptr) {
+      std::vector<std::string> names;
+      for (const auto& one : context.model.structures()) names.push_back(one.name);
+      context.issues.add(
+          options.where("Structures"),
+          fmt::format("no structure '{}' (there are: {})", name, fmt::join(names, ", ")));
+      found = false;
+      continue;
+    }
+    nodes.insert(nodes.end(), structure->nodes.begin(), structure->nodes.end());
+  }
+  return found;
+}
+
 void build(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   if (!function) return;
@@ -45,19 +68,38 @@ void build(const Options& options, model::BuildContext& context) {
     return;
   }
   auto load = std::make_unique<RotatingFrame>(
-      effect_name("Rotating Frame", options), context.model.nodes(), *function,
-      options.number("Speed") * axis.normalized(), model::vector(options, "Point"));
+      effect_name("Rotating Frame", options), context.model.nodes(), *function, axis.normalized(),
+      options.number("Speed"), model::vector(options, "Point"));
+  if (options.has("Structures")) {
+    std::vector<int> nodes;
+    if (!select_structures(options, context, nodes)) return;
+    load->turn_only(nodes);
+  }
   for (const auto& batch : context.model.element_batches()) {
     if (const auto* source = dynamic_cast<const model::MassSource*>(batch.get())) {
       source->visit_masses([&](std::span<const int> nodes, const Eigen::MatrixXd& mass) {
-        if (!mass.isZero(0.0)) load->add(nodes, mass);
+        const bool turns = std::ranges::all_of(nodes, [&](int node) { return load->turns(node); });
+        if (turns && !mass.isZero(0.0)) load->add(nodes, mass);
       });
     }
+  }
+  if (load->size() == 0) {
+    context.issues.add(options.where("Structures"), "acts on nothing: no such structure has mass");
+    return;
   }
   context.model.add_load(std::move(load));
 }
 
 }  // namespace
+
+void RotatingFrame::turn_only(const std::vector<int>& nodes) {
+  turning_.assign(static_cast<std::size_t>(nodes_.size()), false);
+  for (int node : nodes) turning_[static_cast<std::size_t>(node)] = true;
+}
+
+double RotatingFrame::speed(const model::State& state) const {
+  return amplitude_.in_step(state, Stencil::statics()) * speed_;
+}
 
 void RotatingFrame::add(std::span<const int> nodes, const Eigen::MatrixXd& mass) {
   internal_check(nodes.size() <= max_nodes, "a mass couples more nodes than RotatingFrame allows");
@@ -84,7 +126,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
   constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const int n = static_cast<int>(item.nodes.size());
-  const Vec3 omega = amplitude_.in_step(state, stencil) * omega_;
+  const Vec3 omega = amplitude_.in_step(state, stencil) * speed_ * axis_;
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const Motion::Slots r =
       accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
@@ -123,7 +165,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
 
 model::StepWork RotatingFrame::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
-  const Vec3 omega = amplitude_.in_step(state, stencil) * omega_;
+  const Vec3 omega = amplitude_.in_step(state, stencil) * speed_ * axis_;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
@@ -136,15 +178,20 @@ model::StepWork RotatingFrame::step_work(const model::State& state, const Stenci
 }
 
 void register_rotating_frame(model::BuilderRegistry& registry) {
-  Schema schema("Rotating Frame",
-                "Centrifugal and Coriolis forces on all masses: the model is described in a frame "
-                "that turns steadily.");
+  Schema schema(
+      "Rotating Frame",
+      "Centrifugal and Coriolis forces on all masses, or on those of some structures: they "
+      "are described in a frame that turns steadily.");
   schema
       .add(model::vector_field("Axis", "1",
                                "Direction of the axis; the frame turns about it by "
                                "the right-hand rule."))
       .add(model::vector_field("Point", "m", "A point of the axis.").optional({0.0, 0.0, 0.0}))
       .add(number("Speed", "rad/s", "Angular velocity at function value 1."))
+      .add(texts("Structures",
+                 "What turns; everything if absent. With parts that stand still the frame serves "
+                 "static analyses and modes of the whole machine ('Rotor' of Modal and Campbell).")
+               .optional())
       .add(model::function_field("Ramp"));
   registry.add("Rotating Frame", schema, build);
 }

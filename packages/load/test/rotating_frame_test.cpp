@@ -19,7 +19,7 @@ void fill(model::Model& model, bool with_slave) {
   }
   auto load =
       std::make_unique<RotatingFrame>("Rotating Frame", model.nodes(), model::Amplitude::constant(),
-                                      Vec3(0.7, -1.1, 2.3), Vec3(0.4, 0.1, -0.2));
+                                      Vec3(0.7, -1.1, 2.3).normalized(), 2.6, Vec3(0.4, 0.1, -0.2));
   load->add(std::array{0, 1}, mass);
   model.add_load(std::move(load));
   if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));

@@ -11,6 +11,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Residual that no pair has. Infinite values are defective: rounding makes large finite ones of
+// them, whose vectors solve nothing.
+constexpr double useless = 1e-6;
+
 // y = A x of a real matrix.
 Eigen::VectorXcd product(const ShiftInvert& inverse, const assembly::CrsMatrix& A,
                          const Eigen::VectorXcd& x) {
@@ -91,22 +95,24 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return std::abs(a.first) < std::abs(b.first);
   });
-  found.resize(std::min(found.size(), static_cast<std::size_t>(settings.count)));
 
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  result.vectors.resize(n, static_cast<Eigen::Index>(found.size()));
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto [value, column] = found[i];
+  result.vectors.resize(n, 0);
+  for (const auto& [value, column] : found) {
+    if (result.vectors.cols() == settings.count) break;
     const Eigen::VectorXcd x = problem.finish(pairs.vectors.col(column).head(n), value);
+    const Eigen::VectorXcd inertia = value * value * product(problem.inverse(), *pencil.M, x);
     const Eigen::VectorXcd rest = product(problem.inverse(), *pencil.K, x) +
-                                  value * product(problem.inverse(), *pencil.C, x) +
-                                  value * value * product(problem.inverse(), *pencil.M, x);
+                                  value * product(problem.inverse(), *pencil.C, x) + inertia;
     const Eigen::VectorXd terms = problem.inverse().absolute(*pencil.K, x.cwiseAbs());
-    result.worst_residual =
-        std::max(result.worst_residual, rest.lpNorm<Eigen::Infinity>() / terms.maxCoeff());
+    const double residual = rest.lpNorm<Eigen::Infinity>() /
+                            std::max(terms.maxCoeff(), inertia.lpNorm<Eigen::Infinity>());
+    if (!(residual <= useless)) continue;
+    result.worst_residual = std::max(result.worst_residual, residual);
     result.values.push_back(value);
     result.rounding.push_back(eps * x.cwiseAbs().dot(terms));
-    result.vectors.col(static_cast<Eigen::Index>(i)) = x;
+    result.vectors.conservativeResize(Eigen::NoChange, result.vectors.cols() + 1);
+    result.vectors.rightCols<1>() = x;
   }
   return result;
 }

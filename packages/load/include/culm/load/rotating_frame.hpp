@@ -4,6 +4,7 @@
 #include <culm/model/amplitude.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/projection.hpp>
+#include <culm/model/steady_rotation.hpp>
 
 #include <string>
 #include <vector>
@@ -16,18 +17,22 @@ namespace culm::load {
 ///   f_s = -sum_t M_st (omega x (omega x q_t) + 2 omega x v_t),
 /// exactly for any shape and rotation. Velocities are (q_next - q_prev) / step: zero in statics.
 /// The speed is taken as steady: there is no term with its rate. @source formulation 1.2
-class RotatingFrame final : public model::MemorylessBatch {
+class RotatingFrame final : public model::MemorylessBatch, public model::SteadyRotation {
  public:
   static constexpr int max_nodes = 4;
 
-  /// @param omega [rad/s] @param point of the axis [m]
+  /// @param axis unit vector @param speed at amplitude 1 [rad/s] @param point of the axis [m]
   RotatingFrame(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
-                const Vec3& omega, const Vec3& point)
+                const Vec3& axis, double speed, const Vec3& point)
       : MemorylessBatch(std::move(effect)),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
-        omega_(omega),
+        axis_(axis),
+        speed_(speed),
         point_(point) {}
+
+  /// Turns no more than these nodes; all if this is not called.
+  void turn_only(const std::vector<int>& nodes);
 
   /// @param mass between the slots of the nodes, four per node [kg, kg m, kg m^2]
   void add(std::span<const int> nodes, const Eigen::MatrixXd& mass);
@@ -38,6 +43,13 @@ class RotatingFrame final : public model::MemorylessBatch {
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+
+  const Vec3& axis() const override { return axis_; }
+  const Vec3& point() const override { return point_; }
+  double speed(const model::State& state) const override;
+  bool turns(int node) const override {
+    return turning_.empty() || turning_[static_cast<std::size_t>(node)];
+  }
 
  private:
   struct Item {
@@ -51,8 +63,10 @@ class RotatingFrame final : public model::MemorylessBatch {
 
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
-  Vec3 omega_;
+  Vec3 axis_;
+  double speed_;
   Vec3 point_;
+  std::vector<bool> turning_;  ///< by node; empty if all turn
   std::vector<Item> items_;
 };
 
