@@ -2,9 +2,9 @@
 #pragma once
 
 #include <culm/analysis/analysis.hpp>
+#include <culm/analysis/unknown_names.hpp>
 
 #include <deque>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,22 +36,6 @@ class PostMortem {
   [[noreturn]] void give_up(model::State& state, const Stencil& stencil);
 
  private:
-  /// Measures nothing.
-  explicit PostMortem(Context& context) : context_(context) {}
-
-  /// One unknown with its share in a residual or in a direction.
-  struct Entry {
-    std::string name;
-    double value = 0.0;
-  };
-  /// Which unknown of its block a number means: of 12 coordinates, 6 motions or the multipliers.
-  struct Place {
-    const model::Block& block;
-    int written = 0;
-  };
-  std::vector<Entry> largest_entries(const assembly::Vector& vector, std::size_t count) const;
-  Place place_of(int unknown) const;
-  std::string name_of(int unknown) const;
   /// d . p for the response K d = p to the load p of a unit level: grows without bound, then
   /// changes sign, where load control ends. Infinite when the tangent is singular.
   double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
@@ -63,25 +47,13 @@ class PostMortem {
   std::string cause(model::State& state, const Stencil& stencil);
   std::string path_cause(model::State& state, const Stencil& stencil);
   std::string dynamic_cause() const;
-  /// Work that a motion takes, over what rounding of the matrix may make of it: below 1 where
-  /// nothing resists.
-  double resistance(const assembly::Vector& motion) const;
-  std::string singular_cause(const model::State& state, const assembly::Vector& direction) const;
-  std::string redundant_constraints(const assembly::Vector& multipliers) const;
-  std::string mechanism(const model::State& state, const assembly::Vector& motion) const;
-  std::string massless(const model::State& state, const assembly::Vector& motion) const;
-  /// Displacement and rotation of the nodes that a direction moves.
-  std::map<int, Vec6> moved_nodes(const model::State& state, const assembly::Vector& motion) const;
-  std::string largest_motions(const std::map<int, Vec6>& moved) const;
-  /// How each structure moves that moves as a rigid body, and what holds it.
-  std::string rigid_motions(const model::State& state, const std::map<int, Vec6>& moved) const;
 
   Context& context_;
   bool is_factored_ = false;  ///< whether the tangent looked at last has factors
   double first_flexibility_ = 0.0;
   double level_step_ = 0.0;          ///< 0 in dynamics
   std::deque<StepReport> attempts_;  ///< the last ones
-  std::vector<Entry> worst_;
+  std::vector<UnknownNames::Entry> worst_;
 };
 
 }  // namespace culm::analysis

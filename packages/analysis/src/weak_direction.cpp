@@ -1,0 +1,231 @@
+#include "weak_direction.hpp"
+
+#include <culm/base/text.hpp>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace culm::analysis {
+namespace {
+
+using assembly::values_of;
+using assembly::Vector;
+
+constexpr double notable = 0.05;          // share in a direction of unit maximum norm
+constexpr std::size_t shown = 6;          // entries of a direction in a message
+constexpr double least_resistance = 4.0;  // of a motion that is not free; those of free ones are
+                                          // below 0.3
+
+// A vector of directions, with round-off as zero.
+std::string vector_name(const Vec3& v) {
+  const double size = std::max(v.lpNorm<Eigen::Infinity>(), 1e-300);
+  const auto shown_as = [size](double x) { return std::abs(x) < 1e-3 * size ? 0.0 : x; };
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", shown_as(v[0]), shown_as(v[1]), shown_as(v[2]));
+}
+
+// The motion v0 + turn x (x - x0) in words.
+std::string rigid_motion_name(const Vec3& x0, const Vec3& v0, const Vec3& turn) {
+  if (turn.norm() < notable) return "moves along " + vector_name(v0.normalized());
+  Vec3 n = turn.normalized();
+  const Vec3 centre = x0 + n.cross(v0) / turn.norm();
+  int largest = 0;
+  n.cwiseAbs().maxCoeff(&largest);
+  if (n[largest] < 0.0) n = -n;  // an axis has no sense
+  const bool slides = std::abs(n.dot(v0)) > notable;
+  return fmt::format("turns about the axis {} through {}{}", vector_name(n), vector_name(centre),
+                     slides ? " and moves along it" : "");
+}
+
+}  // namespace
+
+bool WeakDirection::is_multiplier(const Vector& vector, std::size_t i) const {
+  const auto unknown = vector.getMap()->getGlobalElement(static_cast<int>(i));
+  return names_.place_of(static_cast<int>(unknown)).block.kind == model::BlockKind::multipliers;
+}
+
+double WeakDirection::resistance(const Vector& motion) const {
+  using assembly::CrsMatrix;
+  CrsMatrix absolute(*system_.matrix(), Teuchos::Copy);
+  Vector image(motion.getMap());
+  absolute.apply(motion, image);
+  const double work = motion.dot(image);
+  const auto values = absolute.getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = std::abs(values(k));
+  Vector size(motion.getMap());
+  size.abs(motion);
+  absolute.apply(size, image);
+  return std::abs(work) / (std::numeric_limits<double>::epsilon() * size.dot(image));
+}
+
+// In a sound model K u + H^T lambda = 0 and H u = 0 hold with H^T lambda = 0 as well, because K has
+// no negative direction: redundant equations and a mechanism may come together, each for itself.
+std::string WeakDirection::singular_cause(const Vector& direction) const {
+  Vector multipliers(direction, Teuchos::Copy);
+  Vector motion(direction, Teuchos::Copy);
+  const auto lambda = values_of(multipliers);
+  const auto u = values_of(motion);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    (is_multiplier(direction, i) ? u : lambda)[i] = 0.0;
+  }
+  Vector image(direction.getMap());
+  system_.matrix()->apply(multipliers, image);
+  const double share = multipliers.normInf();
+  const bool redundant =
+      share >= notable && image.normInf() <= 1e-9 * share * system_.matrix()->getFrobeniusNorm();
+  const bool moves = motion.normInf() >= notable;
+  if (!redundant && !moves) {
+    return "Likely cause: stiffnesses or lengths that differ too much in size for double "
+           "precision.\nTry: check units.";
+  }
+  std::string text;
+  if (redundant) text += redundant_constraints(multipliers);
+  if (redundant && moves) text += '\n';
+  if (moves) text += mechanism(motion);
+  return text;
+}
+
+std::string WeakDirection::redundant_constraints(const Vector& multipliers) const {
+  const model::Model& model = system_.model();
+  const auto shares = names_.entries(multipliers, notable);
+  std::map<int, std::vector<std::string>> equations;  // their numbers, by constraint
+  for (const auto& [unknown, share] : shares) {
+    const UnknownNames::Place place = names_.place_of(unknown);
+    equations[place.block.owner].push_back(std::to_string(place.written + 1));
+  }
+  std::string text = "Likely cause: redundant constraints. These equations depend on each other:\n";
+  std::set<int> held;
+  std::set<std::string> named;
+  for (const auto& [number, rows] : equations) {
+    // those of unit directors come after all others, and nobody can remove them
+    if (static_cast<std::size_t>(number) >= model.constraints().size()) continue;
+    const model::Constraint& c = model.equations()[static_cast<std::size_t>(number)];
+    text += fmt::format("  {}, {} {}\n", quoted_name(c), rows.size() > 1 ? "equations" : "equation",
+                        join(rows, ", "));
+    named.insert(quoted_name(c));
+    for (const int node : c.nodes) held.insert(model.nodes().master(node));
+  }
+  std::set<std::string> as_well;
+  for (const model::Constraint& c : model.constraints()) {
+    const bool meets = std::any_of(c.nodes.begin(), c.nodes.end(), [&](int node) {
+      return held.count(model.nodes().master(node)) > 0;
+    });
+    if (!meets || named.count(quoted_name(c)) > 0 || as_well.size() >= shown) continue;
+    if (!as_well.insert(quoted_name(c)).second) continue;
+    text += fmt::format("  {}, which acts on the same nodes\n", quoted_name(c));
+  }
+  return text + "Try: remove one of the constraints, or a direction that another one holds.";
+}
+
+WeakDirection::Motions WeakDirection::moved_nodes(const Vector& motion) const {
+  const model::Model& model = system_.model();
+  const auto entries = names_.entries(motion, 1e-3 * notable);
+  std::map<int, model::NodeSlots> increments;  // by node; six motions or twelve coordinates
+  for (const auto& [unknown, value] : entries) {
+    const UnknownNames::Place place = names_.place_of(unknown);
+    auto& slots = increments.try_emplace(place.block.owner, model::NodeSlots::Zero()).first->second;
+    slots.data()[place.written] = value;
+  }
+  std::map<int, Vec6> moved;
+  for (const auto& [node, slots] : increments) {
+    moved[node] = model.unknowns().form() == model::Form::null_space
+                      ? Vec6(Eigen::Map<const Vec6>(slots.data()))
+                      : model.nodes().unknown_motion(node, slots, state_.next);
+  }
+  return moved;
+}
+
+std::string WeakDirection::largest_motions(const Motions& moved) const {
+  std::vector<UnknownNames::Entry> shares;
+  for (const auto& [node, motion] : moved) {
+    for (int i = 0; i < 6; ++i) {
+      if (std::abs(motion[i]) < notable) continue;
+      const std::string name = system_.model().node_name(node);
+      shares.push_back({fmt::format("{}, {}", name, direction_name(i)), motion[i]});
+    }
+  }
+  // by what is shown, so that round-off does not choose the order
+  std::stable_sort(
+      shares.begin(), shares.end(), [](const UnknownNames::Entry& a, const UnknownNames::Entry& b) {
+        return std::lround(1e3 * std::abs(a.value)) > std::lround(1e3 * std::abs(b.value));
+      });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, shares.size()); ++i) {
+    text += fmt::format("  {:<40} {:+.3f}\n", shares[i].name, shares[i].value);
+  }
+  return text;
+}
+
+std::string WeakDirection::largest_motions(const Vector& motion) const {
+  return largest_motions(moved_nodes(motion));
+}
+
+std::string WeakDirection::rigid_motions(const Motions& moved) const {
+  const model::Model& model = system_.model();
+  std::string text;
+  for (const model::Structure& structure : model.structures()) {
+    const auto first = moved.find(model.nodes().master(structure.nodes.front()));
+    if (first == moved.end()) continue;
+    const Vec3 x0 = model::NodeTable::slots(state_.next, first->first).col(0);
+    const Vec3 v0 = first->second.head<3>();
+    const Vec3 turn = first->second.tail<3>();
+    const bool is_rigid =
+        std::all_of(structure.nodes.begin(), structure.nodes.end(), [&](int node) {
+          if (model.nodes().kind(node) != NodeKind::node12) return false;  // it has no rotation
+          const int master = model.nodes().master(node);
+          const auto at = moved.find(master);
+          const Vec6 motion = at == moved.end() ? Vec6(Vec6::Zero()) : at->second;
+          const Vec3 arm = Vec3(model::NodeTable::slots(state_.next, master).col(0)) - x0;
+          Vec6 rigid;
+          rigid << v0 + turn.cross(arm), turn;
+          return (motion - rigid).lpNorm<Eigen::Infinity>() < notable;
+        });
+    if (!is_rigid) continue;
+    std::vector<std::string> holders;
+    for (const model::Constraint& c : model.constraints()) {
+      const bool holds = std::any_of(c.nodes.begin(), c.nodes.end(), [&](int node) {
+        return model.structure_of(node) == &structure;
+      });
+      const std::string name = quoted_name(c);
+      if (holds && std::find(holders.begin(), holders.end(), name) == holders.end()) {
+        holders.push_back(name);
+      }
+    }
+    text += fmt::format("'{}' {}; {}\n", structure.name, rigid_motion_name(x0, v0, turn),
+                        holders.empty() ? "nothing holds it" : "held by " + join(holders, ", "));
+  }
+  return text;
+}
+
+std::string WeakDirection::mechanism(const Vector& motion) const {
+  const std::map<int, Vec6> moved = moved_nodes(motion);
+  if (resistance(motion) > least_resistance) {
+    return "Likely cause: stiffnesses or masses that differ too much in size for double "
+           "precision.\n"
+           "Beside the stiffest, almost nothing resists this motion:\n" +
+           largest_motions(moved) +
+           "Try: check units; make what is stiff or heavy less so, or rigid.";
+  }
+  return "Likely cause: a mechanism. Nothing resists this motion:\n" + largest_motions(moved) +
+         rigid_motions(moved) +
+         "Try: add a support or a joint that holds it, or give the section stiffness.";
+}
+
+std::string WeakDirection::massless(const Vector& direction) const {
+  Vector motion(direction, Teuchos::Copy);
+  const auto u = values_of(motion);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    if (is_multiplier(motion, i)) u[i] = 0.0;  // they have no nodes
+  }
+  const std::string motions = largest_motions(moved_nodes(motion));
+  return (motions.empty()
+              ? "The mass matrix is singular: nothing has mass.\n"
+              : "The mass matrix is singular: this motion has no inertia.\n" + motions) +
+         "Try: give every structure a density or mass, and rotary inertia to its nodes.";
+}
+
+}  // namespace culm::analysis
