@@ -41,9 +41,11 @@ def disk(speed):
     return [v.imag / (2 * math.pi) for v in eigenvalues(mass, np.block([[zero, spin], [-spin, zero]]), stiffness)]
 
 
-def coleman(speed):
-    """Ground resonance: unknowns x, y of the fuselage and lag angles, cosine, sine, collective."""
-    total, moment, inertia, hinge = 150.0, 15.0, 2.0 + 10.0 * 1.5**2, 0.3
+def coleman(speed, pad=0.0):
+    """Ground resonance: unknowns x, y of the fuselage and lag angles, cosine, sine, collective.
+
+    A pad is a mass on each blade, 1 m from the hinge, with a radius of inertia of 0.2 m."""
+    total, moment, inertia, hinge = 150.0 + 3.0 * pad, 15.0 + pad, 2.0 + 10.0 * 1.5**2 + 1.04 * pad, 0.3
     lag = 500.0 + speed**2 * hinge * moment
     c, c_lag = 50.0, 5.0
     mass = np.diag([total, total, inertia, inertia, inertia])
@@ -60,9 +62,26 @@ def coleman(speed):
     return eigenvalues(mass, damping, stiffness)
 
 
-def resonance(culm, level):
+def pads(mass):
+    """Each as a structure of its own, joined by equations, so that a blade is a node set."""
+    settings = ["Analyses/diagram/Rotor/Blades={a, b, c}",
+                "Loads/rotation/Structures={hub, blade 1, blade 2, blade 3, pad 1, pad 2, pad 3}"]
+    for k, name in zip((1, 2, 3), "abc"):
+        angle = 2 * math.pi * (k - 1) / 3
+        place = f"{{{1.3 * math.cos(angle)!r}, {1.3 * math.sin(angle)!r}, 0}}"
+        settings += [f"Structures/pad {k}/{entry}" for entry in (
+            "Type=Rigid Body", f"Position={place}", f"Mass={mass}", f"Inertia={{0.1, 0.1, {0.04 * mass}}}",
+            f"Directors={{{math.cos(angle)!r}, {math.sin(angle)!r}, 0, {-math.sin(angle)!r}, {math.cos(angle)!r}, 0, 0, 0, 1}}")]
+        for joint, kind in (("seat", "Revolute Joint"), ("grip", "Joint Angle")):
+            settings += [f"Constraints/{joint} {k}/{entry}" for entry in (
+                f"Type={kind}", f"First=blade {k}", f"Second=pad {k}", "Axis={0, 0, 1}")]
+        settings.append(f"Node Sets/{name}/Nodes={{blade {k}, pad {k}}}")
+    return settings
+
+
+def resonance(culm, level, settings=()):
     """Frequencies [Hz] and damping ratios, by frequency."""
-    table = culm.table("diagram/campbell", RESONANCE, [f"Analyses/diagram/Levels={{{level}}}"])
+    table = culm.table("diagram/campbell", RESONANCE, [f"Analyses/diagram/Levels={{{level}}}", *settings])
     pairs = [(table.at(1, f"frequency {i} [Hz]"), table.at(1, f"damping ratio {i}")) for i in range(1, 6)]
     return sorted(pairs)
 
@@ -87,6 +106,9 @@ def verify_resonance(culm, report):
         report.relative(f"{speed} [Hz]", [f for f, _ in found], [v.imag / (2 * math.pi) for v in wanted], 1e-7)
         report.check(f"{speed}, damping ratios", [d for _, d in found], [-v.real / abs(v) for v in wanted], 1e-7)
     report.check("some speeds are unstable", grows > 0, True, 0)
+    found = [f for f, _ in resonance(culm, 0.5, pads(2.0))]
+    wanted = [v.imag / (2 * math.pi) for v in coleman(0.5 * RESONANCE_SPEED, 2.0)]
+    report.relative("15 rad/s, blades of two structures [Hz]", found, wanted, 1e-7)
 
 
 def turbine(culm, settings=()):

@@ -121,15 +121,17 @@ Schema& add_modal_fields(Schema& schema) {
                   "on several, complex modes by Spectra as well; Dense reduces whole matrices, "
                   "best for small ones and to check; Automatic decides.")
                .optional(defaults.solver))
-      .list("Rotor",
-            Schema("Rotor",
-                   "A rotor that turns steadily while the rest stands: the structures that the "
-                   "load 'Rotating Frame' names. Frequencies are those of an observer at rest.")
-                .add(texts("Blades",
-                           "Three or more structures with equal meshes, evenly spaced about the "
-                           "axis; none if the rotor is symmetric about its axis.")
-                         .optional()),
-            Presence::optional);
+      .list(
+          "Rotor",
+          Schema("Rotor",
+                 "A rotor that turns steadily while the rest stands: the structures that the "
+                 "load 'Rotating Frame' names. Frequencies are those of an observer at rest.")
+              .add(texts("Blades",
+                         "Three or more structures, or node sets for blades of several, with equal "
+                         "meshes, evenly spaced about the axis; none if the rotor is symmetric "
+                         "about its axis.")
+                       .optional()),
+          Presence::optional);
 }
 
 ModalSettings read_modal_settings(const Options& options) {

@@ -49,22 +49,29 @@ std::vector<int> vectors_of(const model::Model& model, int node, const Where& wh
   return vectors;
 }
 
-const model::Structure& find_blade(const model::Model& model, const std::string& name,
-                                   const model::SteadyRotation& frame, const Where& where) {
-  const model::Structure* blade = model.find_structure(name);
-  if (blade == nullptr) throw InputError(where, fmt::format("no structure '{}'", name));
-  if (!std::ranges::all_of(blade->nodes, [&](int node) { return frame.turns(node); })) {
+// A structure or a node set.
+struct Blade {
+  std::string name;
+  std::vector<int> nodes;
+};
+
+Blade find_blade(const model::Model& model, const std::string& name,
+                 const model::SteadyRotation& frame, const Where& where) {
+  Blade blade{name, model.select_nodes(name)};
+  if (blade.nodes.empty()) {
+    throw InputError(where, fmt::format("no structure or node set '{}'", name));
+  }
+  if (!std::ranges::all_of(blade.nodes, [&](int node) { return frame.turns(node); })) {
     throw InputError(where, fmt::format("'{}' is not among the structures that the load 'Rotating "
                                         "Frame' turns",
                                         name));
   }
-  return *blade;
+  return blade;
 }
 
 // How far the nodes of a blade are from those of the first one turned [m]; directors times length.
-double mismatch(const model::Model& model, const model::Coordinates& q,
-                const model::Structure& first, const model::Structure& blade, const Mat3& turn,
-                const Vec3& point) {
+double mismatch(const model::Model& model, const model::Coordinates& q, const Blade& first,
+                const Blade& blade, const Mat3& turn, const Vec3& point) {
   double worst = 0.0;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     model::NodeSlots one = NodeTable::slots(q, first.nodes[i]);
@@ -79,8 +86,7 @@ double mismatch(const model::Model& model, const model::Coordinates& q,
 }
 
 // The vector from the axis to the middle of a blade.
-Vec3 reach(const model::Structure& blade, const model::Coordinates& q,
-           const model::SteadyRotation& frame) {
+Vec3 reach(const Blade& blade, const model::Coordinates& q, const model::SteadyRotation& frame) {
   Vec3 sum = Vec3::Zero();
   for (int node : blade.nodes) sum += NodeTable::slots(q, node).col(0) - frame.point();
   sum /= static_cast<double>(blade.nodes.size());
@@ -100,11 +106,11 @@ void add_blades(const model::Model& model, const model::State& state,
                                  count));
   }
   const double part = 2.0 * std::numbers::pi / static_cast<double>(count);
-  const model::Structure& first = find_blade(model, settings.blades[0], frame, settings.where);
+  const Blade first = find_blade(model, settings.blades[0], frame, settings.where);
   const Vec3 r0 = reach(first, state.next, frame);
   std::vector<bool> taken(count, false);
   for (const std::string& name : settings.blades) {
-    const model::Structure& blade = find_blade(model, name, frame, settings.where);
+    const Blade blade = find_blade(model, name, frame, settings.where);
     if (blade.nodes.size() != first.nodes.size()) {
       throw InputError(settings.where,
                        fmt::format("'{}' has {} nodes and '{}' {}: blades need equal meshes", name,
@@ -148,7 +154,7 @@ RotorUnknowns find_rotor(const model::Model& model, const model::State& state,
   add_blades(model, state, frame, settings, rotor);
   std::vector<bool> is_blade(static_cast<std::size_t>(model.nodes().size()), false);
   for (const std::string& name : settings.blades) {
-    for (int node : model.find_structure(name)->nodes) {
+    for (int node : model.select_nodes(name)) {
       is_blade[static_cast<std::size_t>(node)] = true;
     }
   }
@@ -162,7 +168,7 @@ RotorUnknowns find_rotor(const model::Model& model, const model::State& state,
       throw InputError(
           settings.where,
           fmt::format("node {} turns, belongs to no blade and is {}: connect it rigidly "
-                      "to one on the axis, or make its structure one of the 'Blades'",
+                      "to one on the axis, or make it part of one of the 'Blades'",
                       model.node_name(node),
                       model.nodes().turns(node)
                           ? fmt::format("{:.3g} m away from the axis", arm.norm())

@@ -14,7 +14,7 @@ namespace culm::analysis {
 /// What a deck says of the rotor; the rest is said by its rotating frame.
 struct RotorSettings {
   std::vector<std::string>
-      blades;   ///< structures that are equal but for their azimuth; may be none
+      blades;   ///< structures or node sets, equal but for their azimuth; may be none
   Where where;  ///< of the blades in the deck
 };
 
