@@ -247,6 +247,19 @@ TEST_P(EachEigenSolver, FindsDampedAndGyroscopicValues) {
   EXPECT_LT(pairs.worst_residual, 1e-12);
 }
 
+// Rounding makes finite values of the infinite ones of constraints; they are no solutions.
+TEST(EigenSolver, GivesAsManyComplexPairsAsThereAre) {
+  const Chains chains{1, 8, true};
+  const Pencil pencil(chains);
+  const auto C = scaled(*pencil.matrices().B, 0.01);
+  const ComplexPairs pairs = solve_quadratic({pencil.matrices().A, C, pencil.matrices().B},
+                                             {"Dense", "KLU2", 20, 1e-3}, pencil.comm());
+  ASSERT_EQ(pairs.values.size(), 7U);
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_NEAR(std::norm(pairs.values[static_cast<std::size_t>(i)]), chains.value(i), 1e-10);
+  }
+}
+
 TEST(EigenSolver, MeasuresAsymmetry) {
   const Pencil pencil({1, 10, true});
   EXPECT_EQ(asymmetry(pencil.matrices().A, pencil.comm()), 0.0);
