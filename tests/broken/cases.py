@@ -223,6 +223,13 @@ NAMES = [
         ranks=True,
     ),
     wrong(
+        "several nodes where a name belongs",
+        'value="beam/first"',
+        'value="{beam/first, beam/last}"',
+        "Constraints / clamp / Node: must be one name, got '{beam/first, beam/last}'; an entry of "
+        "'Node Sets' joins several",
+    ),
+    wrong(
         "node number too large",
         'value="beam/first"',
         'value="beam/5"',
@@ -426,6 +433,12 @@ STRUCTURE = [
         '<ParameterList name="culm">',
         "culm: missing list 'Analyses'",
     ),
+    wrong(
+        "empty analyses",
+        list_of("Analyses"),
+        '<ParameterList name="Analyses"/>',
+        "Analyses: must hold at least one analysis",
+    ),
     missing(
         "missing curve",
         list_of("Curve"),
@@ -504,7 +517,32 @@ CURVE = list_of("Curve")
 BAR = list_of("bar")
 BEAM = "Structures / beam"
 
+SHEET = parameters(
+    "sheet",
+    ("Type", "Shell"),
+    ("Material", "steel"),
+    ("Thicknesses", "{0.01, 0.02}"),
+    ("@@Angles", "{0, 0.5, 1}"),
+).replace(
+    "</ParameterList>",
+    parameters(
+        "Mesh",
+        ("Type", "Plane"),
+        ("Side 1", "{1, 0, 0}"),
+        ("Side 2", "{0, 1, 0}"),
+        ("Elements", "{1, 1}"),
+    )
+    + "</ParameterList>",
+)
+
 MECHANICS = [
+    wrong(
+        "angles of more layers than there are",
+        '<ParameterList name="Structures">',
+        '<ParameterList name="Structures">' + SHEET,
+        "Structures / sheet / Angles: must have one item per layer, 2 as stated by the list "
+        "before, got 3",
+    ),
     wrong(
         "6x6 stiffness not positive definite",
         BAR,
@@ -845,6 +883,8 @@ EQUATIONS += [
 # masses at the nodes leave their rotations without inertia
 LEAD = parameters("lead", ("Type", "Point Mass"), ("Node", "beam"), ("Mass", 1))
 POINT_MASSES = f'<ParameterList name="Masses">\n    {LEAD}\n  </ParameterList>\n'
+MODAL = parameters("modes", ("Type", "Modal"), ("Modes", 3))
+HEAVY = "".join(f'<Parameter name="{one}" value="1"/>' for one in ("rhoA", "rhoI1", "rhoI2"))
 DYNAMIC = [
     ('"Static"/>', '"Dynamic"/>\n      <Parameter name="End Time" value="1"/>'),
     (STEPS, '<Parameter name="Step" value="0.5"/>'),
@@ -855,6 +895,22 @@ EQUATIONS += [
         4,
         *DYNAMIC,
         says=["The mass matrix is singular: nothing has mass.\n", "\nTry: give every structure"],
+    ),
+    unsolvable(
+        "modes without mass",
+        4,
+        (list_of("bend"), MODAL),
+        says=["There are no vibrations: nothing that can move has mass.\nTry: give structures"],
+        ranks=True,
+    ),
+    unsolvable(
+        "modes where nothing moves",
+        4,
+        (list_of("bend"), MODAL),
+        ('<Parameter name="Node" value="beam/first"/>', '<Parameter name="Node" value="beam"/>'),
+        ('<Parameter name="GIp" value="2e3"/>', '<Parameter name="GIp" value="2e3"/>' + HEAVY),
+        says=["There are no vibrations: nothing that can move has mass.\n"],
+        ranks=True,
     ),
     unsolvable(
         "rotations without mass",

@@ -1,4 +1,5 @@
 #include <culm/analysis/find_modes.hpp>
+#include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
 #include <Eigen/QR>
@@ -94,6 +95,7 @@ class Finder {
   Finder(Context& context, model::State& state, const ModalSettings& settings)
       : context_(context), state_(state), settings_(settings), linear_(linearise(context, state)) {
     context.system.synchronise(state);
+    refuse_massless();
     if (settings.rotor) {
       rotor_.emplace(context.system, state, *settings.rotor);
       linear_ = rotor_->transform(linear_, settings.damping);
@@ -129,6 +131,18 @@ class Finder {
   }
 
  private:
+  void refuse_massless() const {
+    double largest = 0.0;
+    const auto values = linear_.mass->getLocalMatrixHost().values;
+    for (std::size_t k = 0; k < values.extent(0); ++k) {
+      largest = std::max(largest, std::abs(values(k)));
+    }
+    if (context_.system.comm().max(largest) > 0.0) return;
+    throw NumericalError(
+        "There are no vibrations: nothing that can move has mass.\n"
+        "Try: give structures a density or mass, or hold less of them.");
+  }
+
   // Just below zero, so that free bodies have factors, too.
   double lowest_shift() const { return -1e-10 * typical_eigenvalue(linear_, context_.system); }
 

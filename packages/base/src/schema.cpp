@@ -28,6 +28,7 @@ Schema& Schema::add(Field field) {
 
 Schema& Schema::add_all(const Schema& other) {
   for (const Field& field : other.fields_) add(field);
+  checks_.insert(checks_.end(), other.checks_.begin(), other.checks_.end());
   return *this;
 }
 

@@ -112,6 +112,16 @@ TEST(Schema, FixedListsGoBeforeEntries) {
   EXPECT_EQ(Schema("b").find_slot("x"), nullptr);
 }
 
+TEST(Schema, AddAllTakesFieldsAndChecks) {
+  const auto check = [](const Options& list, InputIssues& issues) {
+    issues.add(list.where(), "x");
+  };
+  const Schema shared = Schema("shared").add(number("A", "1", "")).check(check);
+  const Schema schema = Schema("s").check(check).add_all(shared);
+  EXPECT_EQ(schema.field_names(), std::vector<std::string>{"A"});
+  EXPECT_EQ(schema.checks().size(), 2);
+}
+
 TEST(Schema, ADefaultedListByTypeHasADefaultType) {
   const Variants variants = {{"A", Schema("A")}};
   EXPECT_THROW(Schema("s").list_by_type("L", variants, Presence::defaulted), InternalError);

@@ -8,8 +8,11 @@
 namespace culm::model {
 namespace {
 
-// Names a number that is too large by itself: the nearest name would not help.
+// Where a number is too large, or several names are given, the nearest name would not help.
 std::string unknown_node(const std::string& name, const Model& model) {
+  if (name.starts_with('{')) {
+    return "must be one name, got '" + name + "'; an entry of 'Node Sets' joins several";
+  }
   const auto slash = name.find('/');
   const Structure* structure = model.find_structure(name.substr(0, slash));
   const std::string rest = slash == std::string::npos ? "" : name.substr(slash + 1);

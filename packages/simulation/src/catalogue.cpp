@@ -169,7 +169,12 @@ Schema Catalogue::deck_schema() const {
       .list("Solver", solver_schema(), Presence::defaulted)
       .list("Analyses",
             Schema("Analyses", "What is done, in this order; each starts from the last state.")
-                .entries_by_type(with_common_fields(analyses.variants())))
+                .entries_by_type(with_common_fields(analyses.variants()))
+                .check([](const Options& list, InputIssues& issues) {
+                  if (list.entries().empty()) {
+                    issues.add(list.where(), "must hold at least one analysis");
+                  }
+                }))
       .list("Output", output_schema(quantities), Presence::defaulted);
 }
 

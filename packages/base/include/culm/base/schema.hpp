@@ -55,7 +55,7 @@ class Schema {
   explicit Schema(std::string name, std::string doc = {});
 
   Schema& add(Field field);
-  /// All fields of another schema; for what several types share.
+  /// All fields and checks of another schema; for what several types share.
   Schema& add_all(const Schema& other);
   Schema& list(std::string name, Schema schema, Presence presence = Presence::required);
   Schema& list_by_type(std::string name, Variants variants, Presence presence = Presence::required,
