@@ -13,10 +13,13 @@ Stencil ConservingScheme::begin(model::State& state, double h) {
   return Stencil::midpoint(h);
 }
 
-// v_next = 2 Dq / h - v
+// v_next = 2 Dq / h - v, written as v + h a with the acceleration that was balanced: what rounding
+// makes of 2 / h and 2 / h^2 would else pull the same way in every step and change the momenta.
 void ConservingScheme::finish(model::State& state, double h) {
+  const double inertia = Stencil::midpoint(h).inertia;
   for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    state.velocity[i] = 2.0 / h * (state.next[i] - state.prev[i]) - state.velocity[i];
+    const double moved = state.next[i] - state.prev[i];
+    state.velocity[i] += h * (inertia * moved + state.acceleration_offset[i]);
   }
 }
 
