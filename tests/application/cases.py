@@ -11,6 +11,38 @@ def history(folder):
     return [line.split(",")[0] for line in (folder / "history.csv").read_text().splitlines()[1:]]
 
 
+# A rigid body that nothing holds, for one analysis.
+BODY = """<ParameterList name="culm">
+  <ParameterList name="Structures">
+    <ParameterList name="ball">
+      <Parameter name="Type" value="Rigid Sphere"/>
+      <Parameter name="Radius" value="1"/>
+      <Parameter name="Density" value="10"/>
+      <Parameter name="Position" value="{1, 2, 3}"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Loads">
+    <ParameterList name="weight">
+      <Parameter name="Type" value="Gravity"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Analyses">
+    <ParameterList name="only">
+      <Parameter name="Type" value="%s"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Output">
+    <ParameterList name="History">
+      <ParameterList name="tip">
+        <Parameter name="Type" value="Position"/>
+        <Parameter name="Node" value="ball"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>
+"""
+
+
 def has_levels(folder, *levels):
     found = history(folder)
     return "" if found == list(levels) else f"the history has the levels {found}"
@@ -109,6 +141,33 @@ CASES = [
         prints=["\nFactorisation, MUMPS ", "\nlinear solver: MUMPS, as the deck says\n"],
         results="out",
         last_level=1.0,
+        ranks=True,
+    ),
+    Case(
+        "statics of a free body",
+        4,
+        deck=BODY % "Static",
+        says=[
+            "The equations are singular at level 0, before the first step.\n"
+            "Likely cause: a mechanism. Nothing resists this motion:\n",
+            "\n'ball' turns about the axis ",
+            "; nothing holds it\n",
+        ],
+        silent=False,
+        results="out",
+        last_level=0.0,
+        ranks=True,
+    ),
+    Case(
+        "modes of a free body",
+        0,
+        deck=BODY % "Modal",
+        # its modes are rigid motions, so there is no warning that vibrations were lost
+        says=["warning: the state is no equilibrium: "],
+        never=["all 6 modes are at 0 Hz"],
+        prints=["\n6 modes at 0 Hz: rigid-body motions and mechanisms\n"],
+        results="out",
+        last_level=0.0,
         ranks=True,
     ),
     Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),

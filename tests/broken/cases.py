@@ -434,6 +434,12 @@ STRUCTURE = [
         "culm: missing list 'Analyses'",
     ),
     wrong(
+        "empty structures",
+        list_of("Structures"),
+        '<ParameterList name="Structures"/>',
+        "Structures: must hold at least one structure",
+    ),
+    wrong(
         "empty analyses",
         list_of("Analyses"),
         '<ParameterList name="Analyses"/>',
@@ -535,7 +541,33 @@ SHEET = parameters(
     + "</ParameterList>",
 )
 
+
+
+def bow(analysis, *pairs):
+    entries = parameters("bow", *pairs, ("@@Analysis", analysis), ("Amplitude", 0.01))
+    if pairs:
+        entries = entries.replace("@@Analysis", "Analysis")
+    return f'<ParameterList name="Imperfections">{entries}</ParameterList>'
+
+
 MECHANICS = [
+    wrong(
+        "imperfection that a static analysis finds",
+        LOADS,
+        LOADS + bow("bend"),
+        "Imperfections / bow / Analysis: must be of type Buckling or Modal, 'bend' is of type Static",
+        "Imperfections / bow / Analysis: no analysis comes after 'bend', whose geometry the shape "
+        "could bend",
+    ),
+    Case(
+        "imperfection of a run that is not there",
+        6,
+        change=[(LOADS, LOADS + bow("bend", ("@@Run", "nowhere")))],
+        errors=[
+            "nowhere: is not there; deck.xml:{line}: Imperfections / bow / Run asks for the shapes "
+            "of this run"
+        ],
+    ),
     wrong(
         "angles of more layers than there are",
         '<ParameterList name="Structures">',

@@ -62,8 +62,10 @@ void fix_phase(Shape& shape) {
   }
 }
 
-// Whether a shape displaces all nodes as one rigid body would, to 1e-3 of its size.
+// Whether a shape displaces all nodes as one rigid body would, to 1e-3 of its size. A body of one
+// node may turn without moving it.
 bool is_rigid(const Shape& shape, const model::Coordinates& q) {
+  if (shape.real.size() == 1) return true;
   const auto count = static_cast<Eigen::Index>(shape.real.size());
   Eigen::MatrixXd motions(3 * count, 6);
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(3 * count, 2);  // real and imaginary part

@@ -101,6 +101,7 @@ void PostMortem::refuse_singular(const model::State& state) {
   if (solves && response.normInf() * size < 1e13 * probe.normInf()) return;
   Vector direction(system.layout().row_map());
   const double ratio = context_.linear.weakest_direction(direction);
+  if (size == 0.0) direction.update(1.0 / probe.normInf(), probe, 0.0);  // no motion is resisted
   // without useful factors no step can be solved, whatever the ratio
   if (solves && ratio > singular_ratio) return;
   throw NumericalError(system.comm().broadcast(fmt::format(

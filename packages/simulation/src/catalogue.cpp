@@ -123,6 +123,12 @@ Variants with_common_fields(Variants analyses) {
   return analyses;
 }
 
+Schema::Check at_least_one(std::string what) {
+  return [what = std::move(what)](const Options& list, InputIssues& issues) {
+    if (list.entries().empty()) issues.add(list.where(), "must hold at least one " + what);
+  };
+}
+
 }  // namespace
 
 Schema Catalogue::deck_schema() const {
@@ -145,7 +151,8 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(materials.variants()),
             Presence::defaulted)
       .list("Structures", Schema("Structures", "Parts of the model by name.")
-                              .entries_by_type(std::move(all_structures)))
+                              .entries_by_type(std::move(all_structures))
+                              .check(at_least_one("structure")))
       .list("Imperfections", imperfections_schema(), Presence::defaulted)
       .list("Masses",
             Schema("Masses", "Masses on nodes by name.").entries_by_type(masses.variants()),
@@ -170,11 +177,7 @@ Schema Catalogue::deck_schema() const {
       .list("Analyses",
             Schema("Analyses", "What is done, in this order; each starts from the last state.")
                 .entries_by_type(with_common_fields(analyses.variants()))
-                .check([](const Options& list, InputIssues& issues) {
-                  if (list.entries().empty()) {
-                    issues.add(list.where(), "must hold at least one analysis");
-                  }
-                }))
+                .check(at_least_one("analysis")))
       .list("Output", output_schema(quantities), Presence::defaulted);
 }
 

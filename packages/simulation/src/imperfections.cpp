@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <utility>
 
 namespace culm::simulation {
@@ -52,6 +54,19 @@ Imperfections::Imperfections(const Options& deck) : list_(deck.list("Imperfectio
       issues.add(entry.where("Analysis"), "there is no analysis '" + source + "' in this deck" +
                                               did_you_mean(source, names));
       continue;
+    }
+    const std::string& type = found->text("Type");
+    if (type != "Buckling" && type != "Modal") {
+      issues.add(entry.where("Analysis"),
+                 "must be of type Buckling or Modal, '" + source + "' is of type " + type);
+    } else if (entry.integer("Shape") > found->integer("Modes")) {
+      issues.add(entry.where("Shape"),
+                 fmt::format("'{}' looks for {} shapes, got {}", source, found->integer("Modes"),
+                             entry.integer("Shape")));
+    }
+    if (std::next(found) == analyses.end()) {
+      issues.add(entry.where("Analysis"),
+                 "no analysis comes after '" + source + "', whose geometry the shape could bend");
     }
     sources_[entry.name()] = static_cast<std::size_t>(found - analyses.begin());
   }
@@ -98,6 +113,10 @@ model::Imperfection Imperfections::sum(const std::set<std::string>& inactive) co
     if (inactive.contains(entry.name())) continue;
     Shape shape;
     if (entry.has("Run")) {
+      if (!std::filesystem::exists(entry.text("Run"))) {
+        throw FileError(entry.text("Run"), "is not there; " + to_string(entry.where("Run")) +
+                                               " asks for the shapes of this run");
+      }
       for (const auto& [structure, numbers] : output::find_recorded_shape(
                entry.text("Run"), entry.text("Analysis"), entry.integer("Shape"))) {
         shape[structure] = to_motions(numbers);
