@@ -309,10 +309,8 @@ def plot_tippling(culm, axes):
 
 
 def plot(culm, path):
-    fig, _ = figure(2, 7.0)
-    fig.clf()
-    panels = fig.subplots(2, 2).ravel()
-    for draw, axes in zip((plot_column, plot_shear, plot_plates, plot_tippling), panels):
+    fig, panels = figure(2, 7.0, rows=2)
+    for draw, axes in zip((plot_column, plot_shear, plot_plates, plot_tippling), panels.ravel()):
         draw(culm, axes)
     save(fig, path)
 

@@ -399,10 +399,8 @@ def plot_plies(culm, axes):
 
 
 def plot(culm, path):
-    fig, _ = figure(2, 7.0)
-    fig.clf()
-    panels = fig.subplots(2, 2).ravel()
-    for draw, axes in zip((plot_orders, plot_rotating, plot_slenderness, plot_plies), panels):
+    fig, panels = figure(2, 7.0, rows=2)
+    for draw, axes in zip((plot_orders, plot_rotating, plot_slenderness, plot_plies), panels.ravel()):
         draw(culm, axes)
     save(fig, path)
 

@@ -88,8 +88,8 @@ def main(verify, plot=None, fine=None):
     sys.exit(1 if report.failures else 0)
 
 
-def figure(columns=1, height=3.6):
-    """A figure of the pages and its axes; reference as markers, culm as lines."""
+def figure(columns=1, height=3.6, rows=1):
+    """A figure of the pages and its axes, an array of them where there are several; reference as markers, culm as lines."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -97,7 +97,7 @@ def figure(columns=1, height=3.6):
 
     style = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.4}
     pyplot.rcParams.update(style)
-    return pyplot.subplots(1, columns, figsize=(4.4 * columns + 0.4, height), layout="constrained")
+    return pyplot.subplots(rows, columns, figsize=(4.4 * columns + 0.4, height), layout="constrained")
 
 
 def mesh_axis(axes, counts):

@@ -93,20 +93,23 @@ class Push final : public model::Batch {
   double level_ = 0.0;
 };
 
+// A node as a structure of its own: 'a', 'b', …; `fixed` reads from the last unknown to the first.
+int add_node(model::Model& model, const Vec3& x, const char* fixed) {
+  model::NodeSlots slots;
+  slots << x, Mat3::Identity();
+  const int node = model.nodes().add(slots);
+  model.add_structure(std::string(1, static_cast<char>('a' + node))).nodes = {node};
+  model.nodes().fix(node, std::bitset<6>(fixed));
+  return node;
+}
+
 // Two bars with EA = 1 from (-a, 0) and (a, 0) to an apex at (0, h), which a unit load pushes down:
 //   P = (h^2 - w^2) w / L^3 at the height w of the apex, L^2 = a^2 + h^2.
 // Where w^2 = h^2 - 2 a^2 another path begins, x^2 + w^2 = h^2 - 2 a^2 and P = 2 a^2 w / L^3.
 class Truss : public Observer {
  public:
   Truss(double a, double h, const Vec3& force = Vec3(0.0, -1.0, 0.0)) : a_(a), h_(h) {
-    const auto add = [&](const Vec3& x, const char* fixed) {
-      model::NodeSlots slots;
-      slots << x, Mat3::Identity();
-      const int node = model.nodes().add(slots);
-      model.add_structure(std::string(1, static_cast<char>('a' + node))).nodes = {node};
-      model.nodes().fix(node, std::bitset<6>(fixed));
-      return node;
-    };
+    const auto add = [&](const Vec3& x, const char* fixed) { return add_node(model, x, fixed); };
     const int left = add({-a, 0.0, 0.0}, "111111"), right = add({a, 0.0, 0.0}, "111111");
     apex_ = add({0.0, h, 0.0}, "111100");
     auto& bars = model::elements<Bar>(model, "Bar");
@@ -254,14 +257,7 @@ class SoftlyPushedTruss : public Observer {
   static constexpr double softness = 1e3;  // of the bar, over that of the truss
 
   SoftlyPushedTruss() {
-    const auto add = [&](const Vec3& x, const char* fixed) {
-      model::NodeSlots slots;
-      slots << x, Mat3::Identity();
-      const int node = model.nodes().add(slots);
-      model.add_structure(std::string(1, static_cast<char>('a' + node))).nodes = {node};
-      model.nodes().fix(node, std::bitset<6>(fixed));
-      return node;
-    };
+    const auto add = [&](const Vec3& x, const char* fixed) { return add_node(model, x, fixed); };
     const int left = add({-size, 0.0, 0.0}, "111111"), right = add({size, 0.0, 0.0}, "111111");
     const int apex = add({0.0, 0.5 * size, 0.0}, "111101");
     const int pushed = add({0.0, 0.5 * size + length, 0.0}, "111101");

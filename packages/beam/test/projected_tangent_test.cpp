@@ -3,7 +3,6 @@
 #include "beam_case.hpp"
 
 #include <culm_kit/batch_laws.hpp>
-#include <culm_kit/no_heap.hpp>
 #include <gtest/gtest.h>
 
 namespace culm::beam {
@@ -50,18 +49,7 @@ TYPED_TEST(ProjectedElement, NullSpaceResidualIsProjected) {
 }
 
 TYPED_TEST(ProjectedElement, AssembleAllocatesNothing) {
-  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
-    model::Model model;
-    fill<TypeParam>(model, true);
-    model.freeze(form);
-    kit::DenseAssembly dense(model);
-    const model::State state = kit::random_state(model, 3);
-    const Stencil stencil = Stencil::midpoint(0.4);
-    dense.begin_step(state, stencil);
-    const kit::DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
-    kit::NoHeap guard;
-    EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
-  }
+  kit::expect_no_allocation([&](model::Model& model) { fill<TypeParam>(model, true); }, effect);
 }
 
 }  // namespace

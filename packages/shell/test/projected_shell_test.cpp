@@ -3,7 +3,6 @@
 #include "shell_case.hpp"
 
 #include <culm_kit/batch_laws.hpp>
-#include <culm_kit/no_heap.hpp>
 #include <gtest/gtest.h>
 
 namespace culm::shell {
@@ -56,20 +55,7 @@ TEST_P(ProjectedShell, TangentIsDerivativeOfResidual) {
   kit::expect_tangent_is_derivative(fill, effect);
 }
 
-TEST_P(ProjectedShell, AssembleAllocatesNothing) {
-  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
-    model::Model model;
-    fill(model);
-    model.freeze(form);
-    kit::DenseAssembly dense(model);
-    const model::State state = kit::random_state(model, 3);
-    const Stencil stencil = Stencil::midpoint(0.4);
-    dense.begin_step(state, stencil);
-    const kit::DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
-    kit::NoHeap guard;
-    EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
-  }
-}
+TEST_P(ProjectedShell, AssembleAllocatesNothing) { kit::expect_no_allocation(fill, effect); }
 
 INSTANTIATE_TEST_SUITE_P(Slaves, ProjectedShell,
                          testing::Combine(testing::Values(fill_elastic, fill_linear),

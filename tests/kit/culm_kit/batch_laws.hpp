@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm_kit/dense_assembly.hpp>
+#include <culm_kit/no_heap.hpp>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -122,6 +123,22 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
     const Eigen::MatrixXd P = null_space_matrix(reduced.nodes(), at_theta(state, stencil.theta));
     ASSERT_GT(largest(R), 0.0);
     EXPECT_LT(largest(r - P.transpose() * R), 1e-13 * (1.0 + largest(R)));
+  }
+}
+
+/// Assembling the tangent in a step takes no memory from the heap, in neither form.
+inline void expect_no_allocation(const FillModel& fill, const std::string& effect) {
+  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
+    model::Model model;
+    fill(model);
+    model.freeze(form);
+    DenseAssembly dense(model);
+    const model::State state = random_state(model, 3);
+    const Stencil stencil = Stencil::midpoint(0.4);
+    dense.begin_step(state, stencil);
+    const DenseAssembly::Batches tested = {find_batch(model, effect)};
+    NoHeap guard;
+    EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
   }
 }
 

@@ -19,7 +19,6 @@
 
 #include <culm_kit/batch_laws.hpp>
 #include <culm_kit/dense_assembly.hpp>
-#include <culm_kit/no_heap.hpp>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -226,18 +225,7 @@ TYPED_TEST_P(ConstraintContract, NullSpaceResidualIsProjected) {
 }
 
 TYPED_TEST_P(ConstraintContract, AssembleAllocatesNothing) {
-  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
-    model::Model model;
-    this->fill(model, true);
-    model.freeze(form);
-    DenseAssembly dense(model);
-    const model::State state = random_state(model, 3);
-    const Stencil stencil = Stencil::midpoint(0.4);
-    dense.begin_step(state, stencil);
-    const DenseAssembly::Batches tested = {find_batch(model, this->name)};
-    NoHeap guard;
-    EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
-  }
+  expect_no_allocation([&](model::Model& model) { this->fill(model, true); }, this->name);
 }
 
 REGISTER_TYPED_TEST_SUITE_P(ConstraintContract, HoldsInTheReference, GradientIsDerivativeOfTheRows,

@@ -20,7 +20,6 @@
 #include <culm/model/amplitude.hpp>
 
 #include <culm_kit/batch_laws.hpp>
-#include <culm_kit/no_heap.hpp>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -157,17 +156,7 @@ TYPED_TEST_P(LoadContract, ActsWithTheAmplitudeAtTheta) {
 }
 
 TYPED_TEST_P(LoadContract, AssembleAllocatesNothing) {
-  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
-    model::Model model;
-    this->fill(model, true);
-    model.freeze(form);
-    DenseAssembly dense(model);
-    const model::State state = random_state(model, 3);
-    const DenseAssembly::Batches tested = {find_batch(model, this->effect())};
-    NoHeap guard;
-    EXPECT_EQ(dense.assemble(state, Stencil::midpoint(0.4), Want::residual_and_tangent, tested),
-              Verdict::ok);
-  }
+  expect_no_allocation([&](model::Model& model) { this->fill(model, true); }, this->effect());
 }
 
 REGISTER_TYPED_TEST_SUITE_P(LoadContract, TangentIsDerivativeOfResidual,
