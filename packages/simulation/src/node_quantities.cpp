@@ -2,8 +2,12 @@
 #include <culm/math/rotation.hpp>
 #include <culm/simulation/quantity.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -60,9 +64,24 @@ void displacement(const assembly::System& system, const model::State& state, con
   append(place.position(state.next) - place.position(system.model().nodes().reference()), numbers);
 }
 
+// The shortest rotation that turns one direction into another.
+Vec3 turn_between(const Vec3& from, const Vec3& to) {
+  const Vec3 axis = from.cross(to);
+  const double sine = axis.norm();
+  const double cosine = from.dot(to);
+  if (sine > 0.0) return std::atan2(sine, cosine) / sine * axis;
+  return cosine < 0.0 ? Vec3(std::numbers::pi * any_normal(from)) : Vec3(Vec3::Zero());
+}
+
 void rotation(const assembly::System& system, const model::State& state, const Place& place,
               std::vector<double>& numbers) {
   const auto& reference = system.model().nodes().reference();
+  if (system.model().nodes().kind(place.node) != NodeKind::node12) {
+    append(turn_between(NodeTable::slots(reference, place.node).col(1),
+                        NodeTable::slots(state.next, place.node).col(1)),
+           numbers);
+    return;
+  }
   const Mat3 D = NodeTable::slots(state.next, place.node).rightCols<3>();
   const Mat3 D0 = NodeTable::slots(reference, place.node).rightCols<3>();
   append(log_rotation(D * D0.transpose()), numbers);
@@ -138,7 +157,10 @@ void register_node_quantities(QuantityRegistry& registry) {
           .add(offset_field()),
       {{"ux", "m"}, {"uy", "m"}, {"uz", "m"}}, displacement);
   add(registry,
-      Schema("Rotation", "Rotation vector of the directors of a node from the reference."),
+      Schema(
+          "Rotation",
+          "Rotation vector of the directors of a node from the reference; of a node of a shell the "
+          "shortest that turns its director."),
       {{"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}}, rotation);
   add(registry,
       Schema("Reaction",
