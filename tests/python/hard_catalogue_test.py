@@ -1,11 +1,14 @@
 """The catalogue, the choice of cases and the file of margins."""
 
+import argparse
+import contextlib
+import io
 import math
 import pathlib
 import tempfile
 import unittest
 
-from culm.hard import margins, select
+from culm.hard import declare, main, margins, select
 from culm.hard.case import KEYS
 from culm.hard.catalogue import CASES, ILL_POSED
 
@@ -18,6 +21,26 @@ def entry(**changes):
         "first_bad": 22.0, "kind": "failed", "how": "exit 4", "told": True, "beyond": "failed",
     }  # fmt: skip
     return margins.Entry(**{**values, **changes})
+
+
+class PartTest(unittest.TestCase):
+    def listed(self, *words):
+        parser = argparse.ArgumentParser()
+        declare(parser)
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            main(parser.parse_args([*words, "--list"]), program=None)
+        return [one.name for one in (*CASES, *ILL_POSED) if f"{one.name}  " in printed.getvalue()]
+
+    def test_parts_have_every_case_once(self):
+        parts = [name for part in ("1/3", "2/3", "3/3") for name in self.listed("--part", part)]
+        self.assertEqual(sorted(parts), sorted(self.listed()))
+        self.assertGreater(len(parts), 50)
+
+    def test_of_what_is_no_part(self):
+        for text in ("0/3", "4/3", "1", "1/0", "a/b"):
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+                self.listed("--part", text)
 
 
 class CatalogueTest(unittest.TestCase):

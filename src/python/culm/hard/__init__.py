@@ -1,6 +1,8 @@
 """Runs the catalogue of hard cases, each with a growing stressor, until it fails or turns wrong."""
 
+import argparse
 import pathlib
+import re
 import subprocess
 import tempfile
 
@@ -14,6 +16,9 @@ SHORT_OF_PROMISE = 4  # exit code
 def declare(parser):
     parser.add_argument(
         "--only", nargs="+", metavar="WORD", default=[], help="keys, or parts of names of cases"
+    )
+    parser.add_argument(
+        "--part", type=_part, metavar="K/N", default=(1, 1), help="every Nth case from the Kth on"
     )
     parser.add_argument("--list", action="store_true", help="name the cases and run nothing")
     parser.add_argument("--quick", action="store_true", help="margins to a factor of 2 only")
@@ -33,6 +38,14 @@ def declare(parser):
     )
 
 
+def _part(text):
+    """(K, N) of 'K/N', 1 <= K <= N."""
+    match = re.fullmatch(r"(\d+)/(\d+)", text)
+    if not match or not 1 <= int(match[1]) <= int(match[2]):
+        raise argparse.ArgumentTypeError(f"needs K/N with K from 1 to N, got '{text}'")
+    return int(match[1]), int(match[2])
+
+
 def main(arguments, program):
     from . import catalogue
     from .terminal import Terminal
@@ -41,6 +54,8 @@ def main(arguments, program):
     refusals = select(catalogue.ILL_POSED, arguments.only)
     if not cases and not refusals:
         raise CulmError(f"no case has one of {arguments.only} in its keys or name; see --list", 2)
+    first, step = arguments.part
+    cases, refusals = cases[first - 1 :: step], refusals[first - 1 :: step]
     terminal = Terminal()
     if arguments.list:
         terminal.list(cases, refusals)
