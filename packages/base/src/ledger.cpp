@@ -94,7 +94,7 @@ std::string Ledger::report() const {
 }
 
 void Ledger::book() {
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = now_();
   if (innermost_) {
     entries_[static_cast<std::size_t>(innermost_->id_)].seconds +=
         std::chrono::duration<double>(now - last_).count();
