@@ -126,24 +126,11 @@ def limit_files(size):
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
-def alone(folder):
-    """Environment of a single process, which needs neither Open MPI's server nor its transports:
-    they take most of the time. Such processes do not know of each other and must not share files.
-    """
-    return {
-        "OMPI_MCA_ess_singleton_isolated": "1",
-        "OMPI_MCA_btl": "self",
-        "OMPI_MCA_pml": "ob1",
-        "OMPI_MCA_orte_tmpdir_base": str(folder),
-    }
-
-
 def run_once(case, folder, options):
     try:
         return subprocess.run(
             command(case, folder, options),
             cwd=case.cwd or folder,
-            env={**os.environ, **(alone(folder.parent) if options.ranks == 1 else {})},
             stdin=subprocess.DEVNULL,
             capture_output=True,
             timeout=TIME_LIMIT,

@@ -1,5 +1,7 @@
 // Entry point of unit tests that may use MPI, on one process or, under mpiexec, on several.
 
+#include <culm/parallel/single_process.hpp>
+
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -9,6 +11,7 @@
 #endif
 
 int main(int argc, char** argv) {
+  culm::parallel::expect_single_process();
   MPI_Init(&argc, &argv);
   ::testing::InitGoogleTest(&argc, argv);
   int rank = 0;

@@ -1,3 +1,4 @@
+#include <culm/parallel/single_process.hpp>
 #include <culm/simulation/session.hpp>
 
 #include <Tpetra_Core.hpp>
@@ -20,6 +21,7 @@ Session::Session(int& /*argc*/, char**& argv) {
   // keeps the factors of a direct solver from going back to the system after every iteration
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
+  parallel::expect_single_process();
   scope_ = std::make_unique<Scope>(argv[0]);
 }
 

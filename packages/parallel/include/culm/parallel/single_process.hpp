@@ -1,0 +1,16 @@
+/// A process that nobody launched as one of several.
+#pragma once
+
+namespace culm::parallel {
+
+/// Whether a launcher (mpiexec, srun, another process manager) started this process as one of a
+/// group, by the names of variables that launchers set.
+/// @param environment  as `environ`: "NAME=value", closed by a null pointer
+bool was_launched(const char* const* environment);
+
+/// To be called before MPI starts. Open MPI gives a process that was not launched a server of its
+/// own and looks for networks, which takes longer than a small run; alone it needs neither. Does
+/// nothing in a launched process, and nothing that the user's environment says otherwise.
+void expect_single_process();
+
+}  // namespace culm::parallel

@@ -1,0 +1,36 @@
+#include <culm/parallel/single_process.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+namespace culm::parallel {
+
+bool was_launched(const char* const* environment) {
+  // mpiexec of Open MPI and what speaks PMIx; MPICH, Intel MPI and what speaks PMI; srun. The step
+  // tells srun from the script of a batch job, which is a process like any other.
+  constexpr std::array<std::string_view, 5> marks = {"OMPI_COMM_WORLD_", "PMIX_", "PMI_",
+                                                     "OMPI_MCA_orte_ess_", "SLURM_STEP_ID="};
+  for (; *environment != nullptr; ++environment) {
+    const std::string_view variable = *environment;
+    if (std::ranges::any_of(marks, [&](auto mark) { return variable.starts_with(mark); })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void expect_single_process() {
+  if (was_launched(environ)) return;
+  constexpr int keep = 0;
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+  ::setenv("OMPI_MCA_pml", "ob1", keep);
+  ::setenv("OMPI_MCA_btl", "self", keep);
+  // all such processes would share one folder, and the first to end would remove it
+  ::setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
+}
+
+}  // namespace culm::parallel
