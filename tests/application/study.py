@@ -24,7 +24,7 @@ from culm_runs import INPUTS, MPI_ENVIRONMENT, Culm  # noqa: E402
 
 FLIGHT = INPUTS / "flight/spaghetti_3d.xml"
 ROLL_UP = INPUTS / "beam/roll_up.xml"
-TIME_LIMIT = 300  # s
+TIME_LIMIT = 600  # s
 CULM = None
 
 
@@ -152,7 +152,7 @@ class Resuming(StudyTest):
     def test_goes_on_after_it_was_killed(self):
         words = ["--vary", "step=0.01:0.00125/2", "--watch", "other end", "--repeat", "1"]
         process = start(self.folder, FLIGHT, *words)
-        end = time.monotonic() + 60.0
+        end = time.monotonic() + TIME_LIMIT
         while len(self.records()) < 2 and time.monotonic() < end:
             time.sleep(0.005)
         os.killpg(process.pid, signal.SIGKILL)  # the run that is going on, too

@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "tests/kit"))
 from culm_runs import MPI_ENVIRONMENT  # noqa: E402
 
 DIGITS = 1e-3
-TIME_LIMIT = 120  # s
+TIME_LIMIT = 600  # s
 
 
 def blocks(page):

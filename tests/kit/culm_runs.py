@@ -13,7 +13,7 @@ sys.path.insert(0, str(ROOT / "src/python"))
 from culm.history import History  # noqa: E402
 
 INPUTS = ROOT / "inputs"
-TIME_LIMIT = 120  # s
+TIME_LIMIT = 600  # s; against runs that hang, also on a machine that is busy with others
 
 # Open MPI: start as root (containers), more ranks than cores, and do not pin them.
 MPI_ENVIRONMENT = {

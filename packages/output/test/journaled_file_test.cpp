@@ -76,7 +76,9 @@ TEST(JournaledFile, KilledCommitsAreWholeOrNothing) {
     const TemporaryFolder folder;
     const pid_t child = ::fork();
     if (child == 0) count_forever(folder / "f");
-    ::usleep(5000 + 997 * static_cast<useconds_t>(round));
+    // before, nothing is promised; on a busy machine that may take long
+    while (!std::filesystem::exists(JournaledFile::journal_path(folder / "f"))) ::usleep(100);
+    ::usleep(997 * static_cast<useconds_t>(round));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     JournaledFile::recover(folder / "f");
