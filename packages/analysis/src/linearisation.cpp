@@ -1,4 +1,5 @@
 #include <culm/analysis/linearisation.hpp>
+#include <culm/assembly/rounding.hpp>
 #include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
@@ -68,6 +69,13 @@ Linearisation linearise(Context& context, const model::State& state) {
   system.choose_multiplier_scale(state, stencil);
   const assembly::Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
   Linearisation linear;
+  if (found.force_scale > 0.0) linear.residual = found.force_residual / found.force_scale;
+  const double balanced = 1e-6 * found.force_scale;
+  // what rounding may leave, with a margin for states that other programs or analyses found
+  linear.is_equilibrium = found.force_residual <= balanced ||
+                          assembly::check_rounding(system, state.prev, state.next,
+                                                   state.multipliers, balanced, found.force_scale)
+                                  .share < 1e3;
   linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
   linear.damping = find_damping(system, state);
   system.begin_step(state, stencil);
@@ -81,9 +89,6 @@ Linearisation linearise(Context& context, const model::State& state) {
         "Try: check units and load functions.");
   }
   linear.asymmetry = solver::asymmetry(linear.stiffness, system.comm());
-  if (found.force_scale > 0.0) linear.residual = found.force_residual / found.force_scale;
-  linear.is_equilibrium =
-      linear.residual < 1e-6 || found.force_residual < 1e3 * found.round_off_force;
   if (!linear.is_equilibrium) {
     context.log.warning(fmt::format(
         "the state is no equilibrium: forces are out of balance by {:.2g} of the largest one. "

@@ -268,6 +268,7 @@ void PathFollowing::land(Context& context, model::State& state, solver::StepOutc
     outcome.iterations += landing.iterations;
     outcome.history.insert(outcome.history.end(), landing.history.begin(), landing.history.end());
     outcome.last = landing.last;
+    outcome.held_unknown = landing.held_unknown;
   };
   if (settings_.final_level && lies_between(*settings_.final_level, state.time_prev, state.time)) {
     state.time = *settings_.final_level;

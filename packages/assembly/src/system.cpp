@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace culm::assembly {
 namespace {
@@ -79,22 +78,12 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
           static_cast<std::size_t>(std::find(first, last, static_cast<int>(row)) - first)));
     }
   }
-  length_ = model.length();
   velocity_dissipation_ = model::VelocityDissipation::find(model);
   reactions_.assign(index(unknowns.num_reactions()), 0.0);
   linear_increment_.assign(model.nodes().reference().size(), 0.0);
 }
 
 void System::begin_step(const model::State& state, const Stencil& stencil) {
-  // coordinates are rounded to epsilon times their size, which grows as a model flies off
-  size_ = length_;
-  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = model_.unknowns().block(local.block);
-    if (block.kind != model::BlockKind::node) continue;
-    const auto slots = model::NodeTable::slots(state.prev, block.owner);
-    size_ = std::max(size_, slots.col(0).lpNorm<Eigen::Infinity>());
-  }
-  size_ = comm_.max(size_);
   for (model::Batch* batch : batches_) batch->begin_step(state, stencil);
 }
 
@@ -156,12 +145,10 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
     if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
   }
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * size_;
-  if (want == Want::residual_and_tangent) stiffness_ = largest_diagonal();
-  double found[5] = {static_cast<double>(verdict), largest, target.force_scale,
-                     target.constraint_violation, rounding * stiffness_};
+  double found[4] = {static_cast<double>(verdict), largest, target.force_scale,
+                     target.constraint_violation};
   comm_.max(found);
-  return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3], found[4]};
+  return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3]};
 }
 
 void System::carry_residual(double time) {

@@ -22,6 +22,10 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
   const model::Coordinates start = state.next;
   const Stencil stencil = Stencil::statics();
   begin_step(state, stencil);
+  // coordinates are rounded to epsilon times their size
+  double size = model_.length();
+  for (const double x : start) size = std::max(size, std::abs(x));
+  size = comm_.max(size);
   constexpr int most_iterations = 50;
   for (int iteration = 0;; ++iteration) {
     const Evaluation found = evaluate(state, stencil, Want::residual);
@@ -39,7 +43,7 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
     for (std::size_t row = 0; row < u.size(); ++row) {
       if (!is_force_row_[row]) u[row] = 0.0;  // its multipliers are no forces
     }
-    const bool stalls = comm_.max(change.normInf()) < 1e-15 * size_;
+    const bool stalls = comm_.max(change.normInf()) < 1e-15 * size;
     move(state, change, 1.0);
     if (stalls) break;  // at round-off
   }

@@ -1,4 +1,4 @@
-#include <culm/assembly/system.hpp>
+#include <culm/assembly/rounding.hpp>
 #include <culm/model/element_batch.hpp>
 
 #include <culm_kit/chain_model.hpp>
@@ -107,23 +107,72 @@ TEST_P(SystemTest, EnergyCountsEachElementOnce) {
   EXPECT_NEAR(system.strain_energy(state.next), expected, 1e-12 * expected);
 }
 
-TEST_P(SystemTest, RoundOffGrowsWithTheDistanceFromTheOrigin) {
+// Largest residual of all force rows over the bound on rounding of its row.
+double rounding_share(System& system, const model::State& state) {
+  system.begin_step(state, Stencil::statics());
+  const Evaluation found = system.evaluate(state, Stencil::statics(), Want::residual_and_tangent);
+  return check_rounding(system, state.prev, state.next, state.multipliers, 0.0, found.force_scale)
+      .share;
+}
+
+void shift(model::State& state, const Vec3& distance) {
+  for (std::size_t i = 0; i < state.next.size(); ++i) {
+    if (i % 12 >= 3) continue;
+    state.prev[i] += distance[static_cast<int>(i % 12)];
+    state.next[i] += distance[static_cast<int>(i % 12)];
+  }
+}
+
+TEST_P(SystemTest, RoundingMayExplainMoreFarFromTheOrigin) {
   model::Model model;
   build(model, GetParam());
   Ledger ledger;
   System system(model, parallel::Comm(), ledger);
-  model::State state = model.initial_state();
-  const auto round_off = [&] {
-    system.begin_step(state, Stencil::statics());
-    return system.evaluate(state, Stencil::statics(), Want::residual_and_tangent).round_off_force;
-  };
-  const double near = round_off();
-  for (int node = 0; node < model.nodes().size(); ++node) {
-    for (model::Coordinates* q : {&state.prev, &state.next}) {
-      model::NodeTable::slots(*q, node)(0, 0) += 1e4 * model.length();
+  model::State state = kit::random_state(model, 7);
+  const double near = rounding_share(system, state);
+  shift(state, 1e4 * model.length() * Vec3(1.0, 0.8, -0.9));
+  EXPECT_LT(rounding_share(system, state), 1e-2 * near);
+}
+
+TEST_P(SystemTest, RoundingOfARigidMotionStaysBelowItsBound) {
+  model::Model model;
+  kit::add_chain(model, 12);
+  model.freeze(GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  const Mat3 turn = Eigen::AngleAxisd(2.0, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  for (const double distance : {0.0, 1e3, 1e6}) {
+    model::State state = model.initial_state();
+    for (int node = 0; node < model.nodes().size(); ++node) {
+      for (model::Coordinates* q : {&state.prev, &state.next}) {
+        model::NodeTable::slots(*q, node) = turn * model::NodeTable::slots(*q, node);
+      }
     }
+    shift(state, distance * Vec3(1.0, -0.7, 0.4));
+    const double share = rounding_share(system, state);
+    EXPECT_LT(share, 1.0) << distance;
+    EXPECT_GT(share, 1e-3) << distance << ": the bound says nothing";
   }
-  EXPECT_NEAR(round_off() / near, 1e4, 2.0);
+}
+
+TEST_P(SystemTest, StiffRowsDoNotExcuseSoftOnes) {
+  model::Model model;
+  kit::add_chain(model, 12);
+  model::NodeSlots slots = model::NodeTable::slots(model.nodes().reference(), 12);
+  slots.col(0) += Vec3::UnitX();
+  const int last = model.nodes().add(slots);
+  Slots<8> link;
+  link << model::NodeTable::slots(model.nodes().reference(), 12), slots;
+  model::elements<kit::SpringLink>(model, "Spring link")
+      .add(kit::SpringLink(link, 1e12), {12, last});
+  model.freeze(GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  model::State state = model.initial_state();
+  ASSERT_LT(rounding_share(system, state), 1.0);
+  model::NodeTable::slots(state.next, 0)(0, 0) +=
+      1e-8;  // a force of 1e-6 N; 1e-3 N beside the stiff
+  EXPECT_GT(rounding_share(system, state), 1e3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, SystemTest, ::testing::Values(Form::null_space, Form::multipliers),

@@ -1,5 +1,6 @@
 #include "run_observer.hpp"
 
+#include <culm/analysis/unknown_names.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 
@@ -86,8 +87,9 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     most_iterations_ = std::max(most_iterations_, outcome.iterations);
     worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
-    steps_.rows.push_back(
-        {report.time, static_cast<double>(outcome.iterations), outcome.history.back().force});
+    steps_.rows.push_back({report.time, static_cast<double>(outcome.iterations),
+                           outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0});
+    if (outcome.held_unknown) add_held(outcome);
     add_history(report.time, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) record(report.time, state);
@@ -100,6 +102,13 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   if (demand == Checkpoints::Demand::none && !ends) return;
   write_checkpoint(state);
   if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());
+}
+
+void RunObserver::add_held(const solver::StepOutcome& outcome) {
+  ++held_;
+  if (outcome.history.back().force <= worst_held_) return;
+  worst_held_ = outcome.history.back().force;
+  worst_held_row_ = analysis::UnknownNames(context_->system).name_of(*outcome.held_unknown);
 }
 
 void RunObserver::write_checkpoint(model::State& state) {
@@ -121,10 +130,12 @@ void RunObserver::save(Snapshot& snapshot) const {
   source_.save(snapshot);
   earlier_.save(snapshot);
   imperfections_.save(snapshot);
-  snapshot.set("run/counts",
-               {static_cast<double>(accepted_), static_cast<double>(rejected_),
-                static_cast<double>(iterations_), static_cast<double>(most_iterations_),
-                worst_residual_, worst_constraint_, is_recorded_ ? 1.0 : 0.0});
+  snapshot.set(
+      "run/counts",
+      {static_cast<double>(accepted_), static_cast<double>(rejected_),
+       static_cast<double>(iterations_), static_cast<double>(most_iterations_), worst_residual_,
+       worst_constraint_, is_recorded_ ? 1.0 : 0.0, static_cast<double>(held_), worst_held_});
+  snapshot.set_text("run/held row", worst_held_row_);
   snapshot.set_text("run/certificates", certificates_);
   std::vector<double> steps;
   for (const auto& row : steps_.rows) steps.insert(steps.end(), row.begin(), row.end());
@@ -138,7 +149,7 @@ void RunObserver::save(Snapshot& snapshot) const {
 }
 
 void RunObserver::restore(const Snapshot& snapshot) {
-  const std::vector<double>& counts = snapshot.numbers("run/counts", 7);
+  const std::vector<double>& counts = snapshot.numbers("run/counts", 9);
   accepted_ = static_cast<int>(counts[0]);
   rejected_ = static_cast<int>(counts[1]);
   iterations_ = static_cast<int>(counts[2]);
@@ -146,6 +157,9 @@ void RunObserver::restore(const Snapshot& snapshot) {
   worst_residual_ = counts[4];
   worst_constraint_ = counts[5];
   is_recorded_ = counts[6] != 0.0;
+  held_ = static_cast<int>(counts[7]);
+  worst_held_ = counts[8];
+  worst_held_row_ = snapshot.text("run/held row");
   certificates_ = snapshot.text("run/certificates");
   const std::vector<double>& steps = snapshot.numbers("run/steps");
   const std::size_t columns = steps_.columns.size();
@@ -183,6 +197,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"iterations", "", static_cast<double>(iterations_)},
       {"worst force residual", "", worst_residual_},
       {"worst constraint violation", "", worst_constraint_},
+      {"steps held by rounding", "", static_cast<double>(held_)},
       {"final time", "", state.time}};
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
   files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers,
@@ -190,13 +205,20 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
 }
 
 std::string RunObserver::convergence() const {
+  const std::string held =
+      held_ == 0 ? std::string()
+                 : fmt::format(
+                       "in {} of the steps rounding holds forces above 'Force Tolerance', "
+                       "most at {}: {:.1e}\n",
+                       held_, worst_held_row_, worst_held_);
   return fmt::format(
       "{} steps accepted, {} cut back; {} iterations, {:.1f} per step, at most {}\n"
       "worst accepted residual: forces {:.1e}, constraints {:.1e}\n"
+      "{}"
       "linear solver: {}\n",
       accepted_, rejected_, iterations_,
       accepted_ > 0 ? static_cast<double>(iterations_) / accepted_ : 0.0, most_iterations_,
-      worst_residual_, worst_constraint_, linear_solver_);
+      worst_residual_, worst_constraint_, held, linear_solver_);
 }
 
 std::string RunObserver::closing_words() const {

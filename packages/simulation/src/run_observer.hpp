@@ -14,7 +14,7 @@ namespace culm::simulation {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 1;
+  static constexpr int checkpoint_format = 2;
 
   RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
               const DeckSource& source, const EarlierStates& earlier,
@@ -44,6 +44,7 @@ class RunObserver final : public analysis::Observer {
  private:
   void save(Snapshot& snapshot) const;
   std::string convergence() const;
+  void add_held(const solver::StepOutcome& outcome);
   void add_history(double time, model::State& state);
   void record(double time, model::State& state);
 
@@ -69,13 +70,17 @@ class RunObserver final : public analysis::Observer {
   std::string certificates_;
   std::vector<output::NamedScalar> numbers_;
   // the accepted steps, for the report
-  output::NamedTable steps_{"steps", {"time", "iterations", "force residual"}, {}, {}};
+  output::NamedTable steps_{
+      "steps", {"time", "iterations", "force residual", "held by rounding"}, {}, {}};
   int accepted_ = 0;
   int rejected_ = 0;
   int iterations_ = 0;
   int most_iterations_ = 0;
   double worst_residual_ = 0.0;
   double worst_constraint_ = 0.0;
+  int held_ = 0;                // accepted steps that rounding holds above the force tolerance
+  double worst_held_ = 0.0;     // largest residual of them
+  std::string worst_held_row_;  // where it is
 };
 
 }  // namespace culm::simulation

@@ -141,8 +141,15 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeJacobian() {
   return result;
 }
 
+assembly::RoundingCheck NewtonGroup::check_rounding(double limit) const {
+  const NewtonProblem& p = *problem_;
+  return assembly::check_rounding(p.system, p.state->prev, next_, multipliers_, limit,
+                                  evaluation_.force_scale);
+}
+
 bool NewtonGroup::solve_linear() {
   NewtonProblem& p = *problem_;
+  p.direction_is_fresh = has_tangent_;
   if (has_tangent_) {
     const Ledger::Scope scope(p.ledger, p.factor_effect);
     p.singular = !p.linear.factor();

@@ -1,7 +1,7 @@
 /// The equations of one step as NOX wants them.
 #pragma once
 
-#include <culm/assembly/system.hpp>
+#include <culm/assembly/rounding.hpp>
 #include <culm/solver/linear_solver.hpp>
 #include <culm/solver/newton_solver.hpp>
 
@@ -33,9 +33,9 @@ struct NewtonProblem {
   double last_residual = 0.0;     ///< relative one of the iteration before; 0 before the first
   int iterations = 0;             ///< of this step, so far
   int expected_iterations = 0;    ///< those of the step before; 0 before the first
-  double seen_rounding = 0.0;     ///< share of the bound on rounding that a residual stood still at
-  bool singular = false;          ///< the last factorisation failed
-  bool not_finite = false;        ///< the last solution is infinite or not a number
+  bool direction_is_fresh = false;  ///< the last Newton direction is that of a new tangent
+  bool singular = false;            ///< the last factorisation failed
+  bool not_finite = false;          ///< the last solution is infinite or not a number
   double largest_increment = 0.0;
 };
 
@@ -52,6 +52,8 @@ class NewtonGroup final : public NOX::Abstract::Group {
   /// Gives the trial point to the problem's state.
   void finish();
   const assembly::Evaluation& evaluation() const { return evaluation_; }
+  /// Whether rounding can hold force rows above a limit at this point, which was evaluated last.
+  assembly::RoundingCheck check_rounding(double limit) const;
 
   NOX::Abstract::Group& operator=(const NewtonGroup& other);
   NOX::Abstract::Group& operator=(const NOX::Abstract::Group& other) override;

@@ -1,5 +1,6 @@
 #include <culm/solver/newton_solver.hpp>
 
+#include "late_search.hpp"
 #include "newton_group.hpp"
 
 #include <NOX.H>
@@ -15,11 +16,14 @@ namespace {
 // just below, step after step on the same side, and what adds up over many steps would show it.
 constexpr double lasting_share = 0.01;
 
-// Share of a residual at the start of a step that does not count at its end.
-constexpr double negligible = 1e-6;
-
-// So many times what quadratic convergence leaves of a residual is rounding and no remainder.
+// So many times what the iteration can leave of a residual is rounding and no remainder.
 constexpr double far_above = 10.0;
+
+// Share of the bound on rounding that is usually left; no iteration will get far below.
+constexpr double usual = 0.2;
+
+// A residual that keeps so much of itself with a new tangent does not fall any more.
+constexpr double still = 0.7;
 
 // Judges force and constraint rows separately, each relative to what it is made of.
 class BalanceTest final : public NOX::StatusTest::Generic {
@@ -32,6 +36,8 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     status_ = NOX::StatusTest::Unevaluated;
   }
   const std::vector<IterationRecord>& history() const { return history_; }
+  // The row that rounding held above the tolerance when the iteration converged.
+  const std::optional<int>& held_unknown() const { return held_unknown_; }
 
   NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver,
                                           NOX::StatusTest::CheckType) override {
@@ -43,17 +49,17 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const bool at_once = problem_.stencil.inertia != 0.0 && history_.size() <= 2;
     const bool lasts = settings.refresh == Refresh::on_slow_convergence || at_once;
     const double share = lasts ? lasting_share : 1.0;
-    const bool forces = e.force_residual <= share * settings.force_tolerance * e.force_scale ||
-                        is_rounding(e.force_residual, e.round_off_force);
+    const double limit = settings.force_tolerance * e.force_scale;
+    held_unknown_.reset();
+    const bool forces =
+        e.force_residual <= share * limit || is_held_by_rounding(group, share * limit, limit);
     // far from the origin rounding may hold a violation above the share
     const bool stalls = history_.size() > 1 && e.constraint_violation > 0.1 * previous_violation_;
     const bool constraints =
         e.constraint_violation <= (stalls ? 1.0 : share) * settings.constraint_tolerance;
-    if (forces && constraints) learn_rounding(e);
     residual_before_ = previous_residual_;
     previous_residual_ = e.force_residual;
     previous_violation_ = e.constraint_violation;
-    if (history_.size() == 1) first_residual_ = e.force_residual;
     status_ = forces && constraints ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
     if (is_hopeless(e)) status_ = NOX::StatusTest::Failed;
     return status_;
@@ -62,36 +68,29 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   std::ostream& print(std::ostream& stream, int) const override { return stream; }
 
  private:
-  // Below the bound that rounding can explain a force may also be a small load on a structure that
-  // is stiff elsewhere. So it must be negligible beside what was out of balance at first, or have
-  // stopped falling. With old factors a residual creeps, so it must have stopped.
-  bool is_rounding(double residual, double bound) const {
-    if (residual == 0.0) return true;
-    if (history_.size() < 2 || residual > bound) return false;
-    if (problem_.settings.refresh == Refresh::on_slow_convergence) {
-      return residual > 0.2 * previous_residual_;
-    }
-    if (residual > 0.1 * previous_residual_) return true;
-    return residual <= expected_rounding(residual) * bound &&
-           residual <= negligible * first_residual_;
+  // Between the share and the tolerance it is enough that rounding can explain what is left. Above
+  // the tolerance it must be what rounding leaves anyway, or the iteration must have done its work.
+  bool is_held_by_rounding(const NewtonGroup& group, double from, double limit) {
+    if (history_.size() < 2) return false;
+    const double residual = group.evaluation().force_residual;
+    const assembly::RoundingCheck check = group.check_rounding(from);
+    if (check.share > 1.0) return false;
+    // inertia lets no direction be soft, so that what is as small as rounding moves nothing; what
+    // old factors leave always points the same way
+    const bool is_usual =
+        problem_.stencil.inertia != 0.0 && problem_.direction_is_fresh && check.share <= usual;
+    if (residual > limit && !is_usual && !has_ended(residual)) return false;
+    if (residual > limit) held_unknown_ = check.unknown;
+    return true;
   }
-  // Rounding causes about a tenth of the bound, in long meshes up to a half: twice what it was seen
-  // to cause, where inertia lets no direction be soft. What the iteration leaves must be far less,
-  // for it always points the same way.
-  double expected_rounding(double residual) const {
-    if (problem_.stencil.inertia == 0.0 || history_.size() < 3) return 0.1;
+  // A new tangent squares the ratio of two residuals. What is far above that no iteration will
+  // lower, and neither what stands still.
+  bool has_ended(double residual) const {
+    if (!problem_.direction_is_fresh) return false;
+    if (residual > still * previous_residual_) return true;
+    if (residual_before_ == 0.0) return false;
     const double fall = previous_residual_ / residual_before_;
-    const double remainder = fall * fall * previous_residual_;
-    if (residual < far_above * remainder) return 0.1;
-    return std::clamp(2.0 * problem_.seen_rounding, 0.1, 0.5);
-  }
-  // A residual that stands still shows what rounding causes, any other that it causes less.
-  void learn_rounding(const assembly::Evaluation& e) {
-    if (history_.size() < 2 || e.force_residual > e.round_off_force) return;
-    const double share = e.force_residual / e.round_off_force;
-    const bool stands_still = e.force_residual > 0.5 * previous_residual_;
-    double& seen = problem_.seen_rounding;
-    seen = stands_still ? share : std::min(seen, share);
+    return residual > far_above * fall * fall * previous_residual_;
   }
   // an increment of thousands of model lengths or hundreds of turns will not come back
   bool is_hopeless(const assembly::Evaluation& e) const {
@@ -104,14 +103,19 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   double residual_before_ = 0.0;  // the last but one
   double previous_residual_ = 0.0;
   double previous_violation_ = 0.0;
-  double first_residual_ = 0.0;
+  std::optional<int> held_unknown_;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
-Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const NewtonSettings& settings) {
+Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const std::shared_ptr<NewtonProblem>& problem) {
   auto list = Teuchos::rcp(new Teuchos::ParameterList);
   list->set("Nonlinear Solver", "Line Search Based");
-  list->sublist("Line Search").set("Method", settings.backtrack ? "Backtrack" : "Full Step");
+  Teuchos::ParameterList& search = list->sublist("Line Search");
+  search.set("Method", problem->settings.backtrack ? "User Defined" : "Full Step");
+  if (problem->settings.backtrack) {
+    search.set<Teuchos::RCP<NOX::LineSearch::UserDefinedFactory>>(
+        "User Defined Line Search Factory", Teuchos::rcp(new LateSearchFactory(problem)));
+  }
   list->sublist("Direction").set("Method", "Newton");
   // a failed linear solve leaves no direction; NOX would go on with what it finds
   list->sublist("Direction").sublist("Newton").set("Rescue Bad Newton Solve", false);
@@ -185,7 +189,7 @@ NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
   nox_->tests = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
   nox_->tests->addStatusTest(nox_->balance);
   nox_->tests->addStatusTest(Teuchos::rcp(new NOX::StatusTest::MaxIters(settings.max_iterations)));
-  nox_->solver = NOX::Solver::buildSolver(nox_->group, nox_->tests, nox_parameters(settings));
+  nox_->solver = NOX::Solver::buildSolver(nox_->group, nox_->tests, nox_parameters(nox_->problem));
 }
 
 NewtonSolver::~NewtonSolver() = default;
@@ -224,6 +228,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   outcome.history = nox.balance->history();
   outcome.iterations = std::max(0, static_cast<int>(outcome.history.size()) - 1);
   outcome.last = nox.group->evaluation();
+  if (outcome.converged()) outcome.held_unknown = nox.balance->held_unknown();
   outcome.first_determinant = nox.problem->first_determinant;
   if (outcome.first_determinant.sign != 0 && outcome.converged()) {
     outcome.last_determinant = nox.problem->linear.determinant();
@@ -239,7 +244,6 @@ void NewtonSolver::save(Snapshot& snapshot) const {
   const std::vector<int> pivots = p.linear.pivots();
   snapshot.set("newton/pivots", {pivots.begin(), pivots.end()});
   snapshot.set("newton/expected iterations", p.expected_iterations);
-  snapshot.set("newton/seen rounding", p.seen_rounding);
   if (p.settings.refresh == Refresh::every_iteration || !p.has_factors) return;
   // the matrix has not changed since it was factored
   snapshot.set("newton/inertia", p.factored_inertia);
@@ -249,7 +253,6 @@ void NewtonSolver::save(Snapshot& snapshot) const {
 void NewtonSolver::restore(const Snapshot& snapshot) {
   NewtonProblem& p = *nox_->problem;
   p.expected_iterations = snapshot.integer("newton/expected iterations");
-  p.seen_rounding = snapshot.number("newton/seen rounding");
   const std::vector<double>& kept = snapshot.numbers("newton/pivots");
   // where they do not fit, the solver begins anew
   p.linear.set_pivots(std::vector<int>(kept.begin(), kept.end()));

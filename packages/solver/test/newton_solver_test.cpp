@@ -127,6 +127,52 @@ TEST(NewtonSolver, ReactionsOfAnUnloadedStructureAreInBalance) {
   EXPECT_LT(moment.norm(), 1e-8);
 }
 
+TEST(NewtonSolver, RoundingIsNamedWhereItHoldsForcesAboveTheTolerance) {
+  NewtonSettings settings;
+  CarriedChain met(model::Form::null_space, 0.3, settings);
+  const StepOutcome outcome = met.solve();
+  ASSERT_TRUE(outcome.converged());
+  EXPECT_LE(outcome.history.back().force, settings.force_tolerance);
+  EXPECT_FALSE(outcome.held_unknown);
+
+  settings.force_tolerance = 1e-18;
+  CarriedChain beyond(model::Form::null_space, 0.3, settings);
+  const StepOutcome held = beyond.solve();
+  ASSERT_TRUE(held.converged());
+  EXPECT_LT(held.history.back().force, 1e-13);
+  ASSERT_TRUE(held.held_unknown);
+  const auto& residual = beyond.system->residual();
+  const double largest = residual.normInf();
+  const auto row = residual.getMap()->getLocalElement(*held.held_unknown);
+  const double here =
+      row < 0 ? 0.0 : std::abs(assembly::values_of(residual)[static_cast<std::size_t>(row)]);
+  EXPECT_EQ(beyond.comm.max(here), largest);
+}
+
+TEST(NewtonSolver, OldFactorsAreRenewedBeforeRoundingIsBlamed) {
+  NewtonSettings settings;
+  settings.refresh = Refresh::on_slow_convergence;
+  settings.force_tolerance = 1e-18;
+  CarriedChain chain(model::Form::null_space, 0.3, settings);
+  const StepOutcome held = chain.solve();
+  ASSERT_TRUE(held.converged());
+  EXPECT_TRUE(held.held_unknown);
+  EXPECT_LT(held.history.back().force, 1e-13);
+}
+
+TEST(NewtonSolver, LineSearchLeavesIterationsAloneThatNeedNone) {
+  NewtonSettings full;
+  NewtonSettings backtrack;
+  backtrack.backtrack = true;
+  CarriedChain a(model::Form::null_space, 0.5, full);
+  CarriedChain b(model::Form::null_space, 0.5, backtrack);
+  const StepOutcome outcome = a.solve();
+  ASSERT_TRUE(outcome.converged());
+  ASSERT_LE(outcome.iterations, 6);
+  EXPECT_EQ(b.solve().iterations, outcome.iterations);
+  EXPECT_EQ(a.state.next, b.state.next);
+}
+
 TEST(NewtonSolver, FailureIsAValueWithAReason) {
   NewtonSettings settings;
   settings.max_iterations = 2;

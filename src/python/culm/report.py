@@ -97,7 +97,13 @@ def _add_steps(page, results, drawing):
     figure, axes = drawing.plot(2, height=2.6)
     axes[0][0].plot(levels, [step.iterations for step in steps], ".", ms=3)
     axes[0][0].set(title="Iterations per step", xlabel="time [s] or level")
-    axes[0][1].semilogy(levels, [max(step.residual, 1e-17) for step in steps], ".", ms=3)
+    for held, label in ((False, None), (True, "held by rounding")):
+        chosen = [step for step in steps if step.held == held]
+        if chosen:
+            residuals = [max(step.residual, 1e-17) for step in chosen]
+            axes[0][1].semilogy([s.time for s in chosen], residuals, ".", ms=3, label=label)
+    if any(step.held for step in steps):
+        axes[0][1].legend()
     axes[0][1].set(title="Relative residual of accepted steps", xlabel="time [s] or level")
     _add_figure(page, drawing, figure, "iterations and residuals of the steps")
 

@@ -26,6 +26,7 @@ class Step:
     time: float  # [s], or level
     iterations: int
     residual: float  # of the forces, relative
+    held: bool  # above the tolerance, because rounding lets it fall no further
 
 
 @dataclasses.dataclass
@@ -84,7 +85,10 @@ class Results:
         with h5py.File(self.path) as file:
             if "report/steps" not in file:
                 return []
-            return [Step(row[0], int(row[1]), row[2]) for row in file["report/steps"][()]]
+            return [
+                Step(time, int(iterations), residual, held != 0.0)
+                for time, iterations, residual, held in file["report/steps"][()]
+            ]
 
     def meshes(self):
         """Structures by name."""

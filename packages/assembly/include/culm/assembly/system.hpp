@@ -18,8 +18,6 @@ struct Evaluation {
   double force_residual = 0.0;        ///< largest entry of the force rows [N, N m]
   double force_scale = 0.0;           ///< largest force of any item, what the residual is judged by
   double constraint_violation = 0.0;  ///< largest |h|, lengths over the model's length [-]
-  /// What rounding of the coordinates alone can cause, with the stiffness of the last tangent.
-  double round_off_force = 0.0;
 };
 
 /// Energies of the whole model at one time.
@@ -159,9 +157,6 @@ class System {
   std::optional<std::vector<double>> carried_;  ///< impulses by owned row [N s, N m s]
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
-  double stiffness_ = 0.0;  ///< largest diagonal entry of the force rows here, of the last tangent
-  double length_ = 1.0;     ///< of the model in the reference [m]
-  double size_ = 1.0;       ///< largest coordinate of the nodes here, or the length [m]
 };
 
 }  // namespace culm::assembly

@@ -6,6 +6,7 @@
 #include <culm/solver/linear_solver.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ struct StepOutcome {
   int iterations = 0;
   std::vector<IterationRecord> history;
   assembly::Evaluation last;
+  /// Global number of the force row that rounding holds above the tolerance, the largest of them;
+  /// none where the tolerance is met.
+  std::optional<int> held_unknown;
   /// Of the first and of the last tangent of a static step: that at the equilibrium from which it
   /// starts, and one close to that at which it ends. Unknown in dynamics and where old factors
   /// served.

@@ -1,0 +1,94 @@
+#include <culm/assembly/rounding.hpp>
+
+#include "block_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace culm::assembly {
+namespace {
+
+// Roundings between a coordinate and a row: of the coordinate, of the strain, of the stress and of
+// their products.
+constexpr double roundings = 4.0;
+
+// A residual so far above its bound needs no exact number.
+constexpr double hopeless = 1e3;
+
+// Largest sizes of the translations of a node; where supports take some of them away, what is left
+// feels the rounding of all.
+Vec3 position_size(const model::BlockShape& shape, const Vec3& prev, const Vec3& next) {
+  const Vec3 size = prev.cwiseAbs().cwiseMax(next.cwiseAbs());
+  return shape.full() ? size : Vec3(Vec3::Constant(size.maxCoeff()));
+}
+
+// Sizes of the unknowns of the local columns, in proportion to which they are rounded.
+std::vector<double> unknown_sizes(const System& system, const model::Coordinates& prev,
+                                  const model::Coordinates& next,
+                                  const std::vector<double>& multipliers) {
+  // directors are of unit length
+  std::vector<double> sizes(system.layout().column_map()->getNodeNumElements(), 1.0);
+  for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
+    const model::Block& block = system.model().unknowns().block(local.block);
+    const bool is_node = block.kind == model::BlockKind::node;
+    Vec3 position = Vec3::Zero();
+    if (is_node) {
+      position = position_size(block.shape, model::NodeTable::slots(prev, block.owner).col(0),
+                               model::NodeTable::slots(next, block.owner).col(0));
+    }
+    for (int i = 0; i < (is_node ? 3 : block.shape.width); ++i) {
+      const int at = block.shape.position[index(i)];
+      if (at < 0) continue;
+      sizes[index(local.first_column + at)] =
+          is_node ? position[i]
+                  : std::abs(multipliers[index(block.first_multiplier + i)]) /
+                        system.multiplier_scale();
+    }
+  }
+  return sizes;
+}
+
+}  // namespace
+
+RoundingCheck check_rounding(const System& system, const model::Coordinates& prev,
+                             const model::Coordinates& next, const std::vector<double>& multipliers,
+                             double limit, double force_scale) {
+  const std::vector<double> sizes = unknown_sizes(system, prev, next, multipliers);
+  const auto residual = values_of(system.residual());
+  const auto matrix = system.matrix()->getLocalMatrixHost();
+  double share = 0.0;
+  double largest = 0.0;
+  int largest_row = 0;
+  const auto judge = [&](int row) {
+    const double found = std::abs(residual[index(row)]);
+    if (found <= limit || share > hopeless) return;
+    double sum = 0.0;
+    const auto first = matrix.graph.row_map(row);
+    const auto last = matrix.graph.row_map(row + 1);
+    for (auto k = first; k < last; ++k) {
+      sum += std::abs(matrix.values(k)) * sizes[index(matrix.graph.entries(k))];
+    }
+    // as many forces meet in a row as it has entries, or fewer
+    const double terms = static_cast<double>(last - first) * force_scale;
+    const double bound = std::numeric_limits<double>::epsilon() * (roundings * sum + terms);
+    share = std::max(share, found / bound);
+    if (found > largest) {
+      largest = found;
+      largest_row = row;
+    }
+  };
+  for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
+    const model::Block& block = system.model().unknowns().block(local.block);
+    if (!local.owned || block.kind != model::BlockKind::node) continue;
+    for (int i = 0; i < block.shape.active; ++i) judge(local.first_column + i);
+  }
+  const parallel::Comm& comm = system.comm();
+  double worst[2] = {share, largest};
+  comm.max(worst);
+  const bool is_here = largest > 0.0 && largest == worst[1];
+  const auto global = system.layout().row_map()->getGlobalElement(largest_row);
+  return {worst[0], comm.max(is_here ? static_cast<int>(global) : -1)};
+}
+
+}  // namespace culm::assembly
