@@ -145,17 +145,30 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
   if (!std::isfinite(attempts_.back().final_time)) return path_cause(state, stencil);
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;
-  if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
-    return fmt::format(
-        "Likely cause: a limit point. At level {:.6g} the structure keeps {:.1f} % of its initial\n"
-        "stiffness against this load; the load cannot grow further on this path.\n"
-        "Try: an analysis of type 'Path', which goes on beyond, or end below this level.",
-        state.time, 100.0 * remaining);
-  }
   Vector direction(context_.system.layout().row_map());
   const double ratio = context_.linear.weakest_direction(direction);
+  const WeakDirection weak(context_.system, state);
+  if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
+    const std::string stiffness = fmt::format(
+        "At level {:.6g} the structure keeps {:.1f} % of its initial\n"
+        "stiffness against this load",
+        state.time, 100.0 * remaining);
+    const std::string local = weak.local_cause(direction);
+    if (!local.empty()) {
+      return fmt::format(
+          "Likely cause: {}. {}.\n"
+          "Try: more elements there, a load that is spread over several of them, or an analysis "
+          "of\n"
+          "type 'Path'.",
+          local, stiffness);
+    }
+    return fmt::format(
+        "Likely cause: a limit point. {}; the load cannot grow further on this path.\n"
+        "Try: an analysis of type 'Path', which goes on beyond, or end below this level.",
+        stiffness);
+  }
   if (ratio < singular_ratio || attempts_.back().outcome.end == solver::StepEnd::singular) {
-    return WeakDirection(context_.system, state).singular_cause(direction);
+    return weak.singular_cause(direction);
   }
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
     return "Likely cause: an element turns too far, or inside out.\n"
@@ -200,13 +213,18 @@ std::string PostMortem::dynamic_cause() const {
          "Try: a smaller step, 'Line Search' = Backtrack, more elements, or some dissipation.";
 }
 
-void PostMortem::give_up(model::State& state, const Stencil& stencil) {
+void PostMortem::give_up(model::State& state, const Stencil& stencil, std::optional<double> end) {
   const StepReport& last = attempts_.back();
   const bool end_is_known = std::isfinite(last.final_time);
   std::string text =
       fmt::format("No equilibrium beyond {} {:.8g}{}: {}.\n", time_word(), state.time,
                   end_is_known ? fmt::format(" of {:.8g}", last.final_time) : std::string(),
                   solver::describe(last.outcome.end));
+  if (end) {
+    text += fmt::format(
+        "Steps fail sooner and sooner: what they gain sums up to level {:.8g}, so none is tried.\n",
+        *end);
+  }
   text += history() + worst_rows();
   const bool not_finite = last.outcome.end == solver::StepEnd::not_finite;
   if (not_finite) {

@@ -102,6 +102,7 @@ void Statics::start(Context& context, model::State& state) {
   steps_ = 0;
   determinant_sign_ = 0;
   crossings_.clear();
+  trend_ = {};
   context.system.begin_step(state, stencil);
   context.system.choose_multiplier_scale(state, stencil);
   post_mortem_.emplace(context, state, stencil, next_level(state.time, increment_));
@@ -113,6 +114,7 @@ void Statics::save(const Context&, Snapshot& snapshot) const {
   snapshot.set("statics/steps", steps_);
   snapshot.set("statics/determinant sign", determinant_sign_);
   snapshot.set("statics/crossings", crossings_);
+  trend_.save(snapshot);
   newton_->save(snapshot);
   post_mortem_->save(snapshot);
 }
@@ -122,6 +124,7 @@ void Statics::restore(Context& context, const Snapshot& snapshot) {
   steps_ = snapshot.integer("statics/steps");
   determinant_sign_ = snapshot.integer("statics/determinant sign");
   crossings_ = snapshot.numbers("statics/crossings");
+  trend_.restore(snapshot);
   newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
   newton_->restore(snapshot);
   post_mortem_.emplace(context, snapshot);
@@ -163,12 +166,15 @@ AnalysisReport Statics::advance(Context& context, model::State& state, Observer&
     } else {
       reject(state);
       increment_ = 0.5 * taken;
+      trend_.add(state.time);
     }
     observer.step(report, state);
     // a number that is not finite will not become so with a smaller step
     const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
-    if (!report.accepted && (not_finite || increment_ < settings_.smallest_increment)) {
-      post_mortem_->give_up(state, stencil);
+    if (report.accepted) continue;
+    const std::optional<double> end = trend_.end(settings_.final_level);
+    if (not_finite || end || increment_ < settings_.smallest_increment) {
+      post_mortem_->give_up(state, stencil, end);
     }
   }
   AnalysisReport report;

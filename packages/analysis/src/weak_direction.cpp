@@ -21,6 +21,13 @@ constexpr std::size_t shown = 6;          // entries of a direction in a message
 constexpr double least_resistance = 4.0;  // of a motion that is not free; those of free ones are
                                           // below 0.3
 
+// A motion that at most so much of all nodes carry is local, and a mesh does not resolve it with
+// fewer nodes than these, on a line and on a surface: a bump exp(-r^2 / 2 s^2) over elements of
+// length s / 2 has sqrt(2 pi) 2 and 2 pi 4.
+constexpr double local_share = 0.1;
+constexpr double least_on_line = 5.0;
+constexpr double least_on_surface = 25.0;
+
 // A vector of directions, with round-off as zero.
 std::string vector_name(const Vec3& v) {
   const double size = std::max(v.lpNorm<Eigen::Infinity>(), 1e-300);
@@ -162,6 +169,45 @@ std::string WeakDirection::largest_motions(const Motions& moved) const {
 
 std::string WeakDirection::largest_motions(const Vector& motion) const {
   return largest_motions(moved_nodes(motion));
+}
+
+// By translations, unless there are none to speak of.
+WeakDirection::Extent WeakDirection::extent(const Motions& moved) const {
+  double translation = 0.0;
+  double rotation = 0.0;
+  for (const auto& [node, motion] : moved) {
+    translation = std::max(translation, motion.head<3>().norm());
+    rotation = std::max(rotation, motion.tail<3>().norm());
+  }
+  const bool by_rotation = translation < 1e-3 * system_.model().length() * rotation;
+  Extent extent;
+  double sum = 0.0, squares = 0.0, largest = 0.0;
+  for (const auto& [node, motion] : moved) {
+    const double m = (by_rotation ? motion.tail<3>() : motion.head<3>()).squaredNorm();
+    sum += m;
+    squares += m * m;
+    if (m > largest) {
+      largest = m;
+      extent.peak = node;
+    }
+  }
+  if (squares > 0.0) extent.nodes = sum * sum / squares;
+  return extent;
+}
+
+std::string WeakDirection::local_cause(const Vector& motion) const {
+  const model::Model& model = system_.model();
+  const Extent found = extent(moved_nodes(motion));
+  if (found.peak < 0 || found.nodes > local_share * model.nodes().size()) return {};
+  const model::Structure* structure = model.structure_of(found.peak);
+  const bool is_surface = structure != nullptr && !structure->cells.empty() &&
+                          structure->cells.front().nodes.size() > 2;
+  if (found.nodes >= (is_surface ? least_on_surface : least_on_line)) return {};
+  return fmt::format(
+      "a local loss of stiffness at '{}'. Only {:.0f} of {} nodes carry the\n"
+      "motion that loses it: a load crumples the mesh there, which is too coarse to follow, or a\n"
+      "small part gives way",
+      model.node_name(found.peak), found.nodes, model.nodes().size());
 }
 
 std::string WeakDirection::rigid_motions(const Motions& moved) const {

@@ -17,12 +17,24 @@ class WeakDirection {
   std::string singular_cause(const assembly::Vector& direction) const;
   /// Which motion in a direction has no inertia, and what helps.
   std::string massless(const assembly::Vector& direction) const;
+  /// Where a motion that loses its stiffness is carried by so few nodes, side by side, that the
+  /// mesh cannot resolve it: a sentence with the node and the numbers. Empty where it reaches
+  /// further.
+  std::string local_cause(const assembly::Vector& motion) const;
   /// The largest components of a motion, a line each.
   std::string largest_motions(const assembly::Vector& motion) const;
 
  private:
   using Motions = std::map<int, Vec6>;  ///< displacement and rotation of the nodes that move
 
+  /// How many nodes carry a motion, (sum m)^2 / sum m^2 of their squared motions m, and the one
+  /// that moves most.
+  struct Extent {
+    double nodes = 0.0;
+    int peak = -1;
+  };
+
+  Extent extent(const Motions& moved) const;
   bool is_multiplier(const assembly::Vector& vector, std::size_t i) const;
   std::string redundant_constraints(const assembly::Vector& multipliers) const;
   std::string mechanism(const assembly::Vector& motion) const;

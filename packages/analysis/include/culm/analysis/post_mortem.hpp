@@ -5,6 +5,7 @@
 #include <culm/analysis/unknown_names.hpp>
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,9 @@ class PostMortem {
 
   /// Throws NumericalError, or NonFiniteError if that is what happened in the last attempt. The
   /// text is the same on all ranks. @param state the last accepted state
-  [[noreturn]] void give_up(model::State& state, const Stencil& stencil);
+  /// @param end  level towards which ever smaller gains lead, where they are the reason
+  [[noreturn]] void give_up(model::State& state, const Stencil& stencil,
+                            std::optional<double> end = {});
 
  private:
   /// d . p for the response K d = p to the load p of a unit level: grows without bound, then

@@ -1,6 +1,7 @@
 /// Static equilibrium under loads that grow with the load level.
 #pragma once
 
+#include <culm/analysis/failure_trend.hpp>
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
@@ -44,7 +45,8 @@ class Statics final : public Analysis {
   StaticsSettings settings_;
   double increment_ = 0.0;
   int steps_ = 0;
-  int determinant_sign_ = 0;       ///< of the tangent at the last equilibrium; 0 if unknown
+  int determinant_sign_ = 0;  ///< of the tangent at the last equilibrium; 0 if unknown
+  FailureTrend trend_;
   std::vector<double> crossings_;  ///< levels of the steps in which it changed
   std::optional<solver::NewtonSolver> newton_;
   std::optional<PostMortem> post_mortem_;
