@@ -604,6 +604,11 @@ ILL_POSED = [
         4, "a limit point",
     ),
     IllPosed(
+        "a coarse mesh crumpled by a point load", "shell/pinched_cylinder.xml",
+        ["t=0.02", "F=1200*t^2"],
+        4, "a local loss of stiffness",
+    ),
+    IllPosed(
         "a negative stiffness", "beam/elastica.xml",
         ["stiff=-1"],
         3, "must be >= 0",
