@@ -324,6 +324,19 @@ VALUES = [
         "1e999",
         "must be within the range of double precision, got '1e999'",
     ),
+    wrong(
+        "beyond double precision in its unit",
+        EI1,
+        'name="EI1" value="1e306" unit="kN m^2"',
+        "Sections / bar / EI1: must be from 2.23e-308 to 1.8e+308 in size when it is in SI units, got "
+        "'1e306' in kN m^2",
+    ),
+    wrong(
+        "variable too small for its unit",
+        '<Variable name="L" value="2"/>',
+        '<Variable name="L" value="2e-306" unit="mm"/>',
+        "culm / L: must be from 2.23e-308 to 1.8e+308 in size when it is in SI units, got '2e-306' in mm",
+    ),
     wrong_number("negative stiffness", "-3e3", "must be >= 0 N m^2, got -3000"),
     wrong_integer("4.7 for an integer", "4.7", "must be an integer, got '4.7'"),
     wrong_integer(

@@ -6,6 +6,8 @@
 
 #include "array_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,12 +25,20 @@ constexpr std::array kinds = {Kind::number,  Kind::integer,  Kind::flag, Kind::t
 /// Turns text into numbers of one parameter.
 class Converter {
  public:
-  Converter(const Scope& scope, const Unit& unit) : scope_(scope), unit_(unit) {}
+  /// @param written  the unit in the deck, for messages; may be absent
+  Converter(const Scope& scope, const Unit& unit, const std::optional<std::string>& written)
+      : scope_(scope), unit_(unit), written_(written) {}
 
   std::optional<double> number(const std::string& text) {
     const Evaluation evaluation = scope_.evaluate(text);
     if (!evaluation.mistake.empty()) return fail(evaluation.mistake);
-    return unit_.to_si(evaluation.value);
+    const double value = unit_.to_si(evaluation.value);
+    // what is too small keeps few digits, or none
+    if (std::isnormal(value) || evaluation.value == 0.0) return value;
+    return fail(
+        fmt::format("must be from {:.3g} to {:.3g} in size when it is in SI units, got {}{}",
+                    std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+                    quoted(trim(text)), written_ ? " in " + *written_ : std::string()));
   }
 
   std::optional<int> integer(const std::string& text) {
@@ -104,6 +114,7 @@ class Converter {
 
   const Scope& scope_;
   const Unit& unit_;
+  const std::optional<std::string>& written_;
   int item_ = 0;  ///< from 1; 0 for a single value
   std::size_t count_ = 0;
   std::vector<std::string> mistakes_;
@@ -203,7 +214,7 @@ Conversion convert(const RawParameter& raw, const Field& field, const Scope& sco
   }
   const Unit factor = find_factor(raw, field, result.mistakes);
   if (!result.mistakes.empty()) return result;
-  Converter converter(scope, factor);
+  Converter converter(scope, factor, raw.unit);
   result.value = parse(converter, field.kind(), *raw.value);
   if (!field.formula_variable().empty()) {
     result.value = scope.substitute(*raw.value, field.formula_variable());
@@ -227,7 +238,7 @@ Conversion convert_variable(const RawParameter& raw, const Scope& scope) {
     result.mistakes.push_back(unknown_unit(*raw.unit));
     return result;
   }
-  Converter converter(scope, *unit);
+  Converter converter(scope, *unit, raw.unit);
   result.value = to_value(converter.number(*raw.value));
   result.mistakes = converter.take_mistakes();
   return result;

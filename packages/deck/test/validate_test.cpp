@@ -90,6 +90,26 @@ TEST(Validate, ANumberIsTheWholeText) {
   EXPECT_EQ(of("+1.5e0"), "");
 }
 
+TEST(Validate, ANumberInSiUnitsIsNormal) {
+  const auto of = [](const std::string& value, const std::string& unit) {
+    return mistakes(deck_around(
+        beam("<Parameter name=\"Length\" value=\"" + value + "\" unit=\"" + unit + "\"/>")));
+  };
+  const std::string rule =
+      "deck.xml:3: Structures / beam / Length: must be from 2.23e-308 to 1.8e+308 in size when it "
+      "is "
+      "in SI units, got ";
+  EXPECT_EQ(of("1e306", "km"), rule + "'1e306' in km");
+  EXPECT_EQ(of("1e-306", "mm"), rule + "'1e-306' in mm");
+  EXPECT_EQ(of("1e-323", "mm"), rule + "'1e-323' in mm");
+  EXPECT_EQ(of("1e-320", "m"), rule + "'1e-320' in m");
+  EXPECT_EQ(of("2e-300", "mm"), "");
+  EXPECT_NE(mistakes("<ParameterList name=\"culm\"><Variable name=\"EA\" value=\"1e305\" "
+                     "unit=\"MN\"/></ParameterList>")
+                .find("got '1e305' in MN"),
+            std::string::npos);
+}
+
 TEST(Validate, AnIntegerIsWholeAndFits) {
   const auto of = [](const std::string& value) {
     return mistakes(
