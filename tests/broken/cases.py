@@ -335,7 +335,7 @@ VALUES = [
         "variable too small for its unit",
         '<Variable name="L" value="2"/>',
         '<Variable name="L" value="2e-306" unit="mm"/>',
-        "culm / L: must be from 2.23e-308 to 1.8e+308 in size when it is in SI units, got '2e-306' in mm",
+        "L: must be from 2.23e-308 to 1.8e+308 in size when it is in SI units, got '2e-306' in mm",
     ),
     wrong_number("negative stiffness", "-3e3", "must be >= 0 N m^2, got -3000"),
     wrong_integer("4.7 for an integer", "4.7", "must be an integer, got '4.7'"),
@@ -564,6 +564,21 @@ def bow(analysis, *pairs):
 
 
 MECHANICS = [
+    Case(
+        "reaction at a node that a connection takes away",
+        3,
+        change=[
+            (CLAMP, CLAMP + link("bolt", "beam/3", "beam/last")),
+            (WATCH, 'value="Reaction"/>\n        @@<Parameter name="Node" value="beam/last"/>'),
+        ],
+        errors=[
+            "deck.xml:{line}: Output / History / tip / Node: 'beam/4' follows 'beam/3' by Rigid Connection "
+            "'bolt', which takes its unknowns away, so the force that it carries is not known; watch "
+            "'beam/3' for what holds both, take a Weld instead of the connection, or Solver / Form = "
+            "Multipliers"
+        ],
+        ranks=True,
+    ),
     wrong(
         "imperfection that a static analysis finds",
         LOADS,

@@ -163,6 +163,12 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
        model.freeze(null_space ? model::Form::null_space : model::Form::multipliers)) {
     log.info("note: " + note);
   }
+  const Options& history = deck.list("Output").list("History");
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    const std::string objection = watched[i].quantity->objection(model);
+    if (!objection.empty()) issues.add(history.entries()[i].where("Node"), objection);
+  }
+  issues.throw_if_any();
   return watched;
 }
 

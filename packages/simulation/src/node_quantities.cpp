@@ -35,19 +35,29 @@ class NodeQuantity final : public Quantity {
   using Evaluate = std::function<void(const assembly::System&, const model::State&, const Place&,
                                       std::vector<double>&)>;
 
-  NodeQuantity(const Place& place, std::vector<HistoryColumn> columns, Evaluate evaluate)
-      : place_(place), columns_(std::move(columns)), evaluate_(std::move(evaluate)) {}
+  using Object = std::string (*)(const model::Model&, const Place&);
+
+  NodeQuantity(const Place& place, std::vector<HistoryColumn> columns, Evaluate evaluate,
+               Object object)
+      : place_(place),
+        columns_(std::move(columns)),
+        evaluate_(std::move(evaluate)),
+        object_(object) {}
 
   std::vector<HistoryColumn> columns() const override { return columns_; }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
     evaluate_(system, state, place_, numbers);
   }
+  std::string objection(const model::Model& model) const override {
+    return object_ == nullptr ? std::string() : object_(model, place_);
+  }
 
  private:
   Place place_;
   std::vector<HistoryColumn> columns_;
   Evaluate evaluate_;
+  Object object_;
 };
 
 void append(const Vec3& v, std::vector<double>& numbers) {
@@ -94,6 +104,22 @@ void reaction(const assembly::System& system, const model::State& state, const P
   numbers.insert(numbers.end(), r.data(), r.data() + 6);
 }
 
+// The force of a connection that takes the unknowns of a node away is in no equation.
+std::string object_to_reaction(const model::Model& model, const Place& place) {
+  const model::NodeTable& nodes = model.nodes();
+  if (!place.constraint.empty() || !nodes.is_slave(place.node)) return {};
+  std::string connection = "a rigid connection";
+  for (const model::Constraint& c : model.constraints()) {
+    if (c.link && c.link->slave == place.node) connection = c.type + " '" + c.name + "'";
+  }
+  const std::string master = model.node_name(nodes.master(place.node));
+  return "'" + model.node_name(place.node) + "' follows '" + master + "' by " + connection +
+         ", which takes its unknowns away, so the force that it carries is not known; watch '" +
+         master +
+         "' for what holds both, take a Weld instead of the connection, or "
+         "Solver / Form = Multipliers";
+}
+
 // False, and an issue, if there is no such constraint there or it has no multipliers of its own.
 bool read_constraint(const Options& options, model::BuildContext& context, Place& place) {
   if (!options.has("Constraint")) return true;
@@ -118,27 +144,28 @@ bool read_constraint(const Options& options, model::BuildContext& context, Place
 }
 
 void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> columns,
-         NodeQuantity::Evaluate evaluate) {
+         NodeQuantity::Evaluate evaluate, NodeQuantity::Object object = nullptr) {
   const std::string type = schema.name();
   const bool has_offset = schema.find_field("Offset") != nullptr;
   const bool has_constraint = schema.find_field("Constraint") != nullptr;
   schema.add(model::node_field("Node", "The node, such as 'structure/last'."));
-  registry.add(
-      type, std::move(schema),
-      [columns = std::move(columns), evaluate = std::move(evaluate), has_offset, has_constraint](
-          const Options& options, model::BuildContext& context) -> std::unique_ptr<Quantity> {
-        const std::vector<int> nodes = model::select_nodes(options, "Node", context);
-        if (nodes.empty()) return nullptr;
-        if (nodes.size() > 1) {
-          context.issues.add(options.where("Node"), "names " + std::to_string(nodes.size()) +
-                                                        " nodes, but one is watched");
-          return nullptr;
-        }
-        Place place{nodes.front(), Vec3::Zero(), {}};
-        if (has_constraint && !read_constraint(options, context, place)) return nullptr;
-        if (has_offset) place.offset = model::vector(options, "Offset");
-        return std::make_unique<NodeQuantity>(place, columns, evaluate);
-      });
+  registry.add(type, std::move(schema),
+               [columns = std::move(columns), evaluate = std::move(evaluate), object, has_offset,
+                has_constraint](const Options& options,
+                                model::BuildContext& context) -> std::unique_ptr<Quantity> {
+                 const std::vector<int> nodes = model::select_nodes(options, "Node", context);
+                 if (nodes.empty()) return nullptr;
+                 if (nodes.size() > 1) {
+                   context.issues.add(
+                       options.where("Node"),
+                       "names " + std::to_string(nodes.size()) + " nodes, but one is watched");
+                   return nullptr;
+                 }
+                 Place place{nodes.front(), Vec3::Zero(), {}};
+                 if (has_constraint && !read_constraint(options, context, place)) return nullptr;
+                 if (has_offset) place.offset = model::vector(options, "Offset");
+                 return std::make_unique<NodeQuantity>(place, columns, evaluate, object);
+               });
 }
 
 Field offset_field() {
@@ -170,7 +197,7 @@ void register_node_quantities(QuantityRegistry& registry) {
                     "The only one to count: a joint, a drive, a moving support; all if absent.")
                    .optional()),
       {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"Mx", "N m"}, {"My", "N m"}, {"Mz", "N m"}},
-      reaction);
+      reaction, object_to_reaction);
 }
 
 }  // namespace culm::simulation

@@ -7,6 +7,7 @@
 #include <culm/output/picture_mesh.hpp>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace culm::simulation {
@@ -22,6 +23,8 @@ class Quantity {
                         std::vector<double>& numbers) const = 0;
   /// What it remembers of earlier states, such as turns that were counted.
   virtual double memory() const { return 0.0; }
+  /// Why a model whose unknowns are known does not have it; empty if it does.
+  virtual std::string objection(const model::Model&) const { return {}; }
   virtual void restore(double) {}
 };
 
