@@ -1,3 +1,4 @@
+#include <culm/base/absent.hpp>
 #include <culm/output/analysis_results.hpp>
 
 #include "replace_file.hpp"
@@ -13,7 +14,11 @@ void write_csv(const std::filesystem::path& path, const NamedTable& table) {
   if (!table.remarks.empty()) text += ",remark";
   text += '\n';
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    text += fmt::format("{:.17g}", fmt::join(table.rows[i], ","));
+    for (std::size_t column = 0; column < table.rows[i].size(); ++column) {
+      if (column > 0) text += ',';
+      const double value = table.rows[i][column];
+      if (value != absent) fmt::format_to(std::back_inserter(text), "{:.17g}", value);
+    }
     if (!table.remarks.empty()) text += fmt::format(",\"{}\"", table.remarks[i]);
     text += '\n';
   }

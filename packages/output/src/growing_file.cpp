@@ -34,7 +34,9 @@ bool GrowingFile::is_due() const {
 }
 
 void GrowingFile::write() {
+  if (identity_) identity_->check_whole(path_);
   replace_file(path_, text_ + tail_);
+  identity_.emplace(path_);
   written_entries_ = entries_;
   written_at_ = Clock::now();
 }

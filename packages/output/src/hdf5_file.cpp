@@ -78,6 +78,7 @@ Hdf5File Hdf5File::reopen(const std::filesystem::path& path) {
   if (!handle.is_open()) throw_file_error(path, "open file");
   Hdf5File file(path, std::move(handle));
   file.start_journal();
+  file.identity_.emplace(path);
   return file;
 }
 
@@ -89,6 +90,7 @@ void Hdf5File::move_to(const std::filesystem::path& path) {
   std::filesystem::remove(JournaledFile::journal_path(path), error);
   move_into_place(path_, path);
   path_ = path;
+  identity_.emplace(path);
   start_journal();
 }
 
@@ -110,7 +112,10 @@ bool Hdf5File::recover(const std::filesystem::path& path) {
   }
 }
 
-void Hdf5File::flush() { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "write file"); }
+void Hdf5File::flush() {
+  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "write file");
+  if (identity_) identity_->check(path_);
+}
 
 void Hdf5File::close() {
   flush();  // which reports what could not be written; closing does not

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <culm/output/file_identity.hpp>
+
 #include "hdf5_handle.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,7 +37,8 @@ class Hdf5File {
   /// Gives the open file its final name. From then on each flush takes effect as a whole or, if the
   /// process is killed, not at all; see JournaledFile.
   void move_to(const std::filesystem::path& path);
-  /// Hands everything written so far to the operating system.
+  /// Hands everything written so far to the operating system. Throws FileError also if somebody
+  /// removed or replaced the file, once it has its final name.
   void flush();
   void close();
 
@@ -77,6 +81,7 @@ class Hdf5File {
   Handle simple_space(const Shape& shape) const;
 
   std::filesystem::path path_;
+  std::optional<FileIdentity> identity_;  // of a file that grows under its final name
   Handle file_;
 };
 

@@ -1,3 +1,4 @@
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/output/history_csv.hpp>
 
@@ -38,7 +39,8 @@ std::string line(double time, std::span<const double> values) {
   fmt::memory_buffer line;
   fmt::format_to(std::back_inserter(line), "{:.17g}", time);
   for (const double value : values) {
-    fmt::format_to(std::back_inserter(line), ",{:.17g}", value);
+    line.push_back(',');
+    if (value != absent) fmt::format_to(std::back_inserter(line), "{:.17g}", value);
   }
   line.push_back('\n');
   return fmt::to_string(line);
@@ -59,12 +61,14 @@ HistoryCsv::HistoryCsv(std::filesystem::path path, const std::vector<HistoryColu
   }
   flush();
   if (name != path_) move_into_place(name, path_);
+  identity_.emplace(path_);
 }
 
 void HistoryCsv::add(double time, std::span<const double> values) {
   internal_check(values.size() == column_count_, "one value per history column");
   write(line(time, values));
   flush();
+  identity_->check(path_);
 }
 
 void HistoryCsv::write(std::string_view text) {

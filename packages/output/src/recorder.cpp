@@ -1,3 +1,4 @@
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/text.hpp>
 #include <culm/output/recorder.hpp>
@@ -15,6 +16,9 @@ namespace {
 
 // Version of the layout of the file, for readers.
 constexpr int format_version = 1;
+
+// Of tables: the number that stands for none, as netCDF has it.
+constexpr const char* fill_value = "_FillValue";
 
 void write_deck(Hdf5File& file, const RunInfo& info) {
   const Handle group = file.make_group(file.id(), "deck");
@@ -81,6 +85,7 @@ Handle make_history(Hdf5File& file, const std::vector<HistoryColumn>& columns) {
   Handle table = file.make_growing_table(group.id(), "values", names.size());
   file.set_attribute(table.id(), "names", names);
   file.set_attribute(table.id(), "units", units);
+  file.set_attribute(table.id(), fill_value, absent);
   return table;
 }
 
@@ -194,7 +199,7 @@ class Recorder::File {
   }
 
   void write_report(const std::string& text, std::span<const NamedScalar> scalars,
-                    std::span<const NamedTable> tables) {
+                    std::span<const NamedTable> tables, std::span<const Finding> findings) {
     file_.remove_if_present(file_.id(), "report");
     const Handle report = file_.make_group(file_.id(), "report");
     file_.write(report.id(), "text", text);
@@ -208,6 +213,7 @@ class Recorder::File {
       file_.set_attribute(dataset.id(), "unit", scalar.unit);
     }
     for (const NamedTable& table : tables) write_table(report.id(), table);
+    write_findings(report.id(), findings);
     file_.flush();
   }
 
@@ -243,7 +249,22 @@ class Recorder::File {
     file_.write(where, name, flatten_rows(table.rows), {table.rows.size(), table.columns.size()});
     const Handle dataset = open_dataset(file_, where, name);
     file_.set_attribute(dataset.id(), "names", table.columns);
+    file_.set_attribute(dataset.id(), fill_value, absent);
     if (!table.remarks.empty()) file_.set_attribute(dataset.id(), "remarks", table.remarks);
+  }
+
+  void write_findings(hid_t where, std::span<const Finding> findings) {
+    const Handle group = file_.make_group(where, "findings");
+    int number = 0;
+    for (const Finding& finding : findings) {
+      const Handle one = file_.make_group(group.id(), step_name(number++));
+      const bool is_broken = finding.grade == Finding::Grade::broken;
+      file_.set_attribute(one.id(), "grade", std::string(is_broken ? "broken" : "warning"));
+      file_.set_attribute(one.id(), "kind", finding.kind);
+      file_.set_attribute(one.id(), "text", finding.text);
+      file_.set_attribute(one.id(), "analysis", finding.analysis);
+      file_.set_attribute(one.id(), "time", finding.time);
+    }
   }
 
   void write_shapes(hid_t where, const AnalysisResults& results) {
@@ -320,10 +341,10 @@ void Recorder::write_results(const AnalysisResults& results) {
 }
 
 void Recorder::write_report(const std::string& text, std::span<const NamedScalar> scalars,
-                            std::span<const NamedTable> tables) {
+                            std::span<const NamedTable> tables, std::span<const Finding> findings) {
   internal_check(file_ != nullptr, "the recorder is closed");
   const QuietHdf5 quiet;
-  file_->write_report(text, scalars, tables);
+  file_->write_report(text, scalars, tables, findings);
 }
 
 void Recorder::close() {

@@ -87,12 +87,17 @@ void Pictures::add(const Frame& frame) {
                                 reference_skins_[s]));
     }
     const std::string file = stem(group, frame.index);
-    replace_file(folder_ / (file + ".vtu"), vtu_text(merge(centres), frame.time, names_));
+    write_picture(file + ".vtu", vtu_text(merge(centres), frame.time, names_));
     collection_.add(collection_entry(frame.time, g, file + ".vtu"));
     if (skins.empty()) continue;
-    replace_file(folder_ / (file + "_skin.vtu"), vtu_text(merge(skins), frame.time, names_));
+    write_picture(file + "_skin.vtu", vtu_text(merge(skins), frame.time, names_));
     skin_collection_->add(collection_entry(frame.time, g, file + "_skin.vtu"));
   }
+}
+
+void Pictures::write_picture(const std::string& file, const std::string& text) {
+  replace_file(folder_ / file, text);
+  written_.emplace_back(file, folder_ / file);
 }
 
 void Pictures::add_earlier(int index, double time) {
@@ -112,6 +117,7 @@ std::string Pictures::stem(const Group& group, int index) const {
 }
 
 void Pictures::write() {
+  for (const auto& [file, identity] : written_) identity.check_whole(folder_ / file);
   collection_.write();
   if (skin_collection_) skin_collection_->write();
 }

@@ -1,3 +1,4 @@
+#include <culm/base/error.hpp>
 #include <culm/output/growing_file.hpp>
 
 #include "read_back.hpp"
@@ -5,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -40,6 +42,19 @@ TEST(GrowingFile, OnlyTheLastOwnerWrites) {
   std::filesystem::current_path(before);
   EXPECT_EQ(read_text_file(folder / "f"), "<" + std::string(50, 'x') + "y>");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(GrowingFile, IsNotWrittenOverAFileOfSomebodyElse) {
+  const TemporaryFolder folder;
+  {
+    GrowingFile file(folder / "f", "<", ">");
+    std::filesystem::remove(folder / "f");
+    EXPECT_THROW(file.write(), FileError);
+    EXPECT_FALSE(std::filesystem::exists(folder / "f"));
+    std::ofstream(folder / "f") << "mine";
+    EXPECT_THROW(file.add("x"), FileError);
+  }
+  EXPECT_EQ(read_text_file(folder / "f"), "mine");
 }
 
 }  // namespace

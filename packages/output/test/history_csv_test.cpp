@@ -1,3 +1,4 @@
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/output/history_csv.hpp>
 
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <string>
 
@@ -57,6 +59,37 @@ TEST(HistoryCsv, AnEarlierHistoryGoesOn) {
   EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m]\n0,0.10000000000000001\n1,-0\n");
   history.add(2.0, std::array{3.0});
   EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m]\n0,0.10000000000000001\n1,-0\n2,3\n");
+}
+
+TEST(HistoryCsv, WhatIsAbsentIsAnEmptyCell) {
+  const TemporaryFolder folder;
+  HistoryCsv history(folder / "h.csv", {{"x", "m"}, {"F", "N"}}, std::array{0.0, 1.0, absent});
+  history.add(1.0, std::array{absent, 2.0});
+  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m],F [N]\n0,1,\n1,,2\n");
+}
+
+TEST(HistoryCsv, AFileThatVanishesOrIsReplacedIsAFileError) {
+  const TemporaryFolder folder;
+  const auto path = folder / "h.csv";
+  const auto add = [&](auto change) -> std::string {
+    HistoryCsv history(path, {{"x", "m"}});
+    history.add(0.0, std::array{1.0});
+    change();
+    try {
+      history.add(1.0, std::array{2.0});
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(add([&] { std::filesystem::remove(path); }),
+            path.string() + ": was removed or renamed while the run was writing it");
+  EXPECT_EQ(add([&] {
+              std::filesystem::rename(path, folder / "other.csv");
+              std::ofstream(path) << "mine";
+            }),
+            path.string() + ": was replaced by another file while the run was writing it");
+  EXPECT_EQ(read_text_file(path), "mine");
 }
 
 TEST(HistoryCsv, FullDiskIsAFileError) {

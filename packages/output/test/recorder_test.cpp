@@ -52,6 +52,40 @@ TEST(Recorder, StepsReadBackWhileTheFileIsOpen) {
   EXPECT_THAT(read("%arrays/multipliers"), ElementsAre(1, 2, 3));
 }
 
+TEST(Recorder, AFileThatVanishesOrIsReplacedIsAFileErrorAtTheNextFlush) {
+  const TemporaryFolder folder;
+  const auto path = folder / "run.h5";
+  const auto add = [&](auto change) {
+    Recorder recorder = make_recorder(path);
+    recorder.add_history(0.0, std::array{1.0, 2.0});
+    change();
+    recorder.add_history(1.0, std::array{1.0, 2.0});
+  };
+  EXPECT_THROW(add([&] { std::filesystem::remove(path); }), FileError);
+  EXPECT_THROW(add([&] {
+                 std::filesystem::rename(path, folder / "other.h5");
+                 std::ofstream(path) << "mine";
+               }),
+               FileError);
+  EXPECT_EQ(read_text_file(path), "mine");
+}
+
+TEST(Recorder, FindingsStandInTheReport) {
+  const TemporaryFolder folder;
+  Recorder recorder = make_recorder(folder / "run.h5");
+  const Finding finding{Finding::Grade::broken, "path", "ended early", "bend", 0.5};
+  recorder.write_report("done", {}, {}, std::array{finding, finding});
+  recorder.close();
+  EXPECT_EQ(count_links(folder / "run.h5", "/report/findings"), 2);
+  if (!has_python("h5py")) GTEST_SKIP() << "no h5py";
+  EXPECT_EQ(
+      run_python("import h5py, sys\n"
+                 "print(sorted(h5py.File(sys.argv[1])['report/findings/000001'].attrs.items()))\n",
+                 folder / "run.h5"),
+      "[('analysis', 'bend'), ('grade', 'broken'), ('kind', 'path'), ('text', 'ended early'), "
+      "('time', 0.5)]\n");
+}
+
 TEST(Recorder, MeshReadsBack) {
   const TemporaryFolder folder;
   const Recorder recorder = make_recorder(folder / "run.h5");

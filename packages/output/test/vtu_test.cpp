@@ -38,6 +38,21 @@ void write_pictures(const std::filesystem::path& folder, const std::vector<Struc
   pictures.write();
 }
 
+TEST(Vtu, APictureThatVanishesOrChangesIsAFileErrorAtTheEnd) {
+  const TemporaryFolder folder;
+  const std::vector<StructureMesh> meshes = sample_meshes(2);
+  const auto end = [&](auto change) {
+    Pictures pictures(folder.path(), "run", meshes);
+    for (int i = 0; i < 3; ++i) pictures.add(sample_frame(meshes, i));
+    change(folder / "run_vtu/beam_000001.vtu");
+    pictures.write();
+  };
+  EXPECT_NO_THROW(end([](const auto&) {}));
+  EXPECT_THROW(end([](const auto& path) { std::filesystem::remove(path); }), FileError);
+  EXPECT_THROW(end([](const auto& path) { std::ofstream(path) << "mine"; }), FileError);
+  EXPECT_THROW(end([&](const auto&) { std::filesystem::remove(folder / "run.pvd"); }), FileError);
+}
+
 TEST(Vtu, CentreLineCarriesMotionAndResultants) {
   if (!has_python("xml")) GTEST_SKIP() << "no python";
   const TemporaryFolder folder;

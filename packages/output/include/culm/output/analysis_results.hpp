@@ -44,7 +44,7 @@ struct AnalysisResults {
 };
 
 /// Writes a table as text: a line of names, then one per row; numbers have 17 digits and read back
-/// exactly, remarks are quoted. Throws FileError.
+/// exactly, the cell of one that is `absent` is empty; remarks are quoted. Throws FileError.
 void write_csv(const std::filesystem::path& path, const NamedTable& table);
 
 /// Writes a matrix in MatrixMarket's coordinate format, numbers as in write_csv. Throws FileError.

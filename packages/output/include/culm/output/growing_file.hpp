@@ -1,8 +1,11 @@
 #pragma once
 
+#include <culm/output/file_identity.hpp>
+
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace culm::output {
@@ -22,7 +25,7 @@ class GrowingFile {
   /// Adds an entry. Throws FileError.
   void add(const std::string& entry);
 
-  /// Brings the file up to date. Throws FileError.
+  /// Brings the file up to date. Throws FileError, also if somebody removed or changed it.
   void write();
 
  private:
@@ -31,7 +34,8 @@ class GrowingFile {
   bool is_due() const;
 
   std::filesystem::path path_;
-  std::string text_;  // head and entries
+  std::optional<FileIdentity> identity_;  // since it was written first
+  std::string text_;                      // head and entries
   std::string tail_;
   std::size_t entries_ = 0;
   std::size_t written_entries_ = 0;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <culm/output/file_identity.hpp>
 #include <culm/output/picture_mesh.hpp>
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -12,7 +14,8 @@
 namespace culm::output {
 
 /// History of a run as a text table: first line `time,<name> [unit],...`, then one line per step.
-/// Numbers have 17 digits and read back exactly; each line is in the file when add() returns.
+/// Numbers have 17 digits and read back exactly; the cell of one that is `absent` is empty. Each
+/// line is in the file when add() returns.
 class HistoryCsv {
  public:
   /// Replaces a file of this name. Throws FileError.
@@ -22,7 +25,7 @@ class HistoryCsv {
 
   /// @param time    s
   /// @param values  one per column
-  /// Throws FileError.
+  /// Throws FileError, also if somebody removed or replaced the file.
   void add(double time, std::span<const double> values);
 
  private:
@@ -35,6 +38,7 @@ class HistoryCsv {
   [[noreturn]] void give_up() const;
 
   std::filesystem::path path_;
+  std::optional<FileIdentity> identity_;
   std::size_t column_count_;
   std::unique_ptr<std::FILE, Closer> file_;
 };

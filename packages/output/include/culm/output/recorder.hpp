@@ -1,5 +1,6 @@
 #pragma once
 
+#include <culm/base/findings.hpp>
 #include <culm/output/analysis_results.hpp>
 #include <culm/output/picture_mesh.hpp>
 #include <culm/output/recorded.hpp>
@@ -26,10 +27,13 @@ struct RunInfo {
 /// - /steps/000000/<structure>: position, displacement, director1..3, resultants, node and cell
 ///   arrays; whatever Frame::arrays holds in /steps/000000/%arrays
 /// - /history/values: one row per add_history(); attributes names, units; first column time
-/// - /report: text, scalars/<name>, and tables, attributes as below
+/// - /report: text, scalars/<name>, and tables, attributes as below; findings/<number>, with
+///   attributes grade ("broken", "warning"), kind, text, analysis, time
 /// - /analyses/<analysis>: one table per name, attributes names, remarks
 /// - .../shapes/<structure>: (shape, node, displacement and rotation); imaginary parts in
 ///   .../shapes_imaginary/<structure>; matrices by their entries row, column, value
+///
+/// A number that is `absent` stands for none; tables have it as attribute _FillValue.
 ///
 /// In names the characters / : % | are written as %XX.
 ///
@@ -67,7 +71,8 @@ class Recorder {
   /// Writes the final report, or replaces the one that is there.
   /// @param tables  beside it, by their names
   void write_report(const std::string& text, std::span<const NamedScalar> scalars,
-                    std::span<const NamedTable> tables = {});
+                    std::span<const NamedTable> tables = {},
+                    std::span<const Finding> findings = {});
 
   /// Closes the file; nothing can be recorded afterwards.
   void close();

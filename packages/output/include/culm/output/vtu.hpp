@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::output {
@@ -34,7 +35,8 @@ class Pictures {
   /// FileError.
   void add_earlier(int index, double time);
 
-  /// Brings the collections up to date, as at the end of a run. Throws FileError.
+  /// Brings the collections up to date, as at the end of a run. Throws FileError, also if somebody
+  /// removed or replaced a file that was written.
   void write();
 
  private:
@@ -46,6 +48,7 @@ class Pictures {
   };
 
   std::string stem(const Group& group, int index) const;
+  void write_picture(const std::string& file, const std::string& text);
   void make_groups();
   void make_skins();
 
@@ -56,6 +59,7 @@ class Pictures {
   std::vector<Skin> skins_;
   std::vector<std::vector<Vec3>> reference_skins_;
   std::vector<Group> groups_;
+  std::vector<std::pair<std::string, FileIdentity>> written_;  ///< pictures, in the folder
   GrowingFile collection_;
   std::unique_ptr<GrowingFile> skin_collection_;
 };
