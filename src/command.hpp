@@ -19,6 +19,7 @@ struct DeckArguments {
 
 /// A deck to run.
 struct RunArguments : DeckArguments {
+  bool strict = false;            ///< warnings count as broken promises
   std::filesystem::path folder;   ///< for results; results/<name of the deck> if empty
   std::string walltime;           ///< time the run may take; empty for any
   bool report = false;            ///< whether a page is wanted
@@ -36,6 +37,7 @@ struct ResumeArguments {
   std::string deck;                    ///< in place of that of the run; empty for that one
   std::vector<std::string> overrides;  ///< path=value, after those of the run
   std::string walltime;
+  bool strict = false;  ///< warnings count as broken promises
   bool quiet = false;
 };
 

@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/base/findings.hpp>
 #include <culm/openfast/import.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/simulation.hpp>
@@ -97,6 +98,9 @@ std::string find_frequencies(const parallel::Comm& comm, simulation::Simulation&
     model.run({folder.path(), true, false}, request);
   } catch (const NumericalError& error) {
     return std::string("  not found, because the deck does not solve: ") + error.what() + "\n";
+  } catch (const PromiseBroken& broken) {
+    return read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv") + "  " +
+           broken.what() + "\n";
   }
   return read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv");
 }

@@ -52,6 +52,16 @@ void add_walltime(CLI::App& verb, std::string& walltime) {
                   "1:30:00 or '90 min'");
 }
 
+// How a run can end. @param strict  set by --strict
+void add_ending(CLI::App& verb, bool& strict) {
+  verb.add_flag("--strict", strict, "End with exit code 8 also where a warning was found");
+  verb.footer(
+      "Exit codes: 0 done; 1 a bug in culm; 2 command line; 3 deck; 4 did not solve; 5 not "
+      "finite;\n"
+      "6 files; 7 stopped on request; 8 done, all results are written, but a promise is broken:\n"
+      "warnings on standard error and run.h5, /report/findings, say which.");
+}
+
 // Declares all verbs; the chosen one becomes `action`.
 void declare_verbs(CLI::App& app, Arguments& arguments,
                    std::function<void(const culm::parallel::Comm&)>& action) {
@@ -63,6 +73,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   add_walltime(*run, arguments.run.walltime);
   run->add_option("--output", arguments.run.folder,
                   "Folder for results; results/<name of the deck> if not given");
+  add_ending(*run, arguments.run.strict);
   run->add_flag("--report", arguments.run.report, "Write report.html beside the results");
   run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments.run); }; });
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
@@ -73,6 +84,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                      "Deck in place of that of the run; the model must be the same");
   add_common_options(*resume, arguments.resume);
   add_walltime(*resume, arguments.resume.walltime);
+  add_ending(*resume, arguments.resume.strict);
   resume->callback(
       [&] { action = [&](const Comm& comm) { culm::app::resume(comm, arguments.resume); }; });
   CLI::App* check = app.add_subcommand("check", "Parse, build and count a deck; do not solve it");
@@ -174,10 +186,11 @@ int main(int argc, char** argv) {
   bool is_root = false;
   const int code = run_verb(argc, argv, arguments, is_root);
   const std::filesystem::path& folder = arguments.run.started;
-  if (is_root && arguments.run.report && !folder.empty()) {
-    std::vector<std::string> drawn = {"report", folder.string()};
-    if (arguments.run.quiet) drawn.emplace_back("--quiet");
-    culm::app::call_python(drawn);
-  }
+  if (!arguments.run.report || folder.empty()) return code;
+  // mpiexec ends all processes when one returns an error, and the root has a page to draw before
+  if (!is_root) return 0;
+  std::vector<std::string> drawn = {"report", folder.string()};
+  if (arguments.run.quiet) drawn.emplace_back("--quiet");
+  culm::app::call_python(drawn);
   return code;
 }

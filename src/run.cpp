@@ -13,9 +13,9 @@ void run(const parallel::Comm& comm, RunArguments& arguments) {
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const std::filesystem::path by_name =
       std::filesystem::path("results") / std::filesystem::path(arguments.deck).stem();
-  const simulation::RunSettings settings{arguments.folder.empty() ? by_name : arguments.folder,
-                                         arguments.quiet,
-                                         comm.is_root() && isatty(STDOUT_FILENO) != 0};
+  const simulation::RunSettings settings{
+      arguments.folder.empty() ? by_name : arguments.folder, arguments.quiet,
+      comm.is_root() && isatty(STDOUT_FILENO) != 0, arguments.strict};
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);

@@ -1,9 +1,14 @@
 """Sound decks and command lines: what culm prints and leaves behind."""
 
+import csv
 import pathlib
 import re
+import sys
 
 from driver import BASE, Case
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/python"))
+from culm.results import Results  # noqa: E402
 
 
 def history(folder):
@@ -94,6 +99,117 @@ def is_page(name, headings):
     return check
 
 
+def has_findings(*kinds, grade=True):
+    """Checks run.h5, and that its last state is that of the history."""
+
+    def check(folder, _):
+        found = Results(folder / "out/run.h5").findings()
+        same = [one.kind for one in found] == list(kinds) and all(one.is_broken == grade for one in found)
+        return "" if same else f"run.h5 has {found}"
+
+    return check
+
+
+def cell(folder, row, column):
+    """A cell of history.csv, row 0 below the names."""
+    with open(folder / "out/history.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    return rows[row + 1][rows[0].index(column)]
+
+
+def has_cells(*wanted):
+    """Checks cells of the history: (row, column, value), a number or a text."""
+
+    def check(folder, _):
+        for row, column, value in wanted:
+            found = cell(folder, row, column)
+            same = found == value if isinstance(value, str) else abs(float(found) - value) < 1e-12
+            if not same:
+                return f"'{column}' in row {row} is {found}"
+        return ""
+
+    return check
+
+
+def ends_at(state, rows):
+    """Checks the number of rows of the history, and the index of the last state in run.h5."""
+
+    def check(folder, _):
+        found = history(folder / "out")
+        states = Results(folder / "out/run.h5").states()
+        same = len(found) == rows and states[-1:] == [state]
+        return "" if same else f"the history has {found}, states are {states}"
+
+    return check
+
+
+def promise(*names):
+    """The last line of a run that broke promises."""
+    words = ("1 of its promises does not hold", "warning") if len(names) == 1 else (
+        f"{len(names)} of its promises do not hold", "warnings")
+    return f"The run came to its end, but {words[0]}: {', '.join(names)}; see the {words[1]} above.\n"
+
+
+STATIC = (
+    '<Parameter name="Type" value="Static"/>\n      <Parameter name="Steps" value="2"/>'
+)
+PATH = (
+    '<Parameter name="Type" value="Path"/>\n      <Parameter name="Steps" value="2"/>\n'
+    '      <Parameter name="%s" value="1"/>'
+)
+TIP_FORCE = '<Parameter name="Type" value="Force"/>\n      <Parameter name="Node" value="beam/last"/>'
+CLAMP_FORCE = TIP_FORCE.replace("last", "first")
+RUN = "run deck.xml --output out --quiet"
+IDLE = "warning: %s moves nothing: all of it acts where supports hold the model and goes straight into them\n"
+
+
+def entry(name, **values):
+    """A list of parameters; underscores are blanks."""
+    lines = "".join(f'<Parameter name="{key.replace("_", " ")}" value="{value}"/>' for key, value in values.items())
+    return f'<ParameterList name="{name}">{lines}</ParameterList>'
+
+
+# Two bodies, 2 m from each other along x; the second begins with a velocity.
+HINGED = """<ParameterList name="culm">
+  <ParameterList name="Structures">
+    <ParameterList name="hub">%(body)s<Parameter name="Position" value="{0, 0, 0}"/></ParameterList>
+    <ParameterList name="arm">%(body)s<Parameter name="Position" value="{2, 0, 0}"/></ParameterList>
+  </ParameterList>
+  <ParameterList name="Constraints">%(constraints)s</ParameterList>
+  <ParameterList name="Initial Conditions">%(start)s</ParameterList>
+  <ParameterList name="Analyses">
+    <ParameterList name="swing">
+      <Parameter name="Type" value="Dynamic"/>
+      <Parameter name="End Time" value="0.02"/>
+      <Parameter name="Step" value="0.01"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Output">
+    <ParameterList name="History">
+      <ParameterList name="arm"><Parameter name="Type" value="Position"/><Parameter name="Node" value="arm"/></ParameterList>
+      <ParameterList name="energy"><Parameter name="Type" value="Energy"/></ParameterList>
+      %(watch)s
+    </ParameterList>
+  </ParameterList>
+</ParameterList>
+"""
+BODY_VALUES = (
+    '<Parameter name="Type" value="Rigid Body"/><Parameter name="Mass" value="3"/>'
+    '<Parameter name="Inertia" value="{1, 1, 1}"/>'
+)
+GROUND = entry("ground", Type="Rigid Support", Node="hub")
+HINGE = entry("hinge", Type="Revolute Joint", First="hub", Second="arm", Position="{0, 0, 0}", Axis="{0, 1, 0}")
+BOLT = entry("bolt", Type="Rigid Connection", Master="hub", Node="arm")
+
+
+SPIN = entry("spin", Type="Velocity", Node="arm", Angular_Velocity="{0, 3, 0}", About="{0, 0, 0}")
+
+
+def hinged(constraints, velocity, watch="", start=None):
+    start = start or entry("push", Type="Velocity", Node="arm", Velocity=velocity)
+    return HINGED % dict(body=BODY_VALUES, constraints=constraints, start=start, watch=watch)
+
+
 TYPES = ["Stiffness Matrix", "Tube", "Beam", "Polyline", "Rigid Support", "Force", "Static"]
 
 CASES = [
@@ -170,6 +286,233 @@ CASES = [
         last_level=0.0,
         ranks=True,
     ),
+    Case(
+        "a path that its steps end before its target",
+        8,
+        args=RUN,
+        change=[(STATIC, PATH % "Final Level")],
+        errors=[
+            "warning: the path ended at level ...",
+            promise("path (bend)").strip(),
+        ],
+        results="out",
+        check=has_findings("path"),
+        ranks=True,
+    ),
+    Case(
+        "a path that arrives",
+        0,
+        args=RUN + " --strict",
+        change=[(STATIC, (PATH % "Final Level").replace('"2"', '"20"'))],
+        silent=True,
+        results="out",
+        last_level=1.0,
+        check=has_findings(),
+    ),
+    Case(
+        "a load on the clamp, on the page",
+        8,
+        args="run deck.xml --output out --report",
+        change=[(TIP_FORCE, CLAMP_FORCE)],
+        says=[IDLE % "Force 'tip force'", promise("idle load (bend)")],
+        prints=["out/report.html\n"],
+        silent=False,
+        results="out",
+        last_level=1.0,
+        check=lambda folder, _: has_findings("idle load")(folder, _)
+        or ("" if '<p class="broken">idle load (bend, at 1): Force' in (folder / "out/report.html").read_text()
+            else "it is not on the page"),
+        ranks=True,
+    ),
+    Case(
+        "a load on the clamp beside one that acts, constraints as equations",
+        8,
+        args=RUN,
+        change=[
+            (TIP_FORCE, CLAMP_FORCE),
+            ("Null Space", "Multipliers"),
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Loads">'
+                + entry("twist", Type="Moment", Node="beam/last", Moment="{9, 0, 0}")
+                + entry("on both", Type="Force", Node="beam", Force="{0, 1, 0}"),
+            ),
+        ],
+        errors=[IDLE.strip() % "Force 'tip force'", promise("idle load (bend)").strip()],
+        results="out",
+        last_level=1.0,
+        ranks=True,
+    ),
+    Case(
+        "loads on a node that a support and a drive hold",
+        8,
+        args=RUN,
+        change=[
+            (TIP_FORCE, CLAMP_FORCE),
+            ('"Rigid Support"/>', '"Revolute Support"/><Parameter name="Axis" value="{0, 1, 0}"/>'),
+            (
+                '<ParameterList name="Constraints">',
+                '<ParameterList name="Constraints">'
+                + entry("turned", Type="Rotation", Node="beam/first", Axis="{0, 1, 0}", Angle="0.1"),
+            ),
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Loads">'
+                + entry("turning", Type="Moment", Node="beam/first", Moment="{0, 9, 0}"),
+            ),
+        ],
+        says=[IDLE % "Force 'tip force'", IDLE % "Moment 'turning'"],
+        results="out",
+        last_level=1.0,
+        ranks=True,
+    ),
+    Case(
+        "forces that rounding leaves out of balance",
+        8,
+        args=RUN + " --strict",
+        change=[('"2e3" unit="kN"', '"2e15"'), ("{0, 0, 100}", "{0, 0, 1e-3}")],
+        says=["warning: rounding leaves forces out of balance by ", promise("rounding (bend)")],
+        results="out",
+        last_level=1.0,
+        check=has_findings("rounding", grade=False),
+        ranks=True,
+    ),
+    Case(
+        "a certificate that is broken",
+        8,
+        deck=hinged(GROUND + HINGE, "{0, 0, 0}", start=SPIN).replace(
+            '"0.01"/>', '"0.01"/>' + entry("Newton", Force_Tolerance="0.1", Constraint_Tolerance="1e-2")
+        ),
+        args=RUN,
+        says=["warning: the certificate is broken: ", promise("certificate (swing)")],
+        check=has_findings("certificate"),
+        leaves=["out"],
+        ranks=True,
+    ),
+    Case(
+        "a warning where nothing but good runs will do",
+        8,
+        deck=BODY % "Modal",
+        args=RUN + " --strict",
+        says=["warning: the state is no equilibrium: ", promise("no equilibrium (only)")],
+        results="out",
+        last_level=0.0,
+        check=has_findings("no equilibrium", grade=False),
+    ),
+    Case(
+        "the first row has the velocities of the start",
+        0,
+        deck=hinged(GROUND + HINGE, "{0, 0, 4}"),
+        args=RUN,
+        # of the two motions that the hinge leaves of 3 kg at 4 m/s, v = 2 m w, the nearest by energy
+        says=["warning: initial velocities were made to fit the constraints; largest change ", " at 'arm/0', by Revolute Joint 'hinge'\n"],
+        check=has_cells((0, "time", 0.0), (0, "energy kinetic [J]", 12.0 / 13.0 * 24.0)),
+        leaves=["out"],
+        ranks=True,
+    ),
+    Case(
+        "the first row of a motion that starts later",
+        0,
+        deck=hinged("", "{0, 0, 4}").replace(
+            '"0.01"/>', '"0.01"/><Parameter name="Start Time" value="0.01"/>'
+        ),
+        args=RUN,
+        silent=True,
+        check=has_cells((0, "time", 0.01), (0, "energy kinetic [J]", 24.0), (1, "time", 0.02)),
+        leaves=["out"],
+    ),
+    Case(
+        "a velocity at a support",
+        0,
+        deck=hinged(entry("ground", Type="Rigid Support", Node="arm"), "{0, 0, 4}"),
+        args=RUN,
+        says=["largest change 4 at 'arm/0', by Rigid Support 'ground'\n"],
+        check=has_cells((0, "energy kinetic [J]", 0.0)),
+        leaves=["out"],
+    ),
+    Case(
+        "a quantity that does not exist in an analysis",
+        0,
+        args=RUN,
+        change=[
+            (
+                '<ParameterList name="Constraints">',
+                '<ParameterList name="Constraints">'
+                + entry("held", Type="Simple Support", Node="beam/last", Direction="{0, 1, 1}"),
+            ),
+            (
+                '<ParameterList name="bend">',
+                entry("free", Type="Static", Steps="1", Inactive="{held}") + '<ParameterList name="bend">',
+            ),
+            (
+                '<ParameterList name="History">',
+                '<ParameterList name="History">'
+                + entry("own", Type="Reaction", Node="beam/last", Constraint="held"),
+            ),
+        ],
+        silent=True,
+        check=lambda folder, _: has_cells((0, "own Fx [N]", ""), (1, "own Mz [N m]", ""), (3, "own Fx [N]", 0.0))(folder, _)
+        or ("" if Results(folder / "out/run.h5").history()[1][2] is None else "the mark is not in run.h5"),
+        leaves=["out"],
+        ranks=True,
+    ),
+    Case(
+        "a watched point beyond the range of numbers",
+        5,
+        args=RUN,
+        deck=hinged(
+            "", "{0, 0, 4}", entry("far", Type="Position", Node="hub", Offset="{1.5e308, 1.5e308, 0}")
+        ).replace(
+            '"{0, 0, 0}"/>', '"{0, 0, 0}"/><Parameter name="Directors" value="{0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1}"/>', 1
+        ),
+        says=["The watched 'far y' became infinite at the start.\n"],
+        check=ends_at(0, 0),
+        leaves=["out"],
+        ranks=True,
+    ),
+    Case(
+        "a reaction beyond the range of numbers",
+        5,
+        args=RUN,
+        change=[
+            (TIP_FORCE, CLAMP_FORCE),
+            ("{0, 0, 100}", "{0, 0, 1.2e308}"),
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Loads">'
+                + entry("more", Type="Force", Node="beam/first", Force="{0, 0, 1.2e308}"),
+            ),
+            (
+                '<ParameterList name="History">',
+                '<ParameterList name="History">' + entry("support", Type="Reaction", Node="beam/first"),
+            ),
+        ],
+        errors=[
+            "The watched 'support Fz' became infinite in step 2 of 'bend', at 1.",
+            "Likely cause: a load, stiffness or length beyond the range of numbers.",
+            "Try: check units and load functions.",
+        ],
+        check=ends_at(1, 2),
+        leaves=["out"],
+        ranks=True,
+    ),
+    Case(
+        "forces whose sum is beyond the range of numbers",
+        5,
+        args=RUN,
+        change=[
+            ("{0, 0, 100}", "{0, 0, 1.7e308}"),
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Loads">'
+                + entry("more", Type="Force", Node="beam/last", Force="{0, 0, 1.7e308}")
+                + entry("most", Type="Force", Node="beam/last", Force="{0, 0, 1.7e308}"),
+            ),
+        ],
+        says=["check units and load functions"],
+        leaves=["out"],
+        ranks=True,
+    ),
     Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),
     Case(
         "import",
@@ -236,9 +579,31 @@ CASES = [
         "effects",
         0,
         args="effects deck.xml --output out --only flexibility",
-        prints=["\nFor changes below 1 % this scene needs flexibility of "],
+        # a rigid beam carries the force into its clamp
+        prints=[
+            "\nFor changes below 1 % this scene needs flexibility of ",
+            " needed BROKEN [1]\n",
+            "\n[1] idle load (bend, at 1): Force 'tip force' moves nothing: ",
+        ],
         leaves=["out"],
         check=is_page("out/effects.html", ["What it contains", "What happens without"]),
+    ),
+    Case(
+        "study of runs that break a promise",
+        8,
+        change=[
+            (TIP_FORCE, CLAMP_FORCE),
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Loads">' + entry("twist", Type="Moment", Node="beam/last", Moment="{0, 9, 0}"),
+            ),
+        ],
+        args="study deck.xml --vary mesh=1:2*2 --repeat 1 --output out",
+        prints=["\n[1] idle load (bend, at 1): Force 'tip force' moves nothing: "],
+        silent=False,
+        leaves=["out"],
+        check=lambda folder, _: is_page("out/study.html", ["Runs"])(folder, _)
+        or ("" if (folder / "out/study.html").read_text().count('<tr class="broken">') == 2 else "rows are not marked"),
     ),
     Case(
         "an effect that is not there",

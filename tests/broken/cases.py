@@ -59,6 +59,8 @@ SECTIONS = '<Parameter name="Sections" value="{bar, bar}"/>'
 STEPS = '<Parameter name="Steps" value="2"/>'
 CLAMP = list_of("clamp")
 FORCE = '"{0, 0, 100}"'
+TIP_FORCE = 'value="Force"/>\n      <Parameter name="Node" value="beam/last"/>'
+INNER_FORCE = TIP_FORCE.replace("last", "2")
 WATCH = 'value="Position"/>\n        <Parameter name="Node" value="beam/last"/>'
 WATCH_ELEMENT = (
     'value="Stress Resultants"/>\n        <Parameter name="%s" value="%s"/>'
@@ -848,7 +850,8 @@ def left_out(name, constraints, note, form="Null Space", **more):
     return Case(
         f"{name}, {form}",
         0,
-        change=[(CLAMP, constraints), ('"Null Space"', f'"{form}"')],
+        # the last node is held in some of them, and a load there would move nothing
+        change=[(CLAMP, constraints), ('"Null Space"', f'"{form}"'), (TIP_FORCE, INNER_FORCE)],
         prints=[f"note: {note}", "; the reactions of these constraints are not unique\n"],
         results="out",
         last_level=1.0,

@@ -1,6 +1,7 @@
 """Runs decks with culm and reads their history; for the regression and the verification tests."""
 
 import csv
+import math
 import os
 import pathlib
 import re
@@ -32,7 +33,8 @@ class RunFailed(Exception):
 
 
 class Table:
-    """Columns of a table that an analysis wrote, such as 'frequency [Hz]'; rows from 1."""
+    """Columns of a table that an analysis wrote, such as 'frequency [Hz]'; rows from 1. An empty cell
+    is nan."""
 
     def __init__(self, path):
         with open(path, newline="") as file:
@@ -44,7 +46,7 @@ class Table:
         if name not in self.names:
             raise KeyError(f"no column '{name}' among: {', '.join(self.names)}")
         i = self.names.index(name)
-        return [row[i] if name == "remark" else float(row[i]) for row in self.rows]
+        return [row[i] if name == "remark" else float(row[i] or math.nan) for row in self.rows]
 
     def at(self, row, name):
         return self.column(name)[row - 1]

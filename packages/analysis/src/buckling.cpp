@@ -91,14 +91,15 @@ void normalise(Shape& shape) {
 
 // Shapes have x^T K x = 1, of which large terms that cancel leave their rounding, a tenth of the
 // bound.
-void warn_of_rounding(const solver::EigenPairs& pairs, const Log& log) {
+void warn_of_rounding(const solver::EigenPairs& pairs, double time, Findings& findings) {
   for (std::size_t i = 0; i < pairs.values.size(); ++i) {
     const double share = 0.1 * pairs.rounding[i];
     if (share < notable_share) continue;
-    log.warning(
-        fmt::format("rounding leaves the factor of mode {} exact to {:.2g} % only: stiffnesses "
-                    "differ too much in size",
-                    i + 1, 100.0 * share));
+    findings.warn("hidden modes",
+                  fmt::format("rounding leaves the factor of mode {} exact to {:.2g} % only: "
+                              "stiffnesses differ too much in size",
+                              i + 1, 100.0 * share),
+                  time);
     return;
   }
 }
@@ -153,9 +154,11 @@ AnalysisReport Buckling::advance(Context& context, model::State& state, Observer
   const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
                             solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
   if (!is_symmetric) {
-    context.log.warning(
+    context.findings.warn(
+        "unsymmetric",
         "the tangent is not symmetric, as with loads that follow the structure: it may become "
-        "unstable by flutter before it buckles, which a modal analysis shows");
+        "unstable by flutter before it buckles, which a modal analysis shows",
+        state.time);
   }
   solver::EigenSettings settings;
   settings.solver = settings_.solver;
@@ -182,7 +185,7 @@ AnalysisReport Buckling::advance(Context& context, model::State& state, Observer
     normalise(shape);
     report.shapes.push_back(std::move(shape));
   }
-  warn_of_rounding(pairs, context.log);
+  warn_of_rounding(pairs, state.time, context.findings);
   if (pairs.values.empty()) report.text += "  none: the load cannot make the structure buckle\n";
   report.text +=
       fmt::format("eigensolver: {}, largest residual {:.1e}\n", pairs.solver, pairs.worst_residual);

@@ -1,13 +1,13 @@
 #include <culm/analysis/campbell.hpp>
 #include <culm/analysis/modal.hpp>
 #include <culm/analysis/newton_options.hpp>
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace culm::analysis {
 namespace {
@@ -169,10 +169,9 @@ AnalysisReport Campbell::advance(Context& context, model::State& state, Observer
     std::vector<double> damping;
     meaning.assign(followed.size(), "lost");
     for (std::size_t i = 0; i < found.size(); ++i) {
-      constexpr double lost = std::numeric_limits<double>::quiet_NaN();
       if (found[i].mode < 0) {
-        row.push_back(lost);
-        damping.push_back(lost);
+        row.push_back(absent);
+        damping.push_back(absent);
         continue;
       }
       const Mode& mode = set.modes[static_cast<std::size_t>(found[i].mode)];
@@ -188,8 +187,10 @@ AnalysisReport Campbell::advance(Context& context, model::State& state, Observer
   report.text = fmt::format("{:>10}  frequencies [Hz]\n", "level");
   for (const std::vector<double>& row : table.rows) {
     report.text += fmt::format("{:>10.5g} ", row.front());
-    for (std::size_t i = 1; i <= followed.size(); ++i)
-      report.text += fmt::format(" {:>9.5g}", row[i]);
+    for (std::size_t i = 1; i <= followed.size(); ++i) {
+      report.text +=
+          row[i] == absent ? fmt::format(" {:>9}", "lost") : fmt::format(" {:>9.5g}", row[i]);
+    }
     report.text += '\n';
   }
   for (std::size_t i = 0; i < meaning.size(); ++i) {

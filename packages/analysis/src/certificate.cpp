@@ -1,4 +1,5 @@
 #include <culm/analysis/certificate.hpp>
+#include <culm/base/text.hpp>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,11 @@ constexpr double constraint_promise = 1e-10;
 // all of them, but what the model holds costs as much as a residual.
 constexpr int interval = 10;
 
-std::string verdict(double drift, double promise) { return drift <= promise ? "kept" : "BROKEN"; }
+// Not a number is no drift that is kept.
+bool holds(double drift, double promise) { return drift <= promise; }
+
+// The larger one; what is not a number is larger than all.
+double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 
 double relative(double drift, double scale) { return scale > 0.0 ? drift / scale : drift; }
 
@@ -42,7 +47,7 @@ void Certificate::record(const model::State& state, const Stencil& stencil,
   work_ += step;
   impulse_ += stencil.step * step.force;
   angular_impulse_ += stencil.step * step.moment;
-  constraint_violation_ = std::max(constraint_violation_, constraint_violation);
+  constraint_violation_ = larger(constraint_violation_, constraint_violation);
   if (steps_ % interval == 0 || is_last) compare(state);
 }
 
@@ -56,11 +61,11 @@ void Certificate::compare(const model::State& state) {
   largest_angular_ = std::max(largest_angular_, momentum_.angular.norm());
   const double balance =
       first_.total() + work_.external + work_.drives - work_.damping - work_.dissipation;
-  energy_drift_ = std::max(energy_drift_, std::abs(last_.total() - balance));
+  energy_drift_ = larger(energy_drift_, std::abs(last_.total() - balance));
   linear_drift_ =
-      std::max(linear_drift_, (momentum_.linear - first_momentum_.linear - impulse_).norm());
-  angular_drift_ = std::max(
-      angular_drift_, (momentum_.angular - first_momentum_.angular - angular_impulse_).norm());
+      larger(linear_drift_, (momentum_.linear - first_momentum_.linear - impulse_).norm());
+  angular_drift_ = larger(angular_drift_,
+                          (momentum_.angular - first_momentum_.angular - angular_impulse_).norm());
 }
 
 void Certificate::finish(double change, double velocity) {
@@ -146,6 +151,29 @@ std::vector<std::pair<std::string, double>> Certificate::numbers() const {
   return numbers;
 }
 
+std::vector<Certificate::Line> Certificate::lines() const {
+  std::vector<Line> lines = {
+      {"energy balance", relative(energy_drift_, energy_scale()), energy_promise, promises_}};
+  if (is_free()) {
+    lines.push_back(
+        {"linear momentum", relative(linear_drift_, linear_scale()), momentum_promise, promises_});
+    lines.push_back({"angular momentum", relative(angular_drift_, angular_scale()),
+                     momentum_promise, promises_});
+  }
+  lines.push_back({"constraints", constraint_violation_, constraint_promise, true});
+  return lines;
+}
+
+std::string Certificate::broken() const {
+  std::vector<std::string> found;
+  for (const Line& line : lines()) {
+    if (!line.is_promised || holds(line.drift, line.promise)) continue;
+    found.push_back(
+        fmt::format("{} {:.2e} (kept up to {:.0e})", line.name, line.drift, line.promise));
+  }
+  return join(found, ", ");
+}
+
 std::string Certificate::text() const {
   std::string text = fmt::format("conservation over {} steps\n", steps_);
   const auto line = [&text](const std::string& name, double first, double last) {
@@ -161,19 +189,14 @@ std::string Certificate::text() const {
   amount("work of drives", work_.drives);
   amount("taken by dampers", work_.damping);
   amount("taken by dissipation", work_.dissipation);
-  const auto drift = [&](const std::string& name, double value, double promise) {
-    text += fmt::format("  {:<28} {:.2e}  {}\n", name, value,
-                        promises_ ? verdict(value, promise) : "not promised by this scheme");
-  };
-  drift("energy balance", relative(energy_drift_, energy_scale()), energy_promise);
-  if (is_free()) {
-    drift("linear momentum", relative(linear_drift_, linear_scale()), momentum_promise);
-    drift("angular momentum", relative(angular_drift_, angular_scale()), momentum_promise);
-  } else {
-    text += "  momenta: the model is held, so supports change them\n";
+  for (const Line& one : lines()) {
+    if (one.name == "constraints" && !is_free()) {
+      text += "  momenta: the model is held, so supports change them\n";
+    }
+    const char* verdict = holds(one.drift, one.promise) ? "kept" : "BROKEN";
+    text += fmt::format("  {:<28} {:.2e}  {}\n", one.name, one.drift,
+                        one.is_promised ? verdict : "not promised by this scheme");
   }
-  text += fmt::format("  {:<28} {:.2e}  {}\n", "constraints", constraint_violation_,
-                      verdict(constraint_violation_, constraint_promise));
   if (hidden_violation_) {
     text += fmt::format("  {:<28} {:.2e}  of the velocity, second order of the step\n",
                         "hidden constraints", *hidden_violation_);

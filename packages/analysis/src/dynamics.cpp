@@ -101,6 +101,21 @@ assembly::System::Solve mass_solver(Context& context, const model::State& state)
   };
 }
 
+// Where velocities changed most, and what they did not fit: the equation that was violated most, or
+// the support that holds the node.
+std::string describe_place(const model::Model& model, const assembly::VelocityFit& fit) {
+  if (fit.node < 0) return {};
+  std::string text = fmt::format(" at '{}'", model.node_name(fit.node));
+  const model::Constraint* cause = nullptr;
+  if (fit.equation >= 0) cause = &model.equations()[static_cast<std::size_t>(fit.equation)];
+  for (const model::Constraint& c : model.constraints()) {
+    if (cause == nullptr && c.fix && model.nodes().master(c.fix->node) == fit.node) cause = &c;
+  }
+  if (cause != nullptr && !cause->name.empty())
+    text += fmt::format(", by {} '{}'", cause->type, cause->name);
+  return text;
+}
+
 // The deck may displace bodies out of their joints.
 void close_joints(Context& context, model::State& state) {
   const double change = context.system.project_position(state, mass_solver(context, state));
@@ -129,11 +144,15 @@ void Dynamics::fit_motion(Context& context, model::State& state) const {
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const double change = context.system.project_velocity(state, 1e-4 * settings_.steps.step,
-                                                        mass_solver(context, state));
-  if (change > tolerance * std::max(1.0, largest(state.velocity))) {
-    context.log.warning(fmt::format(
-        "initial velocities were made to fit the constraints; largest change {:.3g}", change));
+  const assembly::VelocityFit fit = context.system.project_velocity(
+      state, 1e-4 * settings_.steps.step, mass_solver(context, state));
+  if (fit.change > tolerance * std::max(1.0, largest(state.velocity))) {
+    context.findings.warn(
+        "initial velocities",
+        fmt::format("initial velocities were made to fit the constraints; largest change {:.3g}",
+                    fit.change) +
+            describe_place(context.system.model(), fit),
+        state.time);
   }
 }
 
@@ -141,15 +160,15 @@ void Dynamics::fit_motion(Context& context, model::State& state) const {
 void Dynamics::measure_hidden_constraints(Context& context, const model::State& state) {
   model::State copy = state;
   bool sound = true;  // a closed loop may just pass a singular position
-  const double change = context.system.project_velocity(
+  const assembly::VelocityFit fit = context.system.project_velocity(
       copy, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = context.linear.factor() && context.linear.solve(b, x) <= 1e-8;
         if (!sound) x.putScalar(0.0);
       });
-  if (sound) certificate_->finish(change, context.system.comm().max(largest(copy.velocity)));
+  if (sound) certificate_->finish(fit.change, context.system.comm().max(largest(copy.velocity)));
 }
 
-void Dynamics::start(Context& context, model::State& state) {
+void Dynamics::fit(Context& context, model::State& state) {
   warn_of_turning_part(context.system.model(), context.log);
   assembly::System& system = context.system;
   if (system.velocity_dissipation() != nullptr && !scheme_->conserves()) {
@@ -166,6 +185,10 @@ void Dynamics::start(Context& context, model::State& state) {
                                  state.time, settings_.steps.end_time));
   }
   fit_motion(context, state);
+}
+
+void Dynamics::start(Context& context, model::State& state) {
+  assembly::System& system = context.system;
   scheme_->start(state);
   system.drop_residual();
   control_.emplace(system, settings_.steps, scheme_->error_constant());
@@ -254,6 +277,9 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
   }
   system.drop_residual();
   measure_hidden_constraints(context, state);
+  if (const std::string broken = certificate_->broken(); !broken.empty()) {
+    context.findings.broken("certificate", "the certificate is broken: " + broken, state.time);
+  }
   return {certificate_->text(), certificate_->numbers()};
 }
 

@@ -225,10 +225,12 @@ class Finder {
       return;
     }
     if (hidden_ <= notable_share * lowest) return;
-    context_.log.warning(fmt::format(
-        "rounding hides frequencies below {:.2g} Hz, and those next to it are inexact: stiffnesses "
-        "differ too much in size",
-        hidden_));
+    context_.findings.warn(
+        "hidden modes",
+        fmt::format("rounding hides frequencies below {:.2g} Hz, and those next to it are inexact: "
+                    "stiffnesses differ too much in size",
+                    hidden_),
+        state_.time);
   }
 
   // Nothing but zeros: right for what floats freely, or has joints without stiffness.
@@ -236,12 +238,14 @@ class Finder {
     const bool floats = std::ranges::all_of(
         set_.modes, [&](const Mode& mode) { return is_rigid(mode.shape, state_.next); });
     if (floats) return;
-    context_.log.warning(fmt::format(
-        "all {} modes are at 0 Hz within rounding, which hides frequencies below {:.2g} Hz, and "
-        "not all of them are motions of the whole as a rigid body: mechanisms, or vibrations that "
-        "are lost because stiffnesses differ too much in size; ask for more modes, or make what is "
-        "very stiff rigid",
-        set_.modes.size(), hidden_));
+    context_.findings.warn(
+        "hidden modes",
+        fmt::format("all {} modes are at 0 Hz within rounding, which hides frequencies below "
+                    "{:.2g} Hz, and not all of them are motions of the whole as a rigid body: "
+                    "mechanisms, or vibrations that are lost because stiffnesses differ too much "
+                    "in size; ask for more modes, or make what is very stiff rigid",
+                    set_.modes.size(), hidden_),
+        state_.time);
   }
 
   Context& context_;

@@ -90,10 +90,12 @@ Linearisation linearise(Context& context, const model::State& state) {
   }
   linear.asymmetry = solver::asymmetry(linear.stiffness, system.comm());
   if (!linear.is_equilibrium) {
-    context.log.warning(fmt::format(
-        "the state is no equilibrium: forces are out of balance by {:.2g} of the largest one. "
-        "A static analysis before this one finds the equilibrium",
-        linear.residual));
+    context.findings.warn(
+        "no equilibrium",
+        fmt::format("the state is no equilibrium: forces are out of balance by {:.2g} of the "
+                    "largest one. A static analysis before this one finds the equilibrium",
+                    linear.residual),
+        state.time);
   }
   return linear;
 }

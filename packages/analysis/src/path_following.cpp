@@ -1,6 +1,7 @@
 #include <culm/analysis/newton_options.hpp>
 #include <culm/analysis/path_following.hpp>
 #include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
 
 #include "mirrored_faces.hpp"
 
@@ -253,10 +254,41 @@ void PathFollowing::refuse_idle_level(const model::State& state) const {
 
 bool PathFollowing::is_at_end(const Context& context, const model::State& state) const {
   if (steps_ >= settings_.steps) return true;
-  if (steps_ == 0) return false;
+  return steps_ > 0 && is_on_target(context, state);
+}
+
+bool PathFollowing::is_on_target(const Context& context, const model::State& state) const {
   if (settings_.final_level && state.time == *settings_.final_level) return true;
   return settings_.final_displacement && std::abs(here_.watched - *settings_.final_displacement) <=
                                              1e-9 * context.system.model().length();
+}
+
+bool PathFollowing::passed_limit_points() const {
+  const auto count = std::count_if(events_.begin(), events_.end(), [](const PathEvent& event) {
+    return event.kind == PathEventKind::limit_point;
+  });
+  return settings_.limit_points && count >= *settings_.limit_points;
+}
+
+void PathFollowing::report_early_end(Context& context, const model::State& state) const {
+  if (steps_ < settings_.steps || is_on_target(context, state) || passed_limit_points()) return;
+  std::vector<std::string> targets;
+  if (settings_.final_level) targets.push_back(fmt::format("level {:g}", *settings_.final_level));
+  if (settings_.final_displacement) {
+    targets.push_back(fmt::format("displacement {:g} m of '{}'", *settings_.final_displacement,
+                                  settings_.watch->node));
+  }
+  if (settings_.limit_points) {
+    targets.push_back(fmt::format("limit point {}", *settings_.limit_points));
+  }
+  if (settings_.at_bifurcation == AtBifurcation::stop) targets.emplace_back("a bifurcation");
+  if (targets.empty()) return;
+  context.findings.broken(
+      "path",
+      fmt::format("the path ended at level {:.6g} after {} steps, all that 'Steps' allows, before "
+                  "it reached {}",
+                  state.time, steps_, join(targets, " or ")),
+      state.time);
 }
 
 void PathFollowing::land(Context& context, model::State& state, solver::StepOutcome& outcome) {
@@ -318,10 +350,7 @@ bool PathFollowing::examine(Context& context, const PathTangent& tangent,
       wants_branch_ = settings_.at_bifurcation == AtBifurcation::follow && !has_branched_;
     }
   }
-  const auto limits = std::count_if(events_.begin(), events_.end(), [](const PathEvent& event) {
-    return event.kind == PathEventKind::limit_point;
-  });
-  return ends || (settings_.limit_points && limits >= *settings_.limit_points);
+  return ends || passed_limit_points();
 }
 
 // Where a function of loads or motions ends, the path does.
@@ -408,7 +437,8 @@ void PathFollowing::switch_branch(Context& context, model::State& state, Observe
     context.log.info(fmt::format("on the crossing path from level {:.6g}", state.time));
     return;
   }
-  context.log.warning("the crossing path was not found; a 'Branch Amplitude' may help");
+  context.findings.warn("branch", "the crossing path was not found; a 'Branch Amplitude' may help",
+                        state.time);
 }
 
 AnalysisReport PathFollowing::advance(Context& context, model::State& state, Observer& observer) {
@@ -427,7 +457,8 @@ AnalysisReport PathFollowing::advance(Context& context, model::State& state, Obs
   }
   // reactions, too, are those of this state afterwards
   const auto [tangent, determinant] = find_tangent(context, state);
-  if (!is_examined_) examine(context, tangent, determinant);
+  const bool is_ended = !is_examined_ && examine(context, tangent, determinant);
+  if (!is_ended) report_early_end(context, state);
   return report();
 }
 

@@ -137,11 +137,14 @@ void Statics::watch_stability(const Context& context, const StepReport& report) 
   if (outcome.last_determinant.sign == determinant_sign_) return;
   determinant_sign_ = outcome.last_determinant.sign;
   crossings_.push_back(report.time);
-  context.log.warning(fmt::format(
-      "between the levels {:.6g} and {:.6g} the determinant of the stiffness changes its sign: a "
-      "limit point or a bifurcation was passed, and the equilibrium that was found may be unstable "
-      "or lie on another path; an analysis of type 'Path' shows what is there",
-      report.time - report.increment, report.time));
+  context.findings.warn(
+      "stability",
+      fmt::format("between the levels {:.6g} and {:.6g} the determinant of the stiffness changes "
+                  "its sign: a limit point or a bifurcation was passed, and the equilibrium that "
+                  "was found may be unstable or lie on another path; an analysis of type 'Path' "
+                  "shows what is there",
+                  report.time - report.increment, report.time),
+      report.time);
 }
 
 AnalysisReport Statics::advance(Context& context, model::State& state, Observer& observer) {

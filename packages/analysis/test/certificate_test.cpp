@@ -35,6 +35,7 @@ TEST(Certificate, HoldsForTheConservingScheme) {
   EXPECT_LT(number(certificate, "relative angular momentum drift"), 1e-11);
   EXPECT_NE(certificate.text().find("kept"), std::string::npos);
   EXPECT_EQ(certificate.text().find("BROKEN"), std::string::npos);
+  EXPECT_EQ(certificate.broken(), "");
 }
 
 TEST(Certificate, SeesEnergyAndMomentumThatAppearFromNowhere) {
@@ -47,6 +48,20 @@ TEST(Certificate, SeesEnergyAndMomentumThatAppearFromNowhere) {
   EXPECT_GT(number(certificate, "relative energy drift"), 1e-7);
   EXPECT_GT(number(certificate, "relative linear momentum drift"), 1e-7);
   EXPECT_NE(certificate.text().find("BROKEN"), std::string::npos);
+  EXPECT_NE(certificate.broken().find("energy balance "), std::string::npos);
+  EXPECT_NE(certificate.broken().find(" (kept up to 1e-09), linear momentum "), std::string::npos);
+  EXPECT_EQ(certificate.broken().find("constraints"), std::string::npos);
+}
+
+TEST(Certificate, WhatIsNotANumberIsNotKept) {
+  Motion chain(build_free_chain);
+  Certificate certificate(*chain.system, true);
+  certificate.start(chain.state);
+  run(chain, certificate, 0.05, 1);
+  // the same step once more, with velocities whose energies are beyond all numbers
+  for (double& v : chain.state.velocity) v *= 1e300;
+  certificate.record(chain.state, chain.stencil, 0.0, true);
+  EXPECT_NE(certificate.broken(), "");
 }
 
 TEST(Certificate, PromisesNothingForGeneralisedAlpha) {
@@ -56,6 +71,7 @@ TEST(Certificate, PromisesNothingForGeneralisedAlpha) {
   run(chain, certificate, 0.05, 50);
   EXPECT_GT(number(certificate, "relative energy drift"), 1e-6);
   EXPECT_NE(certificate.text().find("not promised"), std::string::npos);
+  EXPECT_EQ(certificate.broken(), "");
 }
 
 TEST(Certificate, JudgesMomentaThatVanishByTheMotionInside) {

@@ -133,7 +133,7 @@ class Truss : public Observer {
   double load_at(double w) const { return (h_ * h_ - w * w) * w / std::pow(length(), 3); }
 
   AnalysisReport follow() {
-    Context context{*system, *linear, ledger, log};
+    Context context{*system, *linear, ledger, log, findings};
     PathFollowing path(settings);
     return path.run(context, state, *this);
   }
@@ -149,6 +149,7 @@ class Truss : public Observer {
   Ledger ledger;
   std::ostringstream said;
   Log log{said, LogLevel::info};
+  Findings findings{log};
   model::Model model;
   std::unique_ptr<assembly::System> system;
   std::unique_ptr<solver::LinearSolver> linear;
@@ -279,7 +280,7 @@ class SoftlyPushedTruss : public Observer {
     assembly::System system(model, comm, ledger);
     const auto linear = solver::make_rooted_klu2(system.matrix(), comm);
     model::State state = model.initial_state();
-    Context context{system, *linear, ledger, log};
+    Context context{system, *linear, ledger, log, findings};
     PathFollowing path(settings);
     return path.run(context, state, *this);
   }
@@ -299,6 +300,7 @@ class SoftlyPushedTruss : public Observer {
   Ledger ledger;
   std::ostringstream said;
   Log log{said, LogLevel::info};
+  Findings findings{log};
   model::Model model;
 };
 
@@ -333,6 +335,33 @@ TEST(PathFollowing, TellsWhatMovesWhereThePathEnds) {
     EXPECT_NE(text.find("c/0, y"), std::string::npos) << text;
     EXPECT_EQ(text.find("d/0, x"), std::string::npos) << text;
   }
+}
+
+TEST(PathFollowing, SaysWhereStepsEndedThePathBeforeItsTarget) {
+  Truss truss(1.0, 0.5);
+  truss.settings.steps = 3;
+  truss.settings.final_displacement = 1.0;
+  truss.settings.limit_points = 1;
+  truss.follow();
+  ASSERT_EQ(truss.findings.all().size(), 1u);
+  const Finding& finding = truss.findings.all().front();
+  EXPECT_EQ(finding.grade, Finding::Grade::broken);
+  EXPECT_EQ(finding.kind, "path");
+  EXPECT_EQ(finding.time, truss.levels.back());
+  EXPECT_NE(finding.text.find("after 3 steps"), std::string::npos) << finding.text;
+  EXPECT_NE(finding.text.find("displacement 1 m of 'c/0' or limit point 1"), std::string::npos)
+      << finding.text;
+}
+
+TEST(PathFollowing, HasNothingToSayWhereItArrivesOrStepsAreItsOnlyEnd) {
+  Truss arrives(1.0, 0.5);
+  arrives.settings.limit_points = 1;
+  arrives.follow();
+  EXPECT_TRUE(arrives.findings.all().empty());
+  Truss counts(1.0, 0.5);
+  counts.settings.steps = 3;
+  counts.follow();
+  EXPECT_TRUE(counts.findings.all().empty());
 }
 
 TEST(PathFollowing, RefusesAPathOnWhichNothingChanges) {

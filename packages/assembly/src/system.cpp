@@ -142,9 +142,13 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     }
   }
   double largest = 0.0;
+  double sum = 0.0;  // which the maximum of what is not a number is not
   for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
+    sum += target.residual[row];
     if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
   }
+  // items are finite one by one, their sum may not be
+  if (!std::isfinite(sum)) verdict = worse(verdict, Verdict::not_finite);
   double found[4] = {static_cast<double>(verdict), largest, target.force_scale,
                      target.constraint_violation};
   comm_.max(found);

@@ -11,6 +11,9 @@
 namespace culm::assembly {
 namespace {
 
+// Share of the largest change of a velocity that is rounding.
+constexpr double negligible = 1e-9;
+
 // Rates of the six unknowns of a node at the start of the step.
 Vec6 velocity_of(const model::NodeTable& nodes, const model::State& state, int node) {
   return nodes.unknown_motion(node, model::NodeTable::slots(state.velocity, node), state.prev);
@@ -56,6 +59,7 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
     largest = std::max(largest, change.cwiseAbs().maxCoeff());
   }
   state.prev = state.next;
+  std::fill(reactions_.begin(), reactions_.end(), 0.0);
   return comm_.max(largest);
 }
 
@@ -136,7 +140,31 @@ std::vector<double> System::drive_speed(model::State& state, double probe) {
   return speed;
 }
 
-double System::project_velocity(model::State& state, double probe, const Solve& solve_mass) {
+// The largest of all ranks, and what it belongs to there; the lowest where several are equal.
+std::pair<double, int> System::find_largest(double value, int place) const {
+  const double largest = comm_.max(value);
+  const double far = std::numeric_limits<int>::max();
+  const double first = -comm_.max(value == largest && place >= 0 ? -place : -far);
+  return {largest, first < far ? static_cast<int>(first) : -1};
+}
+
+// The equation with the largest entry in its rows; -1 if none is above `largest`.
+int System::largest_equation(std::span<const double> rows, double largest) const {
+  int equation = -1;
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (!local.owned || block.kind != model::BlockKind::multipliers) continue;
+    for (int i = 0; i < block.shape.active; ++i) {
+      const double entry = std::abs(rows[index(local.first_column + i)]);
+      if (entry <= largest) continue;
+      largest = entry;
+      equation = block.owner;
+    }
+  }
+  return find_largest(largest, equation).second;
+}
+
+VelocityFit System::project_velocity(model::State& state, double probe, const Solve& solve_mass) {
   // velocities given to eliminated nodes are those of their masters
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   const std::vector<double> speed = drive_speed(state, probe);
@@ -192,15 +220,20 @@ double System::project_velocity(model::State& state, double probe, const Solve& 
     }
   }
   double largest = 0.0;
+  int node = -1;
   each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
     if (model_.nodes().is_slave(block.owner)) return;  // its master may be elsewhere
     const auto first = static_cast<std::size_t>(model::NodeTable::offset(block.owner));
     for (std::size_t i = first; i < first + 12; ++i) {
-      if (!moves_mass[i / 3]) continue;
-      largest = std::max(largest, std::abs(state.velocity[i] - before[i]));
+      const double moved = std::abs(state.velocity[i] - before[i]);
+      if (!moves_mass[i / 3] || moved <= largest) continue;
+      largest = moved;
+      node = block.owner;
     }
   });
-  return comm_.max(largest);
+  std::fill(reactions_.begin(), reactions_.end(), 0.0);
+  const auto [most, where] = find_largest(largest, node);
+  return {most, where, largest_equation(b, negligible * multiplier_scale_ * most)};
 }
 
 }  // namespace culm::assembly

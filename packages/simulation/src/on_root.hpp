@@ -8,19 +8,23 @@
 
 namespace culm::simulation {
 
-/// Runs `work` on rank 0; a FileError there is thrown on all ranks.
+/// Runs `work` on rank 0; a FileError or NonFiniteError there is thrown on all ranks.
 template <class Work>
 void on_root(const parallel::Comm& comm, Work work) {
-  std::string error;
+  std::string error;  // after its kind
   if (comm.is_root()) {
     try {
       work();
     } catch (const FileError& e) {
-      error = e.what();
+      error = std::string("f") + e.what();
+    } catch (const NonFiniteError& e) {
+      error = std::string("n") + e.what();
     }
   }
   if (comm.size() > 1) error = comm.broadcast(error);
-  if (!error.empty()) throw FileError(error);
+  if (error.empty()) return;
+  if (error.front() == 'f') throw FileError(error.substr(1));
+  throw NonFiniteError(error.substr(1));
 }
 
 }  // namespace culm::simulation

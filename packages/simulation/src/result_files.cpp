@@ -5,6 +5,7 @@
 
 #include "analysis_files.hpp"
 #include "checkpoints.hpp"
+#include "finite.hpp"
 #include "on_root.hpp"
 #include "picture_frames.hpp"
 
@@ -133,6 +134,7 @@ void ResultFiles::record(double time, model::State& state) {
     output::Frame f = frame_of(system_->model(), settings_.layers, state.next);
     f.index = static_cast<int>(frames_);
     f.time = time;
+    if (!is_finite(f)) refuse_infinite(meshes_of(system_->model(), settings_.layers), f);
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
     if (files_->pictures) files_->pictures->add(f);
@@ -152,12 +154,15 @@ void ResultFiles::add_results(const std::string& name, const analysis::AnalysisR
 }
 
 void ResultFiles::finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,
-                         const std::vector<output::NamedTable>& tables) {
+                         const std::vector<output::NamedTable>& tables,
+                         const std::vector<Finding>& findings) {
   on_root(system_->comm(), [&] {
-    files_->recorder.write_report(report, scalars, tables);
+    files_->recorder.write_report(report, scalars, tables, findings);
     files_->recorder.close();
     files_->xdmf.write();
     if (files_->pictures) files_->pictures->write();
+    // whole files of an earlier analysis, which nobody looked at since
+    for (const auto& name : analysis_files_) output::FileIdentity(settings_.folder / name);
   });
 }
 

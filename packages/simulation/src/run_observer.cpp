@@ -1,23 +1,28 @@
 #include "run_observer.hpp"
 
 #include <culm/analysis/unknown_names.hpp>
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
+
+#include "finite.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace culm::simulation {
 namespace {
 
-// The ledger as numbers; what makes no sense for an effect is not a number.
+// Share of the largest force that rounding may leave out of balance without a word.
+constexpr double notable_imbalance = 1e-5;
+
+// The ledger as numbers; what makes no sense for an effect is absent.
 output::NamedTable effects_table(const Ledger& ledger) {
   output::NamedTable table{
       "effects", {"items", "unknowns", "entries per iteration", "calls", "time [s]"}, {}, {}};
   const auto number = [](const std::optional<long long>& count) {
-    return count ? static_cast<double>(*count) : std::numeric_limits<double>::quiet_NaN();
+    return count ? static_cast<double>(*count) : absent;
   };
   for (const Ledger::Entry& e : ledger.entries()) {
     table.rows.push_back({number(e.items), number(e.unknowns), number(e.entries_per_iteration),
@@ -29,10 +34,12 @@ output::NamedTable effects_table(const Ledger& ledger) {
 
 }  // namespace
 
-RunObserver::RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
-                         const DeckSource& source, const EarlierStates& earlier,
-                         const Imperfections& imperfections, Progress progress)
+RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
+                         Checkpoints& checkpoints, const DeckSource& source,
+                         const EarlierStates& earlier, const Imperfections& imperfections,
+                         Progress progress)
     : ledger_(ledger),
+      findings_(findings),
       files_(files),
       checkpoints_(checkpoints),
       source_(source),
@@ -45,29 +52,49 @@ RunObserver::RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkp
   if (checkpoints_.are_active()) checkpoint_effect_ = ledger.add("Checkpoints");
 }
 
-void RunObserver::begin(const std::string& name, std::size_t number, bool is_last,
+void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
                         const analysis::Analysis& analysis, analysis::Context& context,
                         const std::string& linear_solver) {
-  progress_.begin(name);
+  name_ = entry.name();
+  progress_.begin(name_);
+  findings_.begin(name_);
+  loads_.begin(context.system.model());
+  balance_ = {};
   context_ = &context;
   linear_solver_ = linear_solver;
-  name_ = name;
   analysis_ = &analysis;
   number_ = number;
   is_last_ = is_last;
   has_stepped_ = false;
 }
 
-void RunObserver::start(model::State& state) {
-  add_history(state.time, state);
-  record(state.time, state);
+void RunObserver::resume(const Snapshot& snapshot) {
+  loads_.restore(snapshot);
+  const std::vector<double>& balance = snapshot.numbers("run/balance", 3);
+  balance_.scale = balance[0];
+  balance_.residual = balance[1];
+  balance_.time = balance[2];
+  balance_.row = snapshot.text("run/balance row");
 }
 
-void RunObserver::add_history(double time, model::State& state) {
+void RunObserver::start(model::State& state) {
+  if (has_started_) return;
+  has_started_ = is_recorded_ = true;
+  record(state.time, state);
+  add_history(state.time, 0, state);
+}
+
+void RunObserver::add_history(double time, int step, model::State& state) {
   std::vector<double> numbers;
   {
     const Ledger::Scope scope(ledger_, quantities_effect_);
     numbers = files_.evaluate(state);
+    if (!is_finite(numbers)) {
+      const std::string when =
+          step == 0 ? "at the start"
+                    : fmt::format("in step {} of '{}', at {:.8g}", step, name_, time);
+      refuse_infinite(files_.columns(), numbers, when);
+    }
   }
   const Ledger::Scope scope(ledger_, history_effect_);
   files_.add_history(time, numbers);
@@ -80,22 +107,26 @@ void RunObserver::record(double time, model::State& state) {
 
 void RunObserver::step(const analysis::StepReport& report, model::State& state) {
   const auto& outcome = report.outcome;
-  has_stepped_ = true;
-  iterations_ += outcome.iterations;
+  has_stepped_ = false;
   if (report.accepted) {
+    is_recorded_ = true;  // a state beyond the range of numbers is none to keep or to go on from
+    add_history(report.time, report.step, state);
     ++accepted_;
     most_iterations_ = std::max(most_iterations_, outcome.iterations);
     worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
     steps_.rows.push_back({report.time, static_cast<double>(outcome.iterations),
                            outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0});
-    if (outcome.held_unknown) add_held(outcome);
-    add_history(report.time, state);
+    balance_.scale = std::max(balance_.scale, outcome.last.force_scale);
+    if (outcome.held_unknown) add_held(report);
+    loads_.step(context_->system, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) record(report.time, state);
   } else {
     ++rejected_;
   }
+  has_stepped_ = true;
+  iterations_ += outcome.iterations;
   progress_.show(report);
   const Checkpoints::Demand demand = checkpoints_.demand();
   const bool ends = is_last_ && report.is_last;
@@ -104,11 +135,19 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());
 }
 
-void RunObserver::add_held(const solver::StepOutcome& outcome) {
+void RunObserver::add_held(const analysis::StepReport& report) {
+  const solver::StepOutcome& outcome = report.outcome;
+  const std::string row = analysis::UnknownNames(context_->system).name_of(*outcome.held_unknown);
   ++held_;
-  if (outcome.history.back().force <= worst_held_) return;
-  worst_held_ = outcome.history.back().force;
-  worst_held_row_ = analysis::UnknownNames(context_->system).name_of(*outcome.held_unknown);
+  if (outcome.history.back().force > worst_held_) {
+    worst_held_ = outcome.history.back().force;
+    worst_held_row_ = row;
+  }
+  if (outcome.last.force_residual > balance_.residual) {
+    balance_.residual = outcome.last.force_residual;
+    balance_.time = report.time;
+    balance_.row = row;
+  }
 }
 
 void RunObserver::write_checkpoint(model::State& state) {
@@ -128,6 +167,10 @@ void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set("run/ranks", context_->system.comm().size());
   snapshot.set("run/analysis", static_cast<double>(number_));
   source_.save(snapshot);
+  findings_.save(snapshot);
+  loads_.save(snapshot);
+  snapshot.set("run/balance", {balance_.scale, balance_.residual, balance_.time});
+  snapshot.set_text("run/balance row", balance_.row);
   earlier_.save(snapshot);
   imperfections_.save(snapshot);
   snapshot.set(
@@ -149,6 +192,7 @@ void RunObserver::save(Snapshot& snapshot) const {
 }
 
 void RunObserver::restore(const Snapshot& snapshot) {
+  has_started_ = true;
   const std::vector<double>& counts = snapshot.numbers("run/counts", 9);
   accepted_ = static_cast<int>(counts[0]);
   rejected_ = static_cast<int>(counts[1]);
@@ -175,6 +219,9 @@ void RunObserver::restore(const Snapshot& snapshot) {
 
 void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
                                   const model::State& state) {
+  refuse_infinite(name_, report);
+  loads_.report(state, findings_);
+  report_rounding();
   {
     const Ledger::Scope scope(ledger_, states_effect_);
     files_.add_results(name_, report, state);
@@ -186,8 +233,23 @@ void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
   }
 }
 
+// Positions are right to the last digit then, forces are not.
+void RunObserver::report_rounding() {
+  // where nothing acts, forces are nothing but rounding
+  if (balance_.residual == 0.0 || !loads_.any_acted()) return;
+  const double worst = balance_.residual / balance_.scale;
+  if (worst <= notable_imbalance) return;
+  findings_.warn("rounding",
+                 fmt::format("rounding leaves forces out of balance by {:.1e} of the largest one, "
+                             "at {:.6g} in {}, above 'Force Tolerance': stiffnesses differ too "
+                             "much in size",
+                             worst, balance_.time, balance_.row),
+                 balance_.time);
+}
+
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
+  start(state);  // also where a run fails before its first step
   const Ledger::Scope scope(ledger_, states_effect_);
   // a run that fails leaves its last accepted state
   if (!is_recorded_) files_.record(state.time, state);
@@ -200,8 +262,19 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"steps held by rounding", "", static_cast<double>(held_)},
       {"final time", "", state.time}};
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
-  files_.finish(outcome + "\n\n" + certificates_ + convergence() + ledger_.report(), numbers,
-                {effects_table(ledger_), steps_});
+  files_.finish(outcome + "\n\n" + findings() + certificates_ + convergence() + ledger_.report(),
+                numbers, {effects_table(ledger_), steps_}, findings_.all());
+}
+
+std::string RunObserver::findings() const {
+  std::string text;
+  for (const Finding& finding : findings_.all()) {
+    const bool is_broken = finding.grade == Finding::Grade::broken;
+    text += fmt::format("{}: {} ({}{}at {:.6g}): {}\n", is_broken ? "BROKEN" : "warning",
+                        finding.kind, finding.analysis, finding.analysis.empty() ? "" : ", ",
+                        finding.time, finding.text);
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 std::string RunObserver::convergence() const {

@@ -8,29 +8,41 @@
 #include "checkpoints.hpp"
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
+#include "load_watch.hpp"
 
 namespace culm::simulation {
+
+/// How well the steps of an analysis are in balance, beside the largest force of any of them: the
+/// first steps may be all but unloaded.
+struct Balance {
+  double scale = 0.0;     ///< largest force of any item [N, N m]
+  double residual = 0.0;  ///< the largest that rounding held above the tolerance [N, N m]
+  double time = 0.0;      ///< when that was
+  std::string row;        ///< where that was
+};
 
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
   static constexpr int checkpoint_format = 2;
 
-  RunObserver(Ledger& ledger, ResultFiles& files, Checkpoints& checkpoints,
+  RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints& checkpoints,
               const DeckSource& source, const EarlierStates& earlier,
               const Imperfections& imperfections, Progress progress);
 
-  /// Records the reference state.
-  void start(model::State& state);
+  /// Records the state in which the first analysis begins.
+  void start(model::State& state) override;
   /// Goes on from a checkpoint instead.
   void restore(const Snapshot& snapshot);
   /// @param number   of the analysis in the deck, from 0
   /// @param is_last  of the deck: its end is a checkpoint, from which the run can go on to a later
   ///                 one
   /// @param linear_solver its name and why it was taken, for the report
-  void begin(const std::string& name, std::size_t number, bool is_last,
+  void begin(const Options& entry, std::size_t number, bool is_last,
              const analysis::Analysis& analysis, analysis::Context& context,
              const std::string& linear_solver);
+  /// Goes on within an analysis that has begun before.
+  void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
@@ -44,11 +56,15 @@ class RunObserver final : public analysis::Observer {
  private:
   void save(Snapshot& snapshot) const;
   std::string convergence() const;
-  void add_held(const solver::StepOutcome& outcome);
-  void add_history(double time, model::State& state);
+  void add_held(const analysis::StepReport& report);
+  std::string findings() const;
+  /// Says where rounding held a step further out of balance than the deck allows.
+  void report_rounding();
+  void add_history(double time, int step, model::State& state);
   void record(double time, model::State& state);
 
   Ledger& ledger_;
+  Findings& findings_;
   ResultFiles& files_;
   Checkpoints& checkpoints_;
   const DeckSource& source_;
@@ -66,7 +82,10 @@ class RunObserver final : public analysis::Observer {
   std::size_t number_ = 0;
   bool is_last_ = false;
   bool has_stepped_ = false;  // the analysis has something to save
-  bool is_recorded_ = true;   // the last accepted state is on disk
+  bool is_recorded_ = false;  // the last accepted state is on disk, or none to keep
+  bool has_started_ = false;  // the state at the start is on disk
+  LoadWatch loads_;
+  Balance balance_;
   std::string certificates_;
   std::vector<output::NamedScalar> numbers_;
   // the accepted steps, for the report

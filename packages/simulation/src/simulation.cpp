@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <typeinfo>
 #include <utility>
 
 namespace culm::simulation {
@@ -29,6 +30,7 @@ struct Simulation::Parts {
   Options deck;
   DeckSource source;
   Log log;
+  Findings findings = Findings(log);
   Imperfections imperfections = Imperfections(deck);
   Phases phases = Phases(catalogue, deck, imperfections, log);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
@@ -62,14 +64,13 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                      output.flag("Pictures"),
                      read_layer_settings(output.list("Shell"), *phase.model)},
                     phase.watched, from);
-  RunObserver observer(p.ledger, files, checkpoints, p.source, p.earlier, p.imperfections,
-                       Progress(p.log, settings.quiet, settings.terminal));
+  RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
+                       p.imperfections, Progress(p.log, settings.quiet, settings.terminal));
   model::State state = phase.model->initial_state();
   try {
-    if (from == nullptr) {
-      observer.start(state);
-    } else {
+    if (from != nullptr) {
       phase.system->restore(*from, state);
+      p.findings.restore(*from);
       observer.restore(*from);
       p.earlier.restore(*from);
     }
@@ -77,14 +78,16 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   } catch (const Error& error) {
     try {
       observer.end(state, error.what());
-    } catch (const FileError& second) {
-      // the first error is the one to report; of two about files the second only repeats it
-      if (dynamic_cast<const FileError*>(&error) == nullptr) p.log.warning(second.what());
+    } catch (const Error& second) {
+      // the first error is the one to report; of two of a kind the second only repeats it
+      if (typeid(error) != typeid(second)) p.log.warning(second.what());
     }
     throw;
   }
   observer.end(state, "done");
   if (!settings.quiet) p.log.info(observer.closing_words());
+  const std::string verdict = p.findings.verdict(settings.strict);
+  if (!verdict.empty()) throw PromiseBroken(verdict);
 }
 
 void Simulation::run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
@@ -97,10 +100,10 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     Phase& phase = p.phases.enter(i, p.comm, p.ledger);
     if (!resumes) start_analysis(i, state);
     files.use(*phase.system, phase.watched);
-    analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log};
+    analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
     const auto analysis = p.catalogue.analyses.make(entries[i].text("Type"), entries[i]);
-    observer.begin(entries[i].name(), i, i + 1 == entries.size(), *analysis, context,
-                   phase.linear.reason);
+    observer.begin(entries[i], i, i + 1 == entries.size(), *analysis, context, phase.linear.reason);
+    if (resumes) observer.resume(*from);
     try {
       const auto report = resumes ? analysis->resume(context, state, observer, *from)
                                   : analysis->run(context, state, observer);

@@ -6,6 +6,7 @@ import pathlib
 
 from . import effects_table, quantities, removals
 from .errors import CulmError
+from .footnotes import Footnotes
 from .page import Page
 from .resolved_deck import ResolvedDeck
 
@@ -22,6 +23,7 @@ class Outcome:
     entries: int
     changes: dict  # relative change by quantity
     failure: str = ""  # why there is nothing to compare
+    broken: list = dataclasses.field(default_factory=list)  # promises, as sentences
 
     @property
     def change(self):
@@ -61,11 +63,13 @@ def main(arguments, program):
     present = whole.results.effects()
     print("\n" + _text(effects_table.COLUMNS, effects_table.rows(present)))
     print(_text(RANKING, _ranking(outcomes, whole, arguments.accuracy)))
+    for line in _broken_promises(outcomes, whole):
+        print(line)
     print(_advice(outcomes, whole, arguments.accuracy))
     _write_csv(outcomes, whole, folder / "effects.csv")
     _write_page(arguments, present, outcomes, whole, folder / "effects.html")
     print(f"\n{folder / 'effects.html'}")
-    return 0
+    return whole.exit
 
 
 def _wanted(found, only):
@@ -94,7 +98,7 @@ def _compare(removal, whole, run, watched, norm):
         measure.refer_to(state)
         changes.update(measure.sizes(measure.state(run.history) - state))
     changes.update(_changes_of_modes(whole.results.tables(), run.results.tables()))
-    return Outcome(removal, run.cpu, *_size(run.results.effects()), changes)
+    return Outcome(removal, run.cpu, *_size(run.results.effects()), changes, broken=run.broken)
 
 
 def _changes_of_modes(whole, other):
@@ -106,7 +110,7 @@ def _changes_of_modes(whole, other):
             continue
         a = _column(columns, rows)
         b = _column(*others[name])
-        pairs = [(x, y) for x, y in zip(a, b) if x > 0.0]
+        pairs = [(x, y) for x, y in zip(a, b) if x is not None and y is not None and x > 0.0]
         found[f"{name}, frequencies"] = max((abs(y - x) / x for x, y in pairs), default=0.0)
     return found
 
@@ -128,6 +132,8 @@ RANKING = ["without", "of", "largest change", "in", "time", "unknowns", "entries
 def _ranking(outcomes, whole, accuracy):
     unknowns, entries = _size(whole.results.effects())
     rows = []
+    footnotes = Footnotes()
+    footnotes.mark(whole.broken)
     for one in outcomes:
         name = one.removal.effect + (f" ({one.removal.note})" if one.removal.note else "")
         if one.failure:
@@ -143,10 +149,19 @@ def _ranking(outcomes, whole, accuracy):
                 f"{100.0 * (one.cpu / whole.cpu - 1.0):+.0f} %",
                 f"{one.unknowns - unknowns:+d}",
                 f"{one.entries - entries:+d}",
-                "needed" if one.change > accuracy else "not needed",
+                f'{"needed" if one.change > accuracy else "not needed"} {footnotes.mark(one.broken)}'.strip(),
             ]
         )
     return rows
+
+
+def _broken_promises(outcomes, whole):
+    """What the marks in the ranking stand for, and what the whole scene broke."""
+    footnotes = Footnotes()
+    of_whole = footnotes.mark(whole.broken)
+    for one in outcomes:
+        footnotes.mark(one.broken)
+    return ([f"the whole scene: {of_whole}"] if of_whole else []) + footnotes.lines
 
 
 def _per_cent(change):
@@ -179,12 +194,13 @@ def _write_csv(outcomes, whole, path):
     names = sorted({name for one in outcomes for name in one.changes})
     with open(path, "w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(["effect", "of", "time [s]", "unknowns", "entries per iteration", *names, "failure"])
-        writer.writerow(["", "", whole.cpu, *_size(whole.results.effects()), *[0.0 for _ in names], ""])
+        writer.writerow(["effect", "of", "time [s]", "unknowns", "entries per iteration", *names, "failure", "broken promises"])
+        zeros = [0.0 for _ in names]
+        writer.writerow(["", "", whole.cpu, *_size(whole.results.effects()), *zeros, "", "; ".join(whole.broken)])
         for one in outcomes:
             numbers = [one.changes.get(name, "") for name in names]
             about = [one.removal.effect, one.removal.where, one.cpu, one.unknowns, one.entries]
-            writer.writerow([*about, *numbers, one.failure])
+            writer.writerow([*about, *numbers, one.failure, "; ".join(one.broken)])
 
 
 def _write_page(arguments, present, outcomes, whole, path):
@@ -193,7 +209,10 @@ def _write_page(arguments, present, outcomes, whole, path):
     page.heading("What it contains")
     page.table(effects_table.COLUMNS, effects_table.rows(present))
     page.heading("What happens without")
-    page.table(RANKING, _ranking(outcomes, whole, arguments.accuracy))
+    broken = [i for i, one in enumerate(outcomes) if one.broken]
+    page.table(RANKING, _ranking(outcomes, whole, arguments.accuracy), broken)
+    for line in _broken_promises(outcomes, whole):
+        page.paragraph(line, "broken")
     figure = _draw(outcomes, whole, arguments.accuracy)
     page.figure(figure, "change of what is watched, and of the time, without each effect")
     figure.savefig(path.with_suffix(".png"), dpi=110)

@@ -1,10 +1,12 @@
 """The history of a run, as it stands in history.csv."""
 
 import csv
+import math
 
 
 class History:
-    """Columns of history.csv by name, such as 'tip ux [m]', and the levels of its rows."""
+    """Columns of history.csv by name, such as 'tip ux [m]', and the levels of its rows. Where a cell is
+    empty, because the quantity does not exist there, stands nan."""
 
     def __init__(self, path):
         with open(path, newline="") as file:
@@ -12,7 +14,7 @@ class History:
         self.names = rows[0][1:]
         self.levels = [float(row[0]) for row in rows[1:]]
         self.columns = {
-            name: [float(row[i + 1]) for row in rows[1:]] for i, name in enumerate(self.names)
+            name: [float(row[i + 1] or math.nan) for row in rows[1:]] for i, name in enumerate(self.names)
         }
 
     def row(self, level):

@@ -13,6 +13,8 @@ th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #
 pre{background:#f6f6f4;padding:.8rem;overflow-x:auto;font-size:.82rem;line-height:1.35}
 img{max-width:100%}p.advice{background:#eef4ea;border-left:4px solid #6a9a4a;padding:.6rem 1rem}
 p.warning{background:#fbf0e6;border-left:4px solid #c77a30;padding:.6rem 1rem}
+p.broken{background:#fbe4e4;border-left:4px solid #c02020;padding:.6rem 1rem;color:#901010;font-weight:600}
+tr.broken td{color:#c02020}
 @media print{body{max-width:none;margin:0}h2{break-after:avoid}table,img,pre{break-inside:avoid}}
 """
 
@@ -30,19 +32,24 @@ class Page:
         self.parts.append(f"<h2>{html.escape(text)}</h2>")
 
     def paragraph(self, text, kind=""):
-        """@param kind '', 'advice' or 'warning'"""
+        """@param kind '', 'advice', 'warning' or 'broken'"""
         attribute = f' class="{kind}"' if kind else ""
         self.parts.append(f"<p{attribute}>{html.escape(text)}</p>")
 
     def code(self, text):
         self.parts.append(f"<pre>{html.escape(text)}</pre>")
 
-    def table(self, columns, rows):
-        """Cells are texts; the first column is aligned to the left."""
+    def table(self, columns, rows, broken=()):
+        """Cells are texts; the first column is aligned to the left.
+
+        @param broken  numbers of rows to stand in red
+        """
         head = "".join(f"<th>{html.escape(c)}</th>" for c in columns)
         body = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(str(c))}</td>" for c in row) + "</tr>\n"
-            for row in rows
+            ('<tr class="broken">' if number in broken else "<tr>")
+            + "".join(f"<td>{html.escape(str(c))}</td>" for c in row)
+            + "</tr>\n"
+            for number, row in enumerate(rows)
         )
         self.parts.append(f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>")
 

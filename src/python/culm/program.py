@@ -21,7 +21,9 @@ EXITS = {
     5: "not finite",
     6: "file error",
     7: "stopped",
+    8: "done, a promise is broken",
 }
+DONE = (0, 8)  # the results are whole
 
 
 @dataclasses.dataclass
@@ -37,7 +39,7 @@ class Run:
 
     @property
     def succeeded(self):
-        return self.exit == 0
+        return self.exit in DONE
 
     @property
     def outcome(self):
@@ -59,6 +61,11 @@ class Run:
         """run.h5; None if the run did not come so far."""
         path = self.folder / "run.h5"
         return Results(path) if path.exists() else None
+
+    @property
+    def broken(self):
+        """The promises that a run broke which came to its end, as sentences."""
+        return [str(one) for one in self.results.findings() if one.is_broken] if self.exit == 8 else []
 
 
 class Program:

@@ -43,6 +43,8 @@ def write_page(results, folder, output):
         "The run came to its end." if done else outcome.split("\n\n")[0] or "No end is recorded.",
         "advice" if done else "warning",
     )
+    for finding in results.findings():
+        page.paragraph(str(finding), "broken" if finding.is_broken else "warning")
     _add_model(page, results, drawing)
     _add_histories(page, folder, drawing)
     _add_steps(page, results, drawing)
@@ -111,7 +113,7 @@ def _add_steps(page, results, drawing):
 def _add_tables(page, results):
     for name, columns, rows, remarks in results.tables():
         page.heading(name)
-        shown = [[f"{value:.6g}" for value in row] for row in rows[:40]]
+        shown = [["" if value is None else f"{value:.6g}" for value in row] for row in rows[:40]]
         if remarks:
             columns = [*columns, "remark"]
             shown = [[*row, remark] for row, remark in zip(shown, remarks)]

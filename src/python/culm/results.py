@@ -1,7 +1,6 @@
 """The result file of a run, run.h5."""
 
 import dataclasses
-import math
 
 import h5py
 import numpy
@@ -17,6 +16,21 @@ class Effect:
     entries: int | None  # additions to the matrix per iteration
     calls: int
     seconds: float
+
+
+@dataclasses.dataclass
+class Finding:
+    """What the user of a run must know."""
+
+    is_broken: bool  # a promise does not hold; otherwise a warning
+    kind: str
+    text: str
+    analysis: str
+    time: float  # [s], or level
+
+    def __str__(self):
+        where = f"{self.analysis}, at {self.time:.6g}" if self.analysis else f"at {self.time:.6g}"
+        return f"{self.kind} ({where}): {self.text}"
 
 
 @dataclasses.dataclass
@@ -77,8 +91,30 @@ class Results:
             data = file["report/effects"]
             return [
                 Effect(_text(name), *map(_count, row[:3]), int(row[3]), float(row[4]))
-                for name, row in zip(data.attrs["remarks"], data[()])
+                for name, row in zip(data.attrs["remarks"], _rows(data))
             ]
+
+    def findings(self):
+        """Broken promises and warnings in the order in which they were found."""
+        with h5py.File(self.path) as file:
+            return [
+                Finding(
+                    _text(one.attrs["grade"]) == "broken",
+                    *(_text(one.attrs[name]) for name in ("kind", "text", "analysis")),
+                    float(one.attrs["time"]),
+                )
+                for one in file.get("report/findings", {}).values()
+            ]
+
+    def history(self):
+        """Rows of time and quantities; None where a quantity does not exist."""
+        with h5py.File(self.path) as file:
+            return _rows(file["history/values"])
+
+    def states(self):
+        """Numbers of the recorded states."""
+        with h5py.File(self.path) as file:
+            return sorted(int(step.attrs["index"]) for step in file["steps"].values())
 
     def steps(self):
         """The accepted steps."""
@@ -105,7 +141,7 @@ class Results:
             }
 
     def tables(self):
-        """Tables of analyses: (name, columns, rows, remarks)."""
+        """Tables of analyses: (name, columns, rows, remarks); None in a row where there is no number."""
         tables = []
         with h5py.File(self.path) as file:
             for analysis, group in file.get("analyses", {}).items():
@@ -113,7 +149,7 @@ class Results:
                     if isinstance(data, h5py.Dataset) and data.ndim == 2:
                         columns = [_text(c) for c in data.attrs["names"]]
                         remarks = [_text(r) for r in data.attrs.get("remarks", [])]
-                        tables.append((f"{analysis}: {name}", columns, data[()].tolist(), remarks))
+                        tables.append((f"{analysis}: {name}", columns, _rows(data), remarks))
         return tables
 
 
@@ -129,5 +165,11 @@ def _text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def _rows(data):
+    """A table as lists, with None for the mark of what is absent."""
+    mark = data.attrs["_FillValue"]
+    return [[None if number == mark else number for number in row] for row in data[()].tolist()]
+
+
 def _count(number):
-    return None if math.isnan(number) else int(number)
+    return None if number is None else int(number)

@@ -5,6 +5,8 @@ import math
 import pathlib
 from collections.abc import Callable
 
+from ..program import DONE
+
 GOOD = "good"
 CUT = "cut back"
 INACCURATE = "inaccurate"
@@ -56,7 +58,7 @@ def judge(evidence, checks):
     faults = find_faults(run)
     if faults:
         return Verdict(FAULTY, "; ".join(faults), False)
-    if run.exit != 0:
+    if run.exit not in DONE:  # whether a promise that was broken matters is for the checks to say
         return Verdict(FAILED, f"exit {run.exit}: {cause(run)}", True)
     for check in checks:
         value = check.measure(evidence)
@@ -80,7 +82,7 @@ def judge_ill_posed(run, exit_code, says):
 
 def find_faults(run):
     """What no run may do, whatever is asked of it; a list of few words."""
-    if run.exit not in (0, 3, 4, 5):
+    if run.exit not in (*DONE, 3, 4, 5):
         return [run.outcome]
     faults = []
     if run.history is not None and not _is_finite(run.history.columns.values()):

@@ -76,7 +76,9 @@ def main(arguments, program):
     judgement = Judgement(axes, arguments.set, runs, _plan(arguments, deck, axes))
     promise = _write_target(judgement, program, arguments, folder) if arguments.target else None
     _write(judgement, deck, arguments, folder, promise)
-    return 4 if arguments.target and not (folder / TARGET).exists() else 0
+    if arguments.target and not (folder / TARGET).exists():
+        return 4
+    return 8 if judgement.has_broken_promises else 0
 
 
 def _check(arguments):
@@ -188,6 +190,8 @@ def _write(judgement, deck, arguments, folder, promise):
 
     print()
     print(outputs.table(*outputs.columns_and_rows(judgement)))
+    for line in outputs.broken_promises(judgement):
+        print(line)
     print()
     for line in [outputs.explanation(judgement), *judgement.notes, *outputs.orders(judgement)]:
         print(line)

@@ -86,6 +86,12 @@ class Judgement:
         self._refer()
         self.lines = self._lines()
 
+    @property
+    def has_broken_promises(self):
+        """Whether a run that this rests on broke one."""
+        records = [point.record for point in self.points.values()]
+        return any(one.broken for one in [*records, *(record for _, record in self.reference_runs)])
+
     # ---- the grid
 
     def settings(self, index):
@@ -257,6 +263,7 @@ class Judgement:
             self.reference_runs.append((index, record))
             if record.succeeded:
                 self._histories[index] = record.history()
+                self.notes += [f"The reference {self.label(index)} broke a promise: {s}" for s in record.broken]
             else:
                 self.notes.append(f"The reference {self.label(index)} failed: {record.reason}")
 

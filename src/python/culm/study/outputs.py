@@ -4,6 +4,7 @@ import csv
 import pathlib
 
 from .. import drawing
+from ..footnotes import Footnotes
 from ..page import Page
 from . import advice
 
@@ -18,6 +19,7 @@ def columns_and_rows(judgement):
     names = [axis.leaf for axis in judgement.axes]
     columns = [*names, "CPU [s]", "spread", *titles, *(f"({title})" for title in held_out), ""]
     best = {id(point) for point in advice.front(judgement.points.values())}
+    footnotes = Footnotes()
     rows = []
     for index, point in judgement.points.items():
         values = [axis.value(i) for axis, i in zip(judgement.axes, index)]
@@ -33,10 +35,18 @@ def columns_and_rows(judgement):
                 f"{min(times):.3g}–{max(times):.3g}",
                 *(f"{point.errors[title]:.2e}" for title in titles),
                 *(f"{point.held_out[title]:.2e}" for title in held_out),
-                _remark(point, id(point) in best),
+                _remark(point, id(point) in best, footnotes),
             ]
         )
     return columns, rows
+
+
+def broken_promises(judgement):
+    """What the marks in the table stand for; empty where all runs kept their promises."""
+    footnotes = Footnotes()
+    for point in judgement.points.values():
+        footnotes.mark(point.record.broken)
+    return footnotes.lines
 
 
 def table(columns, rows):
@@ -68,7 +78,7 @@ def write_csv(judgement, path):
             + ["outcome", "cpu median [s]", "cpu least [s]", "cpu most [s]"]
             + [f"error of {title}" for title in first.errors]
             + [f"error of {title}, held out" for title in first.held_out]
-            + ["uncertainty of the reference"]
+            + ["uncertainty of the reference", "broken promises"]
         )
         for index, point in judgement.points.items():
             values = [axis.value(i) for axis, i in zip(judgement.axes, index)]
@@ -78,7 +88,8 @@ def write_csv(judgement, path):
             times = point.record.times
             numbers = [point.record.cpu, min(times), max(times), *point.errors.values()]
             numbers += [*point.held_out.values(), point.uncertainty]
-            writer.writerow([*values, "done", *(f"{number:.6g}" for number in numbers)])
+            broken = "; ".join(point.record.broken)
+            writer.writerow([*values, "done", *(f"{number:.6g}" for number in numbers), broken])
 
 
 def write_reference(judgement, path):
@@ -130,7 +141,10 @@ def write_page(judgement, title, command, path, figure, promise=None):
             ],
         )
     page.heading("Runs")
-    page.table(*columns_and_rows(judgement))
+    broken = [i for i, point in enumerate(judgement.points.values()) if point.record.broken]
+    page.table(*columns_and_rows(judgement), broken)
+    for line in broken_promises(judgement):
+        page.paragraph(line, "broken")
     reasons = [
         f"{judgement.label(i)}: {p.record.reason}" for i, p in judgement.points.items() if not p.succeeded
     ]
@@ -157,8 +171,11 @@ def explanation(judgement):
     )
 
 
-def _remark(point, is_best):
-    remarks = ["Pareto"] if is_best else []
+def _remark(point, is_best, footnotes):
+    mark = footnotes.mark(point.record.broken)
+    remarks = [mark] if mark else []
+    if is_best:
+        remarks.append("Pareto")
     if not point.is_judged:
         remarks.append("not judged: within the uncertainty")
     return ", ".join(remarks)

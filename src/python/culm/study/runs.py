@@ -11,6 +11,7 @@ import statistics
 
 from ..errors import CulmError
 from ..history import History
+from ..program import DONE
 from ..results import Results
 
 
@@ -23,11 +24,12 @@ class Record:
     outcome: str
     reason: str  # of a failure, in the words of the program
     times: list  # CPU [s] of runs that nothing disturbed
+    broken: list  # promises, as sentences, of a run that came to its end
     folder: object
 
     @property
     def succeeded(self):
-        return self.exit == 0
+        return self.exit in DONE
 
     @property
     def cpu(self):
@@ -90,13 +92,14 @@ class StudyRuns:
             shutil.rmtree(old, ignore_errors=True)
         run = self._call(settings, part)
         times = [run.cpu] if timed and run.succeeded else []
-        record = Record(list(settings), run.exit, run.outcome, _reason(run), times, part)
+        record = Record(list(settings), run.exit, run.outcome, _reason(run), times, run.broken, part)
         if run.succeeded and not (part / "history.csv").exists():
             raise CulmError("the deck has no analysis that writes a history", 3)
         _keep(record)
         os.replace(part, folder)
         record.folder = folder
         reason = "" if run.succeeded else f": {record.reason}"
+        reason += "".join(f"; BROKEN: {sentence}" for sentence in record.broken)
         self.say(f"{run.cpu:9.2f} s  {label}{reason}")
         return record
 

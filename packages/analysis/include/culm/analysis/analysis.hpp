@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/shape.hpp>
+#include <culm/base/findings.hpp>
 #include <culm/base/log.hpp>
 #include <culm/base/snapshot.hpp>
 #include <culm/solver/newton_solver.hpp>
@@ -28,6 +29,9 @@ struct StepReport {
 class Observer {
  public:
   virtual ~Observer() = default;
+  /// Called where an analysis that was not resumed begins, when positions and velocities fit the
+  /// constraints and before the first step.
+  virtual void start(model::State&) {}
   /// Called after each attempt. When it was accepted, state.next is the new equilibrium, up to date
   /// on all ranks only after System::synchronise.
   virtual void step(const StepReport& report, model::State& state) = 0;
@@ -39,6 +43,7 @@ struct Context {
   solver::LinearSolver& linear;
   Ledger& ledger;
   const Log& log;
+  Findings& findings;  ///< what the user must know: `warn` and `broken` say and keep it
 };
 
 /// Numbers in rows for result files.
@@ -81,6 +86,8 @@ class Analysis {
   virtual ~Analysis() = default;
 
   AnalysisReport run(Context& context, model::State& state, Observer& observer) {
+    fit(context, state);
+    observer.start(state);
     start(context, state);
     return advance(context, state, observer);
   }
@@ -94,6 +101,8 @@ class Analysis {
   virtual void save(const Context& context, Snapshot& snapshot) const = 0;
 
  private:
+  /// Brings positions and velocities to where the analysis can begin.
+  virtual void fit(Context&, model::State&) {}
   /// Looks at the present state and prepares the first step.
   virtual void start(Context& context, model::State& state) = 0;
   /// Takes over what save wrote. Throws FileError if it does not fit.

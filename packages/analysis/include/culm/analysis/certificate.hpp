@@ -37,14 +37,26 @@ class Certificate {
   /// Whether nothing holds the model from outside, so that its momenta are kept.
   bool is_free() const;
 
+  /// The promises that do not hold, as "energy balance 2.1e-07 (kept up to 1e-09)"; empty if all
+  /// do.
+  std::string broken() const;
   /// A table for the user: balances, drifts, verdicts.
   std::string text() const;
   /// The same as numbers.
   std::vector<std::pair<std::string, double>> numbers() const;
 
  private:
+  /// A line of the table with a verdict.
+  struct Line {
+    std::string name;
+    double drift = 0.0;  ///< relative
+    double promise = 0.0;
+    bool is_promised = true;
+  };
+
   template <class Self>
   static auto memory(Self& self);
+  std::vector<Line> lines() const;
   void compare(const model::State& state);
   double energy_scale() const;
   double linear_scale() const;

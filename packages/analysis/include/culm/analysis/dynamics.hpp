@@ -34,6 +34,7 @@ class Dynamics final : public Analysis {
   void save(const Context& context, Snapshot& snapshot) const override;
 
  private:
+  void fit(Context& context, model::State& state) override;
   void start(Context& context, model::State& state) override;
   void restore(Context& context, const Snapshot& snapshot) override;
   AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;

@@ -67,6 +67,10 @@ class PathFollowing final : public Analysis {
   /// Throws NumericalError if loads stop growing with the level at this one.
   void refuse_end_of_loads(Context& context, model::State& state) const;
   bool is_at_end(const Context& context, const model::State& state) const;
+  bool is_on_target(const Context& context, const model::State& state) const;
+  bool passed_limit_points() const;
+  /// Says where the number of steps ended the path before it reached what the deck names.
+  void report_early_end(Context& context, const model::State& state) const;
   StepReport attempt(Context& context, model::State& state);
   /// Where an attempt went beyond the end of the path, goes back to it.
   void land(Context& context, model::State& state, solver::StepOutcome& outcome);

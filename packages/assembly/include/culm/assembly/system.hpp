@@ -8,6 +8,8 @@
 
 #include <functional>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace culm::assembly {
@@ -26,6 +28,19 @@ struct Energies {
   double strain = 0.0;     ///< [J]
   double potential = 0.0;  ///< of loads that have one [J]
   double total() const { return kinetic + strain + potential; }
+};
+
+/// Where the forces of a load go at a state.
+struct LoadShare {
+  double whole = 0.0;   ///< largest force on any unknown, taken away by a support or not [N, N m]
+  double moving = 0.0;  ///< the same of what supports at its nodes do not take [N, N m]
+};
+
+/// A change of velocities by which they fit the constraints.
+struct VelocityFit {
+  double change = 0.0;  ///< the largest [m/s, 1/s]
+  int node = -1;        ///< where that is; -1 where nothing changes
+  int equation = -1;    ///< of the model, the one that was violated most; -1 if none was
 };
 
 /// Owns residual and matrix; the model is borrowed.
@@ -90,11 +105,10 @@ class System {
   Motions spread_motions(const std::vector<double>& numbers) const;
   /// Makes the velocity follow from supports, links and constraints: the nearest one in the metric
   /// of the mass, H v = dg/dt. The speed of prescribed motions is found by differences over times
-  /// up to `probe` [s]. `solve_mass` solves with the matrix as it stands when it is called.
-  /// @source formulation 4.7
-  /// @return largest change of a velocity [m/s, 1/s]
+  /// up to `probe` [s]. `solve_mass` solves with the matrix as it stands when it is called. There
+  /// are no reactions afterwards until the next evaluation. @source formulation 4.7
   using Solve = std::function<void(const Vector& b, Vector& x)>;
-  double project_velocity(model::State& state, double probe, const Solve& solve_mass);
+  VelocityFit project_velocity(model::State& state, double probe, const Solve& solve_mass);
 
   /// Strain energy of all elements [J].
   double strain_energy(const model::Coordinates& q) const;
@@ -113,8 +127,15 @@ class System {
   /// The share of one constraint that is kept as equations, by its name.
   Vec6 reaction_of(const std::string& constraint, int node, const model::State& state) const;
 
+  /// What of a dead or follower load at state.next supports take: those that take unknowns away and
+  /// those on single nodes that are equations. Collective; changes neither residual() nor
+  /// reactions.
+  /// @param load  one of the model, with nothing to remember
+  LoadShare share_of(model::Batch& load, const model::State& state) const;
+
   /// Moves state.next to where all constraints hold at state.time, from there on as the nearest
   /// configuration in the metric of the mass. `solve_mass` as in project_velocity.
+  /// There are no reactions afterwards until the next evaluation.
   /// @return largest change of a coordinate [m, 1]; infinite if they cannot be made to hold
   double project_position(model::State& state, const Solve& solve_mass);
 
@@ -126,6 +147,8 @@ class System {
 
  private:
   Vec6 equation_reaction(const std::string& constraint, int node, const model::State& state) const;
+  std::pair<double, int> find_largest(double value, int place) const;
+  int largest_equation(std::span<const double> rows, double largest) const;
   double largest_diagonal() const;
   std::vector<double> gather_carried() const;
   void restore_carried(const std::vector<double>& all);

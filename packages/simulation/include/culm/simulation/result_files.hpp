@@ -44,7 +44,7 @@ struct ResultSettings {
 };
 
 /// Gathers states and writes them on rank 0. All functions are called on all ranks, and throw
-/// FileError on all of them.
+/// FileError on all of them; record() and add_results() NonFiniteError, too.
 class ResultFiles {
  public:
   /// @param drawn  has the geometry that displacements in pictures start from
@@ -58,6 +58,8 @@ class ResultFiles {
   /// How much there is, under "output/".
   void save(Snapshot& snapshot) const;
 
+  /// The columns of the history.
+  std::vector<output::HistoryColumn> columns() const;
   /// The watched quantities of a state.
   std::vector<double> evaluate(model::State& state) const;
   /// Adds a row of them to the history.
@@ -72,7 +74,7 @@ class ResultFiles {
                    const model::State& state);
   /// Ends the files with the report of the run.
   void finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,
-              const std::vector<output::NamedTable>& tables);
+              const std::vector<output::NamedTable>& tables, const std::vector<Finding>& findings);
   /// Paths of the files that a user opens.
   std::vector<std::filesystem::path> paths() const;
 
@@ -87,7 +89,6 @@ class ResultFiles {
 
   void open(const std::vector<output::StructureMesh>& meshes);
   void reopen(const std::vector<output::StructureMesh>& meshes);
-  std::vector<output::HistoryColumn> columns() const;
 
   assembly::System* system_;
   ResultSettings settings_;

@@ -24,6 +24,7 @@ struct RunSettings {
   std::filesystem::path folder;  ///< for results
   bool quiet = false;
   bool terminal = false;  ///< standard output is a terminal
+  bool strict = false;    ///< warnings count as broken promises
 };
 
 /// Builds the model of a deck and runs its analyses. The same on all ranks.
@@ -38,7 +39,8 @@ class Simulation {
 
   /// Runs all analyses and writes results. On NumericalError or NonFiniteError the files hold
   /// everything up to the last accepted step, and the post-mortem as report. Throws Stopped when a
-  /// signal or the end of the time allowed stopped the run.
+  /// signal or the end of the time allowed stopped the run, and PromiseBroken when it came to its
+  /// end but not all that culm promises holds.
   /// @param from  checkpoint of an earlier run in this folder, to go on with
   void run(const RunSettings& settings, const StopRequest& request, const Snapshot* from = nullptr);
 

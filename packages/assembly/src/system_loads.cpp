@@ -1,0 +1,79 @@
+#include <culm/assembly/system.hpp>
+
+#include "block_values.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <map>
+
+namespace culm::assembly {
+namespace {
+
+// How h of a row changes with the slots of its only node.
+model::NodeSlots slot_gradient(const model::ConstraintRow& row, const model::NodeSlots& q) {
+  const Eigen::Map<const Eigen::RowVector4d> alpha(row.alpha.data());
+  if (row.linear()) return row.direction * alpha;
+  const Eigen::Map<const Eigen::RowVector4d> beta(row.beta.data());
+  const Vec3 P = q * alpha.transpose();
+  const Vec3 Q = row.direction + q * beta.transpose();
+  return Q * alpha + P * beta;
+}
+
+// The directions in the unknowns of each node in which equations on it alone hold it.
+std::map<int, Eigen::MatrixXd> held_directions(const model::Model& model,
+                                               const model::Coordinates& q) {
+  std::map<int, Eigen::MatrixXd> held;
+  for (const model::Constraint& c : model.equations()) {
+    if (c.nodes.size() != 1 || !c.velocity_rows.empty()) continue;
+    const model::UnknownTable& unknowns = model.unknowns();
+    const int node = c.nodes.front();
+    const model::Block& block = unknowns.block(unknowns.node_block(node));
+    if (block.owner != node) continue;  // it follows another node
+    Eigen::MatrixXd& directions = held[block.owner];
+    for (const model::ConstraintRow& row : c.rows) {
+      const model::NodeSlots gradient = slot_gradient(row, model::NodeTable::slots(q, node));
+      directions.conservativeResize(block.shape.active, directions.cols() + 1);
+      for (int i = 0; i < block.shape.width; ++i) {
+        const int at = block.shape.position[index(i)];
+        if (at < 0) continue;
+        std::array<double, 12> unit{};
+        unit[index(i)] = 1.0;
+        directions(at, directions.cols() - 1) =
+            gradient.cwiseProduct(slot_motion(model, node, unit, q)).sum();
+      }
+    }
+  }
+  return held;
+}
+
+}  // namespace
+
+LoadShare System::share_of(model::Batch& load, const model::State& state) const {
+  Vector forces(layout_.row_map());
+  std::vector<double> taken(reactions_.size(), 0.0);
+  model::Target target;
+  target.residual = values_of(forces);
+  target.reactions = taken;
+  target.row_begin = row_begin_;
+  load.assemble(state, Stencil::statics(), Want::residual, target);
+  const auto held = held_directions(model_, state.next);
+  LoadShare share;
+  for (const double force : taken) share.whole = std::max(share.whole, std::abs(force));
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (!local.owned || block.kind != model::BlockKind::node || block.shape.active == 0) continue;
+    Eigen::VectorXd f = Eigen::Map<const Eigen::VectorXd>(
+        target.residual.data() + local.first_column, block.shape.active);
+    share.whole = std::max(share.whole, f.lpNorm<Eigen::Infinity>());
+    const auto at = held.find(block.owner);
+    if (at != held.end()) {
+      const Eigen::MatrixXd& directions = at->second;
+      f -= directions * directions.colPivHouseholderQr().solve(f);
+    }
+    share.moving = std::max(share.moving, f.lpNorm<Eigen::Infinity>());
+  }
+  return {comm_.max(share.whole), comm_.max(share.moving)};
+}
+
+}  // namespace culm::assembly

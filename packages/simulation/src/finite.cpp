@@ -1,0 +1,102 @@
+#include "finite.hpp"
+
+#include <culm/base/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::simulation {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, double value, const std::string& when) {
+  throw NonFiniteError(
+      fmt::format("{} became {} {}.\n"
+                  "Likely cause: a load, stiffness or length beyond the range of numbers.\n"
+                  "Try: check units and load functions.",
+                  what, std::isnan(value) ? "not a number" : "infinite", when));
+}
+
+const double* find_infinite(std::span<const double> values) {
+  const auto at =
+      std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return at == values.end() ? nullptr : &*at;
+}
+
+bool is_finite_node(const output::StructureState& state, std::size_t node) {
+  return state.positions[node].allFinite() &&
+         (state.triads.empty() || state.triads[node].allFinite());
+}
+
+}  // namespace
+
+bool is_finite(std::span<const double> values) { return find_infinite(values) == nullptr; }
+
+bool is_finite(const output::Frame& frame) {
+  return std::all_of(
+      frame.structures.begin(), frame.structures.end(), [](const output::StructureState& s) {
+        const auto is_sound = [](const std::vector<double>& values) { return is_finite(values); };
+        for (std::size_t node = 0; node < s.positions.size(); ++node) {
+          if (!is_finite_node(s, node)) return false;
+        }
+        return std::all_of(s.resultants.begin(), s.resultants.end(), is_sound) &&
+               std::all_of(s.cell_values.begin(), s.cell_values.end(), is_sound);
+      });
+}
+
+void refuse_infinite(const std::vector<output::HistoryColumn>& columns,
+                     std::span<const double> values, const std::string& when) {
+  const double* found = find_infinite(values);
+  internal_check(found != nullptr, "all values are finite");
+  const auto column = static_cast<std::size_t>(found - values.data());
+  refuse(fmt::format("The watched '{}'", columns[column].name), *found, when);
+}
+
+void refuse_infinite(const std::vector<output::StructureMesh>& meshes, const output::Frame& frame) {
+  const std::string when = fmt::format("at {:.8g}", frame.time);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const output::StructureMesh& mesh = meshes[s];
+    const output::StructureState& state = frame.structures[s];
+    for (std::size_t node = 0; node < state.positions.size(); ++node) {
+      if (is_finite_node(state, node)) continue;
+      refuse(fmt::format("The position of node {} of '{}'", node, mesh.name),
+             state.positions[node].sum(), when);
+    }
+    for (std::size_t cell = 0; cell < state.resultants.size(); ++cell) {
+      const double* found = find_infinite(state.resultants[cell]);
+      if (found == nullptr) continue;
+      const auto at = static_cast<std::size_t>(found - state.resultants[cell].data());
+      refuse(fmt::format("{} of element {} of '{}'", mesh.resultant_names[at], cell, mesh.name),
+             *found, when);
+    }
+    for (std::size_t a = 0; a < state.cell_values.size(); ++a) {
+      const double* found = find_infinite(state.cell_values[a]);
+      if (found == nullptr) continue;
+      const auto at = static_cast<std::size_t>(found - state.cell_values[a].data());
+      refuse(fmt::format("The {} of element {} of '{}'", mesh.cell_arrays[a].name,
+                         at / mesh.cell_arrays[a].columns.size(), mesh.name),
+             *found, when);
+    }
+  }
+  throw InternalError("all values are finite");
+}
+
+void refuse_infinite(const std::string& analysis, const analysis::AnalysisReport& report) {
+  const std::string when = fmt::format("in the analysis '{}'", analysis);
+  for (const auto& [name, value] : report.numbers) {
+    if (!std::isfinite(value)) refuse(fmt::format("The {}", name), value, when);
+  }
+  for (const analysis::ReportTable& table : report.tables) {
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const double* found = find_infinite(table.rows[row]);
+      if (found == nullptr) continue;
+      const auto column = static_cast<std::size_t>(found - table.rows[row].data());
+      refuse(fmt::format("'{}' in row {} of the table '{}'", table.columns[column], row + 1,
+                         table.name),
+             *found, when);
+    }
+  }
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Takes files away from a living run: it must end with exit code 6 and name the file.
+
+usage: vanishing.py --culm PROGRAM [--mpiexec PROGRAM --ranks N]
+"""
+
+import argparse
+import pathlib
+import shutil
+import sys
+import tempfile
+
+from resume import INPUTS, Failure, Program, demand, kill_tree, settings, wait_for
+
+LONG = [INPUTS / "body/heavy_top.xml", "--quiet", *settings("Output/Every=1", "Output/Checkpoints=false")]
+ENDLESS = settings("Analyses/motion/End Time=600")
+REMOVED = "was removed or renamed while the run was writing it\n"
+REPLACED = "was replaced by another file while the run was writing it\n"
+
+
+def remove(path):
+    path.unlink()
+
+
+def replace(path):
+    other = path.with_suffix(".other")
+    other.write_text("mine")
+    other.replace(path)
+
+
+def remove_folder(path):
+    shutil.rmtree(path.parent, ignore_errors=True)
+
+
+def rename_folder(path):
+    path.parent.rename(path.parent.with_name("elsewhere"))
+
+
+# what is done to which file; what is said of it
+CASES = [
+    ("run.h5", remove, REMOVED),
+    ("run.h5", replace, REPLACED),
+    ("history.csv", remove, REMOVED),
+    ("history.csv", replace, REPLACED),
+    ("run.xdmf", remove, REMOVED),
+    ("run.pvd", replace, REPLACED),
+    ("run_vtu", shutil.rmtree, "cannot write: No such file or directory\n"),
+    ("run.h5", remove_folder, None),
+    ("run.h5", rename_folder, None),
+]
+
+
+def vanish(program, folder, name, action, says):
+    """At some step of a run that has no end; at once for all but indices, which wait for their time."""
+    process = program.start("run", *LONG, *ENDLESS, "--output", "out")
+    history = folder / "out/history.csv"
+    try:
+        wait_for(process, lambda: history.exists() and history.stat().st_size > 3000, "no steps")
+        action(folder / "out" / name)
+        code, _, err = program.finish(process)
+    finally:
+        if process.poll() is None:
+            kill_tree(process)
+    demand(code == 6, f"exit code {code}: {err}")
+    named = f"out/{name}" if says else "out/"  # without a folder any file may be the first
+    demand(named in err and (not says or err.count(says) == 1), f"stderr is {err}")
+    mine = folder / "out" / name
+    demand(action is not replace or mine.read_text() == "mine", f"{name} was overwritten")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True)
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--ranks", type=int, default=1)
+    options = parser.parse_args()
+    failed = 0
+    for name, action, says in CASES if options.ranks == 1 else CASES[:1]:
+        with tempfile.TemporaryDirectory(prefix="culm-vanishing-") as path:
+            folder = pathlib.Path(path)
+            try:
+                vanish(Program(options, folder), folder, name, action, says)
+                outcome = "passed"
+            except Failure as failure:
+                outcome = f"FAILED: {failure}"
+                failed += 1
+            print(f"{action.__name__} {name}: {outcome}", flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
