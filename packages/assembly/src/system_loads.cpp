@@ -57,15 +57,17 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
   target.reactions = taken;
   target.row_begin = row_begin_;
   load.assemble(state, Stencil::statics(), Want::residual, target);
-  const auto held = held_directions(model_, state.next);
   LoadShare share;
   for (const double force : taken) share.whole = std::max(share.whole, std::abs(force));
+  for (const double force : target.residual) share.whole = std::max(share.whole, std::abs(force));
+  share.whole = comm_.max(share.whole);
+  if (share.whole == 0.0) return share;  // it does not act now
+  const auto held = held_directions(model_, state.next);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = model_.unknowns().block(local.block);
     if (!local.owned || block.kind != model::BlockKind::node || block.shape.active == 0) continue;
     Eigen::VectorXd f = Eigen::Map<const Eigen::VectorXd>(
         target.residual.data() + local.first_column, block.shape.active);
-    share.whole = std::max(share.whole, f.lpNorm<Eigen::Infinity>());
     const auto at = held.find(block.owner);
     if (at != held.end()) {
       const Eigen::MatrixXd& directions = at->second;
@@ -73,7 +75,8 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
     }
     share.moving = std::max(share.moving, f.lpNorm<Eigen::Infinity>());
   }
-  return {comm_.max(share.whole), comm_.max(share.moving)};
+  share.moving = comm_.max(share.moving);
+  return share;
 }
 
 }  // namespace culm::assembly
