@@ -226,7 +226,7 @@ CASES = [
         "help of a verb",
         0,
         args="run --help",
-        prints=["deck TEXT REQUIRED", "--set TEXT", "--quiet", "--output TEXT"],
+        prints=["deck TEXT REQUIRED", "--set TEXT", "--quiet", "--output TEXT", "--strict", "8 done, all results"],
     ),
     Case(
         "check counts and leaves nothing",
