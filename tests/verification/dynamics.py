@@ -61,8 +61,8 @@ def verify_flips(culm, report):
 
 
 def centres_of_mass(culm, deck, elements):
-    """Times and centres of mass of equal elements with uniform mass."""
-    settings = ["Output/Every=1"]
+    """Times and centres of mass of equal elements of order 1 with uniform mass."""
+    settings = ["Output/Every=1", "Structures/beam/Order=1", f"Structures/beam/Curve/Elements={elements}"]
     for node in range(elements + 1):
         settings += [f"Output/History/n{node}/Type=Position", f"Output/History/n{node}/Node=beam/{node}"]
     history = culm.history(deck, settings)

@@ -135,9 +135,12 @@ Schema beam_schema() {
                   "Director: positions and directors are interpolated. Helical: two nodes, exact "
                   "for constant strain.")
                .optional("Director"))
-      .add(integer("Order", "Order of interpolation of director elements: nodes minus one.")
-               .between(1, 3)
-               .optional(1))
+      .add(
+          integer("Order",
+                  "Order of interpolation of director elements: nodes of an element minus one. "
+                  "`Elements` counts elements of this order, N of them have N * `Order` + 1 nodes.")
+              .between(1, 3)
+              .optional(2))
       .add(
           choice("Fidelity", {"Full", "Kirchhoff", "Linear", "Rigid"},
                  "Full: geometrically exact. Kirchhoff: without shear and extension. Linear: small "
@@ -160,12 +163,12 @@ Schema beam_schema() {
                .optional(0.0))
       .list_by_type("Curve", axes().variants())
       .check([](const Options& beam, InputIssues& issues) {
-        if (beam.text("Element") == "Helical" && beam.integer("Order") != 1) {
+        const bool is_helical = beam.text("Element") == "Helical";
+        if (is_helical && beam.given("Order") && beam.integer("Order") != 1) {
           issues.add(beam.where("Order"), "helical elements have two nodes: leave 'Order' out");
         }
         const std::string& fidelity = beam.text("Fidelity");
-        if (beam.text("Element") == "Helical" &&
-            (fidelity == "Kirchhoff" || fidelity == "Linear")) {
+        if (is_helical && (fidelity == "Kirchhoff" || fidelity == "Linear")) {
           issues.add(beam.where("Fidelity"), "needs director elements, got helical ones");
         }
       });

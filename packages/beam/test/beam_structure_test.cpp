@@ -60,7 +60,7 @@ class BeamStructure : public testing::Test {
 };
 
 const GivenValues director_2{{"Section", std::string("tube")}, {"Order", 2}};
-const GivenValues director_1{{"Section", std::string("tube")}};
+const GivenValues director_1{{"Section", std::string("tube")}, {"Order", 1}};
 const GivenValues helical{{"Section", std::string("tube")}, {"Element", std::string("Helical")}};
 
 TEST_F(BeamStructure, HasNodesCellsSetsAndOutlines) {
@@ -147,7 +147,8 @@ TEST_F(BeamStructure, TapersBetweenItsSections) {
   thick.stiffness *= 3.0;
   sections["root"] = thick;
   add_line({{"Sections", std::vector<std::string>{"root", "tube"}},
-            {"Section Positions", Numbers{0.0, 1.0}}},
+            {"Section Positions", Numbers{0.0, 1.0}},
+            {"Order", 1}},
            2);
   const auto& batch = model::elements<DirectorBeam<1>>(model, "Beam, director, order 1");
   const Vec6 e = Vec6::Unit(3);

@@ -37,7 +37,7 @@ Schema tube_schema() {
       .add(number("Outer Radius", "m", "Radius of the outer circle.").positive())
       .add(number("Wall Thickness", "m", "Thickness of the wall.").positive())
       .add(integers("Elements", "Around, for shells, and along.").at_least(1).size(2))
-      .add(integer("Order", "Order of the elements of the beam.").between(1, 3).optional(1))
+      .add(integer("Order", "Order of the elements of the beam.").between(1, 3).optional(2))
       .add(choice("Fidelity", {"Full", "Kirchhoff", "Linear", "Rigid"}, "Of the beam, see there.")
                .optional("Full"))
       .add(choice(

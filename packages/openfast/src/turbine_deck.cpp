@@ -264,6 +264,7 @@ void write_structures(const ElastoDyn& turbine, const Layout& layout, double tow
   }
   deck.set("Sections", names);
   deck.set("Section Positions", heights);
+  deck.set("Order", blade_mesh.order);
   if (tower_damping > 0.0) deck.set("Damping", tower_damping);
   deck.open("Curve", "Line");
   deck.set("From", Vec3(0.0, 0.0, turbine.tower_base));
