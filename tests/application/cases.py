@@ -723,7 +723,10 @@ CASES = [
             ('<ParameterList name="beam">', '@@<ParameterList name="beam">'),
         ],
         silent=True,
-        says=["warning: deck.xml:{line}: Structures / beam: the ends of an element are turned by "],
+        says=[
+            "warning: deck.xml:{line}: Structures / beam: element 0 of 'beam', of order 1, is turned by 0.393 rad "
+            "between its ends before any load: its strain energy under a given load is 17.2 % too high; take ",
+        ],
         results="out",
         last_level=1.0,
         ranks=True,

@@ -112,7 +112,9 @@ def verify_limit(culm, report):
     report.check("exit code", failed.exit, 4, 0)
     level = float(re.search(r"beyond level (\S+) of", failed.errors).group(1))
     report.check("last level", level, 12 / (4.0 * math.pi), 2e-5)
-    report.check("says 'limit point'", failed.errors.count("limit point"), 1, 0)
+    named = failed.errors.count("the limit of a coarse mesh")
+    report.check("names the mesh", named, 1, 0)
+    report.check("blames the structure", failed.errors.count("a limit point"), 0, 0)
 
 
 def verify_other_elements(culm, report):

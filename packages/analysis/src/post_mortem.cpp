@@ -1,3 +1,4 @@
+#include <culm/analysis/element_turns.hpp>
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/base/error.hpp>
 
@@ -21,6 +22,30 @@ constexpr double singular_ratio = 2e-15;  // |A v| / |A| of a direction that not
 constexpr const char* beyond_range =
     "Likely cause: a load, stiffness or length beyond the range of numbers.\n"
     "Try: check units and load functions.";
+
+// What elements themselves have to do with it, which comes before what the structure has.
+struct CoarseMesh {
+  std::string words;
+  bool is_the_cause = false;
+};
+
+CoarseMesh judge_mesh(const assembly::System& system, const model::State& state,
+                      const char* time_word) {
+  const ElementTurns turns(system);
+  const double share = turns.largest_share(state.next);
+  if (share <= 1.0) return {};
+  const ElementTurn turn = turns.find(state.next, share);
+  if (!turn.may_be_the_limit()) {
+    return {fmt::format("The model is coarse here: {}:\n{}.\n", turn.name(), turn.consequence())};
+  }
+  return {fmt::format("Likely cause: the limit of {}. At {} {:.6g}\n{};\n"
+                      "its moment grows up to {:.3g} rad only, that of the structure beyond.\n"
+                      "Try: {}.",
+                      turn.kind.of_frame ? "a beam of small rotations" : "a coarse mesh", time_word,
+                      state.time, turn.name(), model::TurnLaw(turn.kind.order).greatest_moment(),
+                      turn.cure()),
+          true};
+}
 
 // entries without any symmetry, the same for any number of ranks
 void fill_irregular(Vector& v) {
@@ -230,7 +255,9 @@ void PostMortem::give_up(model::State& state, const Stencil& stencil, std::optio
   if (not_finite) {
     text += beyond_range;
   } else {
-    text += cause(state, stencil);
+    const CoarseMesh mesh = judge_mesh(context_.system, state, time_word());
+    text += mesh.words;
+    if (!mesh.is_the_cause) text += cause(state, stencil);
   }
   text = context_.system.comm().broadcast(text);
   if (not_finite) throw NonFiniteError(text);

@@ -13,10 +13,6 @@ namespace culm::beam {
 
 namespace {
 
-// Beyond this relative rotation per element the error of linear directors, 2/3 of its square, is
-// more than three percent. @source formulation 1.3.4
-constexpr double director_1_turn = 0.2;
-
 AxisRegistry axes() {
   AxisRegistry registry;
   register_axes(registry);
@@ -109,19 +105,12 @@ void number_as_in_deck(int refinement, const std::vector<int>& nodes, model::Str
   }
 }
 
-void check_turn(ElementKind kind, double turn, const Options& options,
-                const StructureContext& context) {
+void check_turn(ElementKind kind, double turn, const Options& options) {
   if (kind == ElementKind::helical && turn >= HelicalBeam::max_rotation) {
     throw InputError(options.list("Curve").where(),
                      fmt::format("the ends of an element are turned by {:.3g} rad against each "
                                  "other; helical elements need less than {:g}: take more elements",
                                  turn, HelicalBeam::max_rotation));
-  }
-  if (kind == ElementKind::director_1 && turn > director_1_turn) {
-    context.log.warning(fmt::format(
-        "{}: the ends of an element are turned by {:.2g} rad against each other; director elements "
-        "of order 1 are good below {:g}: take more elements, a higher order or helical elements",
-        to_string(options.where()), turn, director_1_turn));
   }
 }
 
@@ -211,7 +200,7 @@ void add_beam(const Options& options, StructureContext& context) {
   if (velocity_dissipation > 0.0 && !is_rigid) {
     model::VelocityDissipation::of(context.model).add_body(structure.nodes, velocity_dissipation);
   }
-  if (!is_rigid) check_turn(kind, largest_turn, options, context);
+  if (!is_rigid) check_turn(kind, largest_turn, options);
 }
 
 }  // namespace culm::beam

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+
 namespace culm::beam {
 
 namespace {
@@ -68,6 +70,16 @@ typename DirectorBeam<Order>::Strain DirectorBeam<Order>::absolute_strain(const 
     e[3 + i] = 0.5 * (df.col(1 + j).dot(f.col(1 + k)) - df.col(1 + k).dot(f.col(1 + j)));
   }
   return e;
+}
+
+template <int Order>
+double DirectorBeam<Order>::least_cosine(const Nodes& q) noexcept {
+  double least = 1.0;
+  for (int a = 0; a < Order; ++a) {
+    least = std::min(least, model::cosine_between(q.template middleCols<4>(4 * a),
+                                                  q.template middleCols<4>(4 * a + 4)));
+  }
+  return least;
 }
 
 template <int Order>

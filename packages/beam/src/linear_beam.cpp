@@ -1,5 +1,7 @@
 #include <culm/beam/linear_beam.hpp>
 
+#include <algorithm>
+
 namespace culm::beam {
 
 template <int Order>
@@ -23,6 +25,17 @@ typename LinearBeam<Order>::Local LinearBeam<Order>::in_frame(const Nodes& q) no
   Local v = q.template rightCols<beam_slots>();
   for (int s = 0; s < beam_slots; s += 4) v.col(s) -= q.col(0);
   return q.template middleCols<3>(1).transpose() * v;
+}
+
+template <int Order>
+double LinearBeam<Order>::least_cosine(const Nodes& q) const noexcept {
+  const Local local = in_frame(q);
+  double least = 1.0;
+  for (int s = 0; s < beam_slots; s += 4) {
+    least = std::min(least, model::cosine_between(local.template middleCols<4>(s),
+                                                  reference_.template middleCols<4>(s)));
+  }
+  return least;
 }
 
 template <int Order>

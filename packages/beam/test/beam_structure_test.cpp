@@ -156,19 +156,6 @@ TEST_F(BeamStructure, TapersBetweenItsSections) {
   EXPECT_LT((batch.element(0).resultants(0, e) - 2.5 * section().stiffness.col(3)).norm(), 1e-14);
 }
 
-TEST_F(BeamStructure, WarnsOfCoarseMeshesOfOrderOneOnly) {
-  const GivenValues quarter{{"Centre", Numbers{0, 0, 0}},
-                            {"Axis", Numbers{0, 0, 1}},
-                            {"From", Numbers{2, 0, 0}},
-                            {"Angle", 1.5},
-                            {"Elements", 5}};
-  add(director_1, "Arc", quarter);
-  EXPECT_THAT(messages.str(), HasSubstr("the ends of an element are turned by 0.3 rad"));
-  messages.str("");
-  add(helical, "Arc", quarter);
-  EXPECT_EQ(messages.str(), "");
-}
-
 TEST_F(BeamStructure, RefusesHelicalElementsTurnedTooFar) {
   EXPECT_THROW(add(helical, "Arc",
                    {{"Centre", Numbers{0, 0, 0}},

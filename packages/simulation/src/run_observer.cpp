@@ -37,7 +37,7 @@ output::NamedTable effects_table(const Ledger& ledger) {
 RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
                          Checkpoints& checkpoints, const DeckSource& source,
                          const EarlierStates& earlier, const Imperfections& imperfections,
-                         Progress progress)
+                         const analysis::ElementTurn& reference_turn, Progress progress)
     : ledger_(ledger),
       findings_(findings),
       files_(files),
@@ -45,6 +45,8 @@ RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
       source_(source),
       earlier_(earlier),
       imperfections_(imperfections),
+      reference_turn_(reference_turn),
+      turn_(reference_turn),
       progress_(std::move(progress)),
       quantities_effect_(ledger.add("Quantities")),
       history_effect_(ledger.add("Output, history")),
@@ -62,6 +64,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   balance_ = {};
   context_ = &context;
   linear_solver_ = linear_solver;
+  turns_.emplace(context.system);
   analysis_ = &analysis;
   number_ = number;
   is_last_ = is_last;
@@ -119,6 +122,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
                            outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0});
     balance_.scale = std::max(balance_.scale, outcome.last.force_scale);
     if (outcome.held_unknown) add_held(report);
+    watch_turns(report.time, state);
     loads_.step(context_->system, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) record(report.time, state);
@@ -137,17 +141,31 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
 
 void RunObserver::add_held(const analysis::StepReport& report) {
   const solver::StepOutcome& outcome = report.outcome;
-  const std::string row = analysis::UnknownNames(context_->system).name_of(*outcome.held_unknown);
+  const double share = outcome.history.back().force;
+  const double residual = outcome.last.force_residual;
   ++held_;
-  if (outcome.history.back().force > worst_held_) {
-    worst_held_ = outcome.history.back().force;
+  if (share <= worst_held_ && residual <= balance_.residual) return;
+  const std::string row = analysis::UnknownNames(context_->system).name_of(*outcome.held_unknown);
+  if (share > worst_held_) {
+    worst_held_ = share;
     worst_held_row_ = row;
   }
-  if (outcome.last.force_residual > balance_.residual) {
-    balance_.residual = outcome.last.force_residual;
+  if (residual > balance_.residual) {
+    balance_.residual = residual;
     balance_.time = report.time;
     balance_.row = row;
   }
+}
+
+// A turn that grows a little from step to step is not looked up in each.
+void RunObserver::watch_turns(double time, const model::State& state) {
+  constexpr double noticeable = 1.001;
+  const double share = turns_->largest_share(state.next);
+  if (share <= noticeable * turn_.share) return;
+  turn_.share = share;
+  if (share <= 1.0) return;
+  turn_ = turns_->find(state.next, share);
+  turn_.place = fmt::format("at {:.6g} of '{}'", time, name_);
 }
 
 void RunObserver::write_checkpoint(model::State& state) {
@@ -180,6 +198,7 @@ void RunObserver::save(Snapshot& snapshot) const {
        worst_constraint_, is_recorded_ ? 1.0 : 0.0, static_cast<double>(held_), worst_held_});
   snapshot.set_text("run/held row", worst_held_row_);
   snapshot.set_text("run/certificates", certificates_);
+  turn_.save(snapshot);
   std::vector<double> steps;
   for (const auto& row : steps_.rows) steps.insert(steps.end(), row.begin(), row.end());
   snapshot.set("run/steps", std::move(steps));
@@ -205,6 +224,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
   worst_held_ = counts[8];
   worst_held_row_ = snapshot.text("run/held row");
   certificates_ = snapshot.text("run/certificates");
+  turn_.restore(snapshot);
   const std::vector<double>& steps = snapshot.numbers("run/steps");
   const std::size_t columns = steps_.columns.size();
   for (std::size_t i = 0; i + columns <= steps.size(); i += columns) {
@@ -247,8 +267,16 @@ void RunObserver::report_rounding() {
                  balance_.time);
 }
 
+// Once, and not again what was said of the reference.
+void RunObserver::report_turns(double time) {
+  constexpr double noticeable = 1.05;
+  const double told = reference_turn_.share > 1.0 ? noticeable * reference_turn_.share : 1.0;
+  if (turn_.share > told) findings_.warn("turned element", turn_.warning(), time);
+}
+
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
+  report_turns(state.time);
   start(state);  // also where a run fails before its first step
   const Ledger::Scope scope(ledger_, states_effect_);
   // a run that fails leaves its last accepted state
@@ -261,6 +289,13 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
       {"worst constraint violation", "", worst_constraint_},
       {"steps held by rounding", "", static_cast<double>(held_)},
       {"final time", "", state.time}};
+  if (turn_.share > 0.0) {
+    numbers.push_back({"largest turn of an element, of what it is good for", "", turn_.share});
+  }
+  if (turn_.share > 1.0) {
+    numbers.push_back({"largest turn of an element", "rad", turn_.turn});
+    numbers.push_back({"error of its strain energy, estimate", "", turn_.errors().energy});
+  }
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.end());
   files_.finish(outcome + "\n\n" + findings() + certificates_ + convergence() + ledger_.report(),
                 numbers, {effects_table(ledger_), steps_}, findings_.all());

@@ -1,6 +1,7 @@
 /// Sees every step of a run: results, progress, statistics.
 #pragma once
 
+#include <culm/analysis/element_turns.hpp>
 #include <culm/simulation/progress.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/result_files.hpp>
@@ -9,6 +10,8 @@
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
 #include "load_watch.hpp"
+
+#include <optional>
 
 namespace culm::simulation {
 
@@ -28,7 +31,8 @@ class RunObserver final : public analysis::Observer {
 
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints& checkpoints,
               const DeckSource& source, const EarlierStates& earlier,
-              const Imperfections& imperfections, Progress progress);
+              const Imperfections& imperfections, const analysis::ElementTurn& reference_turn,
+              Progress progress);
 
   /// Records the state in which the first analysis begins.
   void start(model::State& state) override;
@@ -60,6 +64,8 @@ class RunObserver final : public analysis::Observer {
   std::string findings() const;
   /// Says where rounding held a step further out of balance than the deck allows.
   void report_rounding();
+  void watch_turns(double time, const model::State& state);
+  void report_turns(double time);
   void add_history(double time, int step, model::State& state);
   void record(double time, model::State& state);
 
@@ -70,6 +76,8 @@ class RunObserver final : public analysis::Observer {
   const DeckSource& source_;
   const EarlierStates& earlier_;
   const Imperfections& imperfections_;
+  const analysis::ElementTurn& reference_turn_;  // the largest one before any load
+  analysis::ElementTurn turn_;                   // the largest one so far
   std::string linear_solver_;
   Progress progress_;
   Ledger::Id quantities_effect_;
@@ -87,6 +95,7 @@ class RunObserver final : public analysis::Observer {
   LoadWatch loads_;
   Balance balance_;
   std::string certificates_;
+  std::optional<analysis::ElementTurns> turns_;  // of the analysis
   std::vector<output::NamedScalar> numbers_;
   // the accepted steps, for the report
   output::NamedTable steps_{

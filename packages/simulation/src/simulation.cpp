@@ -1,3 +1,4 @@
+#include <culm/analysis/element_turns.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/deck/resolved.hpp>
@@ -35,13 +36,30 @@ struct Simulation::Parts {
   Phases phases = Phases(catalogue, deck, imperfections, log);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
   Ledger ledger = {};
-  std::size_t present = 0;  ///< the analysis whose phase the state belongs to
+  std::size_t present = 0;               ///< the analysis whose phase the state belongs to
+  analysis::ElementTurn reference_turn;  ///< the largest one without load; its share tells if any
+
+  void warn_of_reference();
 };
+
+// Shapes that elements are too coarse for before any load.
+void Simulation::Parts::warn_of_reference() {
+  const Phase& phase = phases.of(0);
+  const analysis::ElementTurns turns(*phase.system);
+  const model::Coordinates& reference = phase.model->nodes().reference();
+  const double share = turns.largest_share(reference);
+  if (share <= 1.0) return;
+  reference_turn = turns.find(reference, share);
+  reference_turn.place = "before any load";
+  const Where where = deck.list("Structures").list(reference_turn.structure).where();
+  findings.warn("turned element", to_string(where) + ": " + reference_turn.warning(), 0.0);
+}
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log)
     : parts_(new Parts{comm, catalogue, deck, std::move(source), log}) {
   parts_->phases.enter(0, comm, parts_->ledger);
+  parts_->warn_of_reference();
 }
 
 Simulation::~Simulation() = default;
@@ -65,7 +83,8 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                      read_layer_settings(output.list("Shell"), *phase.model)},
                     phase.watched, from);
   RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
-                       p.imperfections, Progress(p.log, settings.quiet, settings.terminal));
+                       p.imperfections, p.reference_turn,
+                       Progress(p.log, settings.quiet, settings.terminal));
   model::State state = phase.model->initial_state();
   try {
     if (from != nullptr) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/mechanics/element.hpp>
+#include <culm/model/turn_source.hpp>
 
 #include <array>
 
@@ -23,6 +24,7 @@ class DirectorBeam {
   static constexpr int num_mass_points = Order + 1;
   static constexpr int num_strains = 6;
   static constexpr int num_resultants = 6;
+  static constexpr model::TurnKind turn_kind{Order, false};
 
   using Strain = Vec<num_strains>;
   using Nodes = Slots<num_slots>;
@@ -53,6 +55,9 @@ class DirectorBeam {
   static constexpr std::array<const char*, num_resultants> resultant_names() {
     return {"N1", "N2", "N3", "M1", "M2", "M3"};
   }
+
+  /// Cosine of the largest turn between neighbouring nodes
+  static double least_cosine(const Nodes& q) noexcept;
 
   /// Strain of the reference before subtraction: (d_i . x', K_i) [-, 1/m]
   const Strain& reference_strain(int point) const noexcept { return at(point).reference; }
@@ -88,6 +93,7 @@ extern template class DirectorBeam<2>;
 extern template class DirectorBeam<3>;
 
 static_assert(Element<DirectorBeam<1>> && Element<DirectorBeam<2>> && Element<DirectorBeam<3>>);
-static_assert(HasStiffness<DirectorBeam<1>> && HasResultants<DirectorBeam<1>>);
+static_assert(HasStiffness<DirectorBeam<1>> && HasResultants<DirectorBeam<1>> &&
+              model::HasTurn<DirectorBeam<1>>);
 
 }  // namespace culm::beam

@@ -22,6 +22,7 @@ class KirchhoffBeam {
   static constexpr int num_points = Base::num_points;
   static constexpr int num_strains = 3;
   static constexpr int num_resultants = 3;
+  static constexpr model::TurnKind turn_kind = Base::turn_kind;
 
   using Strain = Vec<num_strains>;
   using Nodes = typename Base::Nodes;
@@ -47,6 +48,8 @@ class KirchhoffBeam {
   static constexpr std::array<const char*, num_resultants> resultant_names() {
     return {"M1", "M2", "M3"};
   }
+
+  static double least_cosine(const Nodes& q) noexcept { return Base::least_cosine(q); }
 
  private:
   Base base_;

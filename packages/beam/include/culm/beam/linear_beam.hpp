@@ -23,6 +23,8 @@ class LinearBeam {
   static constexpr int num_points = Base::num_points;
   static constexpr int num_strains = 6;
   static constexpr int num_resultants = 6;
+  /// Directors turn by sin Δ instead of Δ, so the whole beam behaves as one element of order 1.
+  static constexpr model::TurnKind turn_kind{1, true};
 
   using Strain = Vec<num_strains>;
   using Nodes = Slots<num_slots>;
@@ -49,6 +51,9 @@ class LinearBeam {
   static constexpr std::array<const char*, num_resultants> resultant_names() {
     return Base::resultant_names();
   }
+
+  /// Cosine of the largest turn of a node against the frame, from where it stood in the reference
+  double least_cosine(const Nodes& q) const noexcept;
 
  private:
   static constexpr int beam_slots = Base::num_slots;

@@ -11,7 +11,9 @@
 #include <culm/model/model.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/strain_damping.hpp>
+#include <culm/model/turn_source.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <type_traits>
@@ -26,7 +28,10 @@ concept BatchElement = Element<E> || ElementWithInternals<E>;
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
 /// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
 template <BatchElement E>
-class ElementBatch final : public Batch, public MassSource, public ResultantSource {
+class ElementBatch final : public Batch,
+                           public MassSource,
+                           public ResultantSource,
+                           public TurnSource {
  public:
   static constexpr int N = E::num_nodes;
   static constexpr int S = E::num_slots;
@@ -248,6 +253,39 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
     out.insert(out.end(), mean.data(), mean.data() + mean.size());
   }
 
+  std::optional<TurnKind> turn_kind() const override {
+    if constexpr (HasTurn<E>) return E::turn_kind;
+    return {};
+  }
+
+  double largest_turn([[maybe_unused]] const Coordinates& q) const override {
+    double least = 1.0;
+    if constexpr (HasTurn<E>) {
+      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+        const int item = placement_.items[i];
+        if (placement_.owned[i]) least = std::min(least, least_cosine(item, q));
+      }
+    }
+    return turn_from(least);
+  }
+
+  int first_turned([[maybe_unused]] const Coordinates& q,
+                   [[maybe_unused]] double turn) const override {
+    if constexpr (HasTurn<E>) {
+      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+        const int item = placement_.items[i];
+        if (placement_.owned[i] && turn_of(item, q) >= turn) return item;
+      }
+    }
+    return -1;
+  }
+
+  double turn_of([[maybe_unused]] int item, [[maybe_unused]] const Coordinates& q) const override {
+    double least = 1.0;
+    if constexpr (HasTurn<E>) least = least_cosine(item, q);
+    return turn_from(least);
+  }
+
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
   static constexpr bool has_internals = ElementWithInternals<E>;
@@ -293,6 +331,13 @@ class ElementBatch final : public Batch, public MassSource, public ResultantSour
   }
 
   ItemSlots gather(int item, const Coordinates& q) const { return gather_slots<K>(nodes(item), q); }
+  double least_cosine(int item, const Coordinates& q) const requires HasTurn<E> {
+    return element(item).least_cosine(gather(item, q));
+  }
+  static double turn_from(double cosine) {
+    if constexpr (HasTurn<E>) return E::turn_kind.order * std::acos(std::clamp(cosine, -1.0, 1.0));
+    return 0.0;
+  }
   Motion motion_of(std::size_t i, const State& state, double theta) const {
     return Motion(nodes_, nodes(placement_.items[i]), state, theta, form_);
   }
