@@ -1,3 +1,4 @@
+#include <culm/base/text.hpp>
 #include <culm/deck/resolved.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/simulation.hpp>
@@ -23,9 +24,11 @@ void check(const parallel::Comm& comm, const CheckArguments& arguments) {
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);
-  log.info(simulation::Simulation(comm, catalogue, deck, source, log).summary() +
-           "the deck is sound");
+  simulation::Simulation simulation(comm, catalogue, deck, source, log);
+  log.info(std::string(trim(simulation.summary())));
   if (!arguments.resolved.empty() && comm.is_root()) write_resolved(deck, arguments.resolved);
+  simulation.examine();
+  log.info("the deck is sound");
 }
 
 }  // namespace culm::app

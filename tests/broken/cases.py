@@ -883,6 +883,18 @@ EQUATIONS = [
         ranks=True,
     ),
     left_out(
+        "Rigid Support twice",
+        CLAMP + support("clamp 2", "Rigid Support"),
+        "Rigid Support 'clamp' and Rigid Support 'clamp 2' hold motions of 'beam/0' more than once: "
+        "x, y, z, rotation x, rotation y, rotation z",
+        ranks=True,
+    ),
+    left_out(
+        "Rigid Support and Simple Support",
+        CLAMP + support("roller", "Simple Support", ("Direction", "{0, 0, 1}")),
+        "Rigid Support 'clamp' and Simple Support 'roller' hold motions of 'beam/0' more than once: z;",
+    ),
+    left_out(
         "loop of rigid links",
         LOOP,
         "Rigid Connection 'third', Rigid Connection 'first' and Rigid Connection 'second'"
@@ -1017,6 +1029,15 @@ for form in ("Null Space", "Multipliers"):
             says=[SINGULAR + MECHANISM, "\n  beam/0, z ", "\n'beam' ", "; nothing holds it\n"],
             ranks=null_space,
             **of_form,
+        ),
+        Case(
+            f"check finds what nothing holds, {form}",
+            4,
+            change=[(CLAMP, ""), ('"Null Space"', f'"{form}"')],
+            args="check deck.xml",
+            says=[SINGULAR + MECHANISM, "\n'beam' ", "; nothing holds it\n"],
+            silent=False,
+            ranks=null_space,
         ),
         unsolvable(
             f"nothing holds the rotation about the axis, {form}",

@@ -4,6 +4,8 @@
 #include <culm/model/model.hpp>
 #include <culm/model/redundancy.hpp>
 
+#include "repeated_supports.hpp"
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -224,8 +226,12 @@ std::vector<std::string> Model::freeze(Form form) {
   }
   std::vector<bool> has_internal(static_cast<std::size_t>(nodes_.size()), true);
   NodeTable linked = nodes_;
+  std::vector<const Constraint*> eliminated_supports;
   for (const Constraint* c : ordered) {
-    if (form == Form::null_space && eliminate(*c)) continue;
+    if (form == Form::null_space && eliminate(*c)) {
+      if (c->fix) eliminated_supports.push_back(c);
+      continue;
+    }
     equations_.push_back(*c);
     // in a loop of links somebody has to keep the directors
     const bool closes_loop = c->link && !linked.link(c->link->slave, c->link->master);
@@ -234,8 +240,11 @@ std::vector<std::string> Model::freeze(Form form) {
     if (replaced >= 0) has_internal[static_cast<std::size_t>(replaced)] = false;
   }
   refuse_displaced_supports(length());
-  std::vector<std::string> notes;
-  if (!keeps_redundant_rows_) notes = remove_redundant_equations(form);
+  std::vector<std::string> notes = notes_on_repeated_supports(*this, eliminated_supports);
+  if (!keeps_redundant_rows_) {
+    const std::vector<std::string> of_equations = remove_redundant_equations(form);
+    notes.insert(notes.end(), of_equations.begin(), of_equations.end());
+  }
   if (form == Form::multipliers) {
     for (int node = 0; node < nodes_.size(); ++node) {
       const bool has_triad = nodes_.kind(node) == NodeKind::node12;

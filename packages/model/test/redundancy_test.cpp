@@ -1,4 +1,5 @@
 #include <culm/math/rotation.hpp>
+#include <culm/model/model.hpp>
 #include <culm/model/redundancy.hpp>
 
 #include <Eigen/Geometry>
@@ -109,6 +110,70 @@ TEST(Redundancy, JointsBetweenHeldNodesVanish) {
   ASSERT_EQ(sets.size(), 5U - 4U);  // rows of one constraint are one set
   EXPECT_EQ(sets[0].dependent.size(), 5U);
   EXPECT_EQ(sets[0].kind, Kind::structural);
+}
+
+// Takes unknowns of a node away.
+Constraint support(const std::string& name, int node, const char* unknowns) {
+  Constraint c;
+  c.type = "Support";
+  c.name = name;
+  c.nodes = {node};
+  c.fix = {node, std::bitset<6>(unknowns)};
+  return c;
+}
+
+class RepeatedSupports : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (int i = 0; i < 3; ++i) {
+      NodeSlots slots;
+      slots << Vec3(i, 0.0, 0.0), Mat3::Identity();
+      model.add_structure(std::string(1, static_cast<char>('a' + i))).nodes = {
+          model.nodes().add(slots)};
+    }
+  }
+  Model model;
+};
+
+TEST_F(RepeatedSupports, AreNamedWithNodeAndDirections) {
+  model.add_constraint(support("one", 0, "111111"));
+  model.add_constraint(support("two", 0, "000110"));
+  model.add_constraint(support("far", 1, "000110"));
+  EXPECT_THAT(
+      model.freeze(Form::null_space),
+      ElementsAre("Support 'one' and Support 'two' hold motions of 'a/0' more than once: y, "
+                  "z; the reactions of these constraints are not unique"));
+}
+
+// One note for all nodes of two supports; each node adds its name to that of its support.
+TEST_F(RepeatedSupports, AreToldOnceForAllNodes) {
+  for (int node = 0; node < 3; ++node) {
+    const std::string at = " at " + model.node_name(node);
+    model.add_constraint(support("rim" + at, node, "001000"));
+    model.add_constraint(support("edge" + at, node, "111000"));
+  }
+  EXPECT_THAT(
+      model.freeze(Form::null_space),
+      ElementsAre("Support 'rim' and Support 'edge' hold motions of 'a/0', 'b/0', 'c/0' more "
+                  "than once: rotation x; the reactions of these constraints are not "
+                  "unique"));
+}
+
+TEST_F(RepeatedSupports, AreSeenThroughRigidConnections) {
+  model.add_rigid_link("link", 1, 0);
+  model.add_constraint(support("one", 0, "111111"));
+  model.add_constraint(support("two", 1, "111111"));
+  EXPECT_THAT(
+      model.freeze(Form::null_space),
+      ElementsAre("Support 'one' and Support 'two' hold motions of 'a/0', 'b/0' more than "
+                  "once: x, y, z, rotation x, rotation y, rotation z; the reactions of these "
+                  "constraints are not unique"));
+}
+
+TEST_F(RepeatedSupports, NoneWhereEachHoldsItsOwn) {
+  model.add_constraint(support("one", 0, "000011"));
+  model.add_constraint(support("two", 0, "111100"));
+  EXPECT_TRUE(model.freeze(Form::null_space).empty());
 }
 
 // x of a node is `amount` t

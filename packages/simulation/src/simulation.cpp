@@ -4,6 +4,7 @@
 #include <culm/deck/resolved.hpp>
 #include <culm/simulation/resume.hpp>
 #include <culm/simulation/simulation.hpp>
+#include <culm/solver/fill.hpp>
 
 #include "earlier_states.hpp"
 #include "model_report.hpp"
@@ -17,6 +18,9 @@
 
 namespace culm::simulation {
 namespace {
+
+// Of a factorisation that is worth a look at the start: some seconds.
+constexpr double most_operations = 2e10;
 
 bool is_numerical(const Error& error) {
   return dynamic_cast<const NumericalError*>(&error) != nullptr ||
@@ -195,6 +199,31 @@ void Simulation::write_last_checkpoint(model::State& state, RunObserver& observe
     observer.write_checkpoint(state);
   } catch (const FileError& second) {
     parts_->log.warning(second.what());
+  }
+}
+
+void Simulation::examine() {
+  Parts& p = *parts_;
+  const std::vector<Options>& entries = p.deck.list("Analyses").entries();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const bool from_reference =
+        entries[i].has("Start From") && entries[i].text("Start From") == EarlierStates::reference;
+    // imperfections that analyses find are not known yet
+    if ((i > 0 && !from_reference) || !p.phases.of(i).bent_by.empty()) continue;
+    Phase& phase = p.phases.enter(i, p.comm, p.ledger);
+    const double operations = solver::predict_fill(*phase.system->matrix(), p.comm).operations;
+    if (operations > most_operations) {
+      p.log.info(
+          fmt::format("note: '{}' was not searched for mechanisms: a factorisation of this "
+                      "model takes {:.1e} operations; 'culm run' looks before the first "
+                      "step",
+                      entries[i].name(), operations));
+      continue;
+    }
+    model::State state = phase.model->initial_state();
+    start_analysis(i, state);
+    analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log};
+    p.catalogue.analyses.make(entries[i].text("Type"), entries[i])->examine(context, state);
   }
 }
 

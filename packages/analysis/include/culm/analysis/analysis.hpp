@@ -91,6 +91,8 @@ class Analysis {
     start(context, state);
     return advance(context, state, observer);
   }
+  /// What run() does before its first step: throws where no step can be made, as from a mechanism.
+  void examine(Context& context, model::State& state) { start(context, state); }
   /// Goes on from the step in which save() was called. The state is that of then.
   AnalysisReport resume(Context& context, model::State& state, Observer& observer,
                         const Snapshot& snapshot) {

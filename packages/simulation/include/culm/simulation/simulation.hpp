@@ -47,6 +47,11 @@ class Simulation {
   /// Structures, masses, unknowns and effects, for `culm check`.
   std::string summary() const;
 
+  /// Does what analyses that start from the reference do before their first step, and throws what
+  /// run() would throw there: NumericalError of a mechanism. With a note instead where a
+  /// factorisation is long work.
+  void examine();
+
  private:
   void run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
                     const Snapshot* from);

@@ -1,6 +1,8 @@
 /// What a sparse factorisation will cost, from the graph alone.
 #pragma once
 
+#include <culm/assembly/tpetra.hpp>
+#include <culm/parallel/comm.hpp>
 #include <culm/parallel/partition.hpp>
 
 #include <vector>
@@ -20,5 +22,7 @@ struct Fill {
 /// their weights the rows of each. @param place of each vertex in the order of elimination
 /// @source J. W. H. Liu, The role of elimination trees in sparse factorization, 1990
 Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place);
+/// The same of a matrix in the order that MUMPS takes, nested dissection. Collective.
+Fill predict_fill(const assembly::CrsMatrix& matrix, const parallel::Comm& comm);
 
 }  // namespace culm::solver
