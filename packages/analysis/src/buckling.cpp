@@ -144,13 +144,17 @@ double Buckling::reference_level(const model::State& state) const {
   return level;
 }
 
+void Buckling::start(Context& context, model::State& state) {
+  const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
+  step_ = linear_step(context, state, reference_level(state));
+}
+
 AnalysisReport Buckling::advance(Context& context, model::State& state, Observer&) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
   assembly::System& system = context.system;
   const double level = reference_level(state);
   const Linearisation linear = linearise(context, state);
-  const Vector step = linear_step(context, state, level);
-  const auto change = stress_stiffness(context, state, level, step, *linear.stiffness);
+  const auto change = stress_stiffness(context, state, level, *step_, *linear.stiffness);
   const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
                             solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
   if (!is_symmetric) {
@@ -186,6 +190,16 @@ AnalysisReport Buckling::advance(Context& context, model::State& state, Observer
     report.shapes.push_back(std::move(shape));
   }
   warn_of_rounding(pairs, state.time, context.findings);
+  if (!pairs.note.empty()) context.log.info("note: " + pairs.note);
+  if (!pairs.values.empty() && static_cast<int>(pairs.values.size()) < settings_.modes) {
+    const std::string missing =
+        fmt::format("{} factors were asked for, but {}{}", settings_.modes,
+                    pairs.are_all ? "there are " : "only ", pairs.values.size());
+    report.text += missing + (pairs.are_all ? " only\n" : " real ones were found\n");
+    if (!pairs.are_all) {
+      context.findings.warn("eigenvalues", missing + " real ones were found", state.time);
+    }
+  }
   if (pairs.values.empty()) report.text += "  none: the load cannot make the structure buckle\n";
   report.text +=
       fmt::format("eigensolver: {}, largest residual {:.1e}\n", pairs.solver, pairs.worst_residual);

@@ -174,6 +174,7 @@ class Finder {
       add(std::move(mode), x.cast<Complex>());
     }
     note_rounding(pairs.rounding);
+    tell(pairs);
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
   }
@@ -203,8 +204,25 @@ class Finder {
       add(std::move(mode), x);
     }
     note_rounding(pairs.rounding);
+    tell(pairs);
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
+  }
+
+  // What the eigensolver had to do, and what is missing.
+  template <class Pairs>
+  void tell(const Pairs& pairs) const {
+    if (!pairs.note.empty()) context_.log.info("note: " + pairs.note);
+    const auto asked = static_cast<std::size_t>(solver_.count);
+    if (pairs.values.size() >= asked) return;
+    if (!pairs.are_all) {
+      throw NumericalError(
+          fmt::format("The eigenproblem was not solved: {} of {} modes were found.\n"
+                      "Try: fewer modes, or 'Solver' = Dense.",
+                      pairs.values.size(), asked));
+    }
+    context_.log.info(fmt::format("note: {} modes were asked for, but the model has {} only", asked,
+                                  pairs.values.size()));
   }
 
   void note_rounding(const std::vector<double>& rounding) {
@@ -262,7 +280,10 @@ class Finder {
 
 double Mode::frequency() const { return eigenvalue.imag() / (2.0 * std::numbers::pi); }
 
-double Mode::damping() const { return is_zero() ? 0.0 : -eigenvalue.real() / std::abs(eigenvalue); }
+// not -0 of what is not damped
+double Mode::damping() const {
+  return is_zero() ? 0.0 : 0.0 - eigenvalue.real() / std::abs(eigenvalue);
+}
 
 std::string describe(const Mode& mode, const model::Model& model) {
   std::string text = describe_shares(model, mode.properties.energy);

@@ -45,6 +45,7 @@ ReportTable make_table(const ModeSet& set, const model::Model& model) {
     if (mode.whirl) {
       row.insert(row.end(), {mode.whirl->collective, mode.whirl->backward, mode.whirl->forward});
     }
+    for (double& value : row) value += 0.0;  // no -0
     table.rows.push_back(std::move(row));
     table.remarks.push_back(describe(mode, model));
   }
@@ -57,6 +58,9 @@ std::string rate_text(const Mode& mode) {
   if (mode.frequency() == 0.0) return fmt::format("{:+.5g} 1/s", mode.eigenvalue.real());
   return fmt::format("{:.6g} Hz", mode.frequency());
 }
+
+// As it is shown, without the sign of what is nothing.
+double percent_of(const Mode& mode) { return 1e-3 * std::round(1e5 * mode.damping()) + 0.0; }
 
 std::string count_text(std::size_t count, const char* text) {
   if (count == 0) return "";
@@ -88,8 +92,7 @@ std::string make_text(const ModeSet& set, const ReportTable& table) {
     zero += mode.is_zero();
     growing += mode.damping() < -1e-8;
     const double mass = mode.properties.modal_mass;
-    const std::string damping =
-        set.is_complex ? fmt::format(" {:8.3f}%", 100.0 * mode.damping()) : "";
+    const std::string damping = set.is_complex ? fmt::format(" {:8.3f}%", percent_of(mode)) : "";
     text += fmt::format("{:>5} {:>13}{} {:>12} {}  {}\n", i + 1, rate_text(mode), damping,
                         mass > 0.0 ? fmt::format("{:.4g} kg", mass) : "-", percent(effective),
                         table.remarks[i]);

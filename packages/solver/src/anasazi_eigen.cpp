@@ -21,8 +21,6 @@ using Teuchos::RCP;
 using Teuchos::rcp;
 
 constexpr int block_size = 2;  // copies of a value that one search finds whatever the rounding
-constexpr int most_restarts = 300;
-constexpr double tolerance = 1e-11;
 
 // Y = (A - shift B)^-1 B X.
 class ShiftedOp final : public LinearOp {
@@ -87,14 +85,14 @@ Eigen::MatrixXd collect(const MultiVector& pieces, const WholeVector& whole) {
   return columns;
 }
 
-Teuchos::ParameterList parameters(int count, int vectors) {
-  const int blocks = std::max(2 * count + 1, count + 20) / block_size + 1;
+Teuchos::ParameterList parameters(int space, int vectors) {
+  const int blocks = space / block_size + 1;
   Teuchos::ParameterList list;
   list.set("Which", "LM");
   list.set("Block Size", block_size);
   list.set("Num Blocks", std::min(blocks, vectors / block_size));
   list.set("Maximum Restarts", most_restarts);
-  list.set("Convergence Tolerance", tolerance);
+  list.set("Convergence Tolerance", krylov_tolerance);
   list.set("Relative Convergence Tolerance", true);
   list.set("Orthogonalization", "DGKS");
   list.set("Verbosity", static_cast<int>(Anasazi::Errors));
@@ -117,18 +115,24 @@ InvertedPairs solve_krylov_schur(const ShiftedPencil& op, int count, const Eigen
   problem->setNEV(count);
   if (found.cols() > 0) problem->setAuxVecs(distribute(found, map, whole));
   internal_check(problem->setProblem(), "Anasazi takes the problem");
-  Teuchos::ParameterList list = parameters(count, whole.size() - static_cast<int>(found.cols()));
-  Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, LinearOp> solver(problem, list);
-  const bool converged = guarded([&] { return solver.solve(); }) == Anasazi::Converged;
+  InvertedPairs pairs;
+  const int vectors = whole.size() - static_cast<int>(found.cols());
+  pairs.convergence = widen(count, vectors, [&](int space) {
+    Teuchos::ParameterList list = parameters(space, vectors);
+    Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, LinearOp> solver(problem, list);
+    const bool converged = solver.solve() == Anasazi::Converged;
+    return converged ? count : std::min(problem->getSolution().numVecs, count - 1);
+  });
+  if (pairs.convergence.converged < count) return pairs;
   const auto& solution = problem->getSolution();
-  if (!converged) throw_unconverged(solution.numVecs, count, most_restarts);
 
   // values that differ by rounding may have come as a complex pair with the two parts of a vector
-  Eigen::VectorXd nu(solution.numVecs);
+  pairs.nu.resize(solution.numVecs);
   for (int i = 0; i < solution.numVecs; ++i) {
-    nu[i] = solution.Evals[static_cast<std::size_t>(i)].realpart;
+    pairs.nu[i] = solution.Evals[static_cast<std::size_t>(i)].realpart;
   }
-  return {nu, collect(*solution.Evecs, whole)};
+  pairs.vectors = collect(*solution.Evecs, whole);
+  return pairs;
 }
 
 }  // namespace culm::solver

@@ -2,6 +2,8 @@
 
 #include "eigen_methods.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,9 +25,10 @@ class Buckling {
 
   EigenPairs solve() {
     if (method_ == "Dense") {
-      add(solve_dense({inverse_.size(), [this](const auto& x, auto y) { apply(x, y); }}), 0.0);
+      reduce_whole();
     } else {
       search();
+      if (pencil_.is_symmetric && method_ != "Dense") search_copies();
     }
     return sorted();
   }
@@ -35,7 +38,26 @@ class Buckling {
     Eigen::VectorXd Dx(x.size());
     inverse_.multiply(*pencil_.D, x, Dx);
     inverse_.solve(-Dx, y);
-    if (method_ != "Dense") remove_found(y);
+    remove_found(y);
+  }
+
+  Operator make_operator() {
+    return {inverse_.size(), [this](const auto& x, auto y) { apply(x, y); }};
+  }
+
+  void clear() {
+    nu_.clear();
+    sign_.clear();
+    complex_.clear();
+    vectors_.resize(inverse_.size(), 0);
+    K_vectors_.resize(inverse_.size(), 0);
+  }
+
+  void reduce_whole() {
+    clear();
+    add(solve_dense(make_operator()), 0.0);
+    method_ = "Dense";
+    are_all_ = true;
   }
 
   void remove_found(Eigen::Ref<Eigen::VectorXd> x) const {
@@ -45,16 +67,35 @@ class Buckling {
     }
   }
 
-  // Copies of multiple values are missed by one search; see solve_eigenproblem.
+  // Complex values are left out, so more are asked for where there are some.
   void search() {
-    const Operator op{inverse_.size(), [this](const auto& x, auto y) { apply(x, y); }};
-    const int count = std::min(settings_.count, inverse_.size() - 2);
-    add(solve_arnoldi(op, count), 0.0);
-    while (pencil_.is_symmetric && !nu_.empty() && nu_.size() < 4U * static_cast<unsigned>(count)) {
+    const auto count = static_cast<std::size_t>(settings_.count);
+    const int most = inverse_.size() - 2;
+    for (int asked = settings_.count; asked <= 16 * settings_.count; asked *= 2) {
+      clear();
+      add(solve_arnoldi_or_dense(make_operator(), std::min(asked, most), method_, note_), 0.0);
+      are_all_ = are_all_ || method_ == "Dense" || asked >= most;
+      if (nu_.size() >= count || are_all_) return;
+    }
+  }
+
+  // Copies of multiple values are missed by one search; see solve_eigenproblem.
+  void search_copies() {
+    while (!nu_.empty() && nu_.size() < 4U * static_cast<unsigned>(settings_.count)) {
       const auto before = nu_.size();
       double least = std::abs(nu_.front());
       for (double nu : nu_) least = std::min(least, std::abs(nu));
-      add(solve_arnoldi(op, 2), (1.0 - 1e-8) * least);
+      const GeneralPairs more = solve_arnoldi(make_operator(), 2);
+      if (more.nu.size() == 0) {
+        if (inverse_.size() <= largest_dense) return reduce_whole();
+        add_note(
+            "the search for copies did not converge: a factor that is there twice may be "
+            "listed once",
+            note_);
+        return;
+      }
+      add_note(more.convergence.note(), note_);
+      add(more, (1.0 - 1e-8) * least);
       if (nu_.size() == before) return;
     }
   }
@@ -67,8 +108,15 @@ class Buckling {
     for (Eigen::Index i = 0; i < found.nu.size(); ++i) {
       const std::complex<double> nu = found.nu[i];
       const double size = std::abs(nu);
-      if (std::abs(nu.imag()) > 1e-6 * size || size < least || size <= 1e3 * eps * largest)
+      if (size <= 1e3 * eps * largest) {
+        are_all_ = are_all_ || least == 0.0;  // what is left is rounding of zero
         continue;
+      }
+      if (size < least) continue;
+      if (std::abs(nu.imag()) > 1e-6 * size) {
+        complex_.push_back(size);
+        continue;
+      }
       Eigen::VectorXd x = found.vectors.col(i).real();
       if (pencil_.is_symmetric) remove_found(x);
       inverse_.multiply(*pencil_.K, x, Kx);
@@ -101,6 +149,16 @@ class Buckling {
     order.resize(std::min(order.size(), static_cast<std::size_t>(settings_.count)));
     EigenPairs result;
     result.solver = method_;
+    result.note = note_;
+    result.are_all = are_all_;
+    const double last = order.empty() ? 0.0 : std::abs(nu_[order.back()]);
+    const auto left_out =
+        std::count_if(complex_.begin(), complex_.end(), [&](double size) { return size > last; });
+    if (left_out > 0) {
+      add_note(fmt::format("{} complex values next to zero were left out: they belong to flutter",
+                           left_out),
+               result.note);
+    }
     result.vectors.resize(inverse_.size(), static_cast<Eigen::Index>(order.size()));
     constexpr double eps = std::numeric_limits<double>::epsilon();
     Eigen::VectorXd Kx(inverse_.size()), Dx(inverse_.size());
@@ -124,7 +182,10 @@ class Buckling {
   ShiftInvert inverse_;
   std::string method_;
   std::vector<double> nu_;
-  std::vector<double> sign_;  // of x^T K x
+  std::vector<double> sign_;     // of x^T K x
+  std::vector<double> complex_;  // sizes of complex values that were left out
+  std::string note_;
+  bool are_all_ = false;
   Eigen::MatrixXd vectors_;
   Eigen::MatrixXd K_vectors_;
 };

@@ -26,15 +26,22 @@ void append(InvertedPairs& all, const InvertedPairs& more, Eigen::Index count) {
 }
 
 // Values in the complement of those that are found, until they are all further from the shift.
+// None if they do not converge.
 template <class Method>
-InvertedPairs search(const ShiftedPencil& op, int count, const Method& method) {
+InvertedPairs search(const ShiftedPencil& op, int count, const Method& method, std::string& notes) {
   constexpr int probes = 2;
   const int size = op.inverse.size();
-  InvertedPairs all = method(op, std::min(count + guards, size / 3), Eigen::MatrixXd(size, 0));
+  const int wanted = count + guards;
+  if (wanted > size / 3) return {};
+  InvertedPairs all = method(op, wanted, Eigen::MatrixXd(size, 0));
+  if (all.nu.size() == 0) return all;
+  add_note(all.convergence.note(), notes);
   const auto least = [&] { return all.nu.cwiseAbs().minCoeff(); };
   const Eigen::Index most = std::min<Eigen::Index>(size / 3, 4 * count);
   while (all.nu.size() < most) {
     const InvertedPairs more = method(op, probes, all.vectors);
+    if (more.nu.size() == 0) return more;
+    add_note(more.convergence.note(), notes);
     const Eigen::Index missed = (more.nu.array().abs() > (1.0 - 1e-8) * least()).count();
     if (missed == 0) break;
     append(all, more, missed);
@@ -88,6 +95,21 @@ std::optional<double> clear_shift(const Eigen::VectorXd& nu, double shift) {
   return std::nullopt;
 }
 
+// By the method of the result, or else by whole matrices.
+InvertedPairs solve(const ShiftedPencil& op, int count, EigenPairs& result) {
+  InvertedPairs pairs;
+  if (result.solver != "Dense") {
+    pairs = result.solver == "Anasazi" ? search(op, count, solve_krylov_schur, result.note)
+                                       : search(op, count, solve_lanczos, result.note);
+    if (pairs.nu.size() > 0) return pairs;
+    if (op.inverse.size() > largest_dense) throw_unconverged(pairs.convergence, count);
+    add_note("the Krylov space did not hold the eigenvalues, so whole matrices were reduced",
+             result.note);
+    result.solver = "Dense";
+  }
+  return solve_dense(op);
+}
+
 EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings,
                     const parallel::Comm& comm, bool may_move) {
   ShiftInvert inverse(combine({{1.0, pencil.A}, {-settings.shift, pencil.B}}),
@@ -95,11 +117,14 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
   const ShiftedPencil op{inverse, pencil, settings.shift};
   EigenPairs result;
   result.solver = symmetric_method(settings, inverse.size(), comm);
-  InvertedPairs pairs = result.solver == "Dense" ? solve_dense(op)
-                        : result.solver == "Anasazi"
-                            ? search(op, settings.count, solve_krylov_schur)
-                            : search(op, settings.count, solve_lanczos);
+  InvertedPairs pairs = solve(op, settings.count, result);
   sort_by_size(pairs);
+  // what the operator makes of vectors without B is rounding
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const Eigen::Index finite =
+      (pairs.nu.array().abs() > 1e2 * eps * pairs.nu.cwiseAbs().maxCoeff()).count();
+  result.are_all = result.solver == "Dense" || finite < pairs.nu.size();
+  pairs = {pairs.nu.head(finite), pairs.vectors.leftCols(finite)};
   if (const auto shift = clear_shift(pairs.nu, settings.shift); shift && may_move) {
     EigenSettings moved = settings;
     moved.shift = *shift;
@@ -110,7 +135,6 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
   sort_by_size(pairs);
   const auto count = std::min<Eigen::Index>(kept, settings.count);
 
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   struct Found {
     double value, rounding;
     Eigen::Index column;

@@ -16,9 +16,6 @@
 namespace culm::solver {
 namespace {
 
-constexpr int most_restarts = 300;
-constexpr double tolerance = 1e-11;
-
 using ConstMap = Eigen::Map<const Eigen::VectorXd>;
 using Map = Eigen::Map<Eigen::VectorXd>;
 
@@ -75,26 +72,27 @@ class GeneralOp {
   const Operator& op_;
 };
 
-int space(int count, int size) { return std::min(size, std::max(2 * count + 1, count + 20)); }
-
 template <class Solver>
-void run(Solver& solver, int count) {
-  const auto converged = guarded([&] {
-    solver.init();
-    return solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
-                          Spectra::SortRule::LargestMagn);
-  });
-  if (solver.info() == Spectra::CompInfo::Successful) return;
-  throw_unconverged(static_cast<int>(converged), count, most_restarts);
+int run(Solver& solver) {
+  solver.init();
+  return static_cast<int>(solver.compute(Spectra::SortRule::LargestMagn, most_restarts,
+                                         krylov_tolerance, Spectra::SortRule::LargestMagn));
 }
 
 }  // namespace
 
-void throw_unconverged(int converged, int count, int restarts) {
+std::string Convergence::note() const {
+  if (tried < 2) return {};
+  return fmt::format("eigenvalues that lie close together took a Krylov space of {} vectors",
+                     space);
+}
+
+void throw_unconverged(const Convergence& convergence, int count) {
   throw NumericalError(
-      fmt::format("The eigenproblem was not solved: {} of {} values converged in {} restarts.\n"
+      fmt::format("The eigenproblem was not solved: {} of {} values converged, in Krylov spaces of "
+                  "up to {} vectors.\n"
                   "Try: more or fewer modes, another shift, or 'Solver' = Dense.",
-                  converged, count, restarts));
+                  convergence.converged, count, convergence.space));
 }
 
 void throw_broken_down() {
@@ -107,17 +105,44 @@ void throw_broken_down() {
 InvertedPairs solve_lanczos(const ShiftedPencil& op, int count, const Eigen::MatrixXd& found) {
   SolveOp solve(op, found);
   ProductOp product(op);
-  Spectra::SymGEigsShiftSolver<SolveOp, ProductOp, Spectra::GEigsMode::ShiftInvert> solver(
-      solve, product, count, space(count, op.inverse.size()), op.shift);
-  run(solver, count);
-  return {(solver.eigenvalues().array() - op.shift).inverse(), solver.eigenvectors()};
+  InvertedPairs pairs;
+  pairs.convergence = widen(count, op.inverse.size(), [&](int space) {
+    Spectra::SymGEigsShiftSolver<SolveOp, ProductOp, Spectra::GEigsMode::ShiftInvert> solver(
+        solve, product, count, space, op.shift);
+    const int converged = run(solver);
+    if (converged < count) return converged;
+    pairs.nu = (solver.eigenvalues().array() - op.shift).inverse();
+    pairs.vectors = solver.eigenvectors();
+    return converged;
+  });
+  return pairs;
 }
 
 GeneralPairs solve_arnoldi(const Operator& op, int count) {
   GeneralOp general(op);
-  Spectra::GenEigsSolver<GeneralOp> solver(general, count, space(count, op.size));
-  run(solver, count);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  GeneralPairs pairs;
+  pairs.convergence = widen(count, op.size, [&](int space) {
+    Spectra::GenEigsSolver<GeneralOp> solver(general, count, space);
+    const int converged = run(solver);
+    if (converged < count) return converged;
+    pairs.nu = solver.eigenvalues();
+    pairs.vectors = solver.eigenvectors();
+    return converged;
+  });
+  return pairs;
+}
+
+GeneralPairs solve_arnoldi_or_dense(const Operator& op, int count, std::string& method,
+                                    std::string& notes) {
+  GeneralPairs pairs = solve_arnoldi(op, count);
+  if (pairs.nu.size() > 0) {
+    add_note(pairs.convergence.note(), notes);
+    return pairs;
+  }
+  if (op.size > largest_dense) throw_unconverged(pairs.convergence, count);
+  add_note("eigenvalues did not converge in Krylov spaces, so whole matrices were reduced", notes);
+  method = "Dense";
+  return solve_dense(op);
 }
 
 }  // namespace culm::solver

@@ -74,19 +74,10 @@ class Linearised {
   Eigen::VectorXd mass_, damping_, sum_;
 };
 
-}  // namespace
-
-ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
-                             const parallel::Comm& comm) {
-  Linearised problem(pencil, settings, comm);
+// The pairs next to the shift that solve the equations, by the size of their values.
+void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSettings& settings,
+          const GeneralPairs& pairs, ComplexPairs& result) {
   const int n = problem.size();
-  const Operator op{2 * n, [&](const auto& z, auto result) { problem.apply(z, result); }};
-  ComplexPairs result;
-  result.solver = general_method(settings, 2 * n);
-  // both of a pair, and one more so that none is cut
-  const GeneralPairs pairs = result.solver == "Dense"
-                                 ? solve_dense(op)
-                                 : solve_arnoldi(op, std::min(2 * settings.count + 2, 2 * n - 2));
   std::vector<std::pair<Complex, Eigen::Index>> found;
   for (Eigen::Index i = 0; i < pairs.nu.size(); ++i) {
     const Complex value = settings.shift + 1.0 / pairs.nu[i];
@@ -97,6 +88,9 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
   });
 
   constexpr double eps = std::numeric_limits<double>::epsilon();
+  result.values.clear();
+  result.rounding.clear();
+  result.worst_residual = 0.0;
   result.vectors.resize(n, 0);
   for (const auto& [value, column] : found) {
     if (result.vectors.cols() == settings.count) break;
@@ -114,7 +108,29 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
     result.vectors.conservativeResize(Eigen::NoChange, result.vectors.cols() + 1);
     result.vectors.rightCols<1>() = x;
   }
-  return result;
+}
+
+}  // namespace
+
+ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
+                             const parallel::Comm& comm) {
+  Linearised problem(pencil, settings, comm);
+  const int n = problem.size();
+  const Operator op{2 * n, [&](const auto& z, auto result) { problem.apply(z, result); }};
+  ComplexPairs result;
+  result.solver = general_method(settings, 2 * n);
+  // both of a pair, and one more so that none is cut; what solves nothing is left out, so more
+  for (int asked = 2 * settings.count + 2;; asked *= 2) {
+    if (3 * asked > 2 * n && 2 * n <= largest_dense) result.solver = "Dense";
+    const GeneralPairs pairs =
+        result.solver == "Dense"
+            ? solve_dense(op)
+            : solve_arnoldi_or_dense(op, std::min(asked, 2 * n - 2), result.solver, result.note);
+    take(problem, pencil, settings, pairs, result);
+    result.are_all = result.solver == "Dense" || asked >= 2 * n - 2;
+    if (static_cast<int>(result.values.size()) == settings.count || result.are_all) return result;
+    if (asked > 16 * settings.count) throw_broken_down();
+  }
 }
 
 }  // namespace culm::solver

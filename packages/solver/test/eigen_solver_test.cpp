@@ -218,6 +218,44 @@ TEST_P(EachEigenSolver, FindsBucklingFactorsOfBothSignsWithCopies) {
   EXPECT_NEAR(reversed.values.front(), -chains.value(0), 1e-11);
 }
 
+// K and D = -M exchanged: factors 1 / omega^2, the smallest of the highest frequencies, which lie
+// within 1e-5 of each other. A small Krylov space does not tell them apart in any number of
+// restarts.
+TEST(EigenSolver, WidensTheSpaceForFactorsThatLieTogether) {
+  const Chains chains{1, 300, true};
+  const Pencil pencil(chains);
+  const auto K = Teuchos::rcp(new CrsMatrix(*pencil.matrices().B, Teuchos::Copy));
+  const auto D = scaled(*pencil.matrices().A, -1.0);
+  const auto of_K = K->getLocalMatrixHost();
+  const auto of_D = D->getLocalMatrixHost();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(of_K.numRows()); ++row) {
+    for (auto k = of_K.graph.row_map(row); k < of_K.graph.row_map(row + 1); ++k) {
+      const GlobalIndex i = K->getRowMap()->getGlobalElement(static_cast<int>(row));
+      const GlobalIndex j = K->getColMap()->getGlobalElement(of_K.graph.entries(k));
+      if (i != 300 && j != 300) continue;
+      of_K.values(k) = -of_D.values(k);  // the constraint
+      of_D.values(k) = 0.0;
+    }
+  }
+  const EigenPairs pairs = solve_buckling({K, D, true}, {"Spectra", "KLU2", 3, 0.0}, pencil.comm());
+  ASSERT_EQ(pairs.values.size(), 3U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(pairs.values[static_cast<std::size_t>(i)], 1.0 / chains.value(298 - i), 1e-10);
+  }
+  EXPECT_NE(pairs.note.find("Krylov space of"), std::string::npos) << pairs.note;
+}
+
+TEST(EigenSolver, ReducesWholeMatricesWhereAKrylovSpaceIsTooSmall) {
+  const Pencil pencil({1, 40, true});
+  const EigenPairs pairs = pencil.solve({"Spectra", "KLU2", 30, -1e-3});
+  pencil.expect_right(pairs, 30);
+  EXPECT_EQ(pairs.solver, "Dense");
+  EXPECT_FALSE(pairs.note.empty());
+  const EigenPairs all = pencil.solve({"Spectra", "KLU2", 60, -1e-3});
+  EXPECT_EQ(all.values.size(), 39U);
+  EXPECT_TRUE(all.are_all);
+}
+
 TEST_P(EachEigenSolver, FindsDampedAndGyroscopicValues) {
   // C = a M + b K: lambda^2 + (a + b omega^2) lambda + omega^2 = 0
   const Chains chains{1, 40, true};

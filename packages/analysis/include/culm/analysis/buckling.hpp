@@ -32,12 +32,13 @@ class Buckling final : public Analysis {
   void save(const Context&, Snapshot&) const override {}  // it makes no steps
 
  private:
-  void start(Context&, model::State&) override {}
+  void start(Context& context, model::State& state) override;
   void restore(Context&, const Snapshot&) override {}
   AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
   double reference_level(const model::State& state) const;
 
   BucklingSettings settings_;
+  std::optional<assembly::Vector> step_;  ///< the linear one
 };
 
 }  // namespace culm::analysis

@@ -35,6 +35,8 @@ struct EigenPairs {
   std::vector<double> rounding;  ///< what rounding of A alone may do to a value: eps |x|^T |A| |x|
   double worst_residual = 0.0;   ///< largest |A x - lambda B x| over the largest | |A| |x| |
   std::string solver;            ///< that did it
+  std::string note;              ///< what had to be done beside the usual; empty if nothing
+  bool are_all = false;          ///< there are no more than these
 };
 
 /// What decks may write, the default first.
@@ -48,8 +50,10 @@ const std::vector<std::string>& buckling_solver_names();
 /// vectors may miss copies of multiple values: `Spectra` (Lanczos) with whole vectors, alike on all
 /// ranks, `Anasazi` (block Krylov-Schur) with distributed ones. `Automatic` takes `Dense` for small
 /// pencils, else `Spectra` on one rank and `Anasazi` on several. Vectors of multiple values are
-/// turned so that they do not depend on the method. Throws NumericalError if A - shift B is
-/// singular or the iteration does not converge. Collective.
+/// turned so that they do not depend on the method. Where values do not converge, larger Krylov
+/// spaces are tried, then `Dense` if the pencil is not too large, with a note. Fewer values than
+/// asked for are all there are. Throws NumericalError if A - shift B is singular or nothing
+/// converges. Collective.
 EigenPairs solve_eigenproblem(const SymmetricPencil& pencil, const EigenSettings& settings,
                               const parallel::Comm& comm);
 
@@ -62,8 +66,9 @@ struct BucklingPencil {
 };
 
 /// The values mu next to zero of both signs, by their size; vectors with |x^T K x| = 1. K must have
-/// an inverse. Complex values are left out. Settings as in solve_eigenproblem, with shift 0, but
-/// for `Anasazi`: K is no inner product about an unstable state, and D may be unsymmetric.
+/// an inverse. Complex values are left out, with a note. Settings as in solve_eigenproblem, with
+/// shift 0, but for `Anasazi`: K is no inner product about an unstable state, and D may be
+/// unsymmetric.
 EigenPairs solve_buckling(const BucklingPencil& pencil, const EigenSettings& settings,
                           const parallel::Comm& comm);
 
@@ -82,6 +87,8 @@ struct ComplexPairs {
   std::vector<double> rounding;  ///< what rounding of K may do to lambda^2: eps |x|^T |K| |x|
   double worst_residual = 0.0;   ///< largest residual over the largest | |K| |x| |
   std::string solver;
+  std::string note;      ///< as in EigenPairs
+  bool are_all = false;  ///< likewise
 };
 
 /// The eigenvalues next to the shift, a real number >= 0, by the linearised problem of twice the
