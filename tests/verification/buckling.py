@@ -155,6 +155,26 @@ def verify_cross_ply(culm, report):
         report.relative(f"{what}: thin, a/h = 1000", plate_limit(culm, PLY, angles, 1000), THIN, 1e-3)
 
 
+def wall_warning(culm, settings):
+    """What a run says of the wall's own limit: mode and factor, that factor; nothing if it is silent."""
+    found = re.search(r"mode (\d+), factor (\S+), lies at .* no stiffness in shear, (\S+) \(",
+                      culm.run(CROSS_PLY, settings).errors)
+    return (int(found.group(1)), float(found.group(2)), float(found.group(3))) if found else None
+
+
+def verify_wall(culm, report):
+    report.title("BU-2: a wall without stiffness in shear is told by a warning")
+    for ratio, elements, mode in ((5, 8, 1), (5, 16, 1), (10, 16, 2)):
+        found = wall_warning(culm, [f"h={1.0 / ratio}", f"N={elements}"])
+        what = f"a/h = {ratio}, {elements} x {elements}"
+        report.check(f"{what}: mode that is warned of", found[0] if found else 0, mode, 0)
+        if found:
+            limit = Laminate(PLY, (0, 90, 90, 0), 1.0 / ratio).short_wave_force() * ratio**3
+            report.relative(f"{what}, mode {mode} at {found[1]}: limit of the wall", found[2], limit, 1e-3)
+    for ratio in (20, 100):
+        report.check(f"a/h = {ratio}: warnings", int(wall_warning(culm, [f"h={1.0 / ratio}", "N=8"]) is not None), 0, 0)
+
+
 def verify_tippling(culm, report):
     report.title("BU-4: cantilever that tips")
     table = culm.table("buckling/buckling", TIPPLING)
@@ -246,6 +266,7 @@ def verify(culm, report):
     verify_reissner(culm, report)
     verify_plate(culm, report)
     verify_cross_ply(culm, report)
+    verify_wall(culm, report)
     verify_tippling(culm, report)
     verify_tippling_path(culm, report)
     verify_rounding(culm, report)

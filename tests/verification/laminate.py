@@ -51,6 +51,12 @@ class Laminate:
         strains = np.linalg.solve(self.law, np.eye(6)[0])
         # stresses 11, 22 times z^0 and z^2, over the thickness
         self.stress = [(moment(0, n) @ strains[:3] + moment(0, n + 1) @ strains[3:])[:2] for n in (0, 2)]
+        self.shear_moments = [correction * moment(1, n) for n in (0, 2)]
+
+    def short_wave_force(self):
+        """The smallest force per length along x under which waves much shorter than the thickness are unstable, in
+        which the wall deflects, z^0, or changes its thickness, z^1, and nothing but shear resists. Of symmetric walls."""
+        return min(shear[0, 0] / stress[0] for shear, stress in zip(self.shear_moments, self.stress))
 
 
 class Plate:

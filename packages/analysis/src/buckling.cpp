@@ -2,6 +2,8 @@
 #include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
+#include "wall_limits.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +21,10 @@ constexpr double largest_asymmetry_of_change = 1e-3;
 
 // Of a factor, that rounding may take: 0.05 %.
 constexpr double notable_share = 5e-4;
+
+// Of the factor at which a wall is unstable by itself: long waves are right up to here, and mixed
+// with short ones beyond.
+constexpr double notable_wall = 0.9;
 
 // The linear response to the loads of another level. The matrix of the system is the tangent then.
 Vector linear_step(Context& context, model::State at, double level) {
@@ -104,6 +110,28 @@ void warn_of_rounding(const solver::EigenPairs& pairs, double time, Findings& fi
   }
 }
 
+// What is right for waves longer than the thickness of a wall ends where its own stiffness in shear
+// does: factors beyond, and those close below, belong to waves that no mesh resolves.
+void warn_of_walls(const solver::EigenPairs& pairs, const WallLimits& limits, double time,
+                   Findings& findings) {
+  for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+    const double factor = pairs.values[i];
+    const WallLimit& limit = factor > 0.0 ? limits.positive : limits.negative;
+    const double ratio = std::abs(factor / limit.factor);
+    if (!(ratio >= notable_wall)) continue;
+    findings.warn(
+        "thick wall",
+        fmt::format("mode {}, factor {:.5g}, lies at {:.2f} times the factor at which compression "
+                    "leaves the wall of '{}' no stiffness in shear, {:.5g} (element {}): there it "
+                    "is unstable against waves shorter than its thickness, and factors fall "
+                    "towards that value as the mesh is refined. The wall is too thick, or too soft "
+                    "in shear, for such a load; factors well below are good",
+                    i + 1, factor, ratio, limit.structure, limit.factor, limit.cell),
+        time);
+    return;
+  }
+}
+
 }  // namespace
 
 Schema Buckling::schema() {
@@ -154,6 +182,8 @@ AnalysisReport Buckling::advance(Context& context, model::State& state, Observer
   assembly::System& system = context.system;
   const double level = reference_level(state);
   const Linearisation linear = linearise(context, state);
+  model::Coordinates motion = system.linear_motion(state, *step_, 1.0);
+  system.complete(motion);
   const auto change = stress_stiffness(context, state, level, *step_, *linear.stiffness);
   const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
                             solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
@@ -190,6 +220,7 @@ AnalysisReport Buckling::advance(Context& context, model::State& state, Observer
     report.shapes.push_back(std::move(shape));
   }
   warn_of_rounding(pairs, state.time, context.findings);
+  warn_of_walls(pairs, find_wall_limits(system, state.next, motion), state.time, context.findings);
   if (!pairs.note.empty()) context.log.info("note: " + pairs.note);
   if (!pairs.values.empty() && static_cast<int>(pairs.values.size()) < settings_.modes) {
     const std::string missing =
