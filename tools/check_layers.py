@@ -29,7 +29,7 @@ EXTERNAL = [
     (r"metis\.h$", {"parallel"}, False),
     (r"(hdf5|H5).*", {"output", "simulation"}, False),
     (r"libxml/.*", {"deck"}, False),
-    (r"muParser.*", {"deck", "model"}, False),
+    (r"muParser.*", {"base"}, False),
 ]
 # Packages whose public headers may show Trilinos types.
 SHOWS_TRILINOS = {"assembly"}

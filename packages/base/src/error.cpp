@@ -1,13 +1,19 @@
 #include <culm/base/error.hpp>
 
+#include <algorithm>
+
 namespace culm {
 namespace {
 
 std::string lines(const std::vector<InputIssue>& issues) {
+  constexpr std::size_t shown = 100;
   std::string text;
-  for (const InputIssue& issue : issues) {
-    if (!text.empty()) text += '\n';
-    text += to_string(issue);
+  for (std::size_t i = 0; i < std::min(issues.size(), shown); ++i) {
+    if (i > 0) text += '\n';
+    text += to_string(issues[i]);
+  }
+  if (issues.size() > shown) {
+    text += "\nand " + std::to_string(issues.size() - shown) + " more mistakes";
   }
   return text;
 }

@@ -1,7 +1,10 @@
 #include <culm/base/error.hpp>
 #include <culm/base/issue.hpp>
+#include <culm/base/text.hpp>
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 namespace culm {
 
@@ -17,8 +20,11 @@ std::string join_path(const std::string& parent, const std::string& name) {
 }
 
 std::string to_string(const InputIssue& issue) {
-  const std::string place = to_string(issue.where);
-  return place.empty() ? issue.message : place + ": " + issue.message;
+  // names and values of the input may be of any length
+  const Where where{issue.where.file, issue.where.line, shortened(issue.where.path, 300)};
+  const std::string place = to_string(where);
+  const std::string message = shortened(issue.message, 2000);
+  return place.empty() ? message : place + ": " + message;
 }
 
 void InputIssues::add(Where where, std::string message) {
@@ -28,14 +34,10 @@ void InputIssues::add(Where where, std::string message) {
 void InputIssues::add(InputIssue issue) { issues_.push_back(std::move(issue)); }
 
 std::vector<InputIssue> InputIssues::sorted() const {
-  std::vector<std::string> files;
-  for (const InputIssue& issue : issues_) {
-    if (std::ranges::find(files, issue.where.file) == files.end()) {
-      files.push_back(issue.where.file);
-    }
-  }
+  std::unordered_map<std::string, std::size_t> files;
+  for (const InputIssue& issue : issues_) files.emplace(issue.where.file, files.size());
   const auto order = [&](const InputIssue& issue) {
-    return std::pair(std::ranges::find(files, issue.where.file), issue.where.line);
+    return std::pair(files.at(issue.where.file), issue.where.line);
   };
   std::vector<InputIssue> sorted = issues_;
   std::ranges::stable_sort(sorted, {}, order);

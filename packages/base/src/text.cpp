@@ -27,6 +27,14 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return std::string(text.substr(0, end)) + "… (" + std::to_string(text.size() - end) +
+         " more bytes)";
+}
+
 std::string to_lower(std::string_view text) {
   std::string lower(text);
   for (char& letter : lower) {

@@ -78,6 +78,34 @@ TEST(InputIssues, AllIssuesAreThrownTogetherInTheOrderOfTheFile) {
   }
 }
 
+TEST(InputIssues, AMessageShowsTheFirstHundredAndCountsTheRest) {
+  InputIssues issues;
+  for (int line = 300; line > 0; --line) issues.add({"a.xml", line, ""}, "wrong");
+  try {
+    issues.throw_if_any();
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("a.xml:1: wrong\na.xml:2: wrong\n"), 0U);
+    EXPECT_EQ(text.substr(text.find("a.xml:100:")), "a.xml:100: wrong\nand 200 more mistakes");
+    EXPECT_EQ(error.issues().size(), 300U);
+  }
+}
+
+TEST(Issue, LongNamesAndValuesAreCut) {
+  const InputIssue issue{{"a.xml", 1, std::string(1000000, 'n')}, std::string(1000000, 'v')};
+  EXPECT_EQ(to_string(issue), "a.xml:1: " + std::string(300, 'n') + "… (999700 more bytes): " +
+                                  std::string(2000, 'v') + "… (998000 more bytes)");
+}
+
+TEST(Nearest, OfManyCandidatesTheFirstAreListed) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 10000; ++i) names.push_back("n" + std::to_string(1000 * i));
+  const std::string text = did_you_mean("something else", names);
+  EXPECT_EQ(text.substr(0, 19), " (allowed: n0, n100");
+  EXPECT_EQ(text.substr(text.size() - 23), ", n59000 and 9940 more)");
+}
+
 TEST(Nearest, ASwapOfNeighboursIsOneEdit) {
   EXPECT_EQ(nearest_name("Interia", {"Inertia", "Mass"}), "Inertia");
 }

@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/base/read_file.hpp>
 #include <culm/base/text.hpp>
 #include <culm/deck/deck.hpp>
 
@@ -7,41 +8,19 @@
 #include "validator.hpp"
 #include "xml_reader.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <optional>
+#include <unordered_map>
 #include <utility>
 
 namespace culm::deck {
 namespace {
 
-/// The content of a file; one byte more than allowed at most, which the reader of XML refuses.
-std::optional<std::string> read_text(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::string text;
-  std::string block(std::size_t{1} << 16U, '\0');
-  while (text.size() <= max_bytes) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    text.append(block, 0, static_cast<std::size_t>(file.gcount()));
-    if (!file) break;
-  }
-  if (file.bad()) return std::nullopt;
+std::string read_first_text(const std::string& path) {
+  std::string text = read_file(path, max_bytes);
+  if (trim(text).empty()) throw FileError(path, "the file is empty");
   return text;
 }
 
-std::string read_first_text(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw FileError(path, "is a directory");
-  if (!std::filesystem::exists(path, ignored)) throw FileError(path, "there is no such file");
-  std::optional<std::string> text = read_text(path);
-  if (!text) throw FileError(path, "cannot be read");
-  if (trim(*text).empty()) throw FileError(path, "the file is empty");
-  return std::move(*text);
-}
+FileText read_included(const std::string& path) { return find_text(path, max_bytes); }
 
 }  // namespace
 
@@ -56,19 +35,21 @@ Deck Deck::parse_file(const std::string& path, const Overrides& overrides) {
 
 Deck Deck::parse_text(std::string text, std::string name, const Overrides& overrides) {
   InputIssues issues;
-  RawList root = read_raw(text, name, read_text, issues);
+  RawList root = read_raw(text, name, read_included, issues);
   apply_overrides(overrides, root);
   return {std::move(name), std::move(root), std::move(issues)};
 }
 
 std::vector<DeckText> Deck::read_files(const std::string& path) {
   std::vector<DeckText> texts = {{path, read_first_text(path)}};
+  std::unordered_map<std::string, FileText> known = {{path, {texts.front().text}}};
   const auto record = [&](const std::string& file) {
-    const auto known = std::ranges::find(texts, file, &DeckText::name);
-    if (known != texts.end()) return std::optional(known->text);
-    std::optional<std::string> text = read_text(file);
-    if (text) texts.push_back({file, *text});
-    return text;
+    const auto [found, is_new] = known.try_emplace(file);
+    if (is_new) {
+      found->second = read_included(file);
+      texts.push_back({file, found->second.text, found->second.objection});
+    }
+    return found->second;
   };
   try {
     InputIssues issues;
@@ -82,9 +63,12 @@ std::vector<DeckText> Deck::read_files(const std::string& path) {
 
 Deck Deck::parse_texts(const std::vector<DeckText>& texts, const Overrides& overrides) {
   internal_check(!texts.empty(), "a deck has at least one text");
-  const auto find = [&](const std::string& file) -> std::optional<std::string> {
-    const auto found = std::ranges::find(texts, file, &DeckText::name);
-    return found == texts.end() ? std::nullopt : std::optional(found->text);
+  std::unordered_map<std::string, const DeckText*> by_name;
+  for (const DeckText& text : texts) by_name.emplace(text.name, &text);
+  const auto find = [&](const std::string& file) -> FileText {
+    const auto found = by_name.find(file);
+    if (found == by_name.end()) return {{}, "it is not part of this deck"};
+    return {found->second->text, found->second->objection};
   };
   InputIssues issues;
   RawList root = read_raw(texts.front().text, texts.front().name, find, issues);

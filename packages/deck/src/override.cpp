@@ -2,6 +2,8 @@
 #include <culm/base/text.hpp>
 
 #include "raw_list.hpp"
+#include "scope.hpp"
+#include "xml_text.hpp"
 
 #include <algorithm>
 
@@ -15,17 +17,19 @@ struct Assignment {
 };
 
 Assignment parse(const std::string& text) {
+  const std::string objection = xml_objection(text);
+  if (!objection.empty()) throw UsageError("--set " + objection + " in '" + printable(text) + "'");
   const auto equals = text.find('=');
   Assignment assignment;
   if (equals == std::string::npos) {
-    throw UsageError("--set needs 'List/Parameter=value', got '" + text + "'");
+    throw UsageError("--set needs 'List/Parameter=value', got " + quoted(text));
   }
   assignment.value = trim(std::string_view(text).substr(equals + 1));
   std::string_view path = std::string_view(text).substr(0, equals);
   while (true) {
     const auto slash = path.find('/');
     const std::string name(trim(path.substr(0, slash)));
-    if (name.empty()) throw UsageError("--set has an empty name in '" + text + "'");
+    if (name.empty()) throw UsageError("--set has an empty name in " + quoted(text));
     if (slash == std::string_view::npos) {
       assignment.name = name;
       return assignment;

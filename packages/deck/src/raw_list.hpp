@@ -1,6 +1,7 @@
 #pragma once
 
 #include <culm/base/issue.hpp>
+#include <culm/base/read_file.hpp>
 
 #include <functional>
 #include <optional>
@@ -36,8 +37,8 @@ struct RawList {
   bool is_incomplete = false;
 };
 
-/// Gives the text of a file, or nothing if it cannot be read.
-using TextSource = std::function<std::optional<std::string>(const std::string& path)>;
+/// Gives what is in a file.
+using TextSource = std::function<FileText(const std::string& path)>;
 
 /// Reads a deck and what it includes. Throws InputError if the first file is not well-formed; all
 /// other mistakes of form are added to `issues`.

@@ -120,19 +120,20 @@ class RawReader {
              "includes are nested deeper than " + std::to_string(max_include_depth));
       return false;
     }
-    const std::optional<std::string> text = source_(target);
-    if (!text) {
-      report(element.line, path, "cannot read the included file '" + target + "'");
+    const FileText included = source_(target);
+    if (!included.objection.empty()) {
+      report(element.line, path,
+             "cannot read the included file '" + target + "': " + included.objection);
       return false;
     }
     // Files that include each other twice at every level would multiply without end.
-    bytes_ += text->size();
+    bytes_ += included.text.size();
     if (bytes_ > max_bytes) {
       report(element.line, path, "the deck with its includes is larger than 64 MB");
       return false;
     }
     files_.push_back(target);
-    const bool is_whole = splice(*text, path, list);
+    const bool is_whole = splice(included.text, path, list);
     files_.pop_back();
     return is_whole;
   }

@@ -4,12 +4,11 @@
 #include <culm/base/text.hpp>
 #include <culm/deck/units.hpp>
 
-#include <muParser.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace culm::deck {
 namespace {
@@ -49,6 +48,16 @@ bool is_called(std::string_view text, std::size_t end) {
   return trim(text.substr(std::min(end, text.size()))).starts_with('(');
 }
 
+/// Takes the next word, or one other character, from the front of a text. A word may begin with a
+/// digit: the e of 2e3 is no name.
+std::string next_word(std::string_view& text) {
+  const auto end = std::ranges::find_if_not(text, is_identifier_part);
+  const auto length = std::max<std::ptrdiff_t>(end - text.begin(), 1);
+  std::string word(text.begin(), text.begin() + length);
+  text.remove_prefix(static_cast<std::size_t>(length));
+  return word;
+}
+
 bool is_not_finite_word(std::string_view text) {
   const std::string word = to_lower(text.substr(text.find_first_not_of("+-") == 1 ? 1 : 0));
   return word == "nan" || word == "inf" || word == "infinity";
@@ -73,25 +82,24 @@ std::optional<double> literal_number(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-struct Scope::Parser {
-  mu::Parser parser;
-};
+Scope::Scope()
+    : variables_{{"pi", std::numbers::pi}, {"e", std::numbers::e}},
+      arithmetic_(std::make_shared<Arithmetic>()) {}
 
-Scope::Scope() : variables_{{"pi", std::numbers::pi}, {"e", std::numbers::e}} {}
-
-Scope::Scope(const Scope& outer) : variables_(outer.variables_) {}
-
-Scope::~Scope() = default;
+Scope::Scope(const Scope* outer) : outer_(outer), arithmetic_(outer->arithmetic_) {}
 
 std::string Scope::define(const std::string& name, double value) {
   if (leading_identifier(name) != name || name.empty()) {
     return "the name of a variable must be letters, digits and '_', got " + quoted(name);
   }
-  if (name == "pi" || name == "e" || parser().parser.GetFunDef().contains(name)) {
+  if (name.size() > Formula::longest_name) {
+    return "the name of a variable must have at most " + std::to_string(Formula::longest_name) +
+           " characters, got " + quoted(name);
+  }
+  if (name == "pi" || name == "e" || arithmetic_->formula.has_function(name)) {
     return "the name '" + name + "' is taken";
   }
   variables_[name] = value;
-  parser_.reset();
   return {};
 }
 
@@ -103,71 +111,79 @@ Evaluation Scope::evaluate(const std::string& text) const {
   if (is_out_of_range(core)) {
     return {0.0, "must be within the range of double precision, got " + quoted(core)};
   }
-  mu::Parser& parser = this->parser().parser;
-  try {
-    parser.SetExpr(std::string(core));
-    int count = 0;
-    const double* values = parser.Eval(count);
-    if (count != 1) {
-      return {0.0, "must be one number, got " + quoted(core)};
-    }
-    if (!std::isfinite(*values)) return {0.0, "must be finite, got " + quoted(core)};
-    return {*values, {}};
-  } catch (const mu::Parser::exception_type& error) {
-    return {0.0, explain(std::string(core), error.GetToken(), error.GetPos(), error.GetMsg())};
-  }
+  Formula& formula = arithmetic_->formula;
+  formula.set_constants(values_in(core));
+  formula.set_text(std::string(core));
+  const Formula::Result result = formula.evaluate();
+  if (result.mistake) return {0.0, explain(std::string(core), *result.mistake)};
+  if (result.count != 1) return {0.0, "must be one number, got " + quoted(core)};
+  if (!std::isfinite(result.value)) return {0.0, "must be finite, got " + quoted(core)};
+  return {result.value, {}};
 }
 
 std::string Scope::substitute(std::string_view formula, std::string_view own) const {
   std::string result;
   while (!formula.empty()) {
-    // A word may begin with a digit: the e of 2e3 is no name.
-    const auto word_end = std::ranges::find_if_not(formula, is_identifier_part);
-    const auto length = std::max<std::ptrdiff_t>(word_end - formula.begin(), 1);
-    const std::string word(formula.begin(), formula.begin() + length);
-    formula.remove_prefix(static_cast<std::size_t>(length));
-    const auto variable = variables_.find(word);
-    const bool stays = word == own || variable == variables_.end() || is_called(formula, 0);
-    result += stays ? word : "(" + format_number(variable->second) + ")";
+    const std::string word = next_word(formula);
+    const double* value = find(word);
+    const bool stays = word == own || value == nullptr || is_called(formula, 0);
+    result += stays ? word : "(" + format_number(*value) + ")";
   }
   return result;
 }
 
-Scope::Parser& Scope::parser() const {
-  if (!parser_) {
-    parser_ = std::make_unique<Parser>();
-    // Constants, not variables: an expression cannot assign to them.
-    parser_->parser.ClearConst();
-    for (const auto& [name, value] : variables_) parser_->parser.DefineConst(name, value);
+const double* Scope::find(const std::string& name) const {
+  for (const Scope* scope = this; scope != nullptr; scope = scope->outer_) {
+    const auto found = scope->variables_.find(name);
+    if (found != scope->variables_.end()) return &found->second;
   }
-  return *parser_;
+  return nullptr;
 }
 
-std::string Scope::explain(const std::string& text, const std::string& token, int position,
-                           const std::string& reason) const {
+/// The variables that a text names: of thousands a formula uses few.
+std::map<std::string, double> Scope::values_in(std::string_view text) const {
+  std::map<std::string, double> values;
+  while (!text.empty()) {
+    const std::string word = next_word(text);
+    if (const double* value = find(word)) values.emplace(word, *value);
+  }
+  return values;
+}
+
+std::vector<std::string> Scope::names() const {
+  std::set<std::string> names;
+  for (const Scope* scope = this; scope != nullptr; scope = scope->outer_) {
+    for (const auto& [name, value] : scope->variables_) names.insert(name);
+  }
+  return {names.begin(), names.end()};
+}
+
+std::string Scope::explain(const std::string& text, const Formula::Mistake& mistake) const {
   const std::string message = "must be a number, got " + quoted(text);
+  if (arithmetic_->hints <= 0) return message;
+  --arithmetic_->hints;
   std::string hint = unit_hint(text);
   if (!hint.empty()) return message + hint;
+  const int position = mistake.position;
   const bool inside = position >= 0 && static_cast<std::size_t>(position) < text.size();
   const std::string name =
       inside ? leading_identifier(std::string_view(text).substr(static_cast<std::size_t>(position)))
-             : leading_identifier(token);
-  std::vector<std::string> known;
-  for (const auto& [variable, value] : variables_) known.push_back(variable);
+             : leading_identifier(mistake.token);
+  std::vector<std::string> known = names();
   if (name == text) {
     // A lone word is probably no expression at all, unless it resembles a variable.
     const std::string nearest = nearest_name(name, known);
     return nearest.empty() ? message : message + " – did you mean '" + nearest + "'?";
   }
-  const auto& functions = parser().parser.GetFunDef();
-  if (name.empty() || variables_.contains(name) || functions.contains(name)) {
-    return message + " (" + std::string(trim(reason)) + ")";
+  const Formula& formula = arithmetic_->formula;
+  if (name.empty() || find(name) != nullptr || formula.has_function(name)) {
+    return message + " (" + std::string(trim(mistake.reason)) + ")";
   }
   const bool called = inside && is_called(text, static_cast<std::size_t>(position) + name.size());
   if (called) {
-    for (const auto& [function, definition] : functions) known.push_back(function);
+    for (const std::string& function : formula.functions()) known.push_back(function);
   }
-  return message + ": unknown " + (called ? "function" : "variable") + " '" + name + "'" +
+  return message + ": unknown " + (called ? "function" : "variable") + " " + quoted(name) +
          did_you_mean(name, known);
 }
 

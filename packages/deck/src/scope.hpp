@@ -1,10 +1,13 @@
 #pragma once
 
+#include <culm/base/formula.hpp>
+
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace culm::deck {
 
@@ -22,13 +25,15 @@ struct Evaluation {
 };
 
 /// The variables that are visible in a list, and the arithmetic over them (by muParser). pi and e
-/// are always there. A copy starts as the scope of a list below.
+/// are always there.
 class Scope {
  public:
   Scope();
-  Scope(const Scope& outer);
+  /// The scope of a list below, which sees the variables of `outer` as long as that lives.
+  explicit Scope(const Scope* outer);
+  Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
-  ~Scope();
+  ~Scope() = default;
 
   /// Adds a variable, or hides one of an outer list. Returns what is wrong with the name, if
   /// anything.
@@ -41,13 +46,20 @@ class Scope {
   std::string substitute(std::string_view formula, std::string_view own) const;
 
  private:
-  struct Parser;
-  Parser& parser() const;
-  std::string explain(const std::string& text, const std::string& token, int position,
-                      const std::string& reason) const;
+  /// What all scopes of a deck share.
+  struct Arithmetic {
+    Formula formula;
+    int hints = 1000;  ///< so many mistakes get a hint, which costs a look at all variables
+  };
 
-  std::map<std::string, double> variables_;
-  mutable std::unique_ptr<Parser> parser_;  ///< made when the first expression is met
+  const double* find(const std::string& name) const;
+  std::map<std::string, double> values_in(std::string_view text) const;
+  std::vector<std::string> names() const;
+  std::string explain(const std::string& text, const Formula::Mistake& mistake) const;
+
+  const Scope* outer_ = nullptr;
+  std::map<std::string, double> variables_;  ///< of this list
+  std::shared_ptr<Arithmetic> arithmetic_;
 };
 
 }  // namespace culm::deck

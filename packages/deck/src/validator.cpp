@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 namespace culm::deck {
@@ -30,24 +32,37 @@ Where where_of(const RawParameter& raw, const std::string& list_path) {
   return {raw.file, raw.line, join_path(list_path, raw.name)};
 }
 
-/// What an unknown name may stand for: a name that is not there yet, before one that is.
-template <class Item>
-std::vector<std::string> candidates(const std::string& name, const std::vector<std::string>& known,
-                                    const std::vector<Item>& items) {
-  std::vector<std::string> absent;
-  for (const std::string& candidate : known) {
-    if (!find(items, candidate)) absent.push_back(candidate);
+/// What unknown names of a list may stand for: a name that is not there yet, before one that is.
+class Meanings {
+ public:
+  template <class Item>
+  Meanings(std::vector<std::string> known, const std::vector<Item>& items)
+      : known_(std::move(known)) {
+    std::unordered_set<std::string_view> present;
+    for (const Item& item : items) present.insert(item.name);
+    for (const std::string& name : known_) {
+      if (!present.contains(name)) absent_.push_back(name);
+    }
   }
-  return nearest_name(name, absent).empty() ? known : absent;
-}
+  bool knows(const std::string& name) const {
+    return std::ranges::find(known_, name) != known_.end();
+  }
+  const std::vector<std::string>& of(const std::string& name) const {
+    return nearest_name(name, absent_).empty() ? known_ : absent_;
+  }
+
+ private:
+  std::vector<std::string> known_;
+  std::vector<std::string> absent_;
+};
 
 /// Whether one of the items has an unknown name that was meant to be this one.
 template <class Item>
 bool is_misspelt(const std::string& name, const std::vector<Item>& items,
                  const std::vector<std::string>& known) {
+  const Meanings meanings(known, items);
   return std::ranges::any_of(items, [&](const Item& item) {
-    return std::ranges::find(known, item.name) == known.end() &&
-           nearest_name(item.name, candidates(item.name, known, items)) == name;
+    return !meanings.knows(item.name) && nearest_name(item.name, meanings.of(item.name)) == name;
   });
 }
 
@@ -67,7 +82,7 @@ Options Validator::list(const Place& place, const Schema& schema, const RawParam
   const std::size_t mistakes_before = issues_.size() + silent_mistakes_;
   // A list without variables shares the scope above, and with it the parser, which is costly.
   std::optional<Scope> own;
-  if (!place.raw.variables.empty()) define_variables(place, own.emplace(place.outer));
+  if (!place.raw.variables.empty()) define_variables(place, own.emplace(&place.outer));
   const Scope& scope = own ? *own : place.outer;
   Options options(place.raw.name, where_of(place.raw, place.path));
   if (type) {
@@ -189,29 +204,25 @@ void Validator::absent_list(const Place& place, const Schema& schema, const Sche
 }
 
 void Validator::report_unknown(const Place& place, const Schema& schema, bool has_type) {
-  const std::vector<std::string> lists = schema.list_names();
+  const std::string path = where_of(place.raw, place.path).path;
   std::vector<std::string> fields = schema.field_names();
   if (has_type) fields.emplace_back("Type");
+  const Meanings lists(schema.list_names(), place.raw.lists);
+  const Meanings parameters(std::move(fields), place.raw.parameters);
   for (const RawParameter& raw : place.raw.parameters) {
-    if (raw.name.empty() || std::ranges::find(fields, raw.name) != fields.end()) continue;
-    const Where where{raw.file, raw.line, where_of(place.raw, place.path).path};
-    if (std::ranges::find(lists, raw.name) != lists.end()) {
+    if (raw.name.empty() || parameters.knows(raw.name)) continue;
+    if (lists.knows(raw.name)) {
       report(raw, place.path, "must be a <ParameterList>, found a <Parameter>");
     } else {
-      issues_.add(where,
-                  "unknown name '" + raw.name + "'" +
-                      did_you_mean(raw.name, candidates(raw.name, fields, place.raw.parameters)));
+      issues_.add({raw.file, raw.line, path}, "unknown name '" + raw.name + "'" +
+                                                  did_you_mean(raw.name, parameters.of(raw.name)));
     }
   }
   if (schema.entries()) return;
   for (const RawList& raw : place.raw.lists) {
-    if (raw.name.empty() || schema.find_field(raw.name) ||
-        std::ranges::find(lists, raw.name) != lists.end()) {
-      continue;
-    }
-    issues_.add({raw.file, raw.line, where_of(place.raw, place.path).path},
-                "unknown list '" + raw.name + "'" +
-                    did_you_mean(raw.name, candidates(raw.name, lists, place.raw.lists)));
+    if (raw.name.empty() || schema.find_field(raw.name) || lists.knows(raw.name)) continue;
+    issues_.add({raw.file, raw.line, path},
+                "unknown list '" + raw.name + "'" + did_you_mean(raw.name, lists.of(raw.name)));
   }
 }
 

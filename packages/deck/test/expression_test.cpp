@@ -66,7 +66,8 @@ TEST(Expression, BrokenSyntaxIsExplained) {
 }
 
 TEST(Expression, AssignmentIsNoExpression) {
-  EXPECT_NE(complaint("<Variable name=\"a\" value=\"2\"/>" + length("a=3")), "");
+  EXPECT_EQ(complaint("<Variable name=\"a\" value=\"2\"/>" + length("a=3")),
+            "must be a number, got 'a=3' ('=' does not compare, '==' does)");
 }
 
 TEST(Expression, MessagesShowValueAndExpression) {
@@ -81,6 +82,18 @@ TEST(Expression, ReservedAndMalformedNamesOfVariablesAreRefused) {
   EXPECT_EQ(mistakes(deck_around("<Variable name=\"2a\" value=\"3\"/>")),
             "deck.xml:3: Structures / 2a: the name of a variable must be letters, digits and "
             "'_', got '2a'");
+}
+
+TEST(Expression, ANameTooLongForAFormulaIsRefused) {
+  const std::string name(101, 'v');
+  EXPECT_EQ(mistakes(deck_around("<Variable name=\"" + name + "\" value=\"3\"/>" +
+                                 beam(length("1 + 1")))),
+            "deck.xml:3: Structures / " + name +
+                ": the name of a variable must have at most 100 characters, got '" +
+                name.substr(0, 60) + "…'");
+  const std::string longest(100, 'v');
+  EXPECT_EQ(length_of("<Variable name=\"" + longest + "\" value=\"3\"/>" + length("2*" + longest)),
+            6.0);
 }
 
 TEST(Expression, AWrongVariableIsReportedOnceNotForEachUse) {

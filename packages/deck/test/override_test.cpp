@@ -50,6 +50,23 @@ TEST(Override, MistakesAreReportedAtTheCommandLine) {
             "command line: culm: unknown list 'Strctures' – did you mean 'Structures'?");
 }
 
+TEST(Override, WhatXmlCannotHoldIsAUsageError) {
+  const auto message = [](const std::string& assignment) -> std::string {
+    try {
+      read(deck_around(body()), {assignment});
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("Title=a\xff\xfe"), "--set is no valid UTF-8 in 'Title=a\\xff\\xfe'");
+  EXPECT_EQ(message("Title=\xe2\x82"), "--set is no valid UTF-8 in 'Title=\\xe2\\x82'");
+  EXPECT_EQ(message("Title=\x01"),
+            "--set has a character that XML does not allow in 'Title=\\x01'");
+  EXPECT_EQ(message("T\xffitle=1"), "--set is no valid UTF-8 in 'T\\xffitle=1'");
+  EXPECT_EQ(message("Title=µ\t€\n"), "");
+}
+
 TEST(Override, WhatIsNoAssignmentIsAUsageError) {
   EXPECT_THROW(read(deck_around(body()), {"Structures/top/Mass"}), UsageError);
   EXPECT_THROW(read(deck_around(body()), {"Structures//Mass=1"}), UsageError);

@@ -217,15 +217,16 @@ TEST_F(Files, MistakesInAnIncludedFileNameThatFile) {
 TEST_F(Files, AnIncludeThatCannotBeReadIsReportedAtItsLine) {
   EXPECT_EQ(mistakes_of(write("deck.xml", deck_around("<xi:include href=\"none.xml\"/>\n"
                                                       "<xi:include href=\"parts\"/>"))),
-            "deck.xml:3: Structures: cannot read the included file 'none.xml'\n"
-            "deck.xml:4: Structures: cannot read the included file 'parts'");
+            "deck.xml:3: Structures: cannot read the included file 'none.xml': there is "
+            "no such file\n"
+            "deck.xml:4: Structures: cannot read the included file 'parts': is a folder");
 }
 
 TEST_F(Files, WhatABrokenIncludeMayHoldIsNotMissed) {
   EXPECT_EQ(mistakes_of(write("deck.xml",
                               "<ParameterList name=\"culm\">\n<xi:include href=\"none.xml\"/>\n"
                               "</ParameterList>")),
-            "deck.xml:2: cannot read the included file 'none.xml'");
+            "deck.xml:2: cannot read the included file 'none.xml': there is no such file");
 }
 
 TEST_F(Files, ABrokenIncludeDoesNotHideOtherMistakes) {
@@ -259,7 +260,8 @@ TEST_F(Files, AllRanksCanParseWhatOneHasRead) {
   const std::string path = write("deck.xml", deck_around("<xi:include href=\"parts/top.xml\"/>\n"
                                                          "<xi:include href=\"none.xml\"/>"));
   const std::vector<DeckText> texts = Deck::read_files(path);
-  ASSERT_EQ(texts.size(), 2U);
+  ASSERT_EQ(texts.size(), 3U);
+  EXPECT_EQ(texts[2].objection, "there is no such file");
   const auto complaint = [](const Deck& deck) -> std::string {
     try {
       deck.validate(world());

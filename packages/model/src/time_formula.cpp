@@ -1,25 +1,23 @@
 #include "time_formula.hpp"
 
+#include <culm/base/formula.hpp>
 #include <culm/base/text.hpp>
 
-#include <muParser.h>
-
+#include <limits>
 #include <numbers>
 
 namespace culm::model {
 
 struct TimeFormula::Parser {
-  mu::Parser parser;
+  Formula formula;
   double time = 0.0;
 
   explicit Parser(const std::string& text) {
-    parser.ClearConst();
-    parser.DefineConst("pi", std::numbers::pi);
-    parser.DefineConst("e", std::numbers::e);
-    parser.DefineVar("t", &time);
-    parser.SetExpr(text);
+    formula.set_constants({{"pi", std::numbers::pi}, {"e", std::numbers::e}});
+    formula.add_variable("t", time);
+    formula.set_text(text);
   }
-  Parser(const Parser&) = delete;  // the parser points to the time beside it
+  Parser(const Parser&) = delete;  // the formula points to the time beside it
   Parser& operator=(const Parser&) = delete;
   ~Parser() = default;
 };
@@ -28,24 +26,24 @@ TimeFormula::TimeFormula(const std::string& text) : parser_(std::make_shared<Par
 
 double TimeFormula::value(double time) const {
   parser_->time = time;
-  return parser_->parser.Eval();
+  const Formula::Result result = parser_->formula.evaluate();
+  return result.mistake ? std::numeric_limits<double>::quiet_NaN() : result.value;
 }
 
 std::string TimeFormula::mistake(const std::string& text) {
   if (trim(text).empty()) return "must be a formula in t, got ''";
-  try {
-    Parser checked(text);
-    int count = 0;
-    checked.parser.Eval(count);
-    return count == 1 ? "" : "must be one formula in t, got '" + text + "'";
-  } catch (const mu::Parser::exception_type& error) {
-    const auto place = std::string(
-        error.GetPos() >= 0 ? " at character " + std::to_string(error.GetPos() + 1) : "");
-    const std::string token(trim(error.GetToken()));
-    return "must be a formula in t, got '" + text + "': mistake" + place +
-           (token.empty() ? "" : ", '" + token + "'") + " (" + std::string(trim(error.GetMsg())) +
-           ")";
+  const Parser checked(text);
+  const Formula::Result result = checked.formula.evaluate();
+  const std::string shown = "'" + shortened(text, 200) + "'";
+  if (result.mistake) {
+    const int position = result.mistake->position;
+    const std::string place = position >= 0 ? " at character " + std::to_string(position + 1) : "";
+    const std::string token(trim(result.mistake->token));
+    return "must be a formula in t, got " + shown + ": mistake" + place +
+           (token.empty() ? "" : ", '" + shortened(token, 60) + "'") + " (" +
+           std::string(trim(result.mistake->reason)) + ")";
   }
+  return result.count == 1 ? "" : "must be one formula in t, got " + shown;
 }
 
 }  // namespace culm::model

@@ -1,14 +1,15 @@
 #include "time_table.hpp"
 
 #include <culm/base/error.hpp>
+#include <culm/base/read_file.hpp>
 #include <culm/base/text.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 namespace culm::model {
@@ -59,8 +60,7 @@ std::string TimeTable::mistake(const std::vector<double>& times,
 
 TimeTable read_time_table(const std::string& name, const Where& where) {
   const std::string path = (std::filesystem::path(where.file).parent_path() / name).string();
-  std::ifstream file(path);
-  if (!file) throw FileError(path, "cannot be read; " + to_string(where) + " asks for it");
+  std::istringstream file(read_file(path, where));
   TimeTable table;
   InputIssues issues;
   int number = 0;
@@ -71,7 +71,7 @@ TimeTable read_time_table(const std::string& name, const Where& where) {
     const double last = table.times.empty() ? -INFINITY : table.times.back();
     const Where here{path, number, {}};
     if (!read_point(text, table)) {
-      issues.add(here, "must be 'time, value', got '" + std::string(text) + "'");
+      issues.add(here, "must be 'time, value', got '" + shortened(text, 60) + "'");
     } else if (table.times.back() <= last) {
       issues.add(here, "times must increase, got " + format_number(table.times.back()) + " after " +
                            format_number(last));

@@ -227,8 +227,8 @@ TEST_F(FunctionFile, AnEmptyFileIsNoFunction) {
 
 TEST_F(FunctionFile, AMissingFileIsNamedWithThePlaceThatAsksForIt) {
   const std::string deck = (folder / "deck.xml").string();
-  EXPECT_EQ(message<FileError>(), (folder / "gust.csv").string() + ": cannot be read; " + deck +
-                                      ":7: Functions / gust / File Name asks for it");
+  EXPECT_EQ(message<FileError>(), (folder / "gust.csv").string() + ": there is no such file; " +
+                                      deck + ":7: Functions / gust / File Name asks for it");
 }
 
 }  // namespace

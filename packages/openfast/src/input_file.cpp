@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/base/read_file.hpp>
 #include <culm/base/text.hpp>
 #include <culm/openfast/input_file.hpp>
 
@@ -7,11 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <system_error>
+#include <sstream>
 #include <utility>
 
 namespace culm::openfast {
@@ -36,25 +35,17 @@ bool ends_entry(const std::vector<Word>& words, std::size_t at) {
   return words.front().quoted || find_number(value) || value == "true" || value == "false";
 }
 
-std::vector<std::string> read_text(const std::filesystem::path& path) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed)) {
-    throw FileError(path.string(), "cannot read: it is a folder");
-  }
-  std::ifstream stream(path);
-  if (!stream) {
-    throw FileError(path.string(), "cannot read: " + std::generic_category().message(errno));
-  }
+std::vector<std::string> read_lines_of(const std::filesystem::path& path) {
+  std::istringstream stream(read_file(path));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  if (stream.bad()) throw FileError(path.string(), "cannot read");
   return lines;
 }
 
 }  // namespace
 
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
-  lines_ = read_text(path_);
+  lines_ = read_lines_of(path_);
   if (lines_.size() > 1) title_ = std::string(trim(lines_[1]));
   read_lines();
 }

@@ -16,6 +16,7 @@ DeckSource read_source(const parallel::Comm& comm, const std::string& path,
   for (deck::DeckText& text : source.texts) {
     text.name = comm.broadcast(text.name);
     text.text = comm.broadcast(text.text);
+    text.objection = comm.broadcast(text.objection);
   }
   return source;
 }
@@ -43,7 +44,7 @@ DeckSource DeckSource::restore(const Snapshot& snapshot) {
   for (int i = 0; i < snapshot.integer("deck/files"); ++i) {
     const std::string number = std::to_string(i);
     source.texts.push_back(
-        {snapshot.text("deck/name " + number), snapshot.text("deck/text " + number)});
+        {snapshot.text("deck/name " + number), snapshot.text("deck/text " + number), {}});
   }
   for (int i = 0; i < snapshot.integer("deck/overrides"); ++i) {
     source.overrides.push_back(snapshot.text("deck/override " + std::to_string(i)));

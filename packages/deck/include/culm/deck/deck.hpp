@@ -17,10 +17,11 @@ struct RawList;
 struct DeckText {
   std::string name;
   std::string text;
+  std::string objection = {};  ///< why an included file cannot be read; empty if it can
 };
 
-/// Assignments from the command line, "Structures/beam/Elements=32". They replace the text of a
-/// value, whose unit and type stay, or of a <Variable>; what is missing is created.
+/// Assignments from the command line, "Structures/beam/Curve/Elements=32". They replace the text of
+/// a value, whose unit and type stay, or of a <Variable>; what is missing is created.
 using Overrides = std::vector<std::string>;
 
 /// An input deck as it was read: well-formed, with its includes, not yet checked against a schema.
@@ -28,15 +29,15 @@ using Overrides = std::vector<std::string>;
 class Deck {
  public:
   /// Reads a file and what it includes. Throws FileError if the file cannot be read, InputError
-  /// if it is no XML, UsageError if an override is no assignment.
+  /// if it is no XML, UsageError if an override is no assignment, or no text that XML can hold.
   static Deck parse_file(const std::string& path, const Overrides& overrides = {});
 
   /// Reads a text; `name` stands for the file in messages and is where includes are relative to.
   static Deck parse_text(std::string text, std::string name, const Overrides& overrides = {});
 
   /// The file and all that it includes, so that one rank reads and all ranks parse the same.
-  /// Includes that cannot be read are left out; parse_texts reports them. Throws FileError if the
-  /// file itself cannot be read.
+  /// Includes that cannot be read have an objection, which parse_texts reports. Throws FileError if
+  /// the file itself cannot be read.
   static std::vector<DeckText> read_files(const std::string& path);
 
   /// Parses the first text; the others serve its includes, and no file is opened.
