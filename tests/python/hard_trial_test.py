@@ -15,7 +15,8 @@ DIAGNOSED = "It failed.\nLikely cause: too much. x\nTry: less.\n"
 class Program:
     """Fails beyond a limit that --set x= passes on."""
 
-    def __init__(self, limit, resumes=0):
+    def __init__(self, limit, resumes=0, begins=1e9):
+        self.begins = begins  # beyond this value the deck is refused, and there are no results
         self.limit = limit
         self.resumes = resumes
         self.values = []
@@ -25,7 +26,7 @@ class Program:
         self.values.append(value)
         folder.mkdir(parents=True, exist_ok=True)
         good = value <= self.limit
-        if not good:
+        if not good and value <= self.begins:
             (folder / "run.checkpoint").write_text("")
         results = types.SimpleNamespace(
             scalars=lambda: {"accepted steps": 3.0},
@@ -33,13 +34,13 @@ class Program:
             last_state=lambda: (0.0, {}),
         )
         return types.SimpleNamespace(
-            exit=0 if good else 4,
+            exit=0 if good else 4 if value <= self.begins else 3,
             errors="" if good else DIAGNOSED,
             output="",
             outcome="how it ended",
             cpu=0.5,
             folder=folder,
-            results=results,
+            results=results if value <= self.begins else None,
             history=types.SimpleNamespace(columns={"y": [0.0, value]}),
         )
 
@@ -86,6 +87,10 @@ class TrialTest(unittest.TestCase):
     def test_a_checkpoint_that_does_not_resume_is_a_fault(self):
         entry = self.trial(Program(70.0, resumes=6)).measure(CASE)
         self.assertEqual((entry.kind, entry.told), (judge.FAULTY, False))
+
+    def test_a_deck_that_is_refused_far_beyond_needs_no_checkpoint(self):
+        entry = self.trial(Program(70.0, begins=100.0)).measure(CASE)
+        self.assertEqual((entry.kind, entry.beyond), (judge.FAILED, judge.FAILED))
 
     def test_a_margin_is_confirmed_by_two_runs(self):
         known = self.trial(Program(70.0)).measure(CASE)

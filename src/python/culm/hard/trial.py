@@ -85,9 +85,9 @@ class Trial:
 
     def _resumes(self, run):
         """The checkpoint of a run that failed is usable; true if it failed before its first step
-        and so has none."""
+        and so has none, or if its deck was refused before there were results."""
         if not (run.folder / "run.checkpoint").exists():
-            return run.results.scalars().get("accepted steps", 0) == 0
+            return run.results is None or run.results.scalars().get("accepted steps", 0) == 0
         self.runs += 1
         again = self.program.resume(run.folder, walltime=1, time_limit=self.time_limit)
         self.cpu += again.cpu
