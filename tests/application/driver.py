@@ -45,7 +45,7 @@ class Case:
     cwd: typing.Optional[str] = None  # where it runs; by default the folder of the case
     errors: typing.Optional[list] = None  # all lines of stderr, one by one; ... is any end
     says: list = dataclasses.field(default_factory=list)  # each exactly once in stderr
-    never: list = dataclasses.field(default_factory=list)  # not in stderr
+    never: list = dataclasses.field(default_factory=list)  # neither in stderr nor in stdout
     prints: list = dataclasses.field(default_factory=list)  # each exactly once in stdout
     silent: typing.Optional[bool] = None  # whether stdout is empty; by default if exit is not 0
     results: typing.Optional[str] = None  # folder with sound results; without it nothing is written
@@ -167,7 +167,7 @@ def check_text(case, line, stdout, stderr):
     for text in here:
         demand(stderr.count(text) == 1, f"stderr has {stderr.count(text)} times: {text}")
     for text in case.never:
-        demand(text not in stderr, f"stderr must not have: {text}")
+        demand(text not in stderr + stdout, f"there must not be: {text}")
     for text in case.prints:
         demand(stdout.count(text) == 1, f"stdout has {stdout.count(text)} times: {text}")
     silent = case.exit != 0 if case.silent is None else case.silent

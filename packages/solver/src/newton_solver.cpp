@@ -121,9 +121,11 @@ Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const std::shared_ptr<Newton
   list->sublist("Direction").sublist("Newton").set("Rescue Bad Newton Solve", false);
   Teuchos::ParameterList& printing = list->sublist("Printing");
   printing.set("Output Information", 0);
-  // NOX reports a residual that cannot be computed whatever it was told; our outcome says it
-  printing.set<Teuchos::RCP<std::ostream>>("Error Stream",
-                                           Teuchos::rcp(new Teuchos::oblackholestream));
+  // NOX reports what fails whatever it was told; our outcome says it, and the streams are the
+  // caller's
+  const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream);
+  printing.set("Output Stream", nowhere);
+  printing.set("Error Stream", nowhere);
   return list;
 }
 
