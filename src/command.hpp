@@ -14,6 +14,7 @@ namespace culm::app {
 struct DeckArguments {
   std::string deck;
   std::vector<std::string> overrides;  ///< path=value
+  std::string memory;                  ///< what it may take; empty for that of the machine
   bool quiet = false;
 };
 
@@ -36,6 +37,7 @@ struct ResumeArguments {
   std::filesystem::path run;           ///< folder of results, or a checkpoint
   std::string deck;                    ///< in place of that of the run; empty for that one
   std::vector<std::string> overrides;  ///< path=value, after those of the run
+  std::string memory;                  ///< what it may take; empty for that of the machine
   std::string walltime;
   bool strict = false;  ///< warnings count as broken promises
   bool quiet = false;

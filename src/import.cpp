@@ -21,7 +21,8 @@ namespace culm::app {
 namespace {
 
 void refuse_existing(const std::filesystem::path& path) {
-  if (std::filesystem::exists(path)) {
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored))) {
     throw FileError(path.string(),
                     "exists and may have been edited: remove it, or name another "
                     "file with --output");

@@ -1,6 +1,7 @@
 // culm: nonlinear dynamics of slender structures, driven by decks.
 
 #include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
 #include <culm/base/version.hpp>
 #include <culm/simulation/session.hpp>
 
@@ -11,11 +12,19 @@
 #include <mpi.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <functional>
+#include <new>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace {
+
+// exit codes
+constexpr int deck_error = 3;
+constexpr int file_error = 6;
 
 using culm::app::CheckArguments;
 using culm::app::DeckArguments;
@@ -35,9 +44,11 @@ struct Arguments {
 template <class VerbArguments>
 void add_common_options(CLI::App& verb, VerbArguments& arguments) {
   verb.add_option("--set", arguments.overrides,
-                  "Replace a value: Structures/beam/Elements=32; may be repeated")
+                  "Replace a value: Structures/beam/Curve/Elements=32; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
+  verb.add_option("--max-memory", arguments.memory,
+                  "Refuse models that need more: '16 GB'; the memory of the machine if not given");
   verb.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
 }
 
@@ -145,10 +156,33 @@ int report(const CLI::ParseError& error, const CLI::App& app, const culm::parall
   return code == 0 ? 0 : 2;
 }
 
+// Names and values in a message may be of any length.
+void print_lines(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::fprintf(stderr, "%s\n", culm::shortened(line, 2500).c_str());
+  }
+}
+
 // The error is the same on all ranks, so one speaks for them.
 int report(const culm::Error& error, const culm::parallel::Comm& comm) {
-  if (comm.is_root()) std::fprintf(stderr, "%s\n", error.what());
+  if (comm.is_root()) print_lines(error.what());
   return error.exit_code();
+}
+
+// What one rank may meet alone: others may be waiting for it.
+int report(const std::string& text, int code, const culm::parallel::Comm& comm) {
+  print_lines(text);
+  if (comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
+  return code;
+}
+
+int report_lack_of_memory(const culm::parallel::Comm& comm) {
+  return report(
+      "there is not enough memory for this deck\n"
+      "Try: fewer elements, a smaller 'Refinement', fewer 'Modes'; 'culm check' counts what a deck "
+      "makes; --max-memory may allow more.",
+      deck_error, comm);
 }
 
 int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
@@ -165,12 +199,16 @@ int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
     return report(error, app, comm);
   } catch (const culm::Error& error) {
     return report(error, comm);
+  } catch (const std::bad_alloc&) {
+    return report_lack_of_memory(comm);
+  } catch (const std::length_error&) {
+    return report_lack_of_memory(comm);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report(error.path1().string() + ": " + error.code().message(), file_error, comm);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "internal error: %s\nThis is a bug in culm; please report it.\n",
-                 error.what());
-    // other ranks may be waiting for this one
-    if (comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, 1);
-    return 1;
+    return report(std::string("internal error: ") + error.what() +
+                      "\nThis is a bug in culm; please report it.",
+                  1, comm);
   }
   return 0;
 }
@@ -186,7 +224,8 @@ int main(int argc, char** argv) {
   bool is_root = false;
   const int code = run_verb(argc, argv, arguments, is_root);
   const std::filesystem::path& folder = arguments.run.started;
-  if (!arguments.run.report || folder.empty()) return code;
+  // the folder may be that of another run, which this one has left alone
+  if (!arguments.run.report || folder.empty() || code == file_error) return code;
   // mpiexec ends all processes when one returns an error, and the root has a page to draw before
   if (!is_root) return 0;
   std::vector<std::string> drawn = {"report", folder.string()};

@@ -9,6 +9,8 @@ namespace culm::app {
 
 void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
+  const double memory = simulation::find_memory(arguments.memory);
+  simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const auto found = simulation::find_checkpoint(comm, arguments.run, log);
   const simulation::RunSettings settings{found.folder, arguments.quiet,
@@ -23,7 +25,7 @@ void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
   simulation::check_resumed_deck(catalogue, deck, found.snapshot);
   simulation::warn_of_differences(comm, found.snapshot, log);
   log.info(simulation::describe(found, deck));
-  simulation::Simulation(comm, catalogue, deck, source, log)
+  simulation::Simulation(comm, catalogue, deck, source, log, memory)
       .run(settings, request, &found.snapshot);
 }
 

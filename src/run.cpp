@@ -10,6 +10,8 @@ namespace culm::app {
 
 void run(const parallel::Comm& comm, RunArguments& arguments) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
+  const double memory = simulation::find_memory(arguments.memory);
+  simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const std::filesystem::path by_name =
       std::filesystem::path("results") / std::filesystem::path(arguments.deck).stem();
@@ -19,7 +21,7 @@ void run(const parallel::Comm& comm, RunArguments& arguments) {
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);
-  simulation::Simulation simulation(comm, catalogue, deck, source, log);
+  simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
   arguments.started = settings.folder;
   simulation.run(settings, request);
 }

@@ -94,7 +94,7 @@ def check_results(folder, case):
     demand((folder / "run.h5").is_file(), "there is no run.h5")
     h5 = (folder / "run.h5").read_bytes()
     demand(h5[:8] == b"\x89HDF\r\n\x1a\n", "run.h5 is no HDF5 file")
-    end_of_file = struct.unpack("<Q", h5[40:48])[0]  # superblock version 0
+    end_of_file = struct.unpack("<Q", h5[28:36])[0]  # superblock version 2
     demand(end_of_file == len(h5), f"run.h5 has {len(h5)} bytes, but says {end_of_file}")
     leftovers = sorted(p.name for p in folder.iterdir() if re.search(r"journal|part$", p.name))
     demand(not leftovers, f"left over: {leftovers}")

@@ -2,7 +2,7 @@
 """Stops and kills runs, goes on with them, and compares the results with those of a run that nobody
 disturbed: all bits must be the same.
 
-usage: resume.py --culm PROGRAM [--mpiexec PROGRAM --ranks N] [--kills N] [--seed N] [--only NAME]
+usage: resume.py --culm PROGRAM [--mpiexec PROGRAM --ranks N] [--kills N] [--flips N] [--seed N] [--only NAME]
 """
 
 import argparse
@@ -10,6 +10,7 @@ import contextlib
 import os
 import pathlib
 import random
+import re
 import resource
 import shutil
 import signal
@@ -316,6 +317,67 @@ def damaged_checkpoints(program, folder, options):
     demand("empty/run.h5" in err, f"stderr is {err}")
 
 
+def bytes_of(folder):
+    return {name: (folder / name).read_bytes() for name in files(folder)}
+
+
+def refuse(program, folder, complaint):
+    """A resume that says why not, and changes nothing."""
+    before = bytes_of(folder)
+    _, _, err = program("resume", folder.name, expect=(6,))
+    demand(complaint in err, f"stderr is {err}")
+    demand(bytes_of(folder) == before, f"a resume of {folder.name} that was refused changed files")
+
+
+def foreign_checkpoints(program, folder, options):
+    """What belongs to another run is refused, also if that had the same deck."""
+    for name, more in {"own": [], "twin": [], "other": settings("Structures/spun/Mass=2")}.items():
+        program("run", *TORSION, *more, "--output", name)
+    for name in ("twin", "other"):
+        (folder / "own/run.checkpoint.old").unlink(missing_ok=True)
+        shutil.copy(folder / name / "run.checkpoint", folder / "own")
+        refuse(program, folder / "own", "own/run.h5: is not the result file of this checkpoint: ")
+
+
+def changed_table(program, folder, options):
+    """A table that a deck reads belongs to its model."""
+    deck = (INPUTS / "beam/load_functions.xml").read_text()
+    shutil.copytree(INPUTS / "beam", folder / "decks")
+    (folder / "decks/deck.xml").write_text(deck)
+    tables = re.findall(r'"File Name" value="(.*?)"', deck)
+    demand(tables, "the deck reads no table")
+    program("run", "decks/deck.xml", "--output", "out")
+    table = folder / "decks" / tables[0]
+    lines = table.read_text().splitlines()
+    lines[-1] = re.sub(r",.*", ",0.123", lines[-1])
+    table.write_text("\n".join(lines) + "\n")
+    refuse(program, folder / "out", "the checkpoint belongs to another model")
+
+
+def flipped_bits(program, folder, options):
+    """A bit that turned over in run.h5 or a checkpoint is found, or changes nothing."""
+    program("run", *TORSION, "--output", "whole")
+    program("run", *TORSION, "--output", "stopped", "--walltime", "1e-6", expect=(7,))
+    refused = 0
+    chance = random.Random(options.seed)
+    for _ in range(options.flips):
+        shutil.rmtree(folder / "parts", ignore_errors=True)
+        shutil.copytree(folder / "stopped", folder / "parts")
+        path = folder / "parts" / chance.choice(["run.h5", "run.h5", "run.checkpoint"])
+        raw = bytearray(path.read_bytes())
+        bit = chance.randrange(8 * len(raw))
+        raw[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(raw)
+        before = bytes_of(folder / "parts")
+        code, _, err = program("resume", "parts", "--quiet", expect=(0, 6))
+        if code == 0:
+            demand_same(folder / "whole", folder / "parts")
+        else:
+            refused += 1
+            demand(bytes_of(folder / "parts") == before, f"bit {bit} of {path.name}: {err}")
+    print(f"{refused} of {options.flips} flipped bits refused, the others harmless")
+
+
 def checkpoints_can_be_switched_off(program, folder, options):
     off = settings("Output/Checkpoints=false")
     program("run", *TORSION, "--output", "out")
@@ -350,8 +412,10 @@ def living_run_is_left_alone(program, folder, options):
     process = program.start("run", *LONG, *EVERY_STEP, "--output", "out")
     try:
         wait_for(process, (folder / "out/run.checkpoint").exists, "no checkpoint")
-        _, _, err = program("resume", "out", expect=(6,))
-        demand("another process writes this file" in err, f"stderr is {err}")
+        for words in (["resume", "out"], ["run", *TORSION, "--output", "out"]):
+            _, _, err = program(*words, expect=(6,))
+            demand("out: another run writes here: process " in err, f"stderr is {err}")
+            demand("; wait for its end, or take another folder\n" in err, f"stderr is {err}")
         demand(process.poll() is None, "the run has ended")
     finally:
         kill_tree(process)
@@ -454,6 +518,9 @@ ALWAYS = [
     later_end,
     other_model_is_refused,
     damaged_checkpoints,
+    foreign_checkpoints,
+    changed_table,
+    flipped_bits,
     checkpoints_can_be_switched_off,
     other_number_of_processes,
     living_run_is_left_alone,
@@ -467,6 +534,7 @@ def main():
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--kills", type=int, default=8)
+    parser.add_argument("--flips", type=int, default=4)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="tests whose name has this in it")
     options = parser.parse_args()

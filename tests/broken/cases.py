@@ -4,6 +4,8 @@ One mistake gives one line that names file, line, deck path, rule and value foun
 of stderr, so a follow-up message fails the case as well as a missing one.
 """
 
+import fcntl
+import os
 import re
 
 from driver import BASE, Case
@@ -61,6 +63,7 @@ CLAMP = list_of("clamp")
 FORCE = '"{0, 0, 100}"'
 TIP_FORCE = 'value="Force"/>\n      <Parameter name="Node" value="beam/last"/>'
 INNER_FORCE = TIP_FORCE.replace("last", "2")
+ANALYSIS = list_of("bend")
 WATCH = 'value="Position"/>\n        <Parameter name="Node" value="beam/last"/>'
 WATCH_ELEMENT = (
     'value="Stress Resultants"/>\n        <Parameter name="%s" value="%s"/>'
@@ -122,6 +125,28 @@ def usage(name, args, *says, **more):
 def unwritable(name, reason, args="run deck.xml --output out", **more):
     more.setdefault("says", [reason])
     return Case(name, 6, args=args, **more)
+
+
+def shell(*mesh, wall=""):
+    """A deck of one wall with this mesh."""
+    return f"""<ParameterList name="culm">
+  <ParameterList name="Materials">
+    {parameters("steel", ("Type", "Isotropic"), ("Young Modulus", "2e11"), ("Poisson Ratio", "0.3"))}
+  </ParameterList>
+  <ParameterList name="Structures">
+    <ParameterList name="wall">
+      <Parameter name="Type" value="Shell"/>
+      <Parameter name="Material" value="steel"/>
+      <Parameter name="Thickness" value="0.01"/>
+      {wall}
+      {"" if wall else "@@"}{parameters("Mesh", *mesh)}
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Analyses">
+    {parameters("bend", ("Type", "Static"))}
+  </ParameterList>
+</ParameterList>
+"""
 
 
 NAMES = [
@@ -284,6 +309,55 @@ NAMES = [
         '  </ParameterList>\n  <ParameterList name="Loads">',
         "Node Sets / beam: there is a structure of this name",
     ),
+    wrong(
+        "node set named like the end of a beam",
+        LOADS,
+        '<ParameterList name="Node Sets">\n'
+        + parameters("@@beam/last", ("Nodes", "{beam/2}"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Node Sets / beam/last: names that begin with 'beam/' stand for parts of the structure 'beam'",
+        ranks=True,
+    ),
+    wrong(
+        "element set named like an end of a beam",
+        LOADS,
+        '<ParameterList name="Element Sets">\n'
+        + parameters("@@beam/first", ("Structure", "beam"), ("Range", "{0, 1}"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Element Sets / beam/first: names that begin with 'beam/' stand for parts of the structure "
+        "'beam'",
+    ),
+    wrong(
+        "structure with a slash in its name",
+        '<ParameterList name="beam">',
+        '@@<ParameterList name="be/am">',
+        "Structures / be/am: the name of a structure must not contain '/' or '@', which stand before "
+        "its nodes and points",
+    ),
+    wrong(
+        "function that every deck has",
+        LOADS,
+        '<ParameterList name="Functions">\n'
+        + parameters("@@Ramp", ("Type", "Constant"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Functions / Ramp: is the name of a function that every deck has; take another one",
+    ),
+    wrong(
+        "analyses that share a folder",
+        ANALYSIS,
+        ANALYSIS + parameters("@@Bend", ("Type", "Static")),
+        "Analyses / Bend: would share the folder 'analyses/bend' with 'bend'; take another name",
+        ranks=True,
+    ),
+    wrong(
+        "analysis named like the reference state",
+        ANALYSIS,
+        ANALYSIS + parameters("@@Reference", ("Type", "Static")),
+        "Analyses / Reference: is the name of the state at the beginning; take another one",
+    ),
 ]
 
 EI1 = 'name="EI1" value="3e3"'
@@ -420,6 +494,73 @@ VALUES = [
         + LOADS,
         "Functions / swing / Expression: must be a formula in t, got '(3) + omga*t': mistake at "
         "character 7, 'omga' (Unexpected token \"omga\" found at position 6.)",
+    ),
+    wrong(
+        "assignment in a function",
+        LOADS,
+        '<ParameterList name="Functions">'
+        + parameters("jump", ("Type", "Expression"), ("@@Expression", "t=0.5 ? 1 : 0"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Functions / jump / Expression: must be a formula in t, got 't=0.5 ? 1 : 0': mistake at "
+        "character 2, '=' ('=' does not compare, '==' does)",
+        ranks=True,
+    ),
+    wrong(
+        "variable with a name of 101 characters",
+        '<Variable name="L" value="2"/>',
+        f'<Variable name="L" value="2"/>\n  @@<Variable name="{"v" * 101}" value="2"/>',
+        f"{'v' * 101}: the name of a variable must have at most 100 characters, got '{'v' * 60}…'",
+        ranks=True,
+    ),
+    wrong(
+        "range of elements without end",
+        LOADS,
+        '<ParameterList name="Element Sets">\n'
+        + parameters("all", ("Structure", "beam"), ("@@Range", "{0, 2147483647}"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Element Sets / all / Range: structure 'beam' has elements 0 to 3",
+        ranks=True,
+    ),
+    Case(
+        "more elements than memory holds",
+        3,
+        args="run deck.xml --output out --set Structures/beam/Curve/Elements=100000 "
+        "--set Refinement=1024 --set Structures/beam/Order=3 --max-memory '16 GB'",
+        change=[('<ParameterList name="Curve">', '@@<ParameterList name="Curve">')],
+        errors=[
+            "deck.xml:{line}: Structures / beam / Curve: asks for 102400000 elements, with which the "
+            "model needs about 2.46 TB of memory and 16 GB are allowed: take fewer elements, or "
+            "allow more with --max-memory"
+        ],
+        ranks=True,
+    ),
+    Case(
+        "more elements than the option allows",
+        3,
+        args="check deck.xml --max-memory 20kB",
+        change=[('<ParameterList name="Curve">', '@@<ParameterList name="Curve">')],
+        errors=[
+            "deck.xml:{line}: Structures / beam / Curve: asks for 4 elements, with which the model "
+            "needs about 0.032 MB of memory and 0.02 MB are allowed: take fewer elements, or allow "
+            "more with --max-memory"
+        ],
+    ),
+    whole(
+        "shell of 65536 x 65536 elements",
+        shell(("Type", "Plane"), ("Side 1", "{1, 0, 0}"), ("Side 2", "{0, 1, 0}"), ("Elements", "{65536, 65536}")),
+        "deck.xml:{line}: Structures / wall / Mesh: asks for 4294967296 elements, with which the "
+        "model needs about 68.7 TB of memory and 8 GB are allowed: take fewer elements, or allow "
+        "more with --max-memory",
+        args="run deck.xml --output out --max-memory 8GB",
+        ranks=True,
+    ),
+    whole(
+        "layers repeated without end",
+        shell(("Type", "Plane"), ("Side 1", "{1, 0, 0}"), ("Side 2", "{0, 1, 0}"), ("Elements", "{1, 1}"),
+              wall='<Parameter name="Symmetric" value="All Layers"/>\n@@<Parameter name="Repeat" value="2147483647"/>'),
+        "deck.xml:{line}: Structures / wall / Repeat: makes 4294967294 layers, at most 100000 are possible",
     ),
 ]
 
@@ -734,6 +875,42 @@ MECHANICS = [
     ),
 ]
 
+
+
+def function_file(name):
+    return (
+        '<ParameterList name="Functions">'
+        + parameters("gust", ("Type", "File"), ("@@File Name", name))
+        + "</ParameterList>\n"
+    )
+
+
+def imperfection(run):
+    return (
+        '<ParameterList name="Imperfections">'
+        + parameters("bow", ("@@Run", run), ("Analysis", "modes"), ("Amplitude", "0.1"))
+        + "</ParameterList>\n"
+    )
+
+
+def many_variables(count):
+    """As many variables as lists, each of which has one more of its own and uses the first."""
+    variables = "\n".join(f'<Variable name="v{i}" value="{i}"/>' for i in range(count))
+    point = '<Variable name="x" value="v1"/>' + parameters_of_mass("2*v1 + x")
+    masses = "\n".join(
+        f'<ParameterList name="m{i}">{point}</ParameterList>' for i in range(count)
+    )
+    return (
+        f'<ParameterList name="culm">\n{variables}\n'
+        f'<ParameterList name="Masses">{masses}</ParameterList>\n</ParameterList>\n'
+    )
+
+
+def parameters_of_mass(mass):
+    pairs = (("Type", "Point Mass"), ("Node", "beam/0"), ("Mass", mass))
+    return "".join(f'<Parameter name="{key}" value="{value}"/>' for key, value in pairs)
+
+
 DOCTYPE = "a DOCTYPE is not allowed in a deck"
 
 FILES = [
@@ -744,7 +921,87 @@ FILES = [
         "folder for a deck",
         6,
         args="run . --output out",
-        errors=[".: is a directory"],
+        errors=[".: is a folder"],
+    ),
+    Case(
+        "pipe for a deck",
+        6,
+        deck=None,
+        prepare=lambda folder: os.mkfifo(folder / "deck.xml"),
+        errors=["deck.xml: is a pipe, not a file"],
+        ranks=True,
+    ),
+    Case(
+        "link for a deck that leads to itself",
+        6,
+        deck=None,
+        prepare=lambda folder: (folder / "deck.xml").symlink_to("deck.xml"),
+        errors=["deck.xml: cannot be read: Too many levels of symbolic links"],
+    ),
+    Case(
+        "device for an include",
+        3,
+        change=[(LOADS, '<xi:include href="/dev/zero"/>')],
+        errors=[
+            "deck.xml:{line}: cannot read the included file '/dev/zero': is a device, not a file"
+        ],
+        ranks=True,
+    ),
+    Case(
+        "device for a table",
+        6,
+        change=[(LOADS, function_file("/dev/zero") + LOADS)],
+        errors=[
+            "/dev/zero: is a device, not a file; deck.xml:{line}: Functions / gust / File Name asks "
+            "for it"
+        ],
+        ranks=True,
+    ),
+    Case(
+        "folder for a mesh",
+        6,
+        deck=shell(("Type", "Gmsh"), ("File Name", ".")).replace(
+            '<Parameter name="File Name"', '@@<Parameter name="File Name"'
+        ).replace("@@<ParameterList", "<ParameterList"),
+        errors=[".: is a folder; deck.xml:{line}: Structures / wall / Mesh / File Name asks for it"],
+        ranks=True,
+    ),
+    Case(
+        "pipe for a file of OpenFAST",
+        6,
+        deck=None,
+        args="import openfast blade.inp",
+        prepare=lambda folder: os.mkfifo(folder / "blade.inp"),
+        errors=["blade.inp: is a pipe, not a file"],
+    ),
+    Case(
+        "shape of a run with a name too long for files",
+        6,
+        change=[(LOADS, imperfection("a" * 300) + LOADS)],
+        errors=[
+            "a" * 200 + "… (100 more bytes): cannot be read: File name too long; "
+            "deck.xml:{line}: Imperfections / bow / Run asks for the shapes of this run"
+        ],
+        ranks=True,
+    ),
+    Case(
+        "pipe for the results of a run",
+        6,
+        change=[(LOADS, imperfection("run.h5") + LOADS)],
+        prepare=lambda folder: os.mkfifo(folder / "run.h5"),
+        errors=["run.h5: is a pipe, not a file"],
+    ),
+    Case(
+        "1e5 wrong names",
+        3,
+        change=[(STEPS, "\n".join(f'<Parameter name="wrong {i}" value="1"/>' for i in range(10**5)))],
+        says=["\nand 99900 more mistakes\n"],
+    ),
+    Case(
+        "1e4 variables in 1e4 lists",
+        3,
+        deck=many_variables(10**4),
+        errors=["deck.xml:1: culm: missing list 'Structures'", "deck.xml:1: culm: missing list 'Analyses'"],
     ),
     whole(
         "binary file",
@@ -791,11 +1048,11 @@ FILES = [
     ),
     included(
         "missing include",
-        "deck.xml:34: cannot read the included file 'loads.xml'",
+        "deck.xml:34: cannot read the included file 'loads.xml': there is no such file",
     ),
     included(
         "missing include that holds something required",
-        "deck.xml:44: cannot read the included file 'analyses.xml'",
+        "deck.xml:44: cannot read the included file 'analyses.xml': there is no such file",
         old=list_of("Analyses"),
         new='<xi:include href="analyses.xml"/>',
     ),
@@ -1143,6 +1400,17 @@ COMMANDS = [
         "reference Tub",
         "the input reference has no 'Tub' – did you mean 'Tube'?",
     ),
+    usage(
+        "title that is no UTF-8",
+        "run deck.xml --output out --set 'Title=a\udcff'",
+        "--set is no valid UTF-8 in 'Title=a\\xff'\n",
+        ranks=True,
+    ),
+    usage(
+        "memory without a unit",
+        "run deck.xml --output out --max-memory 16",
+        "--max-memory needs a size such as '500 MB' or '16 GB', got '16'\n",
+    ),
     usage("unknown verb on several processes", "chekc", "unknown command 'chekc'", ranks=True),
 ]
 
@@ -1156,7 +1424,84 @@ def keeps_what_it_had(folder, _):
     return "" if (folder / "out/run.h5").stat().st_size > 100_000 else "run.h5 is too small"
 
 
+LOCKS = []  # files that stay open, and locked, as long as this program runs
+
+
+def lock(folder):
+    """Somebody else owns the folder `out`."""
+    (folder / "out").mkdir()
+    LOCKS.append(open(folder / "out/run.lock", "w"))
+    fcntl.flock(LOCKS[-1], fcntl.LOCK_EX)
+    LOCKS[-1].write("process 4711 on elsewhere\n")
+    LOCKS[-1].flush()
+
+
+def is_as_it_was(folder, _):
+    same = (folder / "deck.xml").read_text() == BASE
+    return "" if same else "the deck was written over"
+
+
+OWNED = "another run writes here: process 4711 on elsewhere; wait for its end, or take another folder"
+
+
+def overwritten(name, args, error, **more):
+    return Case(name, 6, args=args, errors=[error], check=is_as_it_was, **more)
+
+
 WRITING = [
+    Case(
+        "folder that another run writes into",
+        6,
+        prepare=lock,
+        errors=["out: " + OWNED],
+        args="run deck.xml --output out --report",
+        ranks=True,
+    ),
+    overwritten(
+        "resolved deck over the deck",
+        "check deck.xml --resolved deck.xml",
+        "deck.xml: is read by the deck and would be overwritten; write elsewhere",
+        ranks=True,
+    ),
+    overwritten(
+        "resolved deck over the deck by a link",
+        "check deck.xml --resolved link.xml",
+        "link.xml: is read by the deck, as deck.xml, and would be overwritten; write elsewhere",
+        prepare=lambda folder: (folder / "link.xml").symlink_to("deck.xml"),
+    ),
+    overwritten(
+        "resolved deck over the deck by another name",
+        "check deck.xml --resolved other.xml",
+        "other.xml: is read by the deck, as deck.xml, and would be overwritten; write elsewhere",
+        prepare=lambda folder: (folder / "other.xml").hardlink_to(folder / "deck.xml"),
+    ),
+    Case(
+        "resolved deck over an include",
+        6,
+        change=[(LOADS, INCLUDE)],
+        files={"loads.xml": LOADS},
+        args="check deck.xml --resolved ./loads.xml",
+        errors=[
+            "./loads.xml: is read by the deck, as loads.xml, and would be overwritten; write elsewhere"
+        ],
+    ),
+    Case(
+        "results over a table",
+        6,
+        change=[(LOADS, function_file("history.csv") + LOADS)],
+        files={"history.csv": "0, 0\n1, 1\n"},
+        args="run deck.xml --output .",
+        errors=[
+            "./history.csv: is read by the deck, as history.csv, and would be overwritten; "
+            "write elsewhere"
+        ],
+        ranks=True,
+    ),
+    unwritable(
+        "output folder with a name too long for files",
+        "a: File name too long",
+        "run deck.xml --output " + "a" * 300,
+    ),
     unwritable(
         "output folder below a file",
         "deck.xml/out: Not a directory",

@@ -140,7 +140,7 @@ Schema Buckling::schema() {
                 "Linear buckling about the present state, which stays as it is: factors of the "
                 "reference load at which the structure loses its stiffness against a shape.")
       .add(integer("Modes", "How many factors to find, of both signs, next to zero.")
-               .at_least(1)
+               .between(1, 100'000)
                .optional(defaults.modes))
       .add(number("Reference Level", "1",
                   "The reference load is the load at this level less the present one. If absent, "

@@ -110,7 +110,7 @@ std::string make_text(const ModeSet& set, const ReportTable& table) {
 Schema& add_modal_fields(Schema& schema) {
   const ModalSettings defaults;
   return schema
-      .add(integer("Modes", "How many modes to find.").at_least(1).optional(defaults.modes))
+      .add(integer("Modes", "How many modes to find.").between(1, 100'000).optional(defaults.modes))
       .add(number("Near", "Hz",
                   "Frequency next to which modes are looked for; the lowest ones if absent.")
                .positive()

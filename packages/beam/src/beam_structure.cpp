@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace culm::beam {
 
@@ -105,6 +106,24 @@ void number_as_in_deck(int refinement, const std::vector<int>& nodes, model::Str
   }
 }
 
+// How many nodes the axis will have, for a budget before there are any.
+double count_nodes(const Options& curve, const Density& density) {
+  const std::string& type = curve.text("Type");
+  if (type == "Nodes") {
+    return static_cast<double>(curve.numbers("Positions").size()) / 3.0 * density.refinement;
+  }
+  double elements = 0.0;
+  if (type == "Polyline") {
+    const std::vector<int>& each = curve.integers("Elements");
+    const double segments = static_cast<double>(curve.numbers("Points").size()) / 3.0 - 1.0;
+    elements =
+        each.size() == 1 ? each[0] * segments : std::accumulate(each.begin(), each.end(), 0.0);
+  } else {
+    elements = curve.integer("Elements");
+  }
+  return elements * density.intervals();
+}
+
 void check_turn(ElementKind kind, double turn, const Options& options) {
   if (kind == ElementKind::helical && turn >= HelicalBeam::max_rotation) {
     throw InputError(options.list("Curve").where(),
@@ -173,6 +192,11 @@ void add_beam(const Options& options, StructureContext& context) {
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
   const Density density{order_of(kind), context.refinement};
+  if (context.budget != nullptr) {
+    const double nodes = count_nodes(curve, density);
+    context.budget->take(nodes / density.order, nodes * model::SizeBudget::beam_node,
+                         curve.where());
+  }
   Axis axis = axes().make(curve.text("Type"), curve, density);
   check_finite(axis, curve);
   if (context.imperfection != nullptr) deviate(*context.imperfection, options.name(), axis);

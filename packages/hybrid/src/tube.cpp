@@ -126,7 +126,8 @@ void add_as_beam(const Options& tube, HybridContext& context) {
   const std::map<std::string, material::Section> sections{{name, tube_section(tube, material)}};
   beam::StructureContext beams{context.beams.model,      sections,
                                context.beams.issues,     context.beams.log,
-                               context.beams.refinement, context.beams.imperfection};
+                               context.beams.refinement, context.beams.imperfection,
+                               context.beams.budget};
   beam::add_beam(list, beams);
 }
 

@@ -21,6 +21,19 @@ std::size_t stated_layers(const Options& layup) {
   return layup.numbers("Angles").size();
 }
 
+// Walls have some hundred layers at most; more is a slip, and would fill the memory.
+constexpr double most_layers = 100'000;
+
+void check_number_of_layers(const Options& layup, InputIssues& issues) {
+  const double mirrored = layup.text("Symmetric") == "None" ? 1.0 : 2.0;
+  const double layers =
+      mirrored * layup.integer("Repeat") * static_cast<double>(stated_layers(layup));
+  if (layers <= most_layers) return;
+  issues.add(
+      layup.where("Repeat"),
+      fmt::format("makes {:.10g} layers, at most {:.10g} are possible", layers, most_layers));
+}
+
 void check_lists(const Options& layup, InputIssues& issues) {
   const auto check_choice = [&](const char* one, const char* many) {
     if (layup.has(one) == layup.has(many)) {
@@ -39,6 +52,7 @@ void check_lists(const Options& layup, InputIssues& issues) {
   };
   if (layup.has("Thicknesses")) check_size("Thicknesses", layup.numbers("Thicknesses").size());
   if (layup.given("Angles")) check_size("Angles", layup.numbers("Angles").size());
+  check_number_of_layers(layup, issues);
 }
 
 // The lists as written, mirrored and repeated.

@@ -1,7 +1,8 @@
 #include <culm/base/error.hpp>
+#include <culm/base/read_file.hpp>
 #include <culm/output/checkpoint_file.hpp>
+#include <culm/output/checksum.hpp>
 
-#include "checksum.hpp"
 #include "replace_file.hpp"
 
 #include <fcntl.h>
@@ -10,8 +11,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <span>
 #include <system_error>
 
@@ -92,13 +92,8 @@ void write_checkpoint(const std::filesystem::path& path, std::string_view conten
 }
 
 std::string read_checkpoint(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw FileError(path.string(), "there is no such file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad() || !file.is_open()) throw FileError(path.string(), "cannot be read");
+  // as large as a model and its kept states make it
+  std::string content = read_file(path, std::numeric_limits<std::size_t>::max());
   Header header{};
   if (content.size() >= sizeof header) std::memcpy(&header, content.data(), sizeof header);
   if (header.magic != magic) throw FileError(path.string(), "is no checkpoint of this version");

@@ -1,4 +1,4 @@
-#include "checksum.hpp"
+#include <culm/output/checksum.hpp>
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,7 @@
 #include "hdf5_file.hpp"
 
 #include <culm/base/error.hpp>
+#include <culm/base/read_file.hpp>
 
 #include "journal_driver.hpp"
 #include "replace_file.hpp"
@@ -53,7 +54,13 @@ void limit_cache(const std::filesystem::path& path, hid_t access) {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (use_journal_driver(access.id()) < 0) throw_file_error(path, "set file access");
+  // From this format on HDF5 guards its own tables with checksums; without them it reads what is
+  // damaged as it is, and may write beyond its memory. The next one marks files as open, so that
+  // nobody can read them after a kill.
+  if (use_journal_driver(access.id()) < 0 ||
+      H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0) {
+    throw_file_error(path, "set file access");
+  }
   limit_cache(path, access.id());
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.is_open()) throw_file_error(path, "create file");
@@ -61,25 +68,14 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
+  const std::string objection = file_objection(path);
+  if (!objection.empty()) throw FileError(path.string(), objection);
   recover(path);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   if (H5Pset_file_locking(access.id(), false, true) < 0) throw_file_error(path, "set file access");
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file.is_open()) throw_file_error(path, "open file");
   return {path, std::move(file)};
-}
-
-Hdf5File Hdf5File::reopen(const std::filesystem::path& path) {
-  recover(path);
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (use_journal_driver(access.id()) < 0) throw_file_error(path, "set file access");
-  limit_cache(path, access.id());
-  Handle handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
-  if (!handle.is_open()) throw_file_error(path, "open file");
-  Hdf5File file(path, std::move(handle));
-  file.start_journal();
-  file.identity_.emplace(path);
-  return file;
 }
 
 void Hdf5File::fail(std::string_view action) const { throw_file_error(path_, action); }
@@ -123,6 +119,7 @@ void Hdf5File::close() {
 }
 
 Handle Hdf5File::make_group(hid_t where, const std::string& name) {
+  sum_.add_group(name);
   return {check(H5Gcreate2(where, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                 "create group " + name),
           H5Gclose};
@@ -160,13 +157,16 @@ Handle Hdf5File::make_dataset(hid_t where, const std::string& name, hid_t type,
 
 void Hdf5File::write(hid_t where, const std::string& name, std::span<const double> values,
                      const Shape& shape) {
+  sum_.add_dataset(name, shape, std::as_bytes(values));
   const Handle dataset = make_dataset(where, name, H5T_IEEE_F64LE, shape);
   check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
         "write dataset " + name);
 }
 
 void Hdf5File::write(hid_t where, const std::string& name, std::span<const int> values) {
-  const Handle dataset = make_dataset(where, name, H5T_STD_I32LE, {values.size()});
+  const Shape shape{values.size()};
+  sum_.add_dataset(name, shape, std::as_bytes(values));
+  const Handle dataset = make_dataset(where, name, H5T_STD_I32LE, shape);
   check(H5Dwrite(dataset.id(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
         "write dataset " + name);
 }
@@ -192,14 +192,6 @@ Handle Hdf5File::make_growing_table(hid_t where, const std::string& name, hsize_
                            creation.id(), H5P_DEFAULT),
                 "create dataset " + name),
           H5Dclose};
-}
-
-void Hdf5File::shorten_table(hid_t table, hsize_t rows) {
-  const Handle space(check(H5Dget_space(table), "shorten table"), H5Sclose);
-  std::array<hsize_t, 2> size{};
-  check(H5Sget_simple_extent_dims(space.id(), size.data(), nullptr), "shorten table");
-  size[0] = rows;
-  check(H5Dset_extent(table, size.data()), "shorten table");
 }
 
 void Hdf5File::append_row(hid_t table, hsize_t row, std::span<const double> values) {
@@ -228,16 +220,20 @@ void Hdf5File::write_attribute(hid_t where, const std::string& name, hid_t type,
 }
 
 void Hdf5File::set_attribute(hid_t where, const std::string& name, double value) {
+  sum_.add_attribute(name, std::as_bytes(std::span(&value, 1)));
   const Handle space(check(H5Screate(H5S_SCALAR), "make data space"), H5Sclose);
   write_attribute(where, name, H5T_NATIVE_DOUBLE, space.id(), &value);
 }
 
 void Hdf5File::set_attribute(hid_t where, const std::string& name, int value) {
+  sum_.add_attribute(name, std::as_bytes(std::span(&value, 1)));
   const Handle space(check(H5Screate(H5S_SCALAR), "make data space"), H5Sclose);
   write_attribute(where, name, H5T_NATIVE_INT, space.id(), &value);
 }
 
 void Hdf5File::set_attribute(hid_t where, const std::string& name, const std::string& text) {
+  const std::string content = joined(std::span(&text, 1));
+  sum_.add_attribute(name, std::as_bytes(std::span(content)));
   const Handle space(check(H5Screate(H5S_SCALAR), "make data space"), H5Sclose);
   const char* const data = text.c_str();
   write_attribute(where, name, text_type().id(), space.id(), &data);
@@ -245,6 +241,8 @@ void Hdf5File::set_attribute(hid_t where, const std::string& name, const std::st
 
 void Hdf5File::set_attribute(hid_t where, const std::string& name,
                              std::span<const std::string> texts) {
+  const std::string content = joined(texts);
+  sum_.add_attribute(name, std::as_bytes(std::span(content)));
   std::vector<const char*> data;
   for (const std::string& text : texts) data.push_back(text.c_str());
   write_attribute(where, name, text_type().id(), simple_space({texts.size()}).id(), data.data());

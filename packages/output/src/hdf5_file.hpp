@@ -2,6 +2,7 @@
 
 #include <culm/output/file_identity.hpp>
 
+#include "content_sum.hpp"
 #include "hdf5_handle.hpp"
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace culm::output {
@@ -24,10 +26,6 @@ class Hdf5File {
   static Hdf5File create(const std::filesystem::path& path);
   /// Opens an existing file for reading, after recover().
   static Hdf5File open(const std::filesystem::path& path);
-  /// Opens an existing file for changes, after recover(). Each flush takes effect as a whole, as
-  /// after move_to(). Throws FileError also if another process writes the file.
-  static Hdf5File reopen(const std::filesystem::path& path);
-
   hid_t id() const { return file_.id(); }
   const std::filesystem::path& path() const { return path_; }
 
@@ -51,8 +49,6 @@ class Hdf5File {
   void write(hid_t where, const std::string& name, const std::string& text);
   /// An empty table of doubles that grows by append_row().
   Handle make_growing_table(hid_t where, const std::string& name, hsize_t columns);
-  /// Leaves the first rows of a table.
-  void shorten_table(hid_t table, hsize_t rows);
   /// @param row  number of rows so far
   void append_row(hid_t table, hsize_t row, std::span<const double> values);
 
@@ -60,6 +56,10 @@ class Hdf5File {
   void set_attribute(hid_t where, const std::string& name, int value);
   void set_attribute(hid_t where, const std::string& name, const std::string& text);
   void set_attribute(hid_t where, const std::string& name, std::span<const std::string> texts);
+
+  /// The sum of all that was written since this was last asked for, rows of tables excepted.
+  /// @see sum_of_group
+  std::uint64_t take_sum() { return std::exchange(sum_, {}).value(); }
 
   /// Returns an identifier or status unchanged, or throws FileError: cannot `action`.
   template <class T>
@@ -83,6 +83,7 @@ class Hdf5File {
   std::filesystem::path path_;
   std::optional<FileIdentity> identity_;  // of a file that grows under its final name
   Handle file_;
+  ContentSum sum_;
 };
 
 }  // namespace culm::output

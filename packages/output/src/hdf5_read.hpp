@@ -17,6 +17,22 @@ Handle open_dataset(const Hdf5File& file, hid_t where, const std::string& name);
 /// Names of what a group holds, in alphabetical order.
 std::vector<std::string> list_links(const Hdf5File& file, hid_t group);
 
+/// Names of the attributes of a group or dataset.
+std::vector<std::string> list_attributes(const Hdf5File& file, hid_t where);
+
+/// What an attribute may be: one number, one text, or a list of texts.
+enum class ContentKind { number, integer, text, texts };
+ContentKind find_attribute_kind(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// Whether a link leads to a group.
+bool is_group(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// Whether a dataset holds integers; otherwise it holds doubles. Throws FileError for other types.
+bool holds_integers(const Hdf5File& file, hid_t where, const std::string& name);
+
+/// Whether the file itself has an attribute.
+bool has_attribute(const Hdf5File& file, const std::string& name);
+
 bool has_link(const Hdf5File& file, hid_t group, const std::string& name);
 
 /// Lengths of a dataset.

@@ -1,6 +1,6 @@
 #include "journaled_file.hpp"
 
-#include "checksum.hpp"
+#include <culm/output/checksum.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>

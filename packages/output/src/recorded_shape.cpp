@@ -20,7 +20,8 @@ std::string known_analyses(const Hdf5File& file) {
 RecordedShape find_recorded_shape(const std::filesystem::path& path, const std::string& analysis,
                                   int number) {
   const QuietHdf5 quiet;
-  const bool is_folder = std::filesystem::is_directory(path);
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path, ignored);
   const Hdf5File file = Hdf5File::open(is_folder ? path / "run.h5" : path);
   const std::string name = link_name(analysis);
   const bool has_analyses = has_link(file, file.id(), "analyses");

@@ -3,6 +3,8 @@
 #include <culm/base/text.hpp>
 #include <culm/output/recorder.hpp>
 
+#include "content_sum.hpp"
+#include "hdf5_copy.hpp"
 #include "hdf5_read.hpp"
 #include "mesh_tables.hpp"
 #include "names.hpp"
@@ -143,43 +145,24 @@ class Recorder::File {
  public:
   File(const std::filesystem::path& path, const RunInfo& info, std::vector<StructureMesh> meshes,
        const std::vector<HistoryColumn>& history)
-      : meshes_(std::move(meshes)),
-        columns_(history.size()),
-        file_(Hdf5File::create(temporary_name(path))) {
-    Cleanup cleanup(file_.path());
-    file_.set_attribute(file_.id(), "format", "culm run");
-    file_.set_attribute(file_.id(), "format_version", format_version);
-    write_deck(file_, info);
-    const Handle mesh_group = file_.make_group(file_.id(), "mesh");
-    int number = 0;
-    for (const StructureMesh& mesh : meshes_) write_mesh(file_, mesh_group.id(), mesh, number++);
-    steps_ = file_.make_group(file_.id(), "steps");
-    history_ = make_history(file_, history);
-    file_.flush();
-    file_.move_to(path);
-    cleanup.disarm();
+      : File(temporary_name(path), info, std::move(meshes), history, Unnamed{}) {
+    give_name(path);
   }
 
   File(const std::filesystem::path& path, const RunInfo& info, std::vector<StructureMesh> meshes,
-       const std::vector<HistoryColumn>& history, const Recorded& recorded)
-      : meshes_(std::move(meshes)),
-        columns_(history.size()),
-        file_(Hdf5File::reopen(path)),
-        steps_(open_group(file_, file_.id(), "steps")),
-        history_(open_dataset(file_, file_.id(), "history/values")),
-        rows_(recorded.history.size() / (columns_ + 1)) {
-    for (const char* outdated : {"deck", "report"}) file_.remove_if_present(file_.id(), outdated);
-    write_deck(file_, info);
-    const std::vector<Recorded::Step> steps = read_steps(file_);
-    for (std::size_t s = recorded.steps.size(); s < steps.size(); ++s) {
-      file_.remove_if_present(steps_.id(), step_name(steps[s].index));
+       const std::vector<HistoryColumn>& history, const RecordMark& mark, const Recorded& recorded)
+      : File(temporary_name(path), info, std::move(meshes), history, Unnamed{}) {
+    if (mark_.head_sum != mark.head_sum) {
+      throw FileError(path.string(), "is of another model: its meshes or its columns differ");
     }
-    file_.shorten_table(history_.id(), rows_);
-    file_.flush();
+    copy(Hdf5File::open(path), mark, recorded);
+    mark_ = mark;
+    give_name(path);
   }
 
   void record(const Frame& frame) {
     check_frame(meshes_, frame);
+    file_.take_sum();
     const Handle step = file_.make_group(steps_.id(), step_name(frame.index));
     file_.set_attribute(step.id(), "time", frame.time);
     file_.set_attribute(step.id(), "index", frame.index);
@@ -188,14 +171,18 @@ class Recorder::File {
     }
     if (!frame.arrays.empty()) write_arrays(step.id(), frame.arrays);
     file_.flush();
+    ++mark_.steps;
+    mark_.steps_sum += file_.take_sum();
   }
 
   void add_history(double time, std::span<const double> values) {
     internal_check(values.size() == columns_, "one value per history column");
     std::vector<double> row{time};
     row.insert(row.end(), values.begin(), values.end());
-    file_.append_row(history_.id(), rows_++, row);
+    file_.append_row(history_.id(), mark_.rows, row);
     file_.flush();
+    ++mark_.rows;
+    mark_.history_sum = chain(mark_.history_sum, std::as_bytes(std::span(row)));
   }
 
   void write_report(const std::string& text, std::span<const NamedScalar> scalars,
@@ -223,6 +210,7 @@ class Recorder::File {
                            : file_.make_group(file_.id(), "analyses");
     const std::string name = link_name(results.name);
     file_.remove_if_present(all.id(), name);
+    file_.take_sum();
     const Handle group = file_.make_group(all.id(), name);
     for (const NamedTable& table : results.tables) write_table(group.id(), table);
     if (!results.shapes.empty()) write_shapes(group.id(), results);
@@ -235,7 +223,10 @@ class Recorder::File {
       file_.write(entries.id(), "value", matrix.value, {matrix.value.size()});
     }
     file_.flush();
+    mark_.results[results.name] = file_.take_sum();
   }
+
+  const RecordMark& mark() const { return mark_; }
 
   void close() {
     file_.check(steps_.close(), "close steps");
@@ -244,6 +235,54 @@ class Recorder::File {
   }
 
  private:
+  struct Unnamed {};
+
+  // A file that is not in its place yet, and goes if it does not come there.
+  File(const std::filesystem::path& temporary, const RunInfo& info,
+       std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history, Unnamed)
+      : meshes_(std::move(meshes)),
+        columns_(history.size()),
+        cleanup_(temporary),
+        file_(Hdf5File::create(temporary)) {
+    file_.set_attribute(file_.id(), "format", "culm run");
+    file_.set_attribute(file_.id(), "format_version", format_version);
+    file_.set_attribute(file_.id(), "run", info.run);
+    file_.set_attribute(file_.id(), "deck", info.deck);
+    file_.set_attribute(file_.id(), "model", info.model);
+    write_deck(file_, info);
+    file_.take_sum();
+    const Handle mesh_group = file_.make_group(file_.id(), "mesh");
+    int number = 0;
+    for (const StructureMesh& mesh : meshes_) write_mesh(file_, mesh_group.id(), mesh, number++);
+    steps_ = file_.make_group(file_.id(), "steps");
+    history_ = make_history(file_, history);
+    mark_.head_sum = file_.take_sum();
+    file_.flush();
+  }
+
+  void give_name(const std::filesystem::path& path) {
+    file_.flush();
+    file_.move_to(path);
+    cleanup_.disarm();
+  }
+
+  void copy(const Hdf5File& from, const RecordMark& mark, const Recorded& recorded) {
+    const Handle steps = open_group(from, from.id(), "steps");
+    for (const Recorded::Step& step : recorded.steps) {
+      copy_group(from, steps.id(), file_, steps_.id(), step_name(step.index));
+    }
+    const std::size_t width = columns_ + 1;
+    for (std::size_t row = 0; row < mark.rows; ++row) {
+      file_.append_row(history_.id(), row, std::span(recorded.history).subspan(row * width, width));
+    }
+    if (mark.results.empty()) return;
+    const Handle analyses = open_group(from, from.id(), "analyses");
+    const Handle own = file_.make_group(file_.id(), "analyses");
+    for (const auto& [name, sum] : mark.results) {
+      copy_group(from, analyses.id(), file_, own.id(), link_name(name));
+    }
+  }
+
   void write_table(hid_t where, const NamedTable& table) {
     const std::string name = link_name(table.name);
     file_.write(where, name, flatten_rows(table.rows), {table.rows.size(), table.columns.size()});
@@ -291,10 +330,11 @@ class Recorder::File {
 
   std::vector<StructureMesh> meshes_;
   std::size_t columns_;
+  Cleanup cleanup_;
   Hdf5File file_;
   Handle steps_;
   Handle history_;
-  hsize_t rows_ = 0;
+  RecordMark mark_;
 };
 
 Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
@@ -306,10 +346,15 @@ Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
 
 Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
                    std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history,
-                   const Recorded& recorded) {
+                   const RecordMark& mark, const Recorded& recorded) {
   check_meshes(meshes);
   const QuietHdf5 quiet;
-  file_ = std::make_unique<File>(path, info, std::move(meshes), history, recorded);
+  file_ = std::make_unique<File>(path, info, std::move(meshes), history, mark, recorded);
+}
+
+const RecordMark& Recorder::mark() const {
+  internal_check(file_ != nullptr, "the recorder is closed");
+  return file_->mark();
 }
 
 bool recover_run(const std::filesystem::path& path) { return Hdf5File::recover(path); }

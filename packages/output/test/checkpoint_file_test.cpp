@@ -60,7 +60,7 @@ TEST(CheckpointFile, EveryChangedByteAndEveryLengthIsNoticed) {
   write(path, sound.substr(0, sound.size() - 4));
   EXPECT_EQ(message(path), path.string() + ": was cut off: it holds 30 of 34 bytes");
   EXPECT_EQ(message(folder / "none"), (folder / "none").string() + ": there is no such file");
-  EXPECT_EQ(message(folder.path()), folder.path().string() + ": there is no such file");
+  EXPECT_EQ(message(folder.path()), folder.path().string() + ": is a folder");
 }
 
 TEST(CheckpointFile, UnwritablePlacesAreFileErrors) {

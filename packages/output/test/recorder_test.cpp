@@ -12,6 +12,8 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -21,10 +23,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const RunInfo info{"bent tube", "0.1.0", "<ParameterList name=\"µ\"/>\n"};
+const RunInfo info{"bent tube", "0.1.0", "<ParameterList name=\"µ\"/>\n", "4711"};
 
 Recorder make_recorder(const std::filesystem::path& path) {
   return {path, info, sample_meshes(4), {{"energy", "J"}, {"drift", ""}}};
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(Recorder, StepsReadBackWhileTheFileIsOpen) {
@@ -181,43 +188,117 @@ TEST(Recorder, KilledRunLosesAtMostTheStepItWrote) {
   }
 }
 
+// A file of some steps, and how far it was after the first three of them.
+RecordMark write_run(const std::filesystem::path& path, int steps) {
+  RecordMark mark;
+  Recorder recorder = make_recorder(path);
+  for (int i = 0; i < steps; ++i) {
+    if (i == 3) {
+      recorder.write_results({"modes", {{"table", {"f"}, {{1.5}, {2.5}}, {}}}, {}, {}, {}});
+      mark = recorder.mark();
+    }
+    recorder.record(sample_frame(sample_meshes(4), i));
+    recorder.add_history(i, std::array{10.0 * i, 0.5});
+  }
+  recorder.write_report("stopped", {});
+  return mark;
+}
+
+std::string failure(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 TEST(Recorder, AnEarlierRunGoesOnAsItWasThen) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "run.h5";
   const std::vector<StructureMesh> meshes = sample_meshes(4);
   const std::vector<HistoryColumn> columns = {{"energy", "J"}, {"drift", ""}};
-  const auto add = [&](Recorder& recorder, int from, int to) {
-    for (int i = from; i < to; ++i) {
+  const RecordMark mark = write_run(path, 500);
+  const Recorded recorded = find_recorded(path, info.run, mark);
+  EXPECT_EQ(recorded.steps.size(), 3U);
+  EXPECT_EQ(recorded.steps.back().index, 2);
+  EXPECT_EQ(recorded.history.size(), 9U);
+  EXPECT_EQ(recorded.history[7], 20.0);
+  {
+    Recorder recorder(path, {"longer", "0.2.0", "<deck/>", info.run}, meshes, columns, mark,
+                      recorded);
+    EXPECT_EQ(count_links(path, "/steps"), 3);
+    EXPECT_EQ(count_links(path, "/report"), -1);
+    EXPECT_EQ(count_links(path, "/analyses"), 1);
+    EXPECT_EQ(read_dataset(path, "/history/values"), recorded.history);
+    for (int i = 3; i < 5; ++i) {
       recorder.record(sample_frame(meshes, i));
       recorder.add_history(i, std::array{10.0 * i, 0.5});
     }
-  };
-  {
-    Recorder recorder = make_recorder(path);
-    add(recorder, 0, 500);
-    recorder.write_report("stopped", {});
-  }
-  const Recorded recorded = find_recorded(path, 3, 400);
-  EXPECT_EQ(recorded.steps.size(), 3U);
-  EXPECT_EQ(recorded.steps.back().index, 2);
-  EXPECT_EQ(recorded.history.size(), 1200U);
-  EXPECT_EQ(recorded.history[1198], 3990.0);
-  {
-    Recorder recorder(path, {"longer", "0.2.0", "<deck/>"}, meshes, columns, recorded);
-    EXPECT_EQ(count_links(path, "/steps"), 3);
-    EXPECT_EQ(count_links(path, "/report"), -1);
-    EXPECT_EQ(read_dataset(path, "/history/values"), recorded.history);
-    // two processes, or two parts of one, must not write one file
-    EXPECT_THROW(Recorder(path, info, meshes, columns, recorded), FileError);
-    add(recorder, 3, 5);
+    EXPECT_EQ(find_recorded(path, info.run, recorder.mark()).steps.size(), 5U);
     recorder.close();
   }
   EXPECT_EQ(count_links(path, "/steps"), 5);
-  EXPECT_EQ(read_dataset(path, "/history/values").size(), 3U * 402U);
+  EXPECT_EQ(read_dataset(path, "/history/values").size(), 15U);
   EXPECT_EQ(read_dataset(path, "/history/values").back(), 0.5);
   EXPECT_EQ(read_dataset(path, "/steps/000004/main tube/position").size(), 15U);
-  EXPECT_THROW(find_recorded(path, 6, 1), FileError);
-  EXPECT_THROW(find_recorded(path, 1, 403), FileError);
+}
+
+TEST(Recorder, WhatDoesNotBelongToTheMarkIsRefusedAndStaysAsItIs) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "run.h5";
+  const RecordMark mark = write_run(path, 4);
+  const std::string before = read_bytes(path);
+  const std::string name = path.string();
+  EXPECT_EQ(failure([&] { find_recorded(path, "another", mark); }),
+            name + ": is not the result file of this checkpoint: it belongs to run " + info.run +
+                ", the checkpoint to run another");
+  RecordMark more = mark;
+  more.steps = 5;
+  EXPECT_EQ(failure([&] { find_recorded(path, info.run, more); }),
+            name + ": holds 4 states, fewer than the 5 of the checkpoint");
+  more = mark;
+  more.rows = 5;
+  EXPECT_EQ(failure([&] { find_recorded(path, info.run, more); }),
+            name + ": holds 4 steps of the history, fewer than the 5 of the checkpoint");
+  const Recorded recorded = find_recorded(path, info.run, mark);
+  EXPECT_EQ(
+      failure([&] {
+        Recorder(path, info, sample_meshes(5), {{"energy", "J"}, {"drift", ""}}, mark, recorded);
+      }),
+      name + ": is of another model: its meshes or its columns differ");
+  EXPECT_EQ(read_bytes(path), before);
+  EXPECT_FALSE(std::filesystem::exists(name + ".part"));
+}
+
+// One bit after the other, spread over the file: a run goes on with what was written, or not at
+// all.
+TEST(Recorder, AFlippedBitIsFoundOrHarmless) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "run.h5";
+  const RecordMark mark = write_run(path, 4);
+  const std::string sound = read_bytes(path);
+  const Recorded expected = find_recorded(path, info.run, mark);
+  int refused = 0;
+  constexpr std::size_t flips = 160;
+  for (std::size_t k = 0; k < flips; ++k) {
+    std::string damaged = sound;
+    const std::size_t bit = k * 8 * sound.size() / flips + k % 8;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(path, std::ios::binary) << damaged;
+    try {
+      const Recorded found = find_recorded(path, info.run, mark);
+      EXPECT_EQ(found.history, expected.history) << "bit " << bit;
+      Recorder recorder(path, info, sample_meshes(4), {{"energy", "J"}, {"drift", ""}}, mark,
+                        found);
+      recorder.close();
+      EXPECT_NO_THROW(find_recorded(path, info.run, mark)) << "bit " << bit;
+    } catch (const FileError&) {
+      ++refused;
+      EXPECT_EQ(read_bytes(path), damaged) << "bit " << bit;
+    }
+  }
+  EXPECT_GT(refused, 20);
 }
 
 TEST(Recorder, NothingButTheFinishedFileStaysInTheFolder) {

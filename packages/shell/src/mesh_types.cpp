@@ -1,12 +1,11 @@
+#include <culm/base/read_file.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/shell/gmsh_reader.hpp>
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/surfaces.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 namespace culm::shell {
@@ -88,9 +87,7 @@ void add_surface(MeshRegistry& registry, Schema schema,
 
 Facets read_gmsh_file(const std::string& name, const Where& where) {
   const std::string path = (std::filesystem::path(where.file).parent_path() / name).string();
-  std::ifstream file(path);
-  if (!file) throw FileError(path, "cannot be read; " + to_string(where) + " asks for it");
-  return read_gmsh({std::istreambuf_iterator<char>(file), {}}, path);
+  return read_gmsh(read_file(path, where), path);
 }
 
 Facets read_quads(const Options& options) {
@@ -117,6 +114,18 @@ Facets read_quads(const Options& options) {
 }
 
 }  // namespace
+
+double count_facets(const Options& mesh) {
+  const std::string& type = mesh.text("Type");
+  if (type == "Gmsh") return 0.0;
+  if (type == "Quads") return static_cast<double>(mesh.integers("Quads").size()) / 4.0;
+  const std::vector<double> n(mesh.integers("Elements").begin(), mesh.integers("Elements").end());
+  if (type == "I Section") return (4.0 * n[0] + n[1]) * n[2];
+  if (type == "Airfoil") {
+    return (n[0] + n[1] * static_cast<double>(mesh.numbers("Webs").size())) * n[2];
+  }
+  return n[0] * n[1];
+}
 
 void register_meshes(MeshRegistry& registry) {
   add_surface(registry,

@@ -364,6 +364,11 @@ model::DeckNumbers number_as_in_deck(const ShellMesh& coarse, const ShellMesh& f
   return deck;
 }
 
+void take_from_budget(const ShellContext& context, double elements, const Options& mesh) {
+  if (context.budget == nullptr) return;
+  context.budget->take(elements, elements * model::SizeBudget::shell_element, mesh.where());
+}
+
 void add_shell(const Options& options, ShellContext& context) {
   const auto layup =
       std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
@@ -376,8 +381,13 @@ void add_shell(const Options& options, ShellContext& context) {
   const Options& list = options.list("Mesh");
   const MeshRegistry types = meshes();
   const std::string& type = list.text("Type");
+  const double parts = 1.0 * context.refinement * context.refinement;
+  take_from_budget(context, count_facets(list) * parts, list);
   const double fold_angle = options.number("Fold Angle");
   Facets facets = types.make(type, list, 1);
+  if (type == "Gmsh") {
+    take_from_budget(context, static_cast<double>(facets.quads.size()) * parts, list);
+  }
   ShellMesh mesh = make_mesh(facets, fold_angle);
   ShellMesh coarse;  // as the deck describes it, if that is not what is built
   if (context.refinement > 1) {

@@ -2,10 +2,14 @@
 #include <culm/joint/register_joint.hpp>
 #include <culm/load/register_load.hpp>
 #include <culm/model/initial_motion.hpp>
+#include <culm/output/file_part.hpp>
 #include <culm/simulation/catalogue.hpp>
 
+#include "earlier_states.hpp"
 #include "imperfections.hpp"
 
+#include <map>
+#include <string>
 #include <utility>
 
 namespace culm::simulation {
@@ -123,6 +127,29 @@ Variants with_common_fields(Variants analyses) {
   return analyses;
 }
 
+// Functions that every deck has.
+void check_functions(const Options& list, InputIssues& issues) {
+  for (const Options& entry : list.entries()) {
+    if (entry.name() == "Ramp" || entry.name() == "Constant") {
+      issues.add(entry.where(), "is the name of a function that every deck has; take another one");
+    }
+  }
+}
+
+// Names of analyses become folders, in which capitals and special characters do not count.
+void check_analyses(const Options& list, InputIssues& issues) {
+  std::map<std::string, std::string> folders;
+  for (const Options& entry : list.entries()) {
+    if (entry.name() == EarlierStates::reference) {
+      issues.add(entry.where(), "is the name of the state at the beginning; take another one");
+    }
+    const auto [first, is_new] = folders.emplace(output::file_part(entry.name()), entry.name());
+    if (is_new) continue;
+    issues.add(entry.where(), "would share the folder 'analyses/" + first->first + "' with '" +
+                                  first->second + "'; take another name");
+  }
+}
+
 Schema::Check at_least_one(std::string what) {
   return [what = std::move(what)](const Options& list, InputIssues& issues) {
     if (list.entries().empty()) issues.add(list.where(), "must hold at least one " + what);
@@ -161,7 +188,8 @@ Schema Catalogue::deck_schema() const {
       .list("Element Sets", element_sets_schema(), Presence::defaulted)
       .list("Functions",
             Schema("Functions", "Functions of time by name; 'Ramp' and 'Constant' are there.")
-                .entries_by_type(functions.variants()),
+                .entries_by_type(functions.variants())
+                .check(check_functions),
             Presence::defaulted)
       .list("Constraints",
             Schema("Constraints", "Supports and joints by name.")
@@ -177,7 +205,8 @@ Schema Catalogue::deck_schema() const {
       .list("Analyses",
             Schema("Analyses", "What is done, in this order; each starts from the last state.")
                 .entries_by_type(with_common_fields(analyses.variants()))
-                .check(at_least_one("analysis")))
+                .check(at_least_one("analysis"))
+                .check(check_analyses))
       .list("Output", output_schema(quantities), Presence::defaulted);
 }
 

@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
+#include <culm/base/text.hpp>
 #include <culm/output/recorded_shape.hpp>
 
 #include <Eigen/Core>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 namespace culm::simulation {
@@ -113,9 +115,13 @@ model::Imperfection Imperfections::sum(const std::set<std::string>& inactive) co
     if (inactive.contains(entry.name())) continue;
     Shape shape;
     if (entry.has("Run")) {
-      if (!std::filesystem::exists(entry.text("Run"))) {
-        throw FileError(entry.text("Run"), "is not there; " + to_string(entry.where("Run")) +
-                                               " asks for the shapes of this run");
+      std::error_code failure;
+      if (!std::filesystem::exists(entry.text("Run"), failure)) {
+        const std::string reason =
+            failure ? "cannot be read: " + failure.message() : "is not there";
+        throw FileError(
+            shortened(entry.text("Run"), 200),
+            reason + "; " + to_string(entry.where("Run")) + " asks for the shapes of this run");
       }
       for (const auto& [structure, numbers] : output::find_recorded_shape(
                entry.text("Run"), entry.text("Analysis"), entry.integer("Shape"))) {

@@ -48,6 +48,12 @@ void build_structures(const Catalogue& catalogue, const Options& list,
                       beam::StructureContext& beams, shell::ShellContext& shells,
                       model::BuildContext& bodies) {
   for (const Options& entry : list.entries()) {
+    if (entry.name().find_first_of("/@") != std::string::npos) {
+      bodies.issues.add(entry.where(),
+                        "the name of a structure must not contain '/' or '@', which stand before "
+                        "its nodes and points");
+      continue;
+    }
     const std::string& type = entry.text("Type");
     if (catalogue.bodies.contains(type)) {
       build_one(catalogue.bodies, entry, bodies, bodies.issues);
@@ -62,12 +68,31 @@ void build_structures(const Catalogue& catalogue, const Options& list,
   }
 }
 
+// Some structures bring others with them, so what is looked at are those that were built.
+void refuse_equal_names(const Options& list, const model::BuildContext& context) {
+  std::map<std::string, int> counts;
+  for (const model::Structure& structure : context.model.structures()) ++counts[structure.name];
+  for (const Options& entry : list.entries()) {
+    if (counts[entry.name()] < 2) continue;
+    context.issues.add(entry.where(), "another structure brings one of this name with it");
+  }
+}
+
+// A set must not stand for what has its name already: a structure, its nodes or its edges.
+bool is_free(const Options& entry, const model::BuildContext& context) {
+  const std::string structure = entry.name().substr(0, entry.name().find('/'));
+  if (context.model.find_structure(structure) == nullptr) return true;
+  context.issues.add(entry.where(), structure == entry.name()
+                                        ? "there is a structure of this name"
+                                        : "names that begin with '" + structure +
+                                              "/' stand for parts of the structure '" + structure +
+                                              "'");
+  return false;
+}
+
 void add_node_sets(const Options& list, model::BuildContext& context) {
   for (const Options& entry : list.entries()) {
-    if (context.model.find_structure(entry.name()) != nullptr) {
-      context.issues.add(entry.where(), "there is a structure of this name");
-      continue;
-    }
+    if (!is_free(entry, context)) continue;
     std::vector<int> nodes;
     for (const std::string& name : entry.texts("Nodes")) {
       const std::vector<int> some = model::find_nodes(name, entry.where("Nodes"), context);
@@ -85,25 +110,31 @@ std::vector<int> read_elements(const Options& options) {
   return elements;
 }
 
+// Whether a structure of so many elements has those of a set, at least one; before a range is
+// written out, which may be a long one.
+bool has_elements(const Options& options, int count) {
+  const auto is_inside = [count](int element) { return element < count; };
+  if (options.has("Range")) {
+    const std::vector<int>& range = options.integers("Range");
+    return range[0] <= range[1] && is_inside(range[1]);
+  }
+  const std::vector<int>& elements = options.integers("Elements");
+  return std::all_of(elements.begin(), elements.end(), is_inside);
+}
+
 void add_element_sets(const Options& list, model::BuildContext& context) {
   for (const Options& entry : list.entries()) {
     const model::Structure* structure = model::select_structure(entry, context);
     if (structure == nullptr) continue;
-    if (context.model.find_structure(entry.name()) != nullptr) {
-      context.issues.add(entry.where(), "there is a structure of this name");
-      continue;
-    }
-    const std::vector<int> elements = read_elements(entry);
+    if (!is_free(entry, context)) continue;
     const auto count = static_cast<int>(structure->numbered_cells());
-    const auto outside = std::find_if(elements.begin(), elements.end(),
-                                      [count](int element) { return element >= count; });
-    if (elements.empty() || outside != elements.end()) {
+    if (!has_elements(entry, count)) {
       context.issues.add(
           entry.where(entry.has("Range") ? "Range" : "Elements"),
           "structure '" + structure->name + "' has elements 0 to " + std::to_string(count - 1));
       continue;
     }
-    context.model.add_element_set(entry.name(), *structure, elements);
+    context.model.add_element_set(entry.name(), *structure, read_elements(entry));
   }
 }
 
@@ -135,18 +166,20 @@ std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const O
 
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
                                          const Imperfections& imperfections, const Setting& setting,
-                                         const Log& log, model::Model& model) {
+                                         const Log& log, double memory, model::Model& model) {
   InputIssues issues;
+  model::SizeBudget budget(memory);
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
   if (setting.is_path) functions.emplace("Ramp", model::Amplitude::level());
   const int refinement = deck.integer("Refinement");
   const model::Imperfection imperfection = imperfections.sum(setting.inactive);
-  beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection};
-  shell::ShellContext shells{model, materials, log, refinement, &imperfection};
+  beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection, &budget};
+  shell::ShellContext shells{model, materials, log, refinement, &imperfection, &budget};
   model::BuildContext context{model, functions, issues};
   build_structures(catalogue, deck.list("Structures"), beams, shells, context);
+  refuse_equal_names(deck.list("Structures"), context);
   // what follows refers to structures; without them every reference would be a mistake
   issues.throw_if_any();
   add_node_sets(deck.list("Node Sets"), context);

@@ -11,9 +11,11 @@
 namespace culm::simulation {
 
 /// Fills the model with all that the deck lists but what does not act, and freezes it. Throws
-/// InputError with all mistakes. @return the quantities that the history watches
+/// InputError with all mistakes.
+/// @param memory  what the model may need [B]
+/// @return the quantities that the history watches
 std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
                                          const Imperfections& imperfections, const Setting& setting,
-                                         const Log& log, model::Model& model);
+                                         const Log& log, double memory, model::Model& model);
 
 }  // namespace culm::simulation

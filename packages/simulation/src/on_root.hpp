@@ -4,11 +4,12 @@
 #include <culm/base/error.hpp>
 #include <culm/parallel/comm.hpp>
 
+#include <filesystem>
 #include <string>
 
 namespace culm::simulation {
 
-/// Runs `work` on rank 0; a FileError or NonFiniteError there is thrown on all ranks.
+/// Runs `work` on rank 0; an error with files or a NonFiniteError there is thrown on all ranks.
 template <class Work>
 void on_root(const parallel::Comm& comm, Work work) {
   std::string error;  // after its kind
@@ -16,6 +17,8 @@ void on_root(const parallel::Comm& comm, Work work) {
     try {
       work();
     } catch (const FileError& e) {
+      error = std::string("f") + e.what();
+    } catch (const std::filesystem::filesystem_error& e) {
       error = std::string("f") + e.what();
     } catch (const NonFiniteError& e) {
       error = std::string("n") + e.what();

@@ -107,8 +107,12 @@ std::vector<double> move_ranges(const std::vector<double>& values,
 }  // namespace
 
 Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
-               const Log& log)
-    : catalogue_(catalogue), deck_(deck), imperfections_(imperfections), log_(log) {
+               const Log& log, double memory)
+    : catalogue_(catalogue),
+      deck_(deck),
+      imperfections_(imperfections),
+      log_(log),
+      memory_(memory) {
   const std::vector<Options>& analyses = deck.list("Analyses").entries();
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     Setting setting{read_inactive(deck, analyses[i]), analyses[i].text("Type") == "Path"};
@@ -136,7 +140,8 @@ Phase& Phases::find_or_build(const Setting& setting) {
 void Phases::build(Phase& phase) const {
   phase.watched.clear();
   phase.model = std::make_unique<model::Model>();
-  phase.watched = build_model(catalogue_, deck_, imperfections_, phase.setting, log_, *phase.model);
+  phase.watched =
+      build_model(catalogue_, deck_, imperfections_, phase.setting, log_, memory_, *phase.model);
 }
 
 // A state of one geometry would be under stress in another.

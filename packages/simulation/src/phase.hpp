@@ -45,8 +45,9 @@ class Phases {
   /// Builds all models. Throws InputError with all mistakes of the first one that has any, and
   /// where an analysis would go on with another stress-free geometry.
   /// @param imperfections  those of the deck; both are referred to
+  /// @param memory  that each model may need [B]
   Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
-         const Log& log);
+         const Log& log, double memory);
 
   /// The phase of an analysis, ready to work on; collective. What bends its geometry has been
   /// found.
@@ -63,6 +64,7 @@ class Phases {
   const Options& deck_;
   const Imperfections& imperfections_;
   const Log& log_;
+  double memory_;  ///< that each model may need [B]
   std::deque<Phase> phases_;
   std::vector<Phase*> by_analysis_;
 };

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 
 namespace culm::simulation {
 
@@ -32,6 +34,43 @@ LayerSettings read_layer_settings(const Options& shell, const model::Model& mode
   return settings;
 }
 
+namespace {
+
+// A checkpoint holds doubles, which have fewer digits than a checksum.
+void save_mark(const output::RecordMark& mark, Snapshot& snapshot) {
+  const auto set = [&](const std::string& name, std::uint64_t sum) {
+    snapshot.set_text("output/sum of " + name, std::to_string(sum));
+  };
+  set("head", mark.head_sum);
+  set("states", mark.steps_sum);
+  set("history", mark.history_sum);
+  snapshot.set("output/results", static_cast<double>(mark.results.size()));
+  std::size_t i = 0;
+  for (const auto& [name, sum] : mark.results) {
+    snapshot.set_text(fmt::format("output/result {}", i), name);
+    set(fmt::format("result {}", i++), sum);
+  }
+}
+
+output::RecordMark restore_mark(const Snapshot& snapshot) {
+  const auto sum = [&](const std::string& name) {
+    return std::stoull(snapshot.text("output/sum of " + name));
+  };
+  output::RecordMark mark;
+  mark.steps = static_cast<std::size_t>(snapshot.integer("output/states"));
+  mark.rows = static_cast<std::size_t>(snapshot.integer("output/rows"));
+  mark.head_sum = sum("head");
+  mark.steps_sum = sum("states");
+  mark.history_sum = sum("history");
+  for (int i = 0; i < snapshot.integer("output/results"); ++i) {
+    mark.results[snapshot.text(fmt::format("output/result {}", i))] =
+        sum(fmt::format("result {}", i));
+  }
+  return mark;
+}
+
+}  // namespace
+
 ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
                          ResultSettings settings, const std::vector<WatchedQuantity>& watched,
                          const Snapshot* from)
@@ -44,13 +83,17 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
   }
   on_root(system_->comm(), [&] {
     const auto meshes = meshes_of(drawn, settings_.layers);
-    from == nullptr ? open(meshes) : reopen(meshes);
+    from == nullptr ? open(meshes) : reopen(meshes, restore_mark(*from));
   });
 }
 
 void ResultFiles::save(Snapshot& snapshot) const {
   snapshot.set("output/states", static_cast<double>(frames_));
   snapshot.set("output/rows", static_cast<double>(rows_));
+  snapshot.set_text("run/id", settings_.info.run);
+  snapshot.set_text("run/deck", settings_.info.deck);
+  snapshot.set_text("run/model", settings_.info.model);
+  if (files_ != nullptr) save_mark(files_->recorder.mark(), snapshot);
   std::vector<double> memories;
   for (const WatchedQuantity& watched : *watched_) memories.push_back(watched.quantity->memory());
   snapshot.set("output/memories", std::move(memories));
@@ -68,8 +111,6 @@ void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantit
 void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   const std::filesystem::path& folder = settings_.folder;
   std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw FileError(folder.string(), failure.message());
   // those of an earlier run do not belong to the files to come
   const std::filesystem::path checkpoint = checkpoint_path(folder);
   std::filesystem::remove(checkpoint, failure);
@@ -84,10 +125,11 @@ void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
 }
 
 // The result file is cut to the time of the checkpoint; the others are made again from it.
-void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes) {
+void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
+                         const output::RecordMark& mark) {
   const std::filesystem::path& folder = settings_.folder;
-  const auto recorded = output::find_recorded(folder / "run.h5", frames_, rows_);
-  output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), recorded);
+  const auto recorded = output::find_recorded(folder / "run.h5", settings_.info.run, mark);
+  output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), mark, recorded);
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
   std::optional<output::Pictures> pictures;

@@ -1,6 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/output/checkpoint_file.hpp>
+#include <culm/simulation/identity.hpp>
 #include <culm/simulation/resume.hpp>
 
 #include "checkpoints.hpp"
@@ -75,6 +76,12 @@ FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesyste
 
 void check_resumed_deck(const Catalogue& catalogue, const Options& deck, const Snapshot& snapshot) {
   const Options before = read_deck(catalogue, DeckSource::restore(snapshot));
+  if (identity_of(before) != snapshot.text("run/deck")) {
+    throw FileError(
+        "the checkpoint belongs to another deck: what it holds of its own now means something "
+        "else, "
+        "as with another version of culm");
+  }
   const auto analysis = static_cast<std::size_t>(snapshot.integer("run/analysis"));
   find_forbidden_changes(before, deck, analysis, snapshot.number("state/time")).throw_if_any();
 }

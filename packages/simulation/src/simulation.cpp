@@ -2,12 +2,16 @@
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/deck/resolved.hpp>
+#include <culm/output/folder_lock.hpp>
+#include <culm/simulation/identity.hpp>
+#include <culm/simulation/input_files.hpp>
 #include <culm/simulation/resume.hpp>
 #include <culm/simulation/simulation.hpp>
 #include <culm/solver/fill.hpp>
 
 #include "earlier_states.hpp"
 #include "model_report.hpp"
+#include "on_root.hpp"
 #include "phase.hpp"
 #include "run_observer.hpp"
 
@@ -27,6 +31,35 @@ bool is_numerical(const Error& error) {
          dynamic_cast<const NonFiniteError*>(&error) != nullptr;
 }
 
+// On rank 0, which writes.
+std::unique_ptr<output::FolderLock> take_folder(const parallel::Comm& comm,
+                                                const std::filesystem::path& folder,
+                                                const Log& log) {
+  std::unique_ptr<output::FolderLock> lock;
+  on_root(comm, [&] { lock = std::make_unique<output::FolderLock>(folder); });
+  if (lock != nullptr && !lock->weakness().empty()) {
+    log.warning(
+        fmt::format("{}: cannot be locked ({}): nothing keeps another run from writing here",
+                    folder.string(), lock->weakness()));
+  }
+  return lock;
+}
+
+// Who a run is; the same as before if it goes on.
+output::RunInfo describe_run(const Options& deck, const model::Model& model,
+                             const parallel::Comm& comm, const Snapshot* from) {
+  output::RunInfo info{deck.text("Title"), std::string(version), deck::resolved(deck)};
+  info.run = from == nullptr ? new_run_identity(comm) : from->text("run/id");
+  info.deck = identity_of(deck);
+  info.model = identity_of(model);
+  if (from != nullptr && from->text("run/model") != info.model) {
+    throw FileError(
+        "the checkpoint belongs to another model than the one that the deck makes: a table or a "
+        "mesh that it reads has changed");
+  }
+  return info;
+}
+
 }  // namespace
 
 struct Simulation::Parts {
@@ -35,9 +68,10 @@ struct Simulation::Parts {
   Options deck;
   DeckSource source;
   Log log;
+  double memory;
   Findings findings = Findings(log);
   Imperfections imperfections = Imperfections(deck);
-  Phases phases = Phases(catalogue, deck, imperfections, log);
+  Phases phases = Phases(catalogue, deck, imperfections, log, memory);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
   Ledger ledger = {};
   std::size_t present = 0;               ///< the analysis whose phase the state belongs to
@@ -60,8 +94,8 @@ void Simulation::Parts::warn_of_reference() {
 }
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
-                       DeckSource source, const Log& log)
-    : parts_(new Parts{comm, catalogue, deck, std::move(source), log}) {
+                       DeckSource source, const Log& log, double memory)
+    : parts_(new Parts{comm, catalogue, deck, std::move(source), log, memory}) {
   parts_->phases.enter(0, comm, parts_->ledger);
   parts_->warn_of_reference();
 }
@@ -71,6 +105,7 @@ Simulation::~Simulation() = default;
 void Simulation::run(const RunSettings& settings, const StopRequest& request,
                      const Snapshot* from) {
   Parts& p = *parts_;
+  refuse_overwriting_by_run(p.comm, find_input_files(p.deck, p.source), settings.folder);
   const Options& output = p.deck.list("Output");
   Checkpoints checkpoints(p.comm, settings.folder, output.flag("Checkpoints"),
                           output.number("Checkpoint Interval"), request);
@@ -79,13 +114,14 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     p.imperfections.restore(*from, *p.phases.of(p.present).model);
   }
   Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);
-  ResultFiles files(*phase.system, *p.phases.of(0).model,
-                    {settings.folder,
-                     {p.deck.text("Title"), std::string(version), deck::resolved(p.deck)},
-                     output.integer("Every"),
-                     output.flag("Pictures"),
-                     read_layer_settings(output.list("Shell"), *phase.model)},
-                    phase.watched, from);
+  const LayerSettings layers = read_layer_settings(output.list("Shell"), *phase.model);
+  const output::RunInfo info = describe_run(p.deck, *p.phases.of(0).model, p.comm, from);
+  // from here on there is something on the disk
+  const auto lock = take_folder(p.comm, settings.folder, p.log);
+  ResultFiles files(
+      *phase.system, *p.phases.of(0).model,
+      {settings.folder, info, output.integer("Every"), output.flag("Pictures"), layers},
+      phase.watched, from);
   RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
                        p.imperfections, p.reference_turn,
                        Progress(p.log, settings.quiet, settings.terminal));

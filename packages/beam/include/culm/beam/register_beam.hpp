@@ -7,6 +7,7 @@
 #include <culm/material/section.hpp>
 #include <culm/model/imperfection.hpp>
 #include <culm/model/model.hpp>
+#include <culm/model/size_budget.hpp>
 
 #include <map>
 #include <string>
@@ -21,6 +22,7 @@ struct StructureContext {
   const Log& log;
   int refinement = 1;  ///< elements for each one of the deck, along each of its directions
   const model::Imperfection* imperfection = nullptr;  ///< none if null
+  model::SizeBudget* budget = nullptr;                ///< any size if null
 };
 
 /// Types of the deck's list "Structures". Each adds one structure under the name of its list.

@@ -16,12 +16,16 @@ namespace culm::output {
 /// What identifies a run in its result file.
 struct RunInfo {
   std::string title;
-  std::string version;   ///< of the program
-  std::string deck_xml;  ///< the deck with all variables and defaults resolved
+  std::string version;     ///< of the program
+  std::string deck_xml;    ///< the deck with all variables and defaults resolved
+  std::string run = {};    ///< identity of the run: no other one has it
+  std::string deck = {};   ///< identity of the deck
+  std::string model = {};  ///< identity of the model
 };
 
 /// Writes the result file of a run, run.h5:
 ///
+/// - attributes run, deck, model: identities
 /// - /deck: xml; attributes title, version
 /// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity, topology
 /// - /steps/000000/<structure>: position, displacement, director1..3, resultants, node and cell
@@ -47,11 +51,13 @@ class Recorder {
   /// Replaces a file of this name, but only when deck, mesh and empty tables are complete.
   Recorder(const std::filesystem::path& path, const RunInfo& info,
            std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history);
-  /// Goes on with the file of an earlier run, of the same model and history, as it was when it held
-  /// what `recorded` says: later steps, rows and the report go. See find_recorded().
+  /// Goes on with the file of an earlier run, of the same model and history: what is in it up to
+  /// the mark is copied to a new file, which then takes its place. Throws FileError if the model is
+  /// another one; then nothing has changed.
+  /// @param recorded  from find_recorded()
   Recorder(const std::filesystem::path& path, const RunInfo& info,
            std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history,
-           const Recorded& recorded);
+           const RecordMark& mark, const Recorded& recorded);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Closes the file; use close() to learn whether that worked.
@@ -73,6 +79,9 @@ class Recorder {
   void write_report(const std::string& text, std::span<const NamedScalar> scalars,
                     std::span<const NamedTable> tables = {},
                     std::span<const Finding> findings = {});
+
+  /// What the file holds by now.
+  const RecordMark& mark() const;
 
   /// Closes the file; nothing can be recorded afterwards.
   void close();

@@ -11,6 +11,9 @@ namespace culm::shell {
 /// throw InputError for impossible geometry, FileError for files.
 using MeshRegistry = Registry<Facets, int>;
 
+/// How many facets a mesh of these types will have without refinement; 0 where only its file knows.
+double count_facets(const Options& mesh);
+
 /// Adds Plane, Cylinder, Sphere, Cone, Annulus, Hypar, Twisted Strip, I Section,
 /// Airfoil, Quads and Gmsh.
 void register_meshes(MeshRegistry& registry);

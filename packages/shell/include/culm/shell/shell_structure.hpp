@@ -6,6 +6,7 @@
 #include <culm/material/material.hpp>
 #include <culm/model/imperfection.hpp>
 #include <culm/model/model.hpp>
+#include <culm/model/size_budget.hpp>
 
 #include <map>
 #include <string>
@@ -19,6 +20,7 @@ struct ShellContext {
   const Log& log;
   int refinement = 1;  ///< elements for each one of the deck, along each of its directions
   const model::Imperfection* imperfection = nullptr;  ///< none if null
+  model::SizeBudget* budget = nullptr;                ///< any size if null
 };
 
 /// Types of the deck's list "Structures" that are made of materials. @see Registry

@@ -36,7 +36,7 @@ LayerSettings read_layer_settings(const Options& shell, const model::Model& mode
 
 /// What to write, and how often.
 struct ResultSettings {
-  std::filesystem::path folder;
+  std::filesystem::path folder;  ///< which is there
   output::RunInfo info;
   int every = 1;
   bool pictures = true;
@@ -55,7 +55,7 @@ class ResultFiles {
   /// Goes on with another system of the same structures, and its quantities of the same names.
   void use(assembly::System& system, const std::vector<WatchedQuantity>& watched);
 
-  /// How much there is, under "output/".
+  /// How much there is, under "output/" with checksums, and whose it is, under "run/".
   void save(Snapshot& snapshot) const;
 
   /// The columns of the history.
@@ -88,7 +88,7 @@ class ResultFiles {
   };
 
   void open(const std::vector<output::StructureMesh>& meshes);
-  void reopen(const std::vector<output::StructureMesh>& meshes);
+  void reopen(const std::vector<output::StructureMesh>& meshes, const output::RecordMark& mark);
 
   assembly::System* system_;
   ResultSettings settings_;

@@ -29,7 +29,8 @@ FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesyste
                                 const Log& log);
 
 /// Compares the deck to go on with to that of the checkpoint. Throws InputError with all
-/// differences that would make another model.
+/// differences that would make another model, FileError if the deck in the checkpoint is not the
+/// one that it was made with.
 void check_resumed_deck(const Catalogue& catalogue, const Options& deck, const Snapshot& snapshot);
 
 /// Where a run goes on, for the user.

@@ -6,6 +6,7 @@
 #include <culm/base/options.hpp>
 #include <culm/parallel/comm.hpp>
 #include <culm/simulation/catalogue.hpp>
+#include <culm/simulation/memory.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/stop_request.hpp>
 
@@ -33,14 +34,17 @@ class Simulation {
   /// Builds the model. Throws InputError with all mistakes.
   /// @param deck validated with Catalogue::deck_schema
   /// @param source what it was read from, for checkpoints
+  /// @param memory what the model may need [B]
   Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
-             DeckSource source, const Log& log);
+             DeckSource source, const Log& log, double memory = machine_memory());
   ~Simulation();
 
   /// Runs all analyses and writes results. On NumericalError or NonFiniteError the files hold
   /// everything up to the last accepted step, and the post-mortem as report. Throws Stopped when a
   /// signal or the end of the time allowed stopped the run, and PromiseBroken when it came to its
-  /// end but not all that culm promises holds.
+  /// end but not all that culm promises holds. Throws FileError with nothing changed if another
+  /// process writes into the folder, if an input of the deck would be overwritten, or if the
+  /// checkpoint belongs to another model or to other results.
   /// @param from  checkpoint of an earlier run in this folder, to go on with
   void run(const RunSettings& settings, const StopRequest& request, const Snapshot* from = nullptr);
 
