@@ -2,7 +2,8 @@
 #   DEPENDS     packages whose headers ours include
 #   EXTERNAL    culm_external:: targets that our public headers include
 #   PRIVATE     culm_external:: targets used in src/ and test/ only
-#   PRECOMPILE  headers to precompile for src/ and test/
+#   PRECOMPILE  headers to precompile: this package begins a layer, see below; the first of them is
+#               the one that the headers of the layer include
 #   RANKS       process counts on which the tests run as well, under mpiexec)
 #
 # The folder is its own file list: include/culm/NAME/*.hpp, src/*.cpp, test/*_test.cpp. Makes
@@ -10,6 +11,10 @@
 #   culm_NAME_test     all unit tests
 #   culm_NAME_headers  every public header compiled alone, with CULM_HEADER_CHECK
 # Sources named *_cxx17.cpp are compiled as C++17, for the few Trilinos headers that need it.
+#
+# Parsing headers would cost more than half of a build. So a package that begins a layer compiles
+# the headers that its layer shares beforehand, once for sources and once, with GoogleTest, for
+# tests. Packages without PRECOMPILE use those of the highest layer that they depend on.
 
 include(CMakePackageConfigHelpers)
 include(GoogleTest)
@@ -56,7 +61,6 @@ function(culm_add_package name)
     add_library(${target} STATIC ${sources})
     set(public PUBLIC)
     target_link_libraries(${target} PRIVATE ${arg_PRIVATE})
-    culm_finish_target(${target} SOURCES ${sources} PRECOMPILE ${arg_PRECOMPILE})
   else()
     add_library(${target} INTERFACE)
     set(public INTERFACE)
@@ -85,6 +89,10 @@ function(culm_add_package name)
     endif()
   endforeach()
   set_property(GLOBAL PROPERTY CULM_${name}_USES_MPI ${uses_mpi})
+  culm_choose_layer(${name} PRECOMPILE ${arg_PRECOMPILE} DEPENDS ${arg_DEPENDS})
+  if(sources)
+    culm_finish_target(${target} SOURCES ${sources} LAYER ${name})
+  endif()
 
   if(CULM_TESTS AND tests)
     culm_add_package_tests(${name})
@@ -100,9 +108,54 @@ function(culm_add_package name)
   set_property(GLOBAL APPEND PROPERTY CULM_PACKAGES ${name})
 endfunction()
 
-# Warnings, instrumentation, the C++17 rule and precompiled headers: for everything we compile.
+# The layer of a package: its own, or the last begun of those that it depends on.
+function(culm_choose_layer name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PRECOMPILE;DEPENDS")
+  get_property(layers GLOBAL PROPERTY CULM_LAYERS)
+  set(below)
+  foreach(dependency IN LISTS arg_DEPENDS)
+    get_property(its_layer GLOBAL PROPERTY CULM_${dependency}_LAYER)
+    list(FIND layers "${its_layer}" place)
+    list(FIND layers "${below}" highest)
+    if(place GREATER highest)
+      set(below ${its_layer})
+    endif()
+  endforeach()
+  set(layer ${below})
+  if(arg_PRECOMPILE)
+    set(layer ${name})
+    set_property(GLOBAL APPEND PROPERTY CULM_LAYERS ${name})
+    list(TRANSFORM arg_PRECOMPILE REPLACE "^([^<].*)$" "<\\1>")
+    set_property(GLOBAL PROPERTY CULM_${name}_PRECOMPILE ${arg_PRECOMPILE})
+  endif()
+  set_property(GLOBAL PROPERTY CULM_${name}_LAYER ${layer})
+  set_property(GLOBAL PROPERTY CULM_${name}_LAYER_BELOW ${below})
+endfunction()
+
+# culm_precompile(target layer use): the target compiles with the headers of a layer, for SOURCES, for
+# TESTS or to compile HEADERS alone. The first target of a layer and use makes them, the others share.
+function(culm_precompile target layer use)
+  get_property(owner GLOBAL PROPERTY CULM_${layer}_${use}_PRECOMPILED)
+  if(owner)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  else()
+    get_property(headers GLOBAL PROPERTY CULM_${layer}_PRECOMPILE)
+    if(use STREQUAL HEADERS)
+      list(GET headers 0 headers)
+    elseif(use STREQUAL TESTS)
+      list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
+    endif()
+    target_precompile_headers(${target} PRIVATE ${headers})
+    set_property(GLOBAL PROPERTY CULM_${layer}_${use}_PRECOMPILED ${target})
+  endif()
+  # for ccache
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
+# Warnings, instrumentation, the C++17 rule and, with LAYER, the precompiled headers of a package's
+# layer; with TESTS, those for tests: for everything we compile.
 function(culm_finish_target target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRECOMPILE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TESTS" "LAYER" "SOURCES")
   culm_set_warnings(${target})
   culm_set_instrumentation(${target})
   set(cxx17 ${arg_SOURCES})
@@ -112,10 +165,11 @@ function(culm_finish_target target)
       ${cxx17} PROPERTIES COMPILE_OPTIONS -std=c++17 SKIP_PRECOMPILE_HEADERS ON
     )
   endif()
-  if(arg_PRECOMPILE)
-    list(TRANSFORM arg_PRECOMPILE REPLACE "^([^<\"].*)$" "<\\1>")
-    target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  get_property(layer GLOBAL PROPERTY CULM_${arg_LAYER}_LAYER)
+  if(layer AND arg_TESTS)
+    culm_precompile(${target} ${layer} TESTS)
+  elseif(layer)
+    culm_precompile(${target} ${layer} SOURCES)
   endif()
 endfunction()
 
@@ -126,7 +180,7 @@ macro(culm_add_package_tests name)
   add_executable(${program} ${tests})
   target_link_libraries(${program} PRIVATE ${target} ${arg_PRIVATE} GTest::gmock GTest::gtest)
   target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit)
-  culm_finish_target(${program} SOURCES ${tests} PRECOMPILE ${arg_PRECOMPILE})
+  culm_finish_target(${program} SOURCES ${tests} LAYER ${name} TESTS)
   if(EXISTS ${folder}/test/main.cpp)
     target_sources(${program} PRIVATE ${folder}/test/main.cpp)
   elseif(uses_mpi)
@@ -167,8 +221,16 @@ function(culm_add_parallel_test test ranks program)
   )
 endfunction()
 
-# A header that compiles alone includes all it needs.
+# A header that compiles alone includes all it needs. One that includes the first header of its layer
+# anyway, directly or not, may find that precompiled: nothing is declared then that it does not ask
+# for. A package that begins a layer looks at the layer below.
 macro(culm_add_header_check name)
+  get_property(layer GLOBAL PROPERTY CULM_${name}_LAYER)
+  if(layer STREQUAL "${name}")
+    get_property(layer GLOBAL PROPERTY CULM_${name}_LAYER_BELOW)
+  endif()
+  get_property(shared GLOBAL PROPERTY CULM_${layer}_PRECOMPILE)
+  list(POP_FRONT shared first)
   set(units)
   foreach(header IN LISTS headers)
     file(RELATIVE_PATH path ${folder}/include ${header})
@@ -176,11 +238,39 @@ macro(culm_add_header_check name)
     set(unit ${CMAKE_CURRENT_BINARY_DIR}/headers/${unit}.cpp)
     file(CONFIGURE OUTPUT ${unit} CONTENT "#include <${path}>\n")
     list(APPEND units ${unit})
+    culm_find_included(${path} included)
+    if(NOT "${first}" IN_LIST included)
+      set_source_files_properties(${unit} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
   endforeach()
+  # what they include may change
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
   add_library(culm_${name}_headers OBJECT ${units})
   target_link_libraries(culm_${name}_headers PRIVATE ${target})
   culm_finish_target(culm_${name}_headers)
+  if(layer)
+    culm_precompile(culm_${name}_headers ${layer} HEADERS)
+  endif()
 endmacro()
+
+# All headers of culm that one of them includes, directly or not.
+function(culm_find_included path result)
+  get_property(known GLOBAL PROPERTY CULM_INCLUDED_${path} SET)
+  if(NOT known)
+    string(REGEX REPLACE "^culm/([^/]+)/.*" "packages/\\1/include/${path}" file ${path})
+    file(STRINGS ${PROJECT_SOURCE_DIR}/${file} lines REGEX "^#include <culm/[^>]+>")
+    set(all)
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include <([^>]+)>.*" "\\1" direct "${line}")
+      culm_find_included(${direct} further)
+      list(APPEND all <${direct}> ${further})
+    endforeach()
+    list(REMOVE_DUPLICATES all)
+    set_property(GLOBAL PROPERTY CULM_INCLUDED_${path} "${all}")
+  endif()
+  get_property(all GLOBAL PROPERTY CULM_INCLUDED_${path})
+  set(${result} "${all}" PARENT_SCOPE)
+endfunction()
 
 # Makes `find_package(culm)` work after `cmake --install`.
 function(culm_install_config)

@@ -5,7 +5,8 @@ function(culm_set_warnings target)
     # GCC 12 reports these inside inlined Eigen expressions and std::string concatenation, although
     # nothing is wrong there.
     target_compile_options(
-      ${target} PRIVATE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread -Wno-restrict
+      ${target} PRIVATE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread
+                        -Wno-stringop-overflow -Wno-restrict
     )
   endif()
   if(CULM_WERROR)
