@@ -24,6 +24,22 @@ Mat<M, N> central_difference(F&& f, const Vec<N>& x, double step = 1e-6) {
   return derivative;
 }
 
+/// The same for vectors whose sizes the compiler does not know.
+/// @param f  maps Eigen::VectorXd to Eigen::VectorXd
+template <class F>
+Eigen::MatrixXd any_central_difference(F&& f, const Eigen::VectorXd& x, double step = 1e-6) {
+  static_assert(std::is_same_v<decltype(f(x)), Eigen::VectorXd>);
+  Eigen::MatrixXd derivative(f(x).size(), x.size());
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    Eigen::VectorXd ahead = x;
+    Eigen::VectorXd behind = x;
+    ahead[k] += step;
+    behind[k] -= step;
+    derivative.col(k) = (f(ahead) - f(behind)) / (2.0 * step);
+  }
+  return derivative;
+}
+
 /// Largest difference between two matrices, relative to the largest entry of the second.
 template <class A, class B>
 double relative_difference(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
