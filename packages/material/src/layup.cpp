@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -72,14 +73,28 @@ const Mat6& modulus(const Layer& layer) {
   return std::get<StVenantKirchhoff>(layer.material.law).C;
 }
 
-// Stress along an axis under a strain along it alone, free of stress across the thickness.
-double axial_modulus(const Layer& layer, double angle_to_fibre) {
-  const Mat6& C = modulus(layer);
-  const double c = std::cos(angle_to_fibre);
-  const double s = std::sin(angle_to_fibre);
-  const Vec6 along = (Vec6() << c * c, s * s, 0.0, 0.0, 0.0, 2.0 * c * s).finished();
-  const Vec6 stress = C * along - C.col(2) * (C.row(2).dot(along) / C(2, 2));
-  return along.dot(stress);
+// Stiffness in the plane, free of stress across the thickness, in axes turned back by an angle from
+// those of the material; order 11, 22, 12 with engineering shear.
+Mat3 plane_stiffness(const Mat6& C, double angle) {
+  constexpr std::array<int, 3> plane{0, 1, 5};
+  Mat3 Q;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const int k = plane[i];
+      const int l = plane[j];
+      Q(static_cast<int>(i), static_cast<int>(j)) = C(k, l) - C(k, 2) * C(2, l) / C(2, 2);
+    }
+  }
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  Mat3 T;  // strains in the axes of the material by those in the axes asked for
+  T << c * c, s * s, s * c, s * s, c * c, -s * c, -2.0 * s * c, 2.0 * s * c, c * c - s * s;
+  return T.transpose() * Q * T;
+}
+
+// Stress along axis 1 or 2 of the layup under a strain along it alone.
+double axial_modulus(const Layer& layer, int axis) {
+  return plane_stiffness(modulus(layer), layer.angle)(axis, axis);
 }
 
 // Transverse shear stiffness along axes 1, 2 of the layup.
@@ -91,7 +106,6 @@ Mat<2, 2> transverse_shear(const Layer& layer) {
 }
 
 double shear_factor(const Layup& layup, int axis) {
-  const double right_angle = 1.5707963267948966;
   struct Ply {
     double below, above, E, G;
   };
@@ -102,8 +116,7 @@ double shear_factor(const Layup& layup, int axis) {
   double z = -0.5 * layup.thickness();
   for (const Layer& layer : layup.layers) {
     const double above = z + layer.thickness;
-    plies.push_back({z, above, axial_modulus(layer, axis * right_angle - layer.angle),
-                     transverse_shear(layer)(axis, axis)});
+    plies.push_back({z, above, axial_modulus(layer, axis), transverse_shear(layer)(axis, axis)});
     stretch += plies.back().E * layer.thickness;
     moment += 0.5 * plies.back().E * (above * above - z * z);
     shear += plies.back().G * layer.thickness;
@@ -130,6 +143,22 @@ double shear_factor(const Layup& layup, int axis) {
 }
 
 }  // namespace
+
+Mat6 laminate_stiffness(const Layup& layup) {
+  Mat6 stiffness = Mat6::Zero();
+  double z = -0.5 * layup.thickness();
+  for (const Layer& layer : layup.layers) {
+    const double above = z + layer.thickness;
+    const Mat3 Q = plane_stiffness(small_strain_stiffness(layer.material.law), layer.angle);
+    const Mat3 coupling = 0.5 * (above * above - z * z) * Q;
+    stiffness.topLeftCorner<3, 3>() += layer.thickness * Q;
+    stiffness.topRightCorner<3, 3>() += coupling;
+    stiffness.bottomLeftCorner<3, 3>() += coupling;
+    stiffness.bottomRightCorner<3, 3>() += (above * above * above - z * z * z) / 3.0 * Q;
+    z = above;
+  }
+  return stiffness;
+}
 
 Vec<2> shear_factors(const Layup& layup) {
   return {shear_factor(layup, 0), shear_factor(layup, 1)};

@@ -22,7 +22,7 @@ const Mat6& modulus(const material::Layer& layer) {
 ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const material::Layup> layup,
                            const ShellOptions& options)
     : ShellForms(reference),
-      wall_{ShellGeometry(reference, layup->thickness(), options), layup},
+      wall_{ShellGeometry(reference, *layup, options), layup},
       stiffness_(Stiffness::Zero()),
       mass_(shell_mass(wall_.geometry, *layup)) {
   internal_check(layup->is_linear(), "ElasticShell wants a linear layup");

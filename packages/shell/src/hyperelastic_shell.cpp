@@ -75,7 +75,7 @@ HyperelasticShell::HyperelasticShell(const Nodes& reference,
                                      std::shared_ptr<const material::Layup> layup,
                                      const ShellOptions& options)
     : ShellForms(reference),
-      geometry_(reference, layup->thickness(), options),
+      geometry_(reference, *layup, options),
       layup_(std::move(layup)),
       mass_(shell_mass(geometry_, *layup_)) {
   visit_volume(

@@ -1,3 +1,4 @@
+#include <culm/shell/hourglass.hpp>
 #include <culm/shell/shell_geometry.hpp>
 
 #include <Eigen/Dense>
@@ -75,6 +76,13 @@ ShellGeometry::ShellGeometry(const Nodes& reference, double thickness, const She
       J_centre_(jacobian(0.0, 0.0, 0.0)),
       contravariant_centre_(base_vectors(0.0, 0.0, 0.0).inverse()) {}
 
+ShellGeometry::ShellGeometry(const Nodes& reference, const material::Layup& layup,
+                             const ShellOptions& options)
+    : ShellGeometry(reference, layup.thickness(), options) {
+  const Mat3 A = axes(0.0, 0.0, 0.0);
+  hourglass_ = hourglass_factors(A.leftCols<2>().transpose() * reference_.leftCols<2>(), layup);
+}
+
 Mat3 ShellGeometry::base_vectors(double xi, double eta, double zeta) const {
   Mat3 G;
   G << reference_ * g1(eta, zeta), reference_ * g2(xi, zeta), reference_ * g3(xi, eta);
@@ -106,6 +114,19 @@ ShellGeometry::StrainMap ShellGeometry::covariant_strains(double xi, double eta,
   E.row(0) = 0.5 * product(g1(eta, zeta), g1(eta, zeta));
   E.row(1) = 0.5 * product(g2(xi, zeta), g2(xi, zeta));
   E.row(5) = product(g1(eta, zeta), g2(xi, zeta));
+  if (options_.enhancement.membrane > 0) {
+    // The square of the hourglass vector x3 + ζ d3 - affine part, which linear enhanced strains
+    // cannot balance, enters by its mean times the factors of the wall.
+    const Vec3 affine = contravariant_centre_ * (reference_.col(2) + zeta * reference_.col(6));
+    ModeVector hourglass = ModeVector::Unit(2) + zeta * ModeVector::Unit(6);
+    hourglass[0] = -affine[0];
+    hourglass[1] = -affine[1];
+    hourglass[3] = -affine[2];
+    const FormVector square = 0.5 * product(hourglass, hourglass);
+    E.row(0) += (hourglass_[0] / 3.0 - eta * eta) * square;
+    E.row(1) += (hourglass_[1] / 3.0 - xi * xi) * square;
+    E.row(5) -= 2.0 * xi * eta * square;
+  }
   if (options_.assumed_thickness) {
     const Vec<4> N = shape_functions(xi, eta);
     E.row(2).setZero();

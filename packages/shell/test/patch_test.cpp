@@ -3,8 +3,10 @@
 #include <culm/shell/elastic_shell.hpp>
 #include <culm/shell/hyperelastic_shell.hpp>
 
+#include "hourglass_case.hpp"
 #include "shell_model.hpp"
 
+#include <culm_kit/rigid_motion.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -163,6 +165,75 @@ TEST(Uniaxial, NeoHooke) {
   const auto law = material::NeoHooke::from_moduli(E, nu);
   for (const Row& row : rows) {
     expect_uniaxial<HyperelasticShell>(law, row.stretch, row.piola, row.lateral, 6e-9);
+  }
+}
+
+// A patch of 8 x 8 irregular elements, held around and strained as a whole.
+template <class Shell>
+ShellModel<Shell> irregular_patch(double aspect, const SharedLayup& layup) {
+  constexpr int n = 8;
+  kit::Random random(3);
+  const auto node = [](int i, int j) { return i * (n + 1) + j; };
+  NodeColumns nodes(3, 2 * (n + 1) * (n + 1));
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const bool inside = i > 0 && i < n && j > 0 && j < n;
+      const Vec<2> off = inside ? Vec<2>(0.35 * random.matrix<2, 1>()) : Vec<2>(Vec<2>::Zero());
+      nodes.col(2 * node(i, j)) = Vec3(i + off[0], aspect * (j + off[1]), 0.0);
+      nodes.col(2 * node(i, j) + 1) = Vec3::UnitZ();
+    }
+  }
+  ShellModel<Shell> model(nodes);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const std::array<int, 4> quad{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
+      model.add(Shell(ShellModel<Shell>::gather(nodes, quad), layup, along_x()), quad);
+    }
+  }
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const bool inside = i > 0 && i < n && j > 0 && j < n;
+      if (!inside) model.hold(node(i, j), 0);
+      model.hold(node(i, j), 0, 2);
+      model.hold(node(i, j), 1, 0);
+      model.hold(node(i, j), 1, 1);
+    }
+  }
+  return model;
+}
+
+TEST(HourglassPatch, IrregularElementsAreStableUpToTenPerCent) {
+  for (const Wall& wall : walls()) {
+    if (wall.name == "[0/90]" || wall.name == "[45/-45]") continue;  // directors are held
+    for (const double aspect : {0.2, 1.0, 4.0, 20.0}) {
+      auto model = irregular_patch<ElasticShell>(aspect, wall.layup);
+      for (const Vec3& stress : loadings()) {
+        const Vec3 strain = strain_under(stress, *wall.layup);
+        const double critical =
+            last(0.1, [&](double e) { return StrainedWall(*wall.layup, e * strain).is_stable(); });
+        for (const double share : {0.5, 0.98}) {
+          model.q = StrainedWall(*wall.layup, share * critical * strain).strained(model.reference);
+          EXPECT_TRUE(model.is_stable()) << wall.name << " aspect " << aspect << " stress "
+                                         << stress.transpose() << " share " << share;
+        }
+      }
+    }
+  }
+}
+
+// Rubber compressed by 30 per cent between held sides that keep their distance.
+TEST(HourglassPatch, NeoHookeSheetIsStable) {
+  const auto rubber = std::make_shared<material::Layup>(
+      material::single_layer(material::Material{material::NeoHooke::from_moduli(1.0, 0.3)}, 0.1));
+  for (const double aspect : {0.2, 1.0, 5.0, 25.0}) {
+    auto model = irregular_patch<HyperelasticShell>(aspect, rubber);
+    for (double stretch = 0.95; stretch > 0.69; stretch -= 0.05) {
+      for (Eigen::Index node = 0; 2 * node < model.q.cols(); ++node) {
+        model.q(0, 2 * node) = stretch * model.reference(0, 2 * node);
+      }
+      ASSERT_GT(model.solve(), 0) << aspect << " " << stretch;
+      EXPECT_TRUE(model.is_stable()) << aspect << " " << stretch;
+    }
   }
 }
 

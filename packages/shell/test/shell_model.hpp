@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <gtest/gtest.h>
 
@@ -107,6 +108,13 @@ class ShellModel {
     velocity = 2.0 / h * (q - q_prev_) - velocity;
     internals_prev_ = internals_;
     return true;
+  }
+
+  /// Whether the tangent at rest in `q` is positive definite on all that is not held.
+  bool is_stable() {
+    if (assemble(Stencil::statics(), true, true) != Verdict::ok) return false;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(moving_tangent());
+    return factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
   }
 
   double stored_energy() const {
@@ -263,30 +271,40 @@ class ShellModel {
     }
   }
 
-  Eigen::VectorXd solve_free() const {
-    std::vector<int> place(static_cast<std::size_t>(q.size()), -1);
-    std::vector<Eigen::Index> free;
+  /// Numbers of the components that are not held.
+  Eigen::VectorXi moving() const {
+    Eigen::VectorXi rows(q.size() - static_cast<Eigen::Index>(held_.size()));
+    Eigen::Index next = 0;
     for (int i = 0; i < q.size(); ++i) {
-      if (held_.contains(i)) continue;
-      place[static_cast<std::size_t>(i)] = static_cast<int>(free.size());
-      free.push_back(i);
+      if (!held_.contains(i)) rows[next++] = i;
     }
+    return rows;
+  }
+
+  Eigen::SparseMatrix<double> moving_tangent() const {
+    const Eigen::VectorXi rows = moving();
+    Eigen::VectorXi place = Eigen::VectorXi::Constant(q.size(), -1);
+    for (int n = 0; n < rows.size(); ++n) place[rows[n]] = n;
     std::vector<Eigen::Triplet<double>> triplets;
     for (int column = 0; column < tangent_.outerSize(); ++column) {
       for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it) {
-        const int i = place[static_cast<std::size_t>(it.row())];
-        const int j = place[static_cast<std::size_t>(column)];
+        const int i = place[it.row()];
+        const int j = place[column];
         if (i >= 0 && j >= 0) triplets.emplace_back(i, j, it.value());
       }
     }
-    const auto n = static_cast<Eigen::Index>(free.size());
-    Eigen::SparseMatrix<double> K(n, n);
+    Eigen::SparseMatrix<double> K(rows.size(), rows.size());
     K.setFromTriplets(triplets.begin(), triplets.end());
-    const Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(K);
+    return K;
+  }
+
+  Eigen::VectorXd solve_free() const {
+    const Eigen::VectorXi rows = moving();
+    const Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(moving_tangent());
     EXPECT_EQ(factor.info(), Eigen::Success);
-    const Eigen::VectorXd u = factor.solve(-residual_(free));
+    const Eigen::VectorXd u = factor.solve(-residual_(rows));
     Eigen::VectorXd all = Eigen::VectorXd::Zero(q.size());
-    all(free) = u;
+    all(rows) = u;
     return all;
   }
 

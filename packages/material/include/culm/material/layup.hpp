@@ -31,6 +31,11 @@ struct Layup {
   bool is_linear() const;
 };
 
+/// Stiffness (A B; B D) of classical laminate theory in the axes of the layup, order 11, 22, 12
+/// with engineering shears: membrane forces [N/m] and moments [N] under strains and curvatures
+/// [1/m] of the middle surface, free of stress across the thickness; at small strains for any law.
+Mat6 laminate_stiffness(const Layup& layup);
+
 /// Factors of the transverse shear stiffness along axes 1 and 2 by which a director that stays
 /// straight stores the energy of the shear stresses that equilibrium asks for in cylindrical
 /// bending about the other axis: (int E z^2)^2 / (int G int g^2 / G), g the first moment of E below

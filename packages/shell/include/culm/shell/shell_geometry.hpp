@@ -1,6 +1,7 @@
 /// The strain components of the four-node shell at a point, as linear functions of its forms.
 #pragma once
 
+#include <culm/material/layup.hpp>
 #include <culm/shell/shell_forms.hpp>
 
 #include <string>
@@ -48,7 +49,11 @@ class ShellGeometry {
     EnhancedModes enhanced;  ///< E += enhanced α
   };
 
+  /// Of the wall of an element, with its hourglass factors.
   /// @pre shell_mistakes(...) is empty
+  ShellGeometry(const Nodes& reference, const material::Layup& layup, const ShellOptions& options);
+  /// Of the space that an element fills: volumes and axes; strains are those of a wall with
+  /// hourglass factors 0.
   ShellGeometry(const Nodes& reference, double thickness, const ShellOptions& options);
 
   /// @param angle  turns A1, A2 about A3 [rad]
@@ -58,6 +63,8 @@ class ShellGeometry {
   /// A1, A2, A3 as columns
   Mat3 axes(double xi, double eta, double zeta, double angle = 0.0) const;
   const ShellOptions& options() const { return options_; }
+  /// c1, c2, see hourglass_factors
+  const Vec<2>& hourglass() const { return hourglass_; }
 
  private:
   Mat3 base_vectors(double xi, double eta, double zeta) const;
@@ -69,6 +76,7 @@ class ShellGeometry {
   ShellOptions options_;
   double J_centre_;
   Mat3 contravariant_centre_;  // G^1, G^2, G^3 as rows
+  Vec<2> hourglass_ = Vec<2>::Zero();
 };
 
 /// Bilinear shape functions of the nodes at a point.
