@@ -136,6 +136,7 @@ def _reason(run):
         return ""
     if run.exit is None or run.exit < 0:
         return run.outcome
-    lines = [line.strip() for line in run.errors.splitlines() if line.strip()]
+    lines = [line.strip() for line in run.errors.splitlines()]
+    lines = [line for line in lines if line and not line.startswith("warning:")]
     cause = [line for line in lines if line.startswith("Likely cause:")]
     return " ".join([*lines[:1], *cause[:1]]) or run.outcome
