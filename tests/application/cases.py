@@ -548,7 +548,7 @@ CASES = [
         6,
         deck=None,
         args="import openfast driver.inp",
-        errors=["driver.inp: cannot read: No such file or directory"],
+        errors=["driver.inp: there is no such file"],
         ranks=True,
     ),
     Case(
@@ -624,6 +624,13 @@ CASES = [
         deck=None,
         args="hard --list --only MR IP",
         prints=["mass ratio; beam/tip_mass.xml\n", "\na mechanism in statics "],
+    ),
+    Case(
+        "a hard case as a whole, far beyond its margin, too",
+        0,
+        deck=None,
+        args="hard --quick --only 'roll-up on few elements'",
+        prints=["\nroll-up on few elements  ", " runs, "],
     ),
     Case(
         "a hard case that there is not",
