@@ -8,12 +8,38 @@ namespace culm::analysis {
 
 using assembly::Vector;
 
+namespace {
+
+// Where nodes move as they turn, as in bending, displacements decide; rotations do where nodes turn
+// in place, or about something near.
+constexpr double arm_over_length = 0.1;
+// Of the change of the watched displacement by the arc length: what is less is rounding.
+constexpr double least_watched = 1e-9;
+
+// A rotation changes all three directors of a triad, |dd|^2 = 2 |theta|^2, and the one of a shell
+// node.
+Eigen::VectorXd director_weights(const model::Model& model) {
+  const double arm = PathCondition::turning_arm(model);
+  Eigen::VectorXd weights(model.nodes().size());
+  for (int node = 0; node < model.nodes().size(); ++node) {
+    weights[node] = model.nodes().kind(node) == NodeKind::node12 ? std::sqrt(0.5) * arm : arm;
+  }
+  return weights;
+}
+
+}  // namespace
+
+double PathCondition::turning_arm(const model::Model& model) {
+  return arm_over_length * model.length();
+}
+
 PathCondition::PathCondition(assembly::System& system, PathControl control,
                              const std::optional<WatchedMotion>& watched, double level_difference)
     : system_(system),
       control_(control),
       watched_(watched),
       level_difference_(level_difference),
+      weights_(director_weights(system.model())),
       present_(control) {
   const model::UnknownTable& unknowns = system.model().unknowns();
   const std::vector<int>& owners = system.layout().owners();
@@ -23,7 +49,7 @@ PathCondition::PathCondition(assembly::System& system, PathControl control,
     if (owners[block] == system.comm().rank()) nodes_.push_back(node);
   }
   for (Motion* motion : {&direction_, &flexibility_, &response_, &way_}) {
-    motion->setZero(3, count);
+    motion->setZero(12, count);
   }
 }
 
@@ -49,7 +75,7 @@ double PathCondition::begin_branch(const model::State& state, const Vector& moti
   begin(std::abs(size));
   present_ = PathControl::normal_plane;
   has_begun_ = true;
-  read_positions(system_.linear_motion(state, motion, 1.0), direction_);
+  read_slots(system_.linear_motion(state, motion, 1.0), direction_);
   // a direction has no sense: the watched displacement grows, or else the largest of all
   Eigen::Index row = 0, node = 0;
   const double largest = direction_.cwiseAbs().maxCoeff(&row, &node);
@@ -67,17 +93,22 @@ void PathCondition::complete(Motion& motion) const {
   system_.comm().sum(std::span(motion.data(), static_cast<std::size_t>(motion.size())));
 }
 
-void PathCondition::read_positions(const model::Coordinates& q, Motion& motion) const {
+void PathCondition::read_slots(const model::Coordinates& q, Motion& motion) const {
   motion.setZero();
-  for (const int node : nodes_) motion.col(node) = model::NodeTable::slots(q, node).col(0);
+  for (const int node : nodes_) {
+    motion.col(node) = model::NodeTable::slots(q, node).reshaped();
+    motion.col(node).tail<9>() *= weights_[node];
+  }
   complete(motion);
 }
 
 void PathCondition::read_way(const model::State& state) {
   way_.setZero();
   for (const int node : nodes_) {
-    way_.col(node) = model::NodeTable::slots(state.next, node).col(0) -
-                     model::NodeTable::slots(state.prev, node).col(0);
+    way_.col(node) =
+        (model::NodeTable::slots(state.next, node) - model::NodeTable::slots(state.prev, node))
+            .reshaped();
+    way_.col(node).tail<9>() *= weights_[node];
   }
   complete(way_);
 }
@@ -87,7 +118,7 @@ double PathCondition::dot(const Motion& a, const Motion& b) {
 }
 
 double PathCondition::watched_part(const Motion& motion) const {
-  return watched_ ? watched_->direction.dot(motion.col(watched_->node)) : 0.0;
+  return watched_ ? watched_->direction.dot(motion.col(watched_->node).head<3>()) : 0.0;
 }
 
 double PathCondition::watched_displacement(const model::Coordinates& q) const {
@@ -112,12 +143,13 @@ void PathCondition::set_tangent() {
     sense = size_ * watched_part(flexibility_);
   }
   const double rate = std::copysign(1.0, sense) / size;
-  tangent_ = PathTangent{rate, rate * watched_part(flexibility_)};
+  const double watched = rate * watched_part(flexibility_);
+  tangent_ = PathTangent{rate, std::abs(watched) < least_watched ? 0.0 : watched};
   direction_ = rate * flexibility_;
 }
 
 void PathCondition::find_tangent(const model::State& state, const Vector& flexibility) {
-  read_positions(system_.linear_motion(state, flexibility, 1.0), flexibility_);
+  read_slots(system_.linear_motion(state, flexibility, 1.0), flexibility_);
   set_tangent();
 }
 
@@ -153,8 +185,8 @@ double PathCondition::correct() const {
 
 double PathCondition::level_increment(const model::State& state, const Vector& response,
                                       const Vector& flexibility) {
-  read_positions(system_.linear_motion(state, response, 1.0), response_);
-  read_positions(system_.linear_motion(state, flexibility, 1.0), flexibility_);
+  read_slots(system_.linear_motion(state, response, 1.0), response_);
+  read_slots(system_.linear_motion(state, flexibility, 1.0), flexibility_);
   read_way(state);
   if (has_begun_) return correct();
   has_begun_ = true;
@@ -197,8 +229,8 @@ void PathCondition::save(Snapshot& snapshot) const {
 
 void PathCondition::restore(const Snapshot& snapshot) {
   const std::vector<double>& increment = snapshot.numbers("path/increment");
-  previous_ = Eigen::Map<const Motion>(increment.data(), 3,
-                                       static_cast<Eigen::Index>(increment.size() / 3));
+  previous_ = Eigen::Map<const Motion>(increment.data(), 12,
+                                       static_cast<Eigen::Index>(increment.size() / 12));
 }
 
 }  // namespace culm::analysis

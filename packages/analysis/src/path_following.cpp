@@ -243,7 +243,17 @@ std::pair<PathTangent, solver::Determinant> PathFollowing::find_tangent(Context&
 }
 
 void PathFollowing::refuse_idle_level(const model::State& state) const {
-  if (!condition_->tangent() || std::isfinite(condition_->tangent()->level)) return;
+  if (!condition_->tangent()) return;
+  const PathTangent& tangent = *condition_->tangent();
+  const bool is_watched = settings_.control == PathControl::displacement;
+  if (steps_ == 0 && is_watched && std::isfinite(tangent.level) && tangent.watched == 0.0) {
+    throw NumericalError(fmt::format(
+        "There is no path to follow by displacement control: at level {:.6g} the watched "
+        "displacement of '{}' does not change with the level.\n"
+        "Try: another node or direction to watch, or another 'Control'.",
+        state.time, settings_.watch->node));
+  }
+  if (std::isfinite(tangent.level)) return;
   throw NumericalError(fmt::format(
       "There is no path to follow at level {:.6g}: nothing that moves the structure changes with "
       "the level there.\n"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace culm::analysis {
@@ -58,10 +59,49 @@ class Bar {
   LinearLaw<1> law_;
 };
 
-// A dead force that is the level times a vector.
+// Energy y^2 / 2 of y = -sin of the angle by which the second of two nodes turns about x.
+class Twist {
+ public:
+  static constexpr NodeKind node_kind = NodeKind::node12;
+  static constexpr int num_nodes = 2;
+  static constexpr int num_slots = 8;
+  static constexpr int num_points = 1;
+  static constexpr int num_strains = 1;
+  static constexpr int num_resultants = 1;
+  using Nodes = Slots<num_slots>;
+  using Strain = Eigen::Matrix<double, 1, 1>;
+
+  Twist() { law_.C(0, 0) = 1.0; }
+  void strain(int, const Nodes& q, Strain& y) const noexcept { y[0] = q.col(2).dot(q.col(7)); }
+  void gradient(int, const Nodes& q, Gradient<8, 1>& B) const noexcept {
+    B.setZero();
+    B.block<3, 1>(6, 0) = q.col(7);
+    B.block<3, 1>(21, 0) = q.col(2);
+  }
+  void add_curvature(int, const Strain& S, SlotMatrix<8>& A) const noexcept {
+    A(2, 7) += S[0];
+    A(7, 2) += S[0];
+  }
+  Verdict respond(int, const Strain& prev, const Strain& next, const Stencil& stencil,
+                  Response<1>& response) const noexcept {
+    law_.respond(prev, next, stencil, response);
+    return Verdict::ok;
+  }
+  double energy(int, const Strain& y) const noexcept { return law_.energy(y); }
+  SlotMatrix<8> mass() const noexcept { return SlotMatrix<8>::Identity(); }
+  Strain resultants(int, const Strain& y) const noexcept { return law_.C * y; }
+  static constexpr std::array<const char*, 1> resultant_names() { return {"T"}; }
+
+ private:
+  LinearLaw<1> law_;
+};
+
+// A dead force, or a moment, that is the level times a vector.
 class Push final : public model::Batch {
  public:
-  Push(int node, const Vec3& force) : node_(node), force_(force) {}
+  Push(int node, const Vec3& force, const Vec3& moment = Vec3::Zero()) : node_(node) {
+    load_ << force, moment;
+  }
   const std::string& effect() const override { return effect_; }
   int size() const override { return 1; }
   std::vector<int> blocks(int, const model::UnknownTable& unknowns) const override {
@@ -73,8 +113,7 @@ class Push final : public model::Batch {
   }
   void begin_step(const model::State& state, const Stencil&) override { level_ = state.time; }
   Verdict assemble(const model::State&, const Stencil&, Want, model::Target& target) override {
-    Vec6 values = Vec6::Zero();
-    values.head<3>() = -level_ * force_;
+    const Vec6 values = -level_ * load_;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       placement_.scatter.add_residual(i, 0, values.data(), target);
     }
@@ -88,7 +127,7 @@ class Push final : public model::Batch {
  private:
   std::string effect_ = "Push";
   int node_;
-  Vec3 force_;
+  Vec6 load_;
   model::Placement placement_;
   double level_ = 0.0;
 };
@@ -362,6 +401,66 @@ TEST(PathFollowing, HasNothingToSayWhereItArrivesOrStepsAreItsOnlyEnd) {
   counts.settings.steps = 3;
   counts.follow();
   EXPECT_TRUE(counts.findings.all().empty());
+}
+
+// A shaft under a unit moment, of which no point moves: its moment is sin(2 phi) / 2.
+class Shaft : public Observer {
+ public:
+  Shaft() {
+    const int held = add_node(model, Vec3::Zero(), "111111");
+    end_ = add_node(model, Vec3::UnitX(), "110111");
+    model::elements<Twist>(model, "Twist").add(Twist(), {held, end_});
+    model.add_load(std::make_unique<Push>(end_, Vec3::Zero(), Vec3::UnitX()));
+    model.freeze(model::Form::null_space);
+    settings.first_increment = 0.05;
+    settings.limit_points = 1;
+    settings.watch = WatchSettings{{}, "b/0", Vec3::UnitY()};
+  }
+
+  AnalysisReport follow() {
+    assembly::System system(model, comm, ledger);
+    const auto linear = solver::make_rooted_klu2(system.matrix(), comm);
+    model::State state = model.initial_state();
+    Findings findings(log);
+    Context context{system, *linear, ledger, log, findings};
+    PathFollowing path(settings);
+    return path.run(context, state, *this);
+  }
+
+  void step(const StepReport& report, model::State& now) override {
+    if (!report.accepted) return;
+    const auto d = model::NodeTable::slots(now.next, end_);
+    angles.push_back(std::atan2(d(2, 2), d(1, 2)));
+    levels.push_back(now.time);
+  }
+
+  PathSettings settings;
+  std::vector<double> angles, levels;
+
+ private:
+  parallel::Comm comm;
+  Ledger ledger;
+  std::ostringstream said;
+  Log log{said, LogLevel::info};
+  model::Model model;
+  int end_ = -1;
+};
+
+TEST_P(EachControl, FollowsPureTorsionThroughItsLimitPoint) {
+  Shaft shaft;
+  shaft.settings.control = GetParam();
+  if (GetParam() == PathControl::displacement) {
+    EXPECT_THROW(shaft.follow(), NumericalError);  // nothing moves that could be prescribed
+    return;
+  }
+  const AnalysisReport report = shaft.follow();
+  EXPECT_NEAR(number(report, "limit point 1, level"), 0.5, 5e-4);
+  EXPECT_EQ(report.text.find("turning point"), std::string::npos) << report.text;
+  EXPECT_GT(shaft.angles.back(), 0.25 * std::numbers::pi);
+  for (std::size_t i = 0; i < shaft.angles.size(); ++i) {
+    EXPECT_NEAR(shaft.levels[i], 0.5 * std::sin(2.0 * shaft.angles[i]), 1e-10);
+    EXPECT_GT(shaft.angles[i], i > 0 ? shaft.angles[i - 1] : 0.0) << "the path turned back";
+  }
 }
 
 TEST(PathFollowing, RefusesAPathOnWhichNothingChanges) {

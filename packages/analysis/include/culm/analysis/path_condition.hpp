@@ -30,9 +30,10 @@ struct PathTangent {
   double watched = 0.0;  ///< derivative of the watched displacement [-]; 0 without one
 };
 
-/// The condition of the steps of one path. Lengths are root mean squares over all nodes, of
-/// positions only: rotations and multipliers do not count, and the same steps are made in both
-/// forms of the equations. Remembers the last increment, by which the next step knows its sense.
+/// The condition of the steps of one path. Lengths are root mean squares over all nodes of what
+/// they move and turn: a node counts |x|^2 + r^2 |theta|^2, the rotation by its directors, with the
+/// length r = turning_arm(). Multipliers do not count, and the same steps are made in both forms of
+/// the equations. Remembers the last increment, by which the next step knows its sense.
 class PathCondition final : public solver::LevelCondition {
  public:
   /// @param level_difference for derivatives by the level; its sign is the sense of the first step
@@ -50,6 +51,9 @@ class PathCondition final : public solver::LevelCondition {
   /// that has been moved there. With a positive size the watched displacement grows. @return factor
   /// of `motion` that makes it such a move
   double begin_branch(const model::State& state, const assembly::Vector& motion, double size);
+
+  /// The displacement that a rotation by 1 rad counts as: a tenth of the length of the model [m].
+  static double turning_arm(const model::Model& model);
 
   double level_difference() const override { return level_difference_; }
   double level_increment(const model::State& state, const assembly::Vector& response,
@@ -74,9 +78,10 @@ class PathCondition final : public solver::LevelCondition {
   void restore(const Snapshot& snapshot);
 
  private:
-  using Motion = Eigen::Matrix3Xd;  ///< of the positions of all nodes, the same on all ranks
+  /// Of the slots of all nodes, directors times their weights; the same on all ranks.
+  using Motion = Eigen::Matrix<double, 12, Eigen::Dynamic>;
 
-  void read_positions(const model::Coordinates& q, Motion& motion) const;
+  void read_slots(const model::Coordinates& q, Motion& motion) const;
   void read_way(const model::State& state);
   void complete(Motion& motion) const;
   /// Mean over all nodes, so that a length does not depend on the mesh.
@@ -90,7 +95,8 @@ class PathCondition final : public solver::LevelCondition {
   PathControl control_;
   std::optional<WatchedMotion> watched_;
   double level_difference_;
-  std::vector<int> nodes_;  ///< that this rank has up to date, each on one rank
+  std::vector<int> nodes_;   ///< that this rank has up to date, each on one rank
+  Eigen::VectorXd weights_;  ///< of the directors of each node [m]
 
   PathControl present_;                    ///< of this attempt
   double size_ = 0.0;                      ///< of this attempt [m]

@@ -62,7 +62,7 @@ class PathFollowing final : public Analysis {
   void balance_start(Context& context, model::State& state);
   /// Tangent of the path and determinant of the stiffness at state.next.
   std::pair<PathTangent, solver::Determinant> find_tangent(Context& context, model::State& state);
-  /// Throws NumericalError if nothing changes with the level.
+  /// Throws NumericalError if nothing changes with the level, or not what is to be prescribed.
   void refuse_idle_level(const model::State& state) const;
   /// Throws NumericalError if loads stop growing with the level at this one.
   void refuse_end_of_loads(Context& context, model::State& state) const;
