@@ -194,6 +194,7 @@ void Dynamics::start(Context& context, model::State& state) {
   control_.emplace(system, settings_.steps, scheme_->error_constant());
   predictor_.emplace(system);
   steps_ = 0;
+  cut_backs_ = {};
   const Stencil stencil = scheme_->begin(state, settings_.steps.step);
   system.begin_step(state, stencil);
   system.choose_multiplier_scale(state, stencil);
@@ -208,6 +209,7 @@ void Dynamics::save(const Context& context, Snapshot& snapshot) const {
   scheme_->save(context.system, snapshot);
   control_->save(snapshot);
   predictor_->save(snapshot);
+  cut_backs_.save(snapshot);
   newton_->save(snapshot);
   certificate_->save(snapshot);
   post_mortem_->save(snapshot);
@@ -221,6 +223,7 @@ void Dynamics::restore(Context& context, const Snapshot& snapshot) {
   predictor_.emplace(system);
   control_->restore(snapshot);
   predictor_->restore(snapshot);
+  cut_backs_.restore(snapshot);
   newton_.emplace(system, context.linear, settings_.newton, context.ledger);
   newton_->restore(snapshot);
   certificate_.emplace(system, scheme_->conserves());
@@ -251,6 +254,7 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       report.is_last = state.time >= end_time;
       pulses.check(state.time_prev, state.time, context.log);
       control_->accept(state, taken);
+      cut_backs_.accept(taken, control_->turn());
       predictor_->accept(state, taken);
       if (carries) system.carry_residual(taken);
       scheme_->finish(state, taken);
@@ -267,6 +271,10 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
       control_->reject(report.outcome.end, taken);
       predictor_->reject();
       reject(state);
+      // an error that is too large is the business of adaptive steps
+      if (report.outcome.end != solver::StepEnd::inaccurate) {
+        cut_backs_.reject(report.outcome.end, predictor_->reversal());
+      }
     }
     post_mortem_->record(report);
     observer.step(report, state);
@@ -280,6 +288,8 @@ AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer
   if (const std::string broken = certificate_->broken(); !broken.empty()) {
     context.findings.broken("certificate", "the certificate is broken: " + broken, state.time);
   }
+  const std::string hint = cut_backs_.hint(settings_.steps.step);
+  if (!hint.empty()) context.findings.warn("cut-backs", hint, state.time);
   return {certificate_->text(), certificate_->numbers()};
 }
 

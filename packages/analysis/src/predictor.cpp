@@ -1,16 +1,21 @@
+#include <culm/analysis/path_condition.hpp>
 #include <culm/analysis/predictor.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 #include <string>
 
 namespace culm::analysis {
 namespace {
 
 constexpr std::size_t most_points = 4;
-// A polynomial must be so much better than the velocity of the start to be trusted: vibrations that
-// steps do not resolve make it better now and far worse in the next step.
+// A polynomial must be so much better than the plain guess to be trusted: vibrations that steps do
+// not resolve make it better now and far worse in the next step.
 constexpr double least_gain = 0.2;
+// Share of the last step in what was seen lately.
+constexpr double fading = 0.3;
 
 std::string name_of(std::size_t k) { return "predictor/" + std::to_string(k); }
 
@@ -59,13 +64,36 @@ void Predictor::accept(const model::State& state, double step) {
   system_.comm().max(errors);
   const auto known = errors.begin() + static_cast<std::ptrdiff_t>(past_.size()) + 1;
   const auto best = std::min_element(errors.begin(), known);
-  points_ = *best < least_gain * errors[0] ? static_cast<int>(best - errors.begin()) : 0;
+  if (!past_.empty()) {
+    reversal_ += fading * (measure_reversal(start, now) - reversal_);
+  }
   if (past_.size() == most_points) past_.pop_back();
   past_.push_front(std::move(now));
+  const bool is_better = *best < least_gain * errors[static_cast<std::size_t>(plain())];
+  points_ = is_better ? static_cast<int>(best - errors.begin()) : plain();
+}
+
+// The velocity goes on as much from the middle of a step to its end as it did from its start.
+// Rotations count by a tenth of the length of the model, as along paths.
+double Predictor::measure_reversal(const Motions& start, const MeanVelocity& now) const {
+  const double arm = PathCondition::turning_arm(system_.model());
+  Motions before(start.size()), after(start.size());
+  for (std::size_t node = 0; node < start.size(); ++node) {
+    before[node] = start[node] - past_.front().values[node];
+    after[node] = now.values[node] - start[node];
+    for (Motions* change : {&before, &after}) (*change)[node].tail<3>() *= arm;
+  }
+  const std::vector<double> a = system_.gather_motions(before);
+  const std::vector<double> b = system_.gather_motions(after);
+  const double squares = std::inner_product(a.begin(), a.end(), a.begin(), 0.0) *
+                         std::inner_product(b.begin(), b.end(), b.begin(), 0.0);
+  const double product = std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  return squares > 0.0 ? product / std::sqrt(squares) : 1.0;
 }
 
 void Predictor::save(Snapshot& snapshot) const {
   snapshot.set("predictor/points", points_);
+  snapshot.set("predictor/reversal", reversal_);
   std::vector<double> times;
   for (std::size_t k = 0; k < past_.size(); ++k) {
     times.push_back(past_[k].time);
@@ -76,6 +104,7 @@ void Predictor::save(Snapshot& snapshot) const {
 
 void Predictor::restore(const Snapshot& snapshot) {
   points_ = snapshot.integer("predictor/points");
+  reversal_ = snapshot.number("predictor/reversal");
   past_.clear();
   for (const double time : snapshot.numbers("predictor/times")) {
     past_.push_back({time, system_.spread_motions(snapshot.numbers(name_of(past_.size())))});

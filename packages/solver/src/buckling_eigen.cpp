@@ -94,7 +94,7 @@ class Buckling {
             note_);
         return;
       }
-      add_note(more.convergence.note(), note_);
+      if (note_.empty()) note_ = more.convergence.note();
       add(more, (1.0 - 1e-8) * least);
       if (nu_.size() == before) return;
     }

@@ -41,7 +41,7 @@ InvertedPairs search(const ShiftedPencil& op, int count, const Method& method, s
   while (all.nu.size() < most) {
     const InvertedPairs more = method(op, probes, all.vectors);
     if (more.nu.size() == 0) return more;
-    add_note(more.convergence.note(), notes);
+    if (notes.empty()) notes = more.convergence.note();
     const Eigen::Index missed = (more.nu.array().abs() > (1.0 - 1e-8) * least()).count();
     if (missed == 0) break;
     append(all, more, missed);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/certificate.hpp>
+#include <culm/analysis/cut_backs.hpp>
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/analysis/predictor.hpp>
 #include <culm/analysis/step_control.hpp>
@@ -46,6 +47,7 @@ class Dynamics final : public Analysis {
   int steps_ = 0;
   std::optional<StepControl> control_;
   std::optional<Predictor> predictor_;
+  CutBacks cut_backs_;
   std::optional<solver::NewtonSolver> newton_;
   std::optional<PostMortem> post_mortem_;
   std::optional<Certificate> certificate_;

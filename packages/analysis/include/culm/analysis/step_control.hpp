@@ -5,6 +5,7 @@
 #include <culm/base/snapshot.hpp>
 #include <culm/solver/newton_solver.hpp>
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -61,6 +62,9 @@ class StepControl {
   /// Error that the last judged step added, the largest of all slots with mass: positions over the
   /// length of the model, directors by 1. Not known in the first two steps.
   std::optional<double> error() const { return error_; }
+
+  /// Largest turn of a node in the last judged step [rad].
+  double turn() const { return 2.0 * std::atan(0.5 * turn_); }
 
   const StepMemory& memory() const { return memory_; }
   /// The memory, under "steps/".
