@@ -67,8 +67,7 @@ std::string CutBacks::hint(double step) const {
   }
   text += fmt::format("Try: 'Step' = {:.2g}", std::min(least_taken_, 0.5 * step));
   const bool is_fast = cosine < unresolved && static_cast<StepEnd>(most) != StepEnd::turned_too_far;
-  return text +
-         (is_fast ? ", or 'Dissipation' and 'Velocity Dissipation' of the structures.\n" : ".\n");
+  return is_fast ? text + ", or 'Dissipation' and 'Velocity Dissipation' of the structures" : text;
 }
 
 void CutBacks::save(Snapshot& snapshot) const {
