@@ -10,8 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <span>
 
@@ -88,12 +90,13 @@ Recorded read_recorded(const std::filesystem::path& path, const std::string& run
   return recorded;
 }
 
-// HDF5 trusts some numbers of a file, such as lengths of texts, and ends the process over wrong
-// ones. So a child reads first; what it finds wrong is found once more by its parent, who can tell.
+// HDF5 trusts some numbers of a file, such as lengths of texts: over wrong ones it ends the
+// process, or cannot be closed any more. So a child reads first, and tells what is wrong.
 void survive_reading(const std::filesystem::path& path, const std::string& run,
                      const RecordMark& mark) {
+  std::array<int, 2> channel{};
+  if (::pipe(channel.data()) != 0) return;
   const pid_t child = ::fork();
-  if (child < 0) return;
   if (child == 0) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) ::signal(signal, SIG_DFL);
     const rlimit none{0, 0};
@@ -102,14 +105,27 @@ void survive_reading(const std::filesystem::path& path, const std::string& run,
     try {
       read_recorded(path, run, mark);
       H5garbage_collect();  // looks over memory that may be spoilt
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+      const std::string text = error.what();
+      if (::write(channel[1], text.data(), text.size()) < 0) ::abort();
     }
     ::_exit(0);
   }
+  ::close(channel[1]);
+  std::string text;
+  std::array<char, 4096> block{};
+  ssize_t count = 0;
+  while (child > 0 && (count = ::read(channel[0], block.data(), block.size())) != 0) {
+    if (count > 0) text.append(block.data(), static_cast<std::size_t>(count));
+    if (count < 0 && errno != EINTR) break;
+  }
+  ::close(channel[0]);
+  if (child < 0) return;
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status)) throw FileError(path.string(), "is damaged: HDF5 cannot read it");
+  if (!text.empty()) throw FileError(text);
 }
 
 }  // namespace
