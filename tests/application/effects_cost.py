@@ -24,6 +24,7 @@ ADDED = [
     ("Directed Ground Damper", "joint/oscillators", [], ["Analyses/motion/Inactive={damper}"]),
     ("Torsion Drive", "joint/torsion", [], ["Analyses/motion/Inactive={motor}"]),
     ("Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
+    ("Torsion held", SPAGHETTI, ["Structures/beam/Torsion=false"], []),
     ("Checkpoints", SPAGHETTI, [], ["Output/Checkpoints=false"]),
 ]
 
@@ -35,6 +36,7 @@ REPLACED = [
     ("Shell", "shell/tumbling_cylinder", [], ["Structures/tube/Fidelity=Rigid"]),
     ("Shell, linear", "shell/cantilever_shear", ["Structures/strip/Fidelity=Linear"], ["Structures/strip/Fidelity=Full"]),
     ("Beam, Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
+    ("Beam, director without torsion", SPAGHETTI, ["Structures/beam/Torsion=false"], []),
 ]
 
 

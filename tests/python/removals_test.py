@@ -17,6 +17,7 @@ def entry(name, parameters, below=""):
 
 
 BEAM = {"Type": "Beam", "Section": "bar", "Element": "Director", "Fidelity": "Full", "Dissipation": "0"}
+BEAM |= {"Torsion": "true", "Rotary Inertia": "1"}
 
 
 def settings(found, effect):
@@ -68,19 +69,32 @@ class Removals(unittest.TestCase):
         found = removals.find(deck(entry("Loads", {}, loads)))
         self.assertEqual(settings(found, "turning of the load"), [["Loads/push/Turning=false"]])
 
-    def test_torsion_of_a_matrix_is_its_last_entry(self):
-        matrix = "{" + ", ".join(str(float(i)) for i in range(21)) + "}"
-        sections = entry("Sections", {}, entry("bar", {"Type": "Stiffness Matrix", "Stiffness": matrix}))
-        body = sections + entry("Structures", {}, entry("a", BEAM))
-        (found,) = settings(removals.find(ResolvedDeck(f"<ParameterList>{body}</ParameterList>")), "torsion")
-        self.assertTrue(found[0].startswith("Sections/bar/Stiffness={0.0, 1.0, "))
-        self.assertTrue(found[0].endswith("19.0, 200000.0}"))
+    def test_torsion_is_held_whatever_the_section(self):
+        beams = entry("a", BEAM) + entry("b", BEAM) + entry("c", {**BEAM, "Torsion": "false"})
+        beams += entry("d", {**BEAM, "Fidelity": "Linear"})
+        found = removals.find(deck(entry("Structures", {}, beams)))
+        self.assertEqual(settings(found, "torsion"), [["Structures/a/Torsion=false", "Structures/b/Torsion=false"]])
+
+    def test_rotary_inertia_goes_where_something_heavy_moves(self):
+        sections = entry("Sections", {}, entry("bar", {"Type": "Circle", "Density": "7850"}) + entry("rod", {"Type": "Circle"}))
+        body = sections + entry("Structures", {}, entry("a", BEAM) + entry("b", {**BEAM, "Section": "rod"}))
+        still = entry("Analyses", {}, entry("bend", {"Type": "Static"}))
+        moving = entry("Analyses", {}, entry("modes", {"Type": "Modal"}))
+        for analyses, wanted in ((still, []), (moving, [["Structures/a/Rotary Inertia=1e-06"]])):
+            found = removals.find(ResolvedDeck(f"<ParameterList>{body}{analyses}</ParameterList>"))
+            self.assertEqual(settings(found, "rotary inertia"), wanted)
 
     def test_damping_is_offered_where_there_is_some(self):
         beams = entry("a", {**BEAM, "Dissipation": "0.3", "Damping": "0"})
         found = removals.find(deck(entry("Structures", {}, beams)))
         self.assertEqual(settings(found, "dissipation"), [["Structures/a/Dissipation=0"]])
         self.assertEqual(settings(found, "damping"), [])
+        self.assertEqual(settings(found, "strain damping"), [])
+
+    def test_damping_by_strains_goes_as_a_whole(self):
+        beams = entry("a", {**BEAM, "Strain Damping": "{0, 0, 0, 0.1, 0.2, 0}"})
+        found = removals.find(deck(entry("Structures", {}, beams)))
+        self.assertEqual(settings(found, "strain damping"), [["Structures/a/Strain Damping={0, 0, 0, 0, 0, 0}"]])
 
 
 if __name__ == "__main__":

@@ -46,13 +46,14 @@ ReferenceState add_rigid(const Place& to) {
 }
 
 template <int Order>
-ReferenceState add_director(Fidelity fidelity, const Place& to) {
+ReferenceState add_director(Fidelity fidelity, bool torsion, const Place& to) {
   const auto effect = [](const char* kind) {
     return fmt::format("Beam, {}, order {}", kind, Order);
   };
   switch (fidelity) {
     case Fidelity::kirchhoff:
-      return add_kirchhoff<Order>(effect("Kirchhoff"), to);
+      return torsion ? add_kirchhoff<Order>(effect("Kirchhoff"), to)
+                     : add_untwisted_kirchhoff<Order>(effect("Kirchhoff without torsion"), to);
     case Fidelity::linear:
       return add_linear<Order>(effect("linear"), to);
     case Fidelity::rigid:
@@ -60,7 +61,8 @@ ReferenceState add_director(Fidelity fidelity, const Place& to) {
     case Fidelity::full:
       break;
   }
-  return add_full<DirectorBeam<Order>>(effect("director"), to);
+  return torsion ? add_full<DirectorBeam<Order>>(effect("director"), to)
+                 : add_untwisted<Order>(effect("director without torsion"), to);
 }
 
 }  // namespace
@@ -84,11 +86,11 @@ ReferenceState add_elements(const ElementChoice& choice, const Chain& chain,
   const Place to{chain, nodes, sections, choice.damping, model, structure};
   switch (choice.kind) {
     case ElementKind::director_1:
-      return add_director<1>(choice.fidelity, to);
+      return add_director<1>(choice.fidelity, choice.torsion, to);
     case ElementKind::director_2:
-      return add_director<2>(choice.fidelity, to);
+      return add_director<2>(choice.fidelity, choice.torsion, to);
     case ElementKind::director_3:
-      return add_director<3>(choice.fidelity, to);
+      return add_director<3>(choice.fidelity, choice.torsion, to);
     case ElementKind::helical:
       break;
   }

@@ -155,6 +155,11 @@ Schema beam_schema() {
                  "displacements seen from the first node, which may move at will. Rigid: all nodes "
                  "follow the first one.")
               .optional("Full"))
+      .add(
+          flag(
+              "Torsion",
+              "Whether the beam twists; false holds its twist by constraints (Full and Kirchhoff).")
+              .optional(true))
       .add(number("Dissipation", "1",
                   "Numerical dissipation of strains in dynamics: 0 keeps the energy, 1 damps most; "
                   "momenta are kept.")
@@ -169,6 +174,12 @@ Schema beam_schema() {
       .add(number("Damping", "s", "Physical damping: time by which stress runs ahead of strain.")
                .non_negative()
                .optional(0.0))
+      .add(
+          numbers("Strain Damping", "s",
+                  "The same for (shear 1, shear 2, stretch, curvature 1, curvature 2, twist) each, "
+                  "on top of 'Damping'; none without it.")
+              .non_negative()
+              .optional(std::vector<double>{}))
       .list_by_type("Curve", axes().variants())
       .check([](const Options& beam, InputIssues& issues) {
         const bool is_helical = beam.text("Element") == "Helical";
@@ -179,6 +190,17 @@ Schema beam_schema() {
         if (is_helical && (fidelity == "Kirchhoff" || fidelity == "Linear")) {
           issues.add(beam.where("Fidelity"), "needs director elements, got helical ones");
         }
+        if (!beam.flag("Torsion") && (is_helical || fidelity == "Linear" || fidelity == "Rigid")) {
+          issues.add(beam.where("Torsion"),
+                     "false needs director elements whose 'Fidelity' is Full or Kirchhoff");
+        }
+        const std::size_t factors = beam.numbers("Strain Damping").size();
+        if (factors != 0 && factors != 6) {
+          issues.add(beam.where("Strain Damping"),
+                     fmt::format("must have six values, got {}", factors));
+        } else if (factors == 6 && is_helical) {
+          issues.add(beam.where("Strain Damping"), "needs director elements, got helical ones");
+        }
       });
   return schema;
 }
@@ -188,7 +210,10 @@ void add_beam(const Options& options, StructureContext& context) {
   const Fidelity fidelity = read_fidelity(options);
   const bool is_rigid = fidelity == Fidelity::rigid;
   const ElementChoice choice{
-      kind, fidelity, {options.number("Dissipation"), options.number("Damping")}};
+      kind,
+      fidelity,
+      {options.number("Dissipation"), options.number("Damping"), options.numbers("Strain Damping")},
+      options.flag("Torsion")};
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
   const Density density{order_of(kind), context.refinement};

@@ -148,6 +148,10 @@ struct Place {
 template <int Order>
 ReferenceState add_kirchhoff(const std::string& effect, const Place& to);
 template <int Order>
+ReferenceState add_untwisted(const std::string& effect, const Place& to);
+template <int Order>
+ReferenceState add_untwisted_kirchhoff(const std::string& effect, const Place& to);
+template <int Order>
 ReferenceState add_linear(const std::string& effect, const Place& to);
 
 }  // namespace culm::beam

@@ -7,15 +7,23 @@
 
 namespace culm::beam {
 
-SectionTable::SectionTable(material::Section section)
-    : sections_{std::move(section)}, positions_{0.0} {}
+SectionTable::SectionTable(material::Section section, double rotary_inertia)
+    : sections_{std::move(section)}, positions_{0.0}, rotary_inertia_(rotary_inertia) {}
 
-SectionTable::SectionTable(std::vector<material::Section> sections, std::vector<double> positions)
-    : sections_(std::move(sections)), positions_(std::move(positions)) {}
+SectionTable::SectionTable(std::vector<material::Section> sections, std::vector<double> positions,
+                           double rotary_inertia)
+    : sections_(std::move(sections)),
+      positions_(std::move(positions)),
+      rotary_inertia_(rotary_inertia) {}
 
 material::Section SectionTable::at(double span) const {
   const TablePlace place = find_place(positions_, span);
-  return material::interpolate(sections_[place.first], sections_[place.second], place.t);
+  material::Section section =
+      material::interpolate(sections_[place.first], sections_[place.second], place.t);
+  if (rotary_inertia_ != 1.0) {
+    section.mass = material::with_rotary_inertia(section.mass, rotary_inertia_);
+  }
+  return section;
 }
 
 // Of a linear piece the mean is the value in its middle.
@@ -42,6 +50,12 @@ void add_section_fields(Schema& schema) {
                    "between them.")
                .between(0.0, 1.0)
                .optional())
+      .add(
+          number("Rotary Inertia", "1",
+                 "Factor on the inertia of sections against turning about their centres of mass; 0 "
+                 "leaves their masses at these centres.")
+              .non_negative()
+              .optional(1.0))
       .check([](const Options& beam, InputIssues& issues) {
         if (beam.has("Section") == beam.has("Sections")) {
           issues.add(beam.where(), "give one of 'Section' and 'Sections'");
@@ -66,10 +80,11 @@ SectionTable read_sections(const Options& options,
     }
     return found->second;
   };
-  if (options.has("Section")) return SectionTable(find(options.text("Section")));
+  const double rotary = options.number("Rotary Inertia");
+  if (options.has("Section")) return SectionTable(find(options.text("Section")), rotary);
   std::vector<material::Section> along;
   for (const std::string& name : options.texts("Sections")) along.push_back(find(name));
-  return {std::move(along), options.numbers("Section Positions")};
+  return {std::move(along), options.numbers("Section Positions"), rotary};
 }
 
 }  // namespace culm::beam

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <culm/beam/director_beam.hpp>
+#include <culm/beam/held_beam.hpp>
 #include <culm/beam/helical_beam.hpp>
-#include <culm/beam/kirchhoff_beam.hpp>
 #include <culm/beam/linear_beam.hpp>
 #include <culm/math/lagrange.hpp>
 #include <culm/math/quadrature.hpp>
@@ -67,10 +67,10 @@ struct DirectorBeamCase {
   }
 };
 
-template <int Order>
-struct KirchhoffBeamCase : DirectorBeamCase<Order> {
-  using Type = KirchhoffBeam<Order>;
-  static Type make() { return Type(DirectorBeamCase<Order>::make()); }
+template <class Held>
+struct HeldBeamCase : DirectorBeamCase<Held::num_points> {
+  using Type = Held;
+  static Type make() { return Type(DirectorBeamCase<Held::num_points>::make()); }
 };
 
 /// The frame stands apart from the beam and is turned.

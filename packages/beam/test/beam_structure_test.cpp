@@ -239,5 +239,72 @@ TEST_F(BeamStructure, KirchhoffBeamHasThreeEquationsPerPoint) {
   }
 }
 
+TEST_F(BeamStructure, WithoutTorsionThereIsOneEquationPerPoint) {
+  GivenValues given = director_2;
+  given.push_back({"Torsion", false});
+  const model::Structure& blade = add_line(given);
+  EXPECT_EQ(blade.cells.front().source->resultant_names(),
+            (std::vector<std::string>{"N1", "N2", "N3", "M1", "M2"}));
+  model.freeze(model::Form::null_space);
+  EXPECT_EQ(model.unknowns().num_multipliers(), 4 * 2);
+}
+
+TEST_F(BeamStructure, WithoutTorsionKirchhoffBeamHasFourEquationsPerPoint) {
+  GivenValues given = director_2;
+  given.push_back({"Torsion", false});
+  given.push_back({"Fidelity", std::string("Kirchhoff")});
+  add_line(given);
+  model.freeze(model::Form::null_space);
+  EXPECT_EQ(model.unknowns().num_multipliers(), 4 * 2 * 4);
+}
+
+TEST_F(BeamStructure, RotaryInertiaGoesAndTheMassStaysAtItsCentre) {
+  GivenValues given = director_2;
+  add_line(given);
+  given.push_back({"Rotary Inertia", 0.0});
+  model::Model points;
+  StructureContext context{points, sections, issues, log};
+  add_beam(beam_list(given, "Line",
+                     {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, 3}}, {"Elements", 4}}),
+           context);
+  const auto whole = model::mass_properties(model, model.nodes().reference()).front();
+  const auto left = model::mass_properties(points, points.nodes().reference()).front();
+  EXPECT_NEAR(left.mass, whole.mass, 1e-13 * whole.mass);
+  EXPECT_LT((left.first - whole.first).norm(), 1e-13 * whole.first.norm());
+  // along the axis z nothing changes; across, mass times the centre squared is left
+  EXPECT_NEAR(left.second(2, 2), whole.second(2, 2), 1e-12 * whole.second(2, 2));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(left.second(i, i), left.first[i] * left.first[i] / left.mass,
+                1e-12 * whole.second(i, i));
+    EXPECT_GT(whole.second(i, i), 1.01 * left.second(i, i));
+  }
+}
+
+TEST_F(BeamStructure, WhatDoesWithoutTorsionIsChecked) {
+  const Schema schema = beam_schema();
+  GivenValues linear = director_1;
+  GivenValues rigid = director_1;
+  linear.push_back({"Fidelity", std::string("Linear")});
+  rigid.push_back({"Fidelity", std::string("Rigid")});
+  for (GivenValues given : {helical, linear, rigid}) {
+    given.push_back({"Torsion", false});
+    EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
+              std::vector<std::string>{
+                  "false needs director elements whose 'Fidelity' is Full or Kirchhoff"});
+  }
+}
+
+TEST_F(BeamStructure, StrainDampingHasSixValuesOfDirectorElements) {
+  const Schema schema = beam_schema();
+  GivenValues given = director_1;
+  given.push_back({"Strain Damping", Numbers{1, 2, 3}});
+  EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
+            std::vector<std::string>{"must have six values, got 3"});
+  given = helical;
+  given.push_back({"Strain Damping", Numbers{1, 2, 3, 4, 5, 6}});
+  EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
+            std::vector<std::string>{"needs director elements, got helical ones"});
+}
+
 }  // namespace
 }  // namespace culm::beam

@@ -73,6 +73,15 @@ Mat3 mass_matrix(const MassValues& v) {
   return m;
 }
 
+// m3 = m (1, c) (1, c)^T + J of the centre c; without mass there is nothing but J
+Mat3 with_rotary_inertia(const Mat3& mass, double factor) {
+  const double m = mass(0, 0);
+  if (!(m > 0.0)) return factor * mass;
+  const Vec3 point = mass.col(0) / m;
+  const Mat3 at_centre = m * point * point.transpose();
+  return at_centre + factor * (mass - at_centre);
+}
+
 // Strains in the section's own axes: e_own = diag(Q^T, Q^T) e, points: xi = Q2 xi_own.
 Section rotated(const Section& section, double angle) {
   const Mat<2, 2> Q2 = turn(angle);

@@ -1,12 +1,20 @@
+#include <culm/base/error.hpp>
 #include <culm/model/constraint.hpp>
+#include <culm/model/product_sum.hpp>
 
 #include <utility>
 
 namespace culm::model {
 namespace {
 
-Vec3 sum(const SlotSum& factors, const Eigen::Matrix3Xd& q) {
-  return q * Eigen::Map<const Eigen::VectorXd>(factors.data(), q.cols());
+// The factors of one product of a row.
+Eigen::Map<const Eigen::VectorXd> of_product(const SlotSum& factors, int product,
+                                             const Eigen::Matrix3Xd& q) {
+  return {factors.data() + product * q.cols(), q.cols()};
+}
+
+Vec3 sum(const SlotSum& factors, const Eigen::Matrix3Xd& q, int product = 0) {
+  return q * of_product(factors, product, q);
 }
 
 }  // namespace
@@ -43,7 +51,36 @@ SlotSum attached_vector(int a, int n, const Vec3& nu) {
 
 double row_value(const ConstraintRow& row, const Eigen::Matrix3Xd& q) {
   const Vec3 second = row.linear() ? row.direction : Vec3(row.direction + sum(row.beta, q));
-  return sum(row.alpha, q).dot(second) - row.constant;
+  double value = sum(row.alpha, q).dot(second) - row.constant;
+  for (int t = 1; t < number_of_products(row, static_cast<int>(q.cols()) / 4); ++t) {
+    value += sum(row.alpha, q, t).dot(sum(row.beta, q, t));
+  }
+  return value;
+}
+
+ConstraintRow sum_row(const std::vector<SlotProduct>& products, const Eigen::Matrix3Xd& q) {
+  internal_check(products.size() <= max_products, "a row has too many products");
+  ConstraintRow row;
+  for (const SlotProduct& one : products) {
+    row.alpha.insert(row.alpha.end(), one.alpha.begin(), one.alpha.end());
+    row.beta.insert(row.beta.end(), one.beta.begin(), one.beta.end());
+  }
+  row.constant = row_value(row, q);
+  return row;
+}
+
+int number_of_products(const ConstraintRow& row, int nodes) {
+  return static_cast<int>(row.alpha.size()) / (4 * nodes);
+}
+
+Eigen::Matrix3Xd row_gradient(const ConstraintRow& row, const Eigen::Matrix3Xd& q) {
+  if (row.linear()) return row.direction * of_product(row.alpha, 0, q).transpose();
+  Eigen::Matrix3Xd gradient = row.direction * of_product(row.alpha, 0, q).transpose();
+  for (int t = 0; t < number_of_products(row, static_cast<int>(q.cols()) / 4); ++t) {
+    gradient += sum(row.beta, q, t) * of_product(row.alpha, t, q).transpose() +
+                sum(row.alpha, q, t) * of_product(row.beta, t, q).transpose();
+  }
+  return gradient;
 }
 
 Eigen::Matrix3Xd slots_of(const Constraint& constraint, const Coordinates& q) {

@@ -1,6 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/model/constraint_batch.hpp>
 #include <culm/model/item_motion.hpp>
+#include <culm/model/product_sum.hpp>
 
 #include <Eigen/Geometry>
 
@@ -18,25 +19,39 @@ using ItemSlots = BoundedSlots<ConstraintBatch::max_nodes>;
 using Scalars =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_slots, max_slots>;
 
-// The factors of a sum for the four slots of node a.
+// The factors of a sum for the four slots of node a; of product t, those at the place t nodes + a.
 Eigen::Map<const Vec<4>> of_node(const SlotSum& factors, int a) {
   return Eigen::Map<const Vec<4>>(factors.data() + 4 * a);
 }
 
-Vec3 sum(const SlotSum& factors, const ItemSlots& q) {
+// The sum of product t.
+Vec3 sum(const SlotSum& factors, const ItemSlots& q, int t = 0) {
   Vec3 result = Vec3::Zero();
-  for (int a = 0; 4 * a < q.cols(); ++a) {
-    result += q.middleCols<4>(4 * a).lazyProduct(of_node(factors, a));
+  const int nodes = static_cast<int>(q.cols()) / 4;
+  for (int a = 0; a < nodes; ++a) {
+    result += q.middleCols<4>(4 * a).lazyProduct(of_node(factors, t * nodes + a));
   }
   return result;
 }
 
-// The factors of a row, P and Q, in a configuration.
+// The factors of the products of a row, P and Q, in a configuration.
 struct RowFactors {
-  Vec3 P;
-  Vec3 Q;
+  struct Product {
+    Vec3 P;
+    Vec3 Q;
+  };
+  std::array<Product, max_products> products;
+  int size;   // products that there are
+  int nodes;  // of the constraint
 
-  double value(const ConstraintRow& row) const { return P.dot(Q) - row.constant; }
+  double value(const ConstraintRow& row) const {
+    double h = -row.constant;
+    for (int t = 0; t < size; ++t) {
+      const Product& one = products[static_cast<std::size_t>(t)];
+      h += one.P.dot(one.Q);
+    }
+    return h;
+  }
 };
 
 using ItemFactors = std::array<RowFactors, max_rows>;
@@ -44,17 +59,36 @@ using ItemFactors = std::array<RowFactors, max_rows>;
 ItemFactors factors_of(const std::vector<ConstraintRow>& rows, const ItemSlots& q) {
   ItemFactors factors;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    factors[k].P = sum(rows[k].alpha, q);
-    factors[k].Q = rows[k].direction;
-    if (!rows[k].linear()) factors[k].Q += sum(rows[k].beta, q);
+    RowFactors& row = factors[k];
+    row.nodes = static_cast<int>(q.cols()) / 4;
+    row.size = number_of_products(rows[k], row.nodes);
+    row.products[0] = {sum(rows[k].alpha, q), rows[k].direction};
+    if (rows[k].linear()) continue;
+    row.products[0].Q += sum(rows[k].beta, q);
+    for (int t = 1; t < row.size; ++t) {
+      row.products[static_cast<std::size_t>(t)] = {sum(rows[k].alpha, q, t),
+                                                   sum(rows[k].beta, q, t)};
+    }
   }
   return factors;
 }
 
-// H^T of one row by the slots of node a: alpha_s Q + beta_s P
+// H^T of one row by the slots of node a: sum_t alpha_ts Q_t + beta_ts P_t
 NodeSlots slot_gradient(const ConstraintRow& row, const RowFactors& f, int a) {
-  NodeSlots g = f.Q * of_node(row.alpha, a).transpose();
-  if (!row.linear()) g += f.P * of_node(row.beta, a).transpose();
+  NodeSlots g = NodeSlots::Zero();
+  for (int t = 0; t < f.size; ++t) {
+    const RowFactors::Product& one = f.products[static_cast<std::size_t>(t)];
+    const int place = t * f.nodes + a;
+    g += one.Q * of_node(row.alpha, place).transpose();
+    if (!row.linear()) g += one.P * of_node(row.beta, place).transpose();
+  }
+  return g;
+}
+
+// sum_s factor_s Q on a node that turns: force and moment.
+Vec6 turning_gradient(const Eigen::Map<const Vec<4>>& factors, const Vec3& Q, const Arms<4>& arms) {
+  Vec6 g;
+  g << factors[0] * Q, Vec3(arms.slots.lazyProduct(factors)).cross(Q);
   return g;
 }
 
@@ -65,13 +99,12 @@ Vec<Space::width> gradient(const ConstraintRow& row, const RowFactors& f, int a,
                            const Arms<4>& arms) {
   if constexpr (Space::form == Form::null_space) {
     if (arms.turns) {
-      const auto alpha = of_node(row.alpha, a);
-      Vec6 g;
-      g << alpha[0] * f.Q, Vec3(arms.slots.lazyProduct(alpha)).cross(f.Q);
-      if (!row.linear()) {
-        const auto beta = of_node(row.beta, a);
-        g.head<3>() += beta[0] * f.P;
-        g.tail<3>() += Vec3(arms.slots.lazyProduct(beta)).cross(f.P);
+      Vec6 g = Vec6::Zero();
+      for (int t = 0; t < f.size; ++t) {
+        const RowFactors::Product& one = f.products[static_cast<std::size_t>(t)];
+        const int place = t * f.nodes + a;
+        g += turning_gradient(of_node(row.alpha, place), one.Q, arms);
+        if (!row.linear()) g += turning_gradient(of_node(row.beta, place), one.P, arms);
       }
       return g;
     }
@@ -120,16 +153,18 @@ ItemSlots slot_forces(const std::vector<ConstraintRow>& rows, const ItemFactors&
   return force;
 }
 
-// sum_k lambda_k A_k, A_k(i, j) = alpha_i beta_j + beta_i alpha_j for product rows
+// sum_k lambda_k A_k, A_k(i, j) = alpha_i beta_j + beta_i alpha_j for each product
 Scalars curvature(const std::vector<ConstraintRow>& rows, const double* lambda, int slots) {
   Scalars A = Scalars::Zero(slots, slots);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].linear()) continue;
-    const Eigen::Map<const Eigen::VectorXd> alpha(rows[k].alpha.data(), slots);
-    const Eigen::Map<const Eigen::VectorXd> beta(rows[k].beta.data(), slots);
-    for (int i = 0; i < slots; ++i) {
-      for (int j = 0; j < slots; ++j) {
-        A(i, j) += lambda[k] * (alpha[i] * beta[j] + beta[i] * alpha[j]);
+    for (int t = 0; t < number_of_products(rows[k], slots / 4); ++t) {
+      const Eigen::Map<const Eigen::VectorXd> alpha(rows[k].alpha.data() + t * slots, slots);
+      const Eigen::Map<const Eigen::VectorXd> beta(rows[k].beta.data() + t * slots, slots);
+      for (int i = 0; i < slots; ++i) {
+        for (int j = 0; j < slots; ++j) {
+          A(i, j) += lambda[k] * (alpha[i] * beta[j] + beta[i] * alpha[j]);
+        }
       }
     }
   }

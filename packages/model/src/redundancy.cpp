@@ -1,3 +1,4 @@
+#include <culm/model/product_sum.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/redundancy.hpp>
 
@@ -137,18 +138,9 @@ class RowTable {
     const Constraint& c = equation(places_[k].equation);
     const ConstraintRow& row = this->row(k);
     const Eigen::Matrix3Xd slots = slots_of(c, q);
-    const Vec3 P = slots * Eigen::Map<const Eigen::VectorXd>(row.alpha.data(), slots.cols());
-    Vec3 Q = row.direction;
-    if (!row.linear()) {
-      Q += slots * Eigen::Map<const Eigen::VectorXd>(row.beta.data(), slots.cols());
-    }
+    const Eigen::Matrix3Xd gradients = row_gradient(row, slots);
     for (std::size_t a = 0; a < c.nodes.size(); ++a) {
-      Vec<12> gradient;
-      for (std::size_t s = 0; s < 4; ++s) {
-        Vec3 g = row.alpha[4 * a + s] * Q;
-        if (!row.linear()) g += row.beta[4 * a + s] * P;
-        gradient.segment<3>(3 * static_cast<int>(s)) = g;
-      }
+      const Vec<12> gradient = gradients.middleCols<4>(4 * static_cast<int>(a)).reshaped();
       const Arms<4> arms = arms_of(nodes_, c.nodes[a], q);
       size += gradient.norm() * std::max(1.0, arms.slots.norm());
       const int master = nodes_.master(c.nodes[a]);

@@ -6,7 +6,6 @@ FINDERS.
 
 import dataclasses
 
-STIFF = 1e4  # factor on a stiffness that stands for a rigid one
 LIGHT = 1e-6  # factor on an inertia that stands for none
 
 
@@ -49,34 +48,24 @@ def fidelities_of_shells(deck):
 
 
 def torsion(deck):
-    """Twist of sections that give their stiffness as numbers."""
-    for beams, sections in _sections(deck):
-        settings = []
-        for name in sections:
-            section = _parameters(deck, f"Sections/{name}")
-            if section["Type"] == "Stiffness Values":
-                settings.append(f"Sections/{name}/GIp={STIFF * float(section['GIp'])!r}")
-            elif section["Type"] == "Stiffness Matrix":
-                # by rows in full, or their upper triangle: either way twist by twist is the last one
-                values = _numbers(section["Stiffness"])
-                settings.append(f"Sections/{name}/Stiffness={_numbers_text([*values[:-1], STIFF * values[-1]])}")
-        if settings:
-            yield Removal("torsion", beams, settings, f"stiffness times {STIFF:g}")
+    """Twist, held by constraints as shear and extension are."""
+    for names in _alike(deck):
+        beam = _parameters(deck, f"Structures/{names[0]}")
+        if beam["Element"] == "Director" and beam["Fidelity"] in ("Full", "Kirchhoff") and beam["Torsion"] == "true":
+            yield Removal("torsion", ", ".join(names), [f"Structures/{name}/Torsion=false" for name in names])
 
 
 def rotary_inertia(deck):
-    """Mass moments of sections about their own axes, where something moves."""
+    """Inertia of sections against turning about their own centres of mass, where something moves."""
     if not _types(deck, "Analyses", "Dynamic", "Modal", "Campbell"):
         return
-    for beams, sections in _sections(deck):
-        settings = []
-        for name in sections:
-            section = _parameters(deck, f"Sections/{name}")
-            for key in ("rhoI1", "rhoI2", "rhoI12"):
-                if float(section.get(key) or 0.0) != 0.0:
-                    settings.append(f"Sections/{name}/{key}={LIGHT * float(section[key])!r}")
-        if settings:
-            yield Removal("rotary inertia", beams, settings, f"times {LIGHT:g}")
+    for names in _alike(deck):
+        beam = _parameters(deck, f"Structures/{names[0]}")
+        sections = [beam["Section"]] if beam.get("Section") else _words(beam.get("Sections") or "{}")
+        factor = float(beam["Rotary Inertia"])
+        if factor > LIGHT and any(_weighs(_parameters(deck, f"Sections/{name}")) for name in sections):
+            settings = [f"Structures/{name}/Rotary Inertia={LIGHT * factor!r}" for name in names]
+            yield Removal("rotary inertia", ", ".join(names), settings, f"times {LIGHT:g}")
 
 
 def enhanced_strains(deck):
@@ -124,14 +113,15 @@ def masses(deck):
 
 def dissipation(deck):
     """Numerical dissipation and physical damping."""
-    for key in ("Dissipation", "Velocity Dissipation", "Damping"):
+    off = {"Dissipation": "0", "Velocity Dissipation": "0", "Damping": "0", "Strain Damping": "{0, 0, 0, 0, 0, 0}"}
+    for key, none in off.items():
         groups = [[f"Structures/{name}" for name in names] for names in _alike(deck)]
         groups += [[f"Materials/{name}"] for name in deck.names_in("Materials")]
         for group in groups:
             paths = [f"{place}/{key}" for place in group]
-            if float(deck.parameters.get(paths[0]) or 0.0) > 0.0:
+            if any(float(number) > 0.0 for number in _words(deck.parameters.get(paths[0]) or "0")):
                 where = ", ".join(place.split("/")[1] for place in group)
-                yield Removal(key.lower(), where, [f"{path}=0" for path in paths])
+                yield Removal(key.lower(), where, [f"{path}={none}" for path in paths])
 
 
 def prestress(deck):
@@ -167,16 +157,8 @@ def _alike(deck):
     return groups.values()
 
 
-def _sections(deck):
-    """Beams that are alike, as text, and the sections they alone name."""
-    told = set()
-    for names in _alike(deck):
-        beam = _parameters(deck, f"Structures/{names[0]}")
-        own = [beam["Section"]] if beam.get("Section") else _words(beam.get("Sections") or "{}")
-        new = [name for name in dict.fromkeys(own) if name not in told]
-        told.update(new)
-        if new:
-            yield ", ".join(names), new
+def _weighs(section):
+    return float(section.get("Density") or section.get("rhoA") or 0.0) > 0.0
 
 
 def _stretches_far(deck, shell):
@@ -206,14 +188,6 @@ def _list(deck, analysis):
 
 def _words(text):
     return [word.strip().strip('"') for word in text.strip("{}").split(",") if word.strip()]
-
-
-def _numbers(text):
-    return [float(word) for word in _words(text)]
-
-
-def _numbers_text(numbers):
-    return "{" + ", ".join(repr(number) for number in numbers) + "}"
 
 
 def _array(names):

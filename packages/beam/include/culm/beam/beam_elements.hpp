@@ -19,7 +19,7 @@ int order_of(ElementKind kind);
 /// How much of the mechanics of a beam is modelled.
 enum class Fidelity {
   full,
-  kirchhoff,  ///< no shear and no extension, see KirchhoffBeam
+  kirchhoff,  ///< no shear and no extension, see HeldBeam
   linear,     ///< small displacements from its first node, see LinearBeam
   rigid       ///< no elements; all nodes follow the first one
 };
@@ -29,6 +29,7 @@ struct ElementChoice {
   ElementKind kind = ElementKind::director_1;
   Fidelity fidelity = Fidelity::full;
   model::StrainDamping damping;
+  bool torsion = true;  ///< false: twist is held, see HeldBeam
 };
 
 /// What the elements of a beam look like before it is loaded.
@@ -38,7 +39,7 @@ struct ReferenceState {
 
 /// Adds the elements of one chain to the model, their cells and line points to the structure. Of a
 /// rigid beam only its mass is added, to the first node of the structure.
-/// @pre helical elements are full or rigid
+/// @pre helical elements are full or rigid; those without torsion full or Kirchhoff ones
 /// @param nodes  numbers of the chain's nodes in the model; order * elements + 1 of them
 ReferenceState add_elements(const ElementChoice& choice, const Chain& chain,
                             const std::vector<int>& nodes, const SectionTable& sections,

@@ -14,9 +14,11 @@ namespace culm::beam {
 class SectionTable {
  public:
   /// One section all along.
-  explicit SectionTable(material::Section section);
+  /// @param rotary_inertia  factor on that about the centre of mass of each section
+  explicit SectionTable(material::Section section, double rotary_inertia = 1.0);
   /// @pre as many positions as sections, at least one, not descending
-  SectionTable(std::vector<material::Section> sections, std::vector<double> positions);
+  SectionTable(std::vector<material::Section> sections, std::vector<double> positions,
+               double rotary_inertia = 1.0);
 
   /// Section at a span in [0, 1].
   material::Section at(double span) const;
@@ -26,9 +28,10 @@ class SectionTable {
  private:
   std::vector<material::Section> sections_;
   std::vector<double> positions_;
+  double rotary_inertia_;
 };
 
-/// `Section`, or `Sections` with `Section Positions`, and the rules between them.
+/// `Section`, or `Sections` with `Section Positions`, the rules between them, `Rotary Inertia`.
 void add_section_fields(Schema& schema);
 
 /// The table that the fields describe. Throws InputError for names that are not among `sections`.

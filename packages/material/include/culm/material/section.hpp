@@ -49,6 +49,10 @@ Mat6 stiffness_matrix(const StiffnessValues& values);
 /// Eq. (1.10)
 Mat3 mass_matrix(const MassValues& values);
 
+/// The mass whose part about the centre of mass is taken `factor` times: 0 leaves the mass at its
+/// centre, with the couplings that belong to it. Positive semidefinite if `mass` is.
+Mat3 with_rotary_inertia(const Mat3& mass, double factor);
+
 /// The section whose own axes are turned by `angle` [rad] about d3 (positive from d1 to d2), seen
 /// in the axes of the beam.
 Section rotated(const Section& section, double angle);

@@ -18,7 +18,7 @@ using SlotSum = std::vector<double>;
 
 /// One equation h(q) = 0 of the slots,
 ///   h = P . Q - c      P = sum_s alpha_s q_s      Q = w + sum_s beta_s q_s
-/// Without beta the row is linear. @source formulation 2.1
+/// Without beta the row is linear. Sums of products: product_sum.hpp. @source formulation 2.1
 struct ConstraintRow {
   SlotSum alpha;
   SlotSum beta;                   ///< empty in linear rows

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -40,7 +41,12 @@ class ElementBatch final : public Batch,
   using Strain = Vec<M>;
 
   ElementBatch(std::string effect, const NodeTable& nodes, const StrainDamping& damping = {})
-      : effect_(std::move(effect)), nodes_(nodes), damping_(damping) {}
+      : effect_(std::move(effect)), nodes_(nodes), damping_(damping) {
+    if (damping.viscosities.empty()) return;
+    internal_check(damps_each_strain && damping.viscosities.size() == M,
+                   "these elements do not damp strains one by one");
+    roots_ = Eigen::Map<const Strain>(damping.viscosities.data()).cwiseSqrt();
+  }
 
   /// Adds an element. @return item number
   int add(E element, const std::array<int, N>& nodes) {
@@ -198,9 +204,10 @@ class ElementBatch final : public Batch,
     const Stencil damped = with_damping(stencil);
     if constexpr (HasStiffness<E>) {
       // the mean stress of a linear law does just what changes the stored energy
-      if (damped.theta_strain == 0.5) return {};
+      if (damped.theta_strain == 0.5 && !roots_) return {};
     }
     double taken = 0.0;
+    double taken_by_strains = 0.0;  // by the damping of each
     Strain y;
     [[maybe_unused]] Response<M> response;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -213,6 +220,10 @@ class ElementBatch final : public Batch,
         // what the stress takes beyond the change of the stored energy
         if constexpr (HasStiffness<E>) {
           taken += (2.0 * damped.theta_strain - 1.0) * element(item).energy(p, y - prev);
+          if (roots_) {
+            taken_by_strains +=
+                2.0 / stencil.step * element(item).energy(p, roots_->cwiseProduct(y - prev));
+          }
         } else {
           Internals internals{};
           if constexpr (has_internals) internals = internals_.at(at(i, p), y);
@@ -224,8 +235,8 @@ class ElementBatch final : public Batch,
     StepWork work;
     const double physical = damping_.viscosity / stencil.step;
     const double share = physical > 0.0 ? physical / damping_.weight(stencil.step) : 0.0;
-    work.damping = share * taken;
-    work.dissipation = taken - work.damping;
+    work.damping = share * taken + taken_by_strains;
+    work.dissipation = (1.0 - share) * taken;
     return work;
   }
 
@@ -322,6 +333,8 @@ class ElementBatch final : public Batch,
            static_cast<std::size_t>(p) * point_memory();
   }
 
+  static constexpr bool damps_each_strain = HasStiffness<E> && !ActsOnUnknowns<E>;
+
   Stencil with_damping(Stencil stencil) const {
     if (stencil.step > 0.0) stencil.theta_strain += damping_.weight(stencil.step);
     return stencil;
@@ -390,6 +403,14 @@ class ElementBatch final : public Batch,
       Strain e = (1.0 - weight) * prev + weight * y;
       if (dy != nullptr) e += weight * *dy;
       response.stress.noalias() = element.stiffness(p) * e;
+      if constexpr (damps_each_strain) {
+        if (roots_ && stencil.step > 0.0) {
+          Strain rate = y - prev;
+          if (dy != nullptr) rate += *dy;
+          rate = roots_->cwiseProduct(rate) / stencil.step;
+          response.stress += roots_->cwiseProduct((element.stiffness(p) * rate).eval());
+        }
+      }
       return Verdict::ok;
     } else {
       Verdict verdict = Verdict::ok;
@@ -442,6 +463,9 @@ class ElementBatch final : public Batch,
       if constexpr (HasStiffness<E>) {
         multiply(R, element.stiffness(p), RD);
         RD *= stencil.theta_strain;
+        if constexpr (damps_each_strain) {
+          if (roots_ && stencil.step > 0.0) add_damping(R, element.stiffness(p), stencil, RD);
+        }
       } else {
         multiply(R, response.tangent, RD);
       }
@@ -453,6 +477,16 @@ class ElementBatch final : public Batch,
       multiply_add(RD, R_next, c.tangent);
     }
     return verdict;
+  }
+
+  // RD += R sqrt(eta) C sqrt(eta) / step
+  template <int W>
+  void add_damping(const RowMat<W, M>& R, const RowMat<M, M>& C, const Stencil& stencil,
+                   RowMat<W, M>& RD) const {
+    const RowMat<M, M> damping = roots_->asDiagonal() * C * (*roots_ / stencil.step).asDiagonal();
+    RowMat<W, M> product;
+    multiply(R, damping, product);
+    RD += product;
   }
 
   // The same by products that the element knows how to do faster.
@@ -535,6 +569,7 @@ class ElementBatch final : public Batch,
   std::vector<Strain> strain_prev_;
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
+  std::optional<Strain> roots_;  // sqrt(eta) of the strains that are damped each by itself
   [[no_unique_address]] typename InternalTypes<E, has_internals>::Store internals_;
 };
 

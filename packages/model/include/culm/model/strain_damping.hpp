@@ -1,6 +1,8 @@
 /// What takes energy out of strains.
 #pragma once
 
+#include <vector>
+
 namespace culm::model {
 
 /// What takes energy out of strains, in dynamics only.
@@ -9,8 +11,20 @@ struct StrainDamping {
   /// first order in the step. @source formulation 4.5
   double dissipation = 0.0;
   double viscosity = 0.0;  ///< physical damping eta [s]: stress C eta de/dt on top of C e
+  /// Physical damping eta_I of each strain [s], on top of `viscosity`; empty if there is none.
+  /// Stress sqrt(eta_I) C_IJ sqrt(eta_J) de_J/dt: eta_I C_II on the diagonal, and for any C it
+  /// takes energy.
+  std::vector<double> viscosities;
 
   bool operator==(const StrainDamping&) const = default;
+  /// The same for `count` strains from the place `first` on.
+  StrainDamping of_strains(int first, int count) const {
+    StrainDamping part = *this;
+    if (!viscosities.empty()) {
+      part.viscosities.assign(viscosities.begin() + first, viscosities.begin() + first + count);
+    }
+    return part;
+  }
   /// Weight that the new strain gains over the old one in a step of length h.
   double weight(double h) const { return 0.5 * dissipation + viscosity / h; }
 };

@@ -1,0 +1,85 @@
+#include <culm/model/element_batch.hpp>
+
+#include "beam_case.hpp"
+
+#include <culm_kit/batch_laws.hpp>
+
+namespace culm::beam {
+namespace {
+
+using Beam = DirectorBeam<2>;
+constexpr const char* effect = "beam";
+
+// One element with a coupled section, and no inertia.
+kit::FillModel with(const model::StrainDamping& damping) {
+  return [damping](model::Model& model) {
+    const auto slots = DirectorBeamCase<2>::reference();
+    std::array<int, 3> nodes{};
+    for (int a = 0; a < 3; ++a) {
+      nodes[static_cast<std::size_t>(a)] = model.nodes().add(slots.middleCols<4>(4 * a));
+    }
+    model::elements<Beam>(model, effect, damping).add(DirectorBeamCase<2>::make(), nodes);
+  };
+}
+
+const std::vector<double> six{0.3, 0.1, 0.0, 0.7, 0.2, 0.5};
+
+TEST(StrainDamping, TangentIsDerivativeOfResidual) {
+  kit::expect_tangent_is_derivative(with({0.2, 0.1, six}), effect);
+}
+
+TEST(StrainDamping, AssemblesWithoutHeap) {
+  kit::expect_no_allocation(with({0.0, 0.0, six}), effect);
+}
+
+struct Step {
+  explicit Step(const model::StrainDamping& damping) {
+    with(damping)(model);
+    model.freeze(model::Form::multipliers);
+    state = kit::random_state(model, 3);
+    kit::DenseAssembly dense(model);
+    dense.begin_step(state, stencil);
+    batch = kit::find_batch(model, effect);
+    force = dense.residual(state, stencil, {batch}).head(36);
+  }
+  double work() const {
+    double sum = 0.0;
+    for (int node = 0; node < 3; ++node) {
+      const model::NodeSlots moved =
+          model::NodeTable::slots(state.next, node) - model::NodeTable::slots(state.prev, node);
+      sum += force.segment<12>(12 * node).dot(moved.reshaped());
+    }
+    return sum;
+  }
+
+  model::Model model;
+  model::State state;
+  Stencil stencil = Stencil::midpoint(0.4);
+  model::Batch* batch = nullptr;
+  Eigen::VectorXd force;
+};
+
+TEST(StrainDamping, SixEqualFactorsAreOne) {
+  const Step one({0.0, 0.3, {}});
+  const Step each({0.0, 0.0, std::vector<double>(6, 0.3)});
+  EXPECT_LT((each.force - one.force).norm(), 1e-13 * one.force.norm());
+  EXPECT_NEAR(each.batch->step_work(each.state, each.stencil).damping,
+              one.batch->step_work(one.state, one.stencil).damping, 1e-13);
+}
+
+// Work of the stress = change of the stored energy + what damping takes, which is never negative.
+TEST(StrainDamping, EnergyBalanceIsExact) {
+  for (const double dissipation : {0.0, 0.4}) {
+    const Step step({dissipation, 0.05, six});
+    const model::StepWork work = step.batch->step_work(step.state, step.stencil);
+    const double stored =
+        step.batch->stored_energy(step.state.next) - step.batch->stored_energy(step.state.prev);
+    EXPECT_GT(work.damping, 0.0);
+    EXPECT_EQ(work.dissipation > 0.0, dissipation > 0.0);
+    EXPECT_NEAR(step.work(), stored + work.damping + work.dissipation,
+                1e-13 * (std::abs(stored) + work.damping));
+  }
+}
+
+}  // namespace
+}  // namespace culm::beam
