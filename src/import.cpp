@@ -74,10 +74,17 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// First two columns of the table of modes.
-std::string read_frequencies(const std::filesystem::path& table) {
+// Frequencies [Hz] of one model, or why there are none.
+struct Frequencies {
+  std::string name;
+  std::vector<double> values;
+  std::string failure;
+};
+
+// The second column of the table of modes.
+std::vector<double> read_frequencies(const std::filesystem::path& table) {
   std::ifstream stream(table);
-  std::string text;
+  std::vector<double> found;
   std::string line;
   std::getline(stream, line);
   while (std::getline(stream, line)) {
@@ -86,24 +93,44 @@ std::string read_frequencies(const std::filesystem::path& table) {
     std::string frequency;
     std::getline(cells, mode, ',');
     std::getline(cells, frequency, ',');
-    text += fmt::format("  mode {:>2}: {:>9.5g} Hz\n", mode, std::stod(frequency));
+    found.push_back(std::stod(frequency));
   }
-  return text;
+  return found;
 }
 
-// Runs the deck, for the frequencies of its modes.
-std::string find_frequencies(const parallel::Comm& comm, simulation::Simulation& model) {
+// Runs a deck, for the frequencies of its modes.
+Frequencies find_frequencies(const parallel::Comm& comm, const std::string& name,
+                             simulation::Simulation& model) {
   const TemporaryFolder folder(comm);
   const simulation::StopRequest request;
   try {
     model.run({folder.path(), true, false}, request);
   } catch (const NumericalError& error) {
-    return std::string("  not found, because the deck does not solve: ") + error.what() + "\n";
+    return {name, {}, fmt::format("not found, the deck does not solve: {}", error.what())};
   } catch (const PromiseBroken& broken) {
-    return read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv") + "  " +
-           broken.what() + "\n";
+    return {name, read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv"),
+            broken.what()};
   }
-  return read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv");
+  return {name, read_frequencies(folder.path() / "analyses" / "modes" / "modes.csv"), {}};
+}
+
+// The frequencies side by side, each column in rising order.
+std::string frequency_table(const std::vector<Frequencies>& models) {
+  std::string text = "         ";
+  for (const Frequencies& one : models) text += fmt::format(" {:>20}", one.name);
+  text += "\n";
+  for (std::size_t i = 0; i < models.front().values.size(); ++i) {
+    text += fmt::format("  mode {:>2}", i + 1);
+    for (const Frequencies& one : models) {
+      text += i < one.values.size() ? fmt::format(" {:>17.5g} Hz", one.values[i])
+                                    : fmt::format(" {:>20}", "");
+    }
+    text += "\n";
+  }
+  for (const Frequencies& one : models) {
+    if (!one.failure.empty()) text += fmt::format("  {}: {}\n", one.name, one.failure);
+  }
+  return text;
 }
 
 bool has_modes(const Options& deck) {
@@ -127,12 +154,19 @@ void import_openfast(const parallel::Comm& comm, const ImportArguments& argument
   openfast::Imported imported = openfast::import_file(arguments.file, arguments.turbine);
   // What is written is a deck that builds; its masses and modes belong to the report.
   const simulation::Catalogue catalogue;
-  const simulation::DeckSource source{{{deck_path.string(), imported.deck}}, {}};
+  simulation::DeckSource source{{{deck_path.string(), imported.deck}}, {}};
   const Options deck = simulation::read_deck(catalogue, source);
   simulation::Simulation model(comm, catalogue, deck, source, silent);
   imported.report += "\nthe model\n" + model.summary();
   if (has_modes(deck)) {
-    imported.report += "\nfrequencies of the model\n" + find_frequencies(comm, model);
+    std::vector<Frequencies> found{find_frequencies(comm, "as imported", model)};
+    for (const openfast::Variant& variant : imported.variants) {
+      source.overrides = variant.settings;
+      const Options changed = simulation::read_deck(catalogue, source);
+      simulation::Simulation other(comm, catalogue, changed, source, silent);
+      found.push_back(find_frequencies(comm, variant.name, other));
+    }
+    imported.report += "\nfrequencies of the model\n" + frequency_table(found);
   }
   if (comm.is_root()) write_both({deck_path, imported.deck}, {report_path, imported.report});
   log.info(imported.report + "\nwritten: " + deck_path.string() + ", " + report_path.string());

@@ -111,7 +111,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
       import->add_subcommand("openfast", "A blade of BeamDyn, a turbine of ElastoDyn");
   openfast
       ->add_option("file", arguments.import.file,
-                   "Driver or primary file of BeamDyn, main file of ElastoDyn")
+                   "Driver or primary file of BeamDyn, main file of ElastoDyn, or .fst")
       ->required();
   openfast->add_option("--output", arguments.import.deck,
                        "Deck to write; here, with the name of the file and .xml, if not given");
@@ -121,6 +121,8 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
       ->add_option("--blade-mass", arguments.import.turbine.blade_mass,
                    "Mass to which each blade of a turbine is scaled [kg]")
       ->check(CLI::PositiveNumber);
+  openfast->add_option("--servodyn", arguments.import.turbine.servodyn,
+                       "File of ServoDyn, for the yaw spring of a turbine");
   openfast->add_flag("--quiet", arguments.import.quiet, "Do not print the report");
   openfast->callback([&] {
     action = [&](const Comm& comm) { culm::app::import_openfast(comm, arguments.import); };

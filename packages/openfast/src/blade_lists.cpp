@@ -17,10 +17,24 @@ std::vector<std::string> section_names(const std::string& name, std::size_t coun
   return names;
 }
 
-// One factor for all components: the smaller one of both bendings, so that no bending is damped
-// more than the file says.
-double damping_of(const BeamDynBlade& blade) {
-  return std::min(blade.damping[3], blade.damping[4]);
+bool is_damped(const BeamDynBlade& blade) {
+  return std::any_of(blade.damping.begin(), blade.damping.end(),
+                     [](double value) { return value != 0.0; });
+}
+
+// Whether strains of different factors act on each other.
+bool is_coupled(const BeamDynBlade& blade) {
+  for (const BladeStation& station : blade.stations) {
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < i; ++j) {
+        if (station.stiffness(i, j) != 0.0 && blade.damping[static_cast<std::size_t>(i)] !=
+                                                  blade.damping[static_cast<std::size_t>(j)]) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 std::vector<double> spans_of(const std::vector<BladeStation>& stations) {
@@ -55,7 +69,10 @@ void write_beam(const std::string& name, const std::string& sections, const Beam
   deck.set("Sections", section_names(sections, beam.blade.stations.size()));
   deck.set("Section Positions", spans_of(beam.blade.stations));
   deck.set("Order", mesh.order);
-  if (damping_of(beam.blade) > 0.0) deck.set("Damping", damping_of(beam.blade));
+  const auto& damping = beam.blade.damping;
+  if (is_damped(beam.blade)) {
+    deck.set("Strain Damping", std::vector<double>(damping.begin(), damping.end()));
+  }
   deck.open("Curve", axis.straight ? "Line" : "Spline");
   if (axis.straight) {
     deck.set("From", place(beam.key_points.front().position));
@@ -110,11 +127,16 @@ void report_blade(const BeamDyn& beam, Report& report) {
              fmt::format("axis: {}, Pre-Twist from {:.5g} to {:.5g} degrees",
                          axis.straight ? "straight" : "curved", *least / degree, *most / degree));
   const auto& mu = beam.blade.damping;
-  if (std::any_of(mu.begin(), mu.end(), [](double value) { return value != 0.0; })) {
+  if (is_damped(beam.blade)) {
+    report.add(checked,
+               fmt::format("damping: ({:.4g}, {:.4g}, {:.4g}, {:.4g}, {:.4g}, {:.4g}) s for "
+                           "shear x and y, stretch, bending about x and y, twist",
+                           mu[0], mu[1], mu[2], mu[3], mu[4], mu[5]));
+  }
+  if (is_damped(beam.blade) && is_coupled(beam.blade)) {
     report.add(assumed,
-               fmt::format("damping: mu = ({:g}, {:g}, {:g}, {:g}, {:g}, {:g}) s in the file; culm "
-                           "has one factor: {:g} s, the smaller one of both bendings",
-                           mu[0], mu[1], mu[2], mu[3], mu[4], mu[5], damping_of(beam.blade)));
+               "damping of coupled sections: sqrt(mu) C sqrt(mu), which takes energy whatever the "
+               "couplings; BeamDyn has mu C, the same on the diagonal");
   }
 }
 

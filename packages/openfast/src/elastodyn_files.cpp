@@ -87,6 +87,16 @@ FileMode read_mode(InputFile& file, const std::string& name, const std::string& 
   return mode;
 }
 
+// The first mode, and the second one where the file has its shape and damping.
+FileModes read_modes(InputFile& file, const std::string& name, const std::string& first,
+                     const std::string& second, const std::string& damping) {
+  FileModes modes{read_mode(file, name, first, damping + "(1)"), {}};
+  if (file.has(second + "(2)") && file.has(damping + "(2)")) {
+    modes.second = read_mode(file, "second " + name, second, damping + "(2)");
+  }
+  return modes;
+}
+
 void report_tuners(InputFile& file, const std::vector<std::string>& tuners, Report& report) {
   for (const std::string& tuner : tuners) {
     if (file.number(tuner, 1.0) != 1.0) {
@@ -146,11 +156,10 @@ ElastoDynBlade read_blade(const std::filesystem::path& path, double length, Repo
     blade.beam.key_points.push_back(
         {Vec3(0.0, 0.0, length * table.at(i, "BlFract")), degree * table.at(i, "StrcTwst")});
   }
-  blade.flap = read_mode(file, "flap", "BldFl1Sh", "BldFlDmp(1)");
-  blade.edge = read_mode(file, "edge", "BldEdgSh", "BldEdDmp(1)");
+  blade.flap = read_modes(file, "flap", "BldFl1Sh", "BldFl2Sh", "BldFlDmp");
+  blade.edge = {read_mode(file, "edge", "BldEdgSh", "BldEdDmp(1)"), {}};
   report_tuners(file, {"FlStTunr(1)", "FlStTunr(2)"}, report);
-  file.ignore({"FlStTunr(1)", "FlStTunr(2)", "BldFlDmp(2)", "CalcBMode", "BldFl2Sh(2)",
-               "BldFl2Sh(3)", "BldFl2Sh(4)", "BldFl2Sh(5)", "BldFl2Sh(6)"});
+  file.ignore({"FlStTunr(1)", "FlStTunr(2)", "BldFlDmp(2)", "CalcBMode"});
   report.add(read, fmt::format("{}: ElastoDyn blade, {} stations, masses times {:g}; '{}'",
                                path.string(), table.size(), mass_factor, file.title()));
   if (!table.has("EAStff") || !table.has("GJStff")) {
@@ -181,15 +190,12 @@ ElastoDynTower read_tower(const std::filesystem::path& path, Report& report) {
                               table.find(i, "TwEAStif"), table.find(i, "TwFAIner"),
                               table.find(i, "TwSSIner")});
   }
-  tower.fore_aft = read_mode(file, "fore-aft", "TwFAM1Sh", "TwrFADmp(1)");
-  tower.side_side = read_mode(file, "side-to-side", "TwSSM1Sh", "TwrSSDmp(1)");
+  tower.fore_aft = read_modes(file, "fore-aft", "TwFAM1Sh", "TwFAM2Sh", "TwrFADmp");
+  tower.side_side = read_modes(file, "side-to-side", "TwSSM1Sh", "TwSSM2Sh", "TwrSSDmp");
   const std::vector<std::string> tuners{"FAStTunr(1)", "FAStTunr(2)", "SSStTunr(1)", "SSStTunr(2)"};
   report_tuners(file, tuners, report);
   file.ignore(tuners);
   file.ignore({"TwrFADmp(2)", "TwrSSDmp(2)", "CalcTMode"});
-  for (int k = 2; k <= 6; ++k) {
-    file.ignore({fmt::format("TwFAM2Sh({})", k), fmt::format("TwSSM2Sh({})", k)});
-  }
   report.add(read, fmt::format("{}: ElastoDyn tower, {} stations; '{}'", path.string(),
                                table.size(), file.title()));
   report.add(unknown, file.unread());
@@ -209,86 +215,45 @@ void refuse(InputFile& file) {
 }
 
 void ignore_rest(InputFile& file) {
-  file.ignore({"Echo",
-               "Method",
-               "DT",
-               "FlapDOF1",
-               "FlapDOF2",
-               "EdgeDOF",
-               "PitchDOF",
-               "TeetDOF",
-               "DrTrDOF",
-               "GenDOF",
-               "YawDOF",
-               "TwFADOF1",
-               "TwFADOF2",
-               "TwSSDOF1",
-               "TwSSDOF2",
-               "PtfmSgDOF",
-               "PtfmSwDOF",
-               "PtfmHvDOF",
-               "PtfmRDOF",
-               "PtfmPDOF",
-               "PtfmYDOF",
-               "OoPDefl",
-               "IPDefl",
-               "TeetDefl",
-               "NacYaw",
-               "TTDspFA",
-               "TTDspSS",
-               "PtfmSurge",
-               "PtfmSway",
-               "PtfmHeave",
-               "PtfmRoll",
-               "PtfmPitch",
-               "PtfmYaw",
-               "UndSling",
-               "Delta3",
-               "ShftGagL",
-               "NcIMUxn",
-               "NcIMUyn",
-               "NcIMUzn",
-               "HubIner_Teeter",
-               "TeetMod",
-               "TeetDmpP",
-               "TeetDmp",
-               "TeetCDmp",
-               "TeetSStP",
-               "TeetHStP",
-               "TeetSSSp",
-               "TeetHSSp",
-               "YawFrctMod",
-               "M_CSmax",
-               "M_FCSmax",
-               "M_MCSmax",
-               "M_CD",
-               "M_FCD",
-               "M_MCD",
-               "sig_v",
-               "sig_v2",
-               "OmgCut",
-               "GBoxEff",
-               "Furling",
-               "FurlFile",
-               "TwrNodes",
-               "SumPrint",
-               "OutFile",
-               "TabDelim",
-               "OutFmt",
-               "TStart",
-               "DecFact",
-               "NTwGages",
-               "TwrGagNd",
-               "NBlGages",
-               "BldGagNd",
-               "BldNd_BladesOut",
-               "BldNd_BlOutNd",
-               "Gravity"});
+  file.ignore(
+      {"Echo",     "Method",         "DT",       "FlapDOF1",  "FlapDOF2",        "EdgeDOF",
+       "PitchDOF", "TeetDOF",        "DrTrDOF",  "GenDOF",    "TwFADOF1",        "TwFADOF2",
+       "TwSSDOF1", "TwSSDOF2",       "OoPDefl",  "IPDefl",    "TeetDefl",        "TTDspFA",
+       "TTDspSS",  "PtfmSurge",      "PtfmSway", "PtfmHeave", "PtfmRoll",        "PtfmPitch",
+       "PtfmYaw",  "UndSling",       "Delta3",   "ShftGagL",  "NcIMUxn",         "NcIMUyn",
+       "NcIMUzn",  "HubIner_Teeter", "TeetMod",  "TeetDmpP",  "TeetDmp",         "TeetCDmp",
+       "TeetSStP", "TeetHStP",       "TeetSSSp", "TeetHSSp",  "YawFrctMod",      "M_CSmax",
+       "M_FCSmax", "M_MCSmax",       "M_CD",     "M_FCD",     "M_MCD",           "sig_v",
+       "sig_v2",   "OmgCut",         "GBoxEff",  "Furling",   "FurlFile",        "TwrNodes",
+       "SumPrint", "OutFile",        "TabDelim", "OutFmt",    "TStart",          "DecFact",
+       "NTwGages", "TwrGagNd",       "NBlGages", "BldGagNd",  "BldNd_BladesOut", "BldNd_BlOutNd",
+       "Gravity"});
   for (int i = 1; i <= 3; ++i) {
     file.ignore({fmt::format("PBrIner({})", i), fmt::format("BlPIner({})", i),
                  fmt::format("BldFile({})", i), fmt::format("PreCone({})", i),
                  fmt::format("BlPitch({})", i), fmt::format("TipMass({})", i)});
   }
+}
+
+// Whether a degree of freedom is there and switched on.
+bool is_free(InputFile& file, const char* name) { return file.has(name) && file.flag(name); }
+
+Platform read_platform(InputFile& file) {
+  Platform platform;
+  const char* freedoms[] = {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF",
+                            "PtfmRDOF",  "PtfmPDOF",  "PtfmYDOF"};
+  for (std::size_t i = 0; i < platform.free.size(); ++i) {
+    platform.free[i] = is_free(file, freedoms[i]);
+  }
+  const char* axes[] = {"x", "y", "z"};
+  const char* inertias[] = {"PtfmRIner", "PtfmPIner", "PtfmYIner"};
+  for (int i = 0; i < 3; ++i) {
+    platform.reference[i] = file.number(fmt::format("PtfmRef{}t", axes[i]), 0.0);
+    platform.centre[i] = file.number(fmt::format("PtfmCM{}t", axes[i]), 0.0);
+    platform.inertia[i] = file.number(inertias[i], 0.0);
+  }
+  platform.mass = file.number("PtfmMass", 0.0);
+  return platform;
 }
 
 void read_rotor(InputFile& file, ElastoDyn& turbine) {
@@ -318,6 +283,12 @@ void read_rotor(InputFile& file, ElastoDyn& turbine) {
 void read_nacelle(InputFile& file, ElastoDyn& turbine) {
   turbine.tower_top = file.number("TowerHt");
   turbine.tower_base = file.number("TowerBsHt", 0.0);
+  if (!(turbine.tower_top > turbine.tower_base)) {
+    throw InputError(file.where("TowerHt"), fmt::format("must be above TowerBsHt, {:g}, got {:g}",
+                                                        turbine.tower_base, turbine.tower_top));
+  }
+  turbine.yaw = degree * file.number("NacYaw", 0.0);
+  turbine.yaw_is_free = is_free(file, "YawDOF");
   const char* axes[] = {"xn", "yn", "zn"};
   for (int i = 0; i < 3; ++i) {
     turbine.nacelle_centre[i] = file.number(std::string("NacCM") + axes[i]);
@@ -335,20 +306,29 @@ void read_nacelle(InputFile& file, ElastoDyn& turbine) {
 }
 
 void report_left_out(InputFile& file, Report& report) {
-  for (const char* entry : {"NacYaw", "PtfmMass", "PtfmRoll", "PtfmPitch", "PtfmYaw", "OoPDefl",
+  for (const char* entry : {"PtfmSurge", "PtfmSway", "PtfmHeave", "PtfmRoll", "PtfmPitch",
+                            "PtfmYaw", "PtfmXYIner", "PtfmYZIner", "PtfmXZIner", "OoPDefl",
                             "IPDefl", "TTDspFA", "TTDspSS", "PBrIner(1)", "BlPIner(1)"}) {
     if (file.number(entry, 0.0) != 0.0) {
       report.add(not_used,
                  fmt::format("{} = {:g}", to_string(file.where(entry)), file.number(entry)));
     }
   }
-  file.ignore({"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
-               "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefxt", "PtfmRefyt",
-               "PtfmRefzt"});
-  report.add(not_used,
-             fmt::format("{}: degrees of freedom, platform, teeter, yaw friction, outputs: "
-                         "the tower is clamped, yaw and pitch are locked",
-                         file.path().string()));
+  file.ignore({"PtfmXYIner", "PtfmYZIner", "PtfmXZIner"});
+  std::vector<std::string> off;
+  for (const char* name : {"FlapDOF1", "FlapDOF2", "EdgeDOF", "DrTrDOF", "TwFADOF1", "TwFADOF2",
+                           "TwSSDOF1", "TwSSDOF2"}) {
+    if (file.has(name) && !file.flag(name)) off.emplace_back(name);
+  }
+  if (!off.empty()) {
+    report.add(not_used,
+               fmt::format("{}: {} False: blades, tower and shaft bend and twist here all "
+                           "the same",
+                           file.path().string(), join(off, ", ")));
+  }
+  report.add(not_used, fmt::format("{}: teeter, yaw friction, outputs; pitch and generator are "
+                                   "locked",
+                                   file.path().string()));
 }
 
 }  // namespace
@@ -370,6 +350,7 @@ ElastoDyn read_elastodyn(const std::filesystem::path& path, Report& report) {
     turbine.blades.push_back(blades[blade_path]);
   }
   turbine.tower = read_tower(file.file("TwrFile"), report);
+  turbine.platform = read_platform(file);
   report_left_out(file, report);
   ignore_rest(file);
   report.add(unknown, file.unread());

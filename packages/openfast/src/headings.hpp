@@ -6,6 +6,7 @@ namespace culm::openfast {
 inline constexpr const char* read = "read";
 inline constexpr const char* conventions = "conventions";
 inline constexpr const char* assumed = "assumed";
+inline constexpr const char* missing = "not in these files, and what that does";
 inline constexpr const char* checked = "checked";
 inline constexpr const char* masses = "masses";
 inline constexpr const char* frequencies = "first frequencies";

@@ -6,7 +6,9 @@
 
 #include "blade_lists.hpp"
 #include "headings.hpp"
-#include "rayleigh.hpp"
+#include "turbine_base.hpp"
+#include "turbine_cantilevers.hpp"
+#include "turbine_layout.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -19,137 +21,14 @@ namespace culm::openfast {
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr BladeMesh blade_mesh{17, 1};
 constexpr int tower_elements = 10;
-constexpr double gravity = 9.80665;
-
-// Where things are.
-struct Layout {
-  Vec3 top;    // of the tower
-  Vec3 shaft;  // direction, downwind
-  Vec3 place;  // of the shaft at the yaw axis
-  Vec3 apex;
-  std::vector<Placement> roots;
-
-  explicit Layout(const ElastoDyn& turbine)
-      : top(0.0, 0.0, turbine.tower_top),
-        shaft(std::cos(turbine.tilt), 0.0, std::sin(turbine.tilt)),
-        place(top + Vec3(0.0, 0.0, turbine.shaft_height)),
-        apex(place + turbine.overhang * shaft) {
-    const Mat3 upright = (Mat3() << shaft, Vec3::UnitY(), shaft.cross(Vec3::UnitY())).finished();
-    for (std::size_t i = 0; i < turbine.cones.size(); ++i) {
-      const double step = two_pi / static_cast<double>(turbine.cones.size());
-      const double azimuth = turbine.azimuth + static_cast<double>(i) * step;
-      // azimuth about the shaft, then the cone about y, then the pitch about -z
-      const Mat3 axes = exp_rotation(azimuth * shaft) * upright *
-                        exp_rotation(turbine.cones[i] * Vec3::UnitY()) *
-                        exp_rotation(-turbine.pitches[i] * Vec3::UnitZ());
-      roots.push_back({apex + turbine.hub_radius * axes.col(2), axes});
-    }
-  }
-};
-
-// Linear between stations.
-template <class Station, class Place, class Value>
-std::function<double(double)> along(const std::vector<Station>& stations, Place place,
-                                    Value value) {
-  return [=](double x) {
-    std::size_t i = 1;
-    while (i + 1 < stations.size() && place(stations[i]) < x) ++i;
-    const double a = place(stations[i - 1]);
-    const double t = (x - a) / (place(stations[i]) - a);
-    return (1.0 - t) * value(stations[i - 1]) + t * value(stations[i]);
-  };
-}
-
-double span_of(const BladeStation& station) { return station.span; }
-double height_of(const TowerStation& station) { return station.height; }
-
-Cantilever blade_cantilever(const BeamDyn& beam, int bending) {
-  Cantilever cantilever;
-  cantilever.length = (beam.key_points.back().position - beam.key_points.front().position).norm();
-  for (const BladeStation& station : beam.blade.stations) cantilever.places.push_back(station.span);
-  cantilever.mass = along(beam.blade.stations, span_of,
-                          [](const BladeStation& station) { return station.mass(0, 0); });
-  cantilever.stiffness = along(beam.blade.stations, span_of, [=](const BladeStation& station) {
-    return station.stiffness(bending, bending);
-  });
-  return cantilever;
-}
-
-double blade_mass(const BeamDyn& beam) {
-  return integrate_mass(BladeAxis(beam.key_points), beam.blade.stations).mass;
-}
-
-// What stands on the tower.
-double head_mass(const ElastoDyn& turbine) {
-  double mass = turbine.yaw_bearing_mass + turbine.nacelle_mass + turbine.hub_mass;
-  for (const ElastoDynBlade& blade : turbine.blades) mass += blade_mass(blade.beam);
-  for (const double tip : turbine.tip_masses) mass += tip;
-  return mass;
-}
-
-Cantilever tower_cantilever(const ElastoDyn& turbine, double TowerStation::*stiffness) {
-  Cantilever cantilever;
-  cantilever.length = turbine.tower_top - turbine.tower_base;
-  for (const TowerStation& station : turbine.tower.stations) {
-    cantilever.places.push_back(station.height);
-  }
-  cantilever.mass = along(turbine.tower.stations, height_of,
-                          [](const TowerStation& station) { return station.mass; });
-  cantilever.stiffness = along(turbine.tower.stations, height_of,
-                               [=](const TowerStation& station) { return station.*stiffness; });
-  cantilever.tip_mass = head_mass(turbine);
-  return cantilever;
-}
-
-// The time by which stress runs ahead of strain, so that a mode has its damping: zeta = eta omega
-// / 2.
-double find_damping(const Cantilever& cantilever, const FileMode& mode, const std::string& what,
-                    Report& report) {
-  const double omega = rayleigh(cantilever, mode);
-  const double eta = 2.0 * mode.damping / omega;
-  report.add(frequencies, fmt::format("{}, {}: {:.4f} Hz; damping {:.4g} of the critical one, "
-                                      "eta = {:.4g} s",
-                                      what, mode.name, omega / two_pi, mode.damping, eta));
-  return eta;
-}
-
-void find_blade_damping(ElastoDyn& turbine, Report& report) {
-  report.add(frequencies,
-             "Rayleigh quotients of the mode shapes in the files, without rotation and "
-             "weight; blades clamped, tower with the mass of its head");
-  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
-    ElastoDynBlade& blade = turbine.blades[i];
-    const std::string name = fmt::format("blade {}", i + 1);
-    const double edge = find_damping(blade_cantilever(blade.beam, 3), blade.edge, name, report);
-    const double flap = find_damping(blade_cantilever(blade.beam, 4), blade.flap, name, report);
-    auto& damping = blade.beam.blade.damping;
-    const bool given =
-        std::any_of(damping.begin(), damping.end(), [](double d) { return d != 0.0; });
-    if (!given) damping = {0.0, 0.0, 0.0, edge, flap, 0.0};
-  }
-}
-
-double find_tower_damping(const ElastoDyn& turbine, Report& report) {
-  const auto& tower = turbine.tower;
-  const double fa = find_damping(tower_cantilever(turbine, &TowerStation::fore_aft), tower.fore_aft,
-                                 "tower", report);
-  const double ss = find_damping(tower_cantilever(turbine, &TowerStation::side_side),
-                                 tower.side_side, "tower", report);
-  report.add(assumed, fmt::format("tower: one factor of damping, {:.4g} s, fits the first modes; "
-                                  "higher ones are damped in proportion to their frequency",
-                                  std::min(fa, ss)));
-  return std::min(fa, ss);
-}
+constexpr double standard_gravity = 9.80665;
 
 // A thin steel tube of this mass and bending stiffness where the file does not say more: the report
 // of the 5 MW turbine has E = 210 GPa, 8500 kg/m^3 with paint, bolts, welds and flanges.
 constexpr double steel = 210e9 / 8500.0;
 constexpr double nu = 0.3;
-// times the torsion stiffness: as good as rigid
-constexpr double stiff = 100.0;
 
 void write_tower_sections(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
   deck.comment({"Stations of the tower file; d1 is downwind, so EI2 bends along the wind."});
@@ -157,15 +36,13 @@ void write_tower_sections(const ElastoDyn& turbine, Report& report, DeckWriter& 
     const TowerStation& station = turbine.tower.stations[i];
     const double stretch = station.stretch.value_or(station.mass * steel);
     const double shear = stretch / (2.0 * (1.0 + nu)) / 2.0;
-    const double torsion =
-        station.torsion.value_or((station.fore_aft + station.side_side) / (2.0 * (1.0 + nu)));
     deck.open(fmt::format("tower {}", i + 1), "Stiffness Values");
     deck.set("EA", stretch);
     deck.set("GA1", shear);
     deck.set("GA2", shear);
     deck.set("EI1", station.side_side);
     deck.set("EI2", station.fore_aft);
-    deck.set("GIp", fmt::format("torsion*{:.12g}", torsion));
+    deck.set("GIp", fmt::format("torsion*{:.12g}", torsion_of(station)));
     deck.set("rhoA", station.mass);
     deck.set("rhoI1", station.inertia_ss.value_or(station.mass * station.side_side / stretch));
     deck.set("rhoI2", station.inertia_fa.value_or(station.mass * station.fore_aft / stretch));
@@ -174,13 +51,13 @@ void write_tower_sections(const ElastoDyn& turbine, Report& report, DeckWriter& 
   if (!turbine.tower.stations.front().stretch) {
     report.add(assumed,
                "tower: a thin tube of steel, E / rho = 210e9 / 8500 m^2/s^2, nu = 0.3: EA = "
-               "mass E / rho, GA = EA / 5.2, GJ = (EI_fa + EI_ss) / 2.6, rotary inertia "
-               "mass EI / EA");
+               "mass E / rho, GA = EA / 5.2, rotary inertia mass EI / EA");
   }
   report.add(assumed,
-             fmt::format("tower: that of ElastoDyn does not twist: GJ times {:g}, the variable "
-                         "'torsion' of the deck; 1 lets it twist",
-                         stiff));
+             turbine.tower.stations.front().torsion
+                 ? "tower: it twists, GJ from its file; that of ElastoDyn does not"
+                 : "tower: it twists, GJ = (EI_fa + EI_ss) / 2.6 as of a thin tube; that of "
+                   "ElastoDyn does not: 'Torsion' false of the beam 'tower'");
 }
 
 // Blades of one file share their sections.
@@ -207,6 +84,15 @@ void write_sections_list(const ElastoDyn& turbine, Report& report, DeckWriter& d
   deck.close();
 }
 
+// In one sentence, why the nacelle does not turn.
+std::string why_locked(const ElastoDyn& turbine) {
+  if (!turbine.yaw_is_free) return "Yaw is locked, as YawDOF says.";
+  return turbine.yaw_drive
+             ? "Yaw is locked although YawDOF is True: YawSpr is zero."
+             : "Yaw is locked although YawDOF is True: its spring stands in ServoDyn's "
+               "file, which was not given.";
+}
+
 void write_body(const std::string& name, const Vec3& position, const Mat3& directors, double mass,
                 const Vec3& centre, const Vec3& inertia, DeckWriter& deck) {
   deck.open(name, "Rigid Body");
@@ -223,7 +109,7 @@ void write_body(const std::string& name, const Vec3& position, const Mat3& direc
 // Generator: a disc on the slow shaft, whose inertia is that of the fast one times the square of
 // the ratio. A disc is the slimmest body that has it; what it adds across is taken from the
 // nacelle.
-void write_bodies(const ElastoDyn& turbine, const Layout& layout, Report& report,
+void write_bodies(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report,
                   DeckWriter& deck) {
   const double generator = turbine.generator_inertia * turbine.gear_ratio * turbine.gear_ratio;
   const Vec3& centre = turbine.nacelle_centre;
@@ -233,8 +119,8 @@ void write_bodies(const ElastoDyn& turbine, const Layout& layout, Report& report
   const double least = 0.01 * std::max(about_centre, 0.0) + turbine.nacelle_mass * 1e-3;
   const double own = std::max(least, about_centre - 0.5 * generator);
   constexpr double token = 1.0;  // a body must weigh something
-  const Mat3 along_shaft = triad_along(layout.shaft, Vec3::UnitY());
-  write_body("nacelle", layout.top, Mat3::Identity(), turbine.nacelle_mass - token, centre,
+  const Mat3 along_shaft = triad_along(layout.shaft, layout.nacelle.col(1));
+  write_body("nacelle", layout.top, layout.nacelle, turbine.nacelle_mass - token, centre,
              {least, own, own}, deck);
   write_body("generator", layout.place, along_shaft, token, Vec3::Zero(),
              {0.5 * generator, 0.5 * generator, generator}, deck);
@@ -252,8 +138,8 @@ void write_bodies(const ElastoDyn& turbine, const Layout& layout, Report& report
   report.add(assumed, "hub: HubIner for all axes");
 }
 
-void write_structures(const ElastoDyn& turbine, const Layout& layout, double tower_damping,
-                      Report& report, DeckWriter& deck) {
+void write_structures(const ElastoDyn& turbine, const TurbineLayout& layout,
+                      const std::vector<double>& tower_damping, Report& report, DeckWriter& deck) {
   deck.open("Structures");
   deck.open("tower", "Beam");
   std::vector<std::string> names;
@@ -265,14 +151,15 @@ void write_structures(const ElastoDyn& turbine, const Layout& layout, double tow
   deck.set("Sections", names);
   deck.set("Section Positions", heights);
   deck.set("Order", blade_mesh.order);
-  if (tower_damping > 0.0) deck.set("Damping", tower_damping);
+  if (!tower_damping.empty()) deck.set("Strain Damping", tower_damping);
   deck.open("Curve", "Line");
-  deck.set("From", Vec3(0.0, 0.0, turbine.tower_base));
+  deck.set("From", layout.base);
   deck.set("To", layout.top);
   deck.set("Up", Vec3(Vec3::UnitX()));
   deck.set("Elements", tower_elements);
   deck.close();
   deck.close();
+  write_platform(turbine, deck);
   write_bodies(turbine, layout, report, deck);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
     write_beam(fmt::format("blade {}", i + 1), sections_of(turbine, i), turbine.blades[i].beam,
@@ -308,29 +195,47 @@ void write_follower(const std::string& name, const std::string& node, const std:
   deck.close();
 }
 
-// Entries between two nodes about the shaft.
-void open_about_shaft(const std::string& name, const std::string& type, const std::string& first,
-                      const std::string& second, const Layout& layout, DeckWriter& deck) {
+// Entries between two nodes about an axis.
+void open_about(const Vec3& axis, const std::string& name, const std::string& type,
+                const std::string& first, const std::string& second, DeckWriter& deck) {
   deck.open(name, type);
   deck.set("First", first);
   deck.set("Second", second);
-  deck.set("Axis", layout.shaft);
+  deck.set("Axis", axis);
 }
 
-void write_constraints(const ElastoDyn& turbine, const Layout& layout, DeckWriter& deck) {
-  deck.open("Constraints");
+void write_foundation(const ElastoDyn& turbine, DeckWriter& deck) {
+  const bool has_platform = turbine.platform.mass > 0.0;
+  if (stands_on_more(turbine)) deck.comment(describe_base(turbine));
   deck.open("foundation", "Rigid Support");
-  deck.set("Node", "tower/first");
+  deck.set("Node", has_platform ? "platform" : "tower/first");
   deck.close();
+  if (has_platform) write_follower("transition", "tower/first", "platform", deck);
+}
+
+void write_yaw_bearing(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
+  if (turbine.yaws()) {
+    open_about(Vec3::UnitZ(), "yaw bearing", "Revolute Joint", "tower/last", "nacelle", deck);
+    deck.set("Position", layout.top);
+    deck.close();
+    return;
+  }
+  deck.comment({why_locked(turbine)});
   write_follower("yaw bearing", "nacelle", "tower/last", deck);
-  open_about_shaft("generator bearing", "Revolute Joint", "nacelle", "generator", layout, deck);
+}
+
+void write_constraints(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
+  deck.open("Constraints");
+  write_foundation(turbine, deck);
+  write_yaw_bearing(turbine, layout, deck);
+  open_about(layout.shaft, "generator bearing", "Revolute Joint", "nacelle", "generator", deck);
   deck.close();
   deck.comment({"The generator is locked; with an angle and a function it turns as prescribed."});
-  open_about_shaft("generator", "Joint Angle", "nacelle", "generator", layout, deck);
+  open_about(layout.shaft, "generator", "Joint Angle", "nacelle", "generator", deck);
   deck.set("Angle", 0.0);
   deck.close();
   if (turbine.shaft_stiffness > 0.0) {
-    open_about_shaft("shaft bearing", "Revolute Joint", "generator", "hub", layout, deck);
+    open_about(layout.shaft, "shaft bearing", "Revolute Joint", "generator", "hub", deck);
     deck.close();
   } else {
     write_follower("shaft", "hub", "generator", deck);
@@ -342,18 +247,28 @@ void write_constraints(const ElastoDyn& turbine, const Layout& layout, DeckWrite
   deck.close();
 }
 
-void write_loads(const ElastoDyn& turbine, const Layout& layout, DeckWriter& deck) {
+void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
   deck.open("Loads");
   deck.open("weight", "Gravity");
-  deck.set("Acceleration", Vec3(0.0, 0.0, -gravity));
+  deck.set("Acceleration", Vec3(0.0, 0.0, -turbine.gravity.value_or(standard_gravity)));
   deck.close();
+  if (turbine.yaws()) {
+    open_about(Vec3::UnitZ(), "yaw spring", "Torsion Spring", "tower/last", "nacelle", deck);
+    deck.set("Stiffness", turbine.yaw_drive->stiffness);
+    deck.close();
+  }
+  if (turbine.yaws() && turbine.yaw_drive->damping > 0.0) {
+    open_about(Vec3::UnitZ(), "yaw damper", "Torsion Damper", "tower/last", "nacelle", deck);
+    deck.set("Damping", turbine.yaw_drive->damping);
+    deck.close();
+  }
   if (turbine.shaft_stiffness > 0.0) {
-    open_about_shaft("shaft spring", "Torsion Spring", "generator", "hub", layout, deck);
+    open_about(layout.shaft, "shaft spring", "Torsion Spring", "generator", "hub", deck);
     deck.set("Stiffness", turbine.shaft_stiffness);
     deck.close();
   }
   if (turbine.shaft_stiffness > 0.0 && turbine.shaft_damping > 0.0) {
-    open_about_shaft("shaft damper", "Torsion Damper", "generator", "hub", layout, deck);
+    open_about(layout.shaft, "shaft damper", "Torsion Damper", "generator", "hub", deck);
     deck.set("Damping", turbine.shaft_damping);
     deck.close();
   }
@@ -367,16 +282,17 @@ void write_history(const std::string& name, const std::string& type, const std::
   deck.close();
 }
 
-void write_output(const ElastoDyn& turbine, const Layout& layout, DeckWriter& deck) {
+void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
   deck.open("Output");
   deck.open("History");
   write_history("tower top", "Displacement", "tower/last", deck);
-  write_history("tower base", "Reaction", "tower/first", deck);
+  write_history("tower base", "Reaction", turbine.platform.mass > 0.0 ? "platform" : "tower/first",
+                deck);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
     const std::string name = fmt::format("blade {}", i + 1);
     write_history(name + " tip", "Displacement", name + "/last", deck);
   }
-  open_about_shaft("rotor", "Joint Angle", "nacelle", "hub", layout, deck);
+  open_about(layout.shaft, "rotor", "Joint Angle", "nacelle", "hub", deck);
   deck.close();
   deck.open("energy", "Energy");
   deck.close();
@@ -384,13 +300,47 @@ void write_output(const ElastoDyn& turbine, const Layout& layout, DeckWriter& de
   deck.close();
 }
 
+// What a twisting tower and a yawing nacelle do, by the nacelle and a rigid rotor on a spring.
+void report_yaw(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report) {
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  const double inertia = yaw_inertia(turbine, layout);
+  const double tower = torsion_stiffness(turbine);
+  const double locked = std::sqrt(tower / inertia) / two_pi;
+  const std::string head = fmt::format(
+      "head of {:.4g} kg m^2 about the yaw axis, rotor rigid, on the tower's torsion of "
+      "{:.4g} N m/rad: {:.4g} Hz",
+      inertia, tower, locked);
+  if (turbine.yaws()) {
+    const double spring = turbine.yaw_drive->stiffness;
+    report.add(frequencies,
+               fmt::format("{} with yaw locked, {:.4g} Hz with its spring, {:.4g} Hz by the spring "
+                           "alone",
+                           head, locked / std::sqrt(1.0 + tower / spring),
+                           std::sqrt(spring / inertia) / two_pi));
+    if (turbine.yaw != turbine.yaw_drive->neutral) {
+      report.add(not_used, "NacYaw: the nacelle stands at YawNeut");
+    }
+    return;
+  }
+  report.add(frequencies, head + " with yaw locked");
+  if (!turbine.yaw_is_free) {
+    report.add(assumed, why_locked(turbine));
+    return;
+  }
+  report.add(missing,
+             fmt::format("{} Name it by --servodyn. A spring of {:.3g} N m/rad, as stiff as the "
+                         "tower, would lower "
+                         "this frequency by 29 % to {:.4g} Hz, and modes in which the rotor "
+                         "yaws with it; one ten times as stiff by 5 %",
+                         why_locked(turbine), tower, locked / std::sqrt(2.0)));
+}
+
 void report_masses(const ElastoDyn& turbine, Report& report) {
   double rotor = turbine.hub_mass;
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
     rotor += blade_mass(turbine.blades[i].beam) + turbine.tip_masses[i];
   }
-  const auto mass = along(turbine.tower.stations, height_of,
-                          [](const TowerStation& station) { return station.mass; });
+  const Cantilever cantilever = tower_cantilever(turbine, &TowerStation::fore_aft);
   double tower = 0.0;
   double moment = 0.0;
   const double height = turbine.tower_top - turbine.tower_base;
@@ -399,8 +349,8 @@ void report_masses(const ElastoDyn& turbine, Report& report) {
     const double half = 0.5 * (stations[i + 1].height - stations[i].height);
     for (const QuadraturePoint& point : gauss_legendre(2)) {  // exact for the moment
       const double x = stations[i].height + half * (1.0 + point.xi);
-      tower += half * point.weight * height * mass(x);
-      moment += half * point.weight * height * height * x * mass(x);
+      tower += half * point.weight * height * cantilever.mass(x);
+      moment += half * point.weight * height * height * x * cantilever.mass(x);
     }
   }
   report.add(masses, fmt::format("tower: {:.6g} kg, centre {:.5g} m above its base", tower,
@@ -423,6 +373,23 @@ void report_midpoint_mass(const ElastoDyn& turbine, Report& report) {
     report.add(masses, fmt::format("blade {}: ElastoDyn's sum over {} midpoints is {:.6g} kg",
                                    i + 1, turbine.blade_nodes, sum));
   }
+}
+
+// The comment at the top.
+std::vector<std::string> about(const ElastoDyn& turbine) {
+  std::vector<std::string> lines{
+      "Shows: a wind turbine under its weight, generator locked, and its modes.",
+      "Imported from " + turbine.path.filename().string() + " of OpenFAST."};
+  lines.push_back(
+      turbine.tower_base == 0.0 && turbine.platform.reference.isZero(0.0)
+          ? "x downwind, z up; origin at the foot of the tower. SI units."
+          : fmt::format("x downwind, z up from ground or mean sea level; the foot of the "
+                        "tower is at z = {:g} m. SI units.",
+                        turbine.tower_base));
+  if (stands_on_more(turbine)) {
+    lines.emplace_back("What is below the tower is not in this deck: see 'foundation'.");
+  }
+  return lines;
 }
 
 }  // namespace
@@ -450,17 +417,31 @@ void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report) {
   for (ElastoDynBlade& one : turbine.blades) one.beam = blade;
 }
 
+std::vector<Variant> variants_of(const ElastoDyn& turbine) {
+  const std::string rigid = "Structures/tower/Torsion=false";
+  const std::vector<std::string> locked{
+      "Constraints/yaw lock/Type=Joint Angle", "Constraints/yaw lock/First=tower/last",
+      "Constraints/yaw lock/Second=nacelle", "Constraints/yaw lock/Axis={0, 0, 1}",
+      "Constraints/yaw lock/Angle=0"};
+  if (!turbine.yaws()) return {{"tower does not twist", {rigid}}};
+  std::vector<std::string> both = locked;
+  both.push_back(rigid);
+  return {{"yaw locked", locked}, {"and no twist", both}};
+}
+
 std::string write_deck(ElastoDyn turbine, Report& report) {
   report_conventions(report);
   report.add(conventions,
              "turbine: x downwind, z up; azimuth and generator turn about the shaft, "
              "clockwise seen from upwind; pitch turns about -z of the blade, cone about y");
   find_blade_damping(turbine, report);
-  const double tower_damping = find_tower_damping(turbine, report);
+  const std::vector<double> tower_damping = find_tower_damping(turbine, report);
   report.add(assumed, fmt::format("mesh: {} elements per blade, {} in the tower, of order {}",
                                   blade_mesh.elements, tower_elements, blade_mesh.order));
-  report.add(assumed,
-             fmt::format("gravity {:g} m/s^2, which ElastoDyn's files do not have", gravity));
+  if (!turbine.gravity) {
+    report.add(assumed, fmt::format("gravity {:g} m/s^2, which ElastoDyn's files do not have",
+                                    standard_gravity));
+  }
   report.add(not_used,
              fmt::format("RotSpeed, {:.5g} rad/s: the rotor stands still", turbine.rotor_speed));
   report_masses(turbine, report);
@@ -470,13 +451,13 @@ std::string write_deck(ElastoDyn turbine, Report& report) {
       report_blade(turbine.blades[i].beam, report);
     }
   }
-  const Layout layout(turbine);
-  DeckWriter deck(turbine.title,
-                  {"Shows: a wind turbine under its weight, generator locked, and its modes.",
-                   "Imported from " + turbine.path.filename().string() + " of OpenFAST.",
-                   "x downwind, z up; origin at the foot of the tower. SI units."});
-  deck.variable("torsion", stiff,
-                "times GJ of the tower, which does not twist in ElastoDyn; 1: it does");
+  const TurbineLayout layout(turbine);
+  report_yaw(turbine, layout, report);
+  if (stands_on_more(turbine)) {
+    for (const std::string& line : describe_base(turbine)) report.add(missing, line);
+  }
+  DeckWriter deck(turbine.title, about(turbine));
+  deck.variable("torsion", 1.0, "times GJ of the tower");
   write_sections_list(turbine, report, deck);
   write_structures(turbine, layout, tower_damping, report, deck);
   write_masses(turbine, deck);

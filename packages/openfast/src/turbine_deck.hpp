@@ -2,9 +2,11 @@
 #pragma once
 
 #include <culm/openfast/elastodyn.hpp>
+#include <culm/openfast/import.hpp>
 #include <culm/openfast/report.hpp>
 
 #include <string>
+#include <vector>
 
 namespace culm::openfast {
 
@@ -13,6 +15,9 @@ void scale_blades(ElastoDyn& turbine, double mass, Report& report);
 
 /// Takes this blade for all of a turbine.
 void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report);
+
+/// Variants of the deck that show what tower torsion and yaw drive do to its modes.
+std::vector<Variant> variants_of(const ElastoDyn& turbine);
 
 /// A turbine on a clamped tower, generator and pitch locked, under its weight.
 std::string write_deck(ElastoDyn turbine, Report& report);

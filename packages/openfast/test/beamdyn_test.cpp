@@ -179,7 +179,8 @@ TEST_F(BeamDynFiles, DeckHasSectionsAxisAndMotion) {
         R"(<Parameter name="To" value="{0, 11.5, 0}"/>)",
         R"(<Parameter name="Pre-Twist" value="{-10, -6, 0}" unit="deg"/>)",
         R"(<Parameter name="Pre-Twist Positions" value="{0, 0.4, 1}"/>)",
-        R"(<Parameter name="Damping" value="0.002"/>)", R"(<Parameter name="Angle" value="0.5"/>)",
+        R"(<Parameter name="Strain Damping" value="{0.001, 0.001, 0.001, 0.002, 0.003, 0.004}"/>)",
+        R"(<Parameter name="Angle" value="0.5"/>)",
         R"(<Parameter name="Node" value="blade/middle"/>)"}) {
     EXPECT_THAT(deck, HasSubstr(part));
   }

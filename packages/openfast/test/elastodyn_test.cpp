@@ -4,8 +4,10 @@
 
 #include "sample_files.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -211,8 +213,174 @@ TEST_F(ElastoDynFiles, ReportHasFrequenciesMassesAndAssumptions) {
   EXPECT_THAT(report, HasSubstr("ElastoDyn has no stretch, shear and torsion"));
 }
 
+// Flap: 4 EI = 2.4e6, m phi^2 = 2.8 L; edge: EI 8e5. eta = 2 zeta / omega each, bending about y is
+// flap.
+TEST_F(ElastoDynFiles, EachDirectionHasItsOwnDamping) {
+  const std::string deck = import_file(path_).deck;
+  const double flap = 2.0 * 0.01 / std::sqrt(4.0 * 6e5 / 1e3 / 28.0);
+  const double edge = 2.0 * 0.02 / std::sqrt(4.0 * 8e5 / 1e3 / 28.0);
+  const double other = std::min(flap, edge);
+  EXPECT_THAT(
+      deck,
+      HasSubstr(fmt::format(
+          R"(<Parameter name="Strain Damping" value="{{{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}}}"/>)",
+          other, other, other, edge, flap, other)));
+  // the tower: twice the stiffness across, hence the smaller factor there, about d1
+  const double mass = 2000.0 / 5.0 + 1495.0;  // int m phi^2 over 20 m, and the head
+  const double along = 2.0 * 0.01 / std::sqrt(4.0 * 1e8 / 8e3 / mass);
+  const double across = along / std::sqrt(2.0);
+  EXPECT_THAT(
+      deck,
+      HasSubstr(fmt::format(
+          R"(<Parameter name="Strain Damping" value="{{{:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}, {:.12g}}}"/>)",
+          across, across, across, across, along, across)));
+}
+
+TEST_F(ElastoDynFiles, SecondModesAreReportedWithWhatTheyGet) {
+  std::string more = blade;
+  more = change(more, "2    BldEdDmp(1) - (%)", "3    BldFlDmp(2) - (%)\n2    BldEdDmp(1) - (%)");
+  for (int k = 2; k <= 6; ++k) {
+    more += fmt::format("{} BldFl2Sh({}) - x^{}\n", k == 2 ? 1 : k == 3 ? -1 : 0, k, k);
+  }
+  write("blade.dat", more);
+  EXPECT_THAT(import_file(path_).report, HasSubstr("blade 1, second flap:"));
+  EXPECT_THAT(import_file(path_).report, HasSubstr("damping 0.03 in the file, "));
+}
+
+constexpr const char* yawing =
+    "--- DEGREES OF FREEDOM ---\nTrue YawDOF - Yaw DOF (flag)\n"
+    "--- INITIAL CONDITIONS ---";
+
+constexpr const char* servodyn = R"~(--- SERVODYN ---
+Our yaw drive
+--- NACELLE-YAW CONTROL ---
+0     YCMode   - Yaw control mode
+90    YawNeut  - Neutral yaw position (degrees)
+4E6   YawSpr   - (N-m/rad)
+5E4   YawDamp  - (N-m/(rad/s))
+)~";
+
+constexpr const char* glue = R"~(--- OpenFAST ---
+Our scene
+--- FEATURES ---
+1         CompElast   - {1=ElastoDyn}
+1         CompServo   - {0=None; 1=ServoDyn}
+1         CompHydro   - {0=None; 1=HydroDyn}
+1         CompSub     - {0=None; 1=SubDyn}
+0         CompMooring - {0=None; 1=MAP++}
+9.7       Gravity     - (m/s^2)
+--- INPUT FILES ---
+"turbine.dat"  EDFile      - Name of file
+"servo.dat"    ServoFile   - Name of file
+"waves.dat"    HydroFile   - Name of file
+"jacket.dat"   SubFile     - Name of file
+"unused"       MooringFile - Name of file
+)~";
+
+TEST_F(ElastoDynFiles, YawIsLockedWhereTheFileSaysSo) {
+  const Imported imported = import_file(path_);
+  EXPECT_THAT(imported.deck, HasSubstr("Yaw is locked, as YawDOF says."));
+  EXPECT_THAT(imported.report, HasSubstr("Yaw is locked, as YawDOF says."));
+  EXPECT_THAT(imported.deck, Not(HasSubstr("yaw spring")));
+}
+
+TEST_F(ElastoDynFiles, YawWithoutItsSpringIsLockedAloud) {
+  write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---", yawing));
+  const Imported imported = import_file(path_);
+  EXPECT_THAT(imported.deck, HasSubstr("Yaw is locked although YawDOF is True"));
+  const auto at = imported.report.find("not in these files, and what that does");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_THAT(imported.report.substr(at), HasSubstr("Name it by --servodyn"));
+}
+
+// The nacelle stands at the neutral angle, 90 degrees from x to y: the hub, 3 m upwind, at -y.
+TEST_F(ElastoDynFiles, YawTurnsAgainstTheSpringOfServoDyn) {
+  write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---", yawing));
+  const Imported imported =
+      import_file(path_, {.blade = {}, .blade_mass = 0.0, .servodyn = write("yaw.dat", servodyn)});
+  for (const char* part : {R"(<ParameterList name="yaw spring">)", R"(value="4000000"/>)",
+                           R"(<ParameterList name="yaw damper">)", R"(value="50000"/>)"}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part));
+  }
+  EXPECT_THAT(imported.deck, Not(HasSubstr("Yaw is locked")));
+  EXPECT_THAT(imported.deck, HasSubstr("-3, 22}"));
+  ASSERT_EQ(imported.variants.size(), 2u);
+  EXPECT_EQ(imported.variants.front().name, "yaw locked");
+}
+
+// Rigid: nacelle 500 kg m^2 and hub 100 kg 3 m away, two blades of 180 kg each and 5 kg at a tip,
+// on a tower whose GJ is (1e8 + 2e8) / 2.6 over 20 m.
+TEST_F(ElastoDynFiles, FrequencyOfYawIsComputed) {
+  // along y: m = 24 - 12 x, from 1 m on, int m (1 + 10 x)^2 10 dx
+  const double blades =
+      2.0 * 10.0 * (24.0 * (1.0 + 10.0 + 100.0 / 3.0) - 12.0 * (0.5 + 20.0 / 3.0 + 25.0)) +
+      5.0 * 121.0 + 365.0 * 9.0;
+  const double inertia = 500.0 + 100.0 * 9.0 + blades;
+  const double torsion = 3e8 / 2.6 / 20.0;
+  EXPECT_THAT(import_file(path_).report,
+              HasSubstr(fmt::format("{:.4g} Hz with yaw locked",
+                                    std::sqrt(torsion / inertia) / (2.0 * std::numbers::pi))));
+}
+
+TEST_F(ElastoDynFiles, TheFileOfAllModulesIsFoundOrGiven) {
+  write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---", yawing));
+  write("servo.dat", servodyn);
+  const auto all = write("scene.fst", glue);
+  for (const auto& path : {path_, all}) {
+    const Imported imported = import_file(path);
+    EXPECT_THAT(imported.deck, HasSubstr("yaw spring"));
+    EXPECT_THAT(imported.deck, HasSubstr("{0, 0, -9.7}"));
+    EXPECT_THAT(imported.report,
+                HasSubstr("not imported: HydroDyn (waves.dat), SubDyn (jacket.dat)"));
+    EXPECT_THAT(imported.deck, HasSubstr("SubDyn (jacket.dat)"));
+  }
+}
+
+TEST_F(ElastoDynFiles, AServoDynFileThatIsNotThereIsMissed) {
+  write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---", yawing));
+  write("scene.fst", glue);
+  EXPECT_THAT(import_file(path_).report, HasSubstr("servo.dat, which is not there"));
+}
+
+TEST_F(ElastoDynFiles, TowersOnAPileSayWhatIsMissing) {
+  write("turbine.dat", change(turbine, "20    TowerHt     - (m)",
+                              "30 TowerHt - (m)\n10 TowerBsHt - (m)\n-20 PtfmRefzt - (m)"));
+  const Imported imported = import_file(path_);
+  EXPECT_THAT(imported.deck, HasSubstr("the foot of the tower is at z = 10 m"));
+  EXPECT_THAT(imported.deck, HasSubstr(R"(<Parameter name="From" value="{0, 0, 10}"/>)"));
+  for (const std::string& text : {imported.deck, imported.report}) {
+    EXPECT_THAT(text, HasSubstr("the tower is clamped at its base, z = 10 m"));
+    EXPECT_THAT(text, HasSubstr("what is between there and z = -20 m is not in ElastoDyn's files"));
+    EXPECT_THAT(text, HasSubstr("if its lowest section went down to z = -20 m"));
+  }
+}
+
+TEST_F(ElastoDynFiles, PlatformsAreImportedAndHeldAloud) {
+  std::string afloat = change(turbine, "--- INITIAL CONDITIONS ---",
+                              "True PtfmSgDOF - surge\nTrue PtfmPDOF - pitch\n"
+                              "--- INITIAL CONDITIONS ---");
+  afloat = change(afloat, "--- BLADE ---",
+                  "4E5 PtfmMass - (kg)\n1E8 PtfmRIner - (kg m^2)\n2E8 PtfmPIner - (kg m^2)\n"
+                  "3E8 PtfmYIner - (kg m^2)\n-8 PtfmCMzt - (m)\n--- BLADE ---");
+  write("turbine.dat", afloat);
+  const Imported imported = import_file(path_);
+  for (const char* part :
+       {R"(<ParameterList name="platform">)", R"(<Parameter name="Mass" value="400000"/>)",
+        R"(<Parameter name="Centre" value="{0, 0, -8}"/>)",
+        R"(<Parameter name="Inertia" value="{100000000, 200000000, 300000000}"/>)",
+        R"(<Parameter name="Node" value="platform"/>)"}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part));
+  }
+  EXPECT_THAT(imported.report, HasSubstr("the platform moves in surge, pitch: held here"));
+  EXPECT_THAT(imported.report, HasSubstr("Hz on the platform of 400000 kg afloat"));
+}
+
+TEST_F(ElastoDynFiles, TowersOnTheGroundLeaveNothingOut) {
+  EXPECT_THAT(import_file(path_).report, Not(HasSubstr("not in these files")));
+}
+
 TEST_F(ElastoDynFiles, BladesCanBeScaledToTheirMass) {
-  const Imported imported = import_file(path_, {.blade = {}, .blade_mass = 360.0});
+  const Imported imported = import_file(path_, {.blade = {}, .blade_mass = 360.0, .servodyn = {}});
   EXPECT_THAT(imported.report, HasSubstr("blade 1: masses times 2, for 360 kg"));
   EXPECT_THAT(imported.deck, HasSubstr(R"(<Parameter name="rhoA" value="48"/>)"));
 }
@@ -220,6 +388,8 @@ TEST_F(ElastoDynFiles, BladesCanBeScaledToTheirMass) {
 TEST_F(ElastoDynFiles, MistakesAreNamedWithTheirPlace) {
   EXPECT_THAT(message_of("turbine.dat", change(turbine, "11    TipRad", "0.5   TipRad")),
               EndsWith("turbine.dat:11: TipRad: must be above HubRad, 1, got 0.5"));
+  EXPECT_THAT(message_of("turbine.dat", change(turbine, "20    TowerHt", "-1    TowerHt")),
+              EndsWith("TowerHt: must be above TowerBsHt, 0, got -1"));
   EXPECT_THAT(message_of("turbine.dat", change(turbine, "2     NumBl", "4     NumBl")),
               EndsWith("turbine.dat:10: NumBl: must be 1, 2 or 3, got 4"));
   EXPECT_THAT(message_of("turbine.dat", change(turbine, "False Furling", "True  Furling")),
@@ -248,9 +418,9 @@ TEST_F(ElastoDynFiles, UnknownEntriesAreReported) {
 
 TEST_F(ElastoDynFiles, PartsAndOptionsWithoutATurbineAreRefused) {
   EXPECT_THROW(import_file(write("blade.dat", blade)), InputError);
-  EXPECT_THROW(
-      import_file(write("a.dat", "1\n2\n3 kp_total - x"), {.blade = {}, .blade_mass = 1.0}),
-      UsageError);
+  EXPECT_THROW(import_file(write("a.dat", "1\n2\n3 kp_total - x"),
+                           {.blade = {}, .blade_mass = 1.0, .servodyn = {}}),
+               UsageError);
 }
 
 }  // namespace

@@ -26,20 +26,44 @@ struct FileMode {
   double damping = 0.0;  ///< over the critical one
 };
 
+/// Modes of one direction of bending; the second one where the file has it.
+struct FileModes {
+  FileMode first;
+  std::optional<FileMode> second;
+};
+
+/// What is below the tower: the platform, which ElastoDyn holds where it has no degree of freedom.
+struct Platform {
+  std::array<bool, 6> free{};        ///< surge, sway, heave, roll, pitch, yaw
+  Vec3 reference = Vec3::Zero();     ///< of its motion [m]
+  double mass = 0.0;                 ///< [kg]
+  Vec3 centre = Vec3::Zero();        ///< of mass [m]
+  Vec3 inertia = Vec3::Zero();       ///< about its centre, roll, pitch, yaw [kg m^2]
+  std::vector<std::string> modules;  ///< that carry it, with their files
+};
+
+/// The yaw drive, as ServoDyn's file describes it.
+struct YawDrive {
+  std::filesystem::path path;
+  double stiffness = 0.0;  ///< [N m/rad]
+  double damping = 0.0;    ///< [N m s/rad]
+  double neutral = 0.0;    ///< angle about z [rad]
+};
+
 /// The tower.
 struct ElastoDynTower {
   std::filesystem::path path;
   std::string title;
   std::vector<TowerStation> stations;
-  FileMode fore_aft;   ///< first mode along the wind
-  FileMode side_side;  ///< first mode across
+  FileModes fore_aft;   ///< along the wind
+  FileModes side_side;  ///< across
 };
 
 /// A blade: sections and axis in BeamDyn's terms, what the file does not have assumed.
 struct ElastoDynBlade {
   BeamDyn beam;
-  FileMode flap;  ///< first modes
-  FileMode edge;
+  FileModes flap;
+  FileModes edge;
 };
 
 /// A turbine. Lengths in m, angles in rad. Downwind is x, up is z.
@@ -69,9 +93,19 @@ struct ElastoDyn {
   double shaft_stiffness = 0.0;  ///< [N m/rad]
   double shaft_damping = 0.0;    ///< [N m s/rad]
   double rotor_speed = 0.0;      ///< [rad/s]
-  int blade_nodes = 0;           ///< in ElastoDyn: midpoints of equal parts
+  double yaw = 0.0;              ///< of the nacelle about z, at the start [rad]
+  bool yaw_is_free = false;      ///< YawDOF
+  std::optional<YawDrive> yaw_drive;
+  Platform platform;
+  std::optional<double> gravity;  ///< [m/s^2]
+  int blade_nodes = 0;            ///< in ElastoDyn: midpoints of equal parts
   std::vector<ElastoDynBlade> blades;
   ElastoDynTower tower;
+
+  /// Whether the nacelle turns against a spring; without one it would turn without end.
+  bool yaws() const { return yaw_is_free && yaw_drive && yaw_drive->stiffness > 0.0; }
+  /// Angle about z at which the nacelle stands [rad].
+  double yaw_angle() const { return yaws() ? yaw_drive->neutral : yaw; }
 };
 
 /// Reads a main file and the blade and tower files that it names; tells the report what it found,
