@@ -10,7 +10,7 @@ namespace {
 using Beam = DirectorBeam<2>;
 constexpr const char* effect = "beam";
 
-// One element with a coupled section, and no inertia.
+// One element with a coupled section.
 kit::FillModel with(const model::StrainDamping& damping) {
   return [damping](model::Model& model) {
     const auto slots = DirectorBeamCase<2>::reference();
@@ -54,7 +54,7 @@ struct Step {
 
   model::Model model;
   model::State state;
-  Stencil stencil = Stencil::midpoint(0.4);
+  Stencil stencil{0.4, 0.5, 0.5, 0.0};  // of a step without inertia
   model::Batch* batch = nullptr;
   Eigen::VectorXd force;
 };
