@@ -277,7 +277,7 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
   }
   const ShellOptions choice = read_options(options);
   const material::Material& material = layup->layers.front().material;
-  auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping});
+  auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping, {}});
   std::vector<int> items;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
@@ -294,7 +294,7 @@ void add_linear(const ShellMesh& mesh, const std::shared_ptr<const material::Lay
   const ShellOptions choice = read_options(options);
   const material::Material& material = layup->layers.front().material;
   auto& batch = model::elements<LinearShell>(model, "Shell, linear",
-                                             {material.dissipation, material.damping});
+                                             {material.dissipation, material.damping, {}});
   const int frame = add_frame(structure.name, structure.nodes, model);
   std::vector<int> items;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {

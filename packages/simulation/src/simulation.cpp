@@ -74,8 +74,9 @@ struct Simulation::Parts {
   Phases phases = Phases(catalogue, deck, imperfections, log, memory);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
   Ledger ledger = {};
-  std::size_t present = 0;               ///< the analysis whose phase the state belongs to
-  analysis::ElementTurn reference_turn;  ///< the largest one without load; its share tells if any
+  std::size_t present = 0;  ///< the analysis whose phase the state belongs to
+  analysis::ElementTurn reference_turn =
+      {};  ///< the largest one without load; its share tells if any
 
   void warn_of_reference();
 };
@@ -258,7 +259,7 @@ void Simulation::examine() {
     }
     model::State state = phase.model->initial_state();
     start_analysis(i, state);
-    analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log};
+    analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
     p.catalogue.analyses.make(entries[i].text("Type"), entries[i])->examine(context, state);
   }
 }
