@@ -193,7 +193,7 @@ PARTS = {
         "--quiet",
         *settings("Analyses/released/Step=0.01", "Analyses/let down/Steps=3", "Output/Every=3"),
     ],
-    "imperfection": [INPUTS / "sequence/bent_column.xml", "--quiet", *settings("Analyses/bent/Steps=10")],
+    "imperfection": [INPUTS / "sequence/bent_column.xml", "--quiet", *settings("Analyses/bent/Final Level=0.7")],
 }
 
 

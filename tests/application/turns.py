@@ -39,9 +39,7 @@ def tells_the_error(folder, printed):
     if abs(estimate - error) > 1e-3:
         return f"the strain energy is off by {error:.4f}, said is {estimate:.4f}"
     page = (folder / "out/report.html").read_text()
-    if '<p class="warning">warning: element 0 of ' not in page:
-        return "the page does not say it"
-    return "" if ORDER_1.replace("'", "&#x27;") in page else "the page says something else"
+    return "" if ORDER_1.replace("'", "&#x27;") in page else "the page does not say it"
 
 
 CASES = [
@@ -51,7 +49,6 @@ CASES = [
         change=BENT,
         args="run deck.xml --output out --report",
         says=["warning: " + ORDER_1 + ERRORS],
-        prints=["warning: " + ORDER_1 + ERRORS],
         leaves=["out"],
         check=tells_the_error,
     ),
@@ -84,7 +81,6 @@ CASES = [
         change=BENT,
         args="run deck.xml --output out --set Structures/beam/Fidelity=Kirchhoff",
         says=["warning: " + ORDER_1 + ERRORS],
-        prints=["warning: "],
         leaves=["out"],
     ),
     Case(
@@ -97,7 +93,6 @@ CASES = [
             "of 'bend': its strain energy under a given load is 13.3 % too high, its moment for this turn 7.97 % and "
             "its stiffness against further turns 23.5 % too low; take 'Fidelity' = Full"
         ],
-        prints=["warning: "],
         leaves=["out"],
     ),
     Case(
@@ -105,7 +100,6 @@ CASES = [
         0,
         change=under(f"{{{0.5 * MOMENT}, 0, 0}}"),  # its torsion stiffness is half of EI
         says=["warning: " + ORDER_1 + ERRORS],
-        prints=["warning: "],
         leaves=["out"],
     ),
     Case(

@@ -174,6 +174,9 @@ double Buckling::reference_level(const model::State& state) const {
 
 void Buckling::start(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
+  const Stencil stencil = Stencil::statics();
+  context.system.begin_step(state, stencil);
+  context.system.choose_multiplier_scale(state, stencil);  // in which the step has its multipliers
   step_ = linear_step(context, state, reference_level(state));
 }
 
