@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 namespace culm::analysis {
@@ -412,23 +413,24 @@ class Shaft : public Observer {
     model::elements<Twist>(model, "Twist").add(Twist(), {held, end_});
     model.add_load(std::make_unique<Push>(end_, Vec3::Zero(), Vec3::UnitX()));
     model.freeze(model::Form::null_space);
+    system.emplace(model, comm, ledger);
     settings.first_increment = 0.05;
     settings.limit_points = 1;
     settings.watch = WatchSettings{{}, "b/0", Vec3::UnitY()};
   }
 
   AnalysisReport follow() {
-    assembly::System system(model, comm, ledger);
-    const auto linear = solver::make_rooted_klu2(system.matrix(), comm);
+    const auto linear = solver::make_rooted_klu2(system->matrix(), comm);
     model::State state = model.initial_state();
     Findings findings(log);
-    Context context{system, *linear, ledger, log, findings};
+    Context context{*system, *linear, ledger, log, findings};
     PathFollowing path(settings);
     return path.run(context, state, *this);
   }
 
   void step(const StepReport& report, model::State& now) override {
     if (!report.accepted) return;
+    system->synchronise(now);  // on other ranks too
     const auto d = model::NodeTable::slots(now.next, end_);
     angles.push_back(std::atan2(d(2, 2), d(1, 2)));
     levels.push_back(now.time);
@@ -443,6 +445,7 @@ class Shaft : public Observer {
   std::ostringstream said;
   Log log{said, LogLevel::info};
   model::Model model;
+  std::optional<assembly::System> system;
   int end_ = -1;
 };
 

@@ -115,7 +115,7 @@ class ElementLaws : public ElementFixture {
   }
 
   void tangent_is_stress_derivative() const {
-    for (const Stencil& stencil : law_stencils) {
+    for (const Stencil& stencil : element_stencils) {
       for (int p = 0; p < element.num_points(); ++p) {
         const Eigen::VectorXd prev = element.strain(p, q0);
         const Eigen::VectorXd next = element.strain(p, q1);
@@ -184,7 +184,7 @@ class ElementLaws : public ElementFixture {
   void inverted_input_has_a_verdict() const {
     if (const auto inverted = element.inverted()) {
       const Eigen::VectorXd y = element.strain(0, *inverted);
-      for (const Stencil& stencil : law_stencils) {
+      for (const Stencil& stencil : element_stencils) {
         const auto answer = element.respond(0, element.strain(0, q0), y, stencil);
         EXPECT_EQ(answer.verdict, Verdict::inverted_element);
         EXPECT_TRUE(answer.stress.allFinite());

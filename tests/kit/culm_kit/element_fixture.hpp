@@ -17,7 +17,7 @@ namespace culm::kit {
 using AnySlots = Eigen::Matrix3Xd;
 
 /// The steps of statics, of the conserving scheme, and with half and full numerical dissipation.
-inline constexpr Stencil law_stencils[] = {
+inline constexpr Stencil element_stencils[] = {
     Stencil::statics(), Stencil::midpoint(0.1), {0.1, 0.5, 0.75}, {0.1, 0.5, 1.0}};
 
 /// An element made by a case, its kernels with values of dynamic size as results: the laws compile
@@ -122,7 +122,7 @@ class ElementOf final : public AnyElement {
       element_.strain(p, q, y);
       element_.gradient(p, q, B);
       element_.add_curvature(p, y, A);
-      for (const Stencil& stencil : law_stencils) {
+      for (const Stencil& stencil : element_stencils) {
         element_.respond(p, y, y, stencil, response);
         sum += response.stress.sum() + response.tangent.sum();
       }
