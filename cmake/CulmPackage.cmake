@@ -129,20 +129,17 @@ function(culm_choose_layer name)
     set_property(GLOBAL PROPERTY CULM_${name}_PRECOMPILE ${arg_PRECOMPILE})
   endif()
   set_property(GLOBAL PROPERTY CULM_${name}_LAYER ${layer})
-  set_property(GLOBAL PROPERTY CULM_${name}_LAYER_BELOW ${below})
 endfunction()
 
-# culm_precompile(target layer use): the target compiles with the headers of a layer, for SOURCES, for
-# TESTS or to compile HEADERS alone. The first target of a layer and use makes them, the others share.
+# culm_precompile(target layer use): the target compiles with the headers of a layer, for SOURCES or
+# for TESTS. The first target of a layer and use makes them, the others share.
 function(culm_precompile target layer use)
   get_property(owner GLOBAL PROPERTY CULM_${layer}_${use}_PRECOMPILED)
   if(owner)
     target_precompile_headers(${target} REUSE_FROM ${owner})
   else()
     get_property(headers GLOBAL PROPERTY CULM_${layer}_PRECOMPILE)
-    if(use STREQUAL HEADERS)
-      list(GET headers 0 headers)
-    elseif(use STREQUAL TESTS)
+    if(use STREQUAL TESTS)
       list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
     endif()
     target_precompile_headers(${target} PRIVATE ${headers})
@@ -221,16 +218,9 @@ function(culm_add_parallel_test test ranks program)
   )
 endfunction()
 
-# A header that compiles alone includes all it needs. One that includes the first header of its layer
-# anyway, directly or not, may find that precompiled: nothing is declared then that it does not ask
-# for. A package that begins a layer looks at the layer below.
+# A header that compiles alone includes all it needs; nothing is precompiled for it, so nothing is
+# declared that it does not ask for.
 macro(culm_add_header_check name)
-  get_property(layer GLOBAL PROPERTY CULM_${name}_LAYER)
-  if(layer STREQUAL "${name}")
-    get_property(layer GLOBAL PROPERTY CULM_${name}_LAYER_BELOW)
-  endif()
-  get_property(shared GLOBAL PROPERTY CULM_${layer}_PRECOMPILE)
-  list(POP_FRONT shared first)
   set(units)
   foreach(header IN LISTS headers)
     file(RELATIVE_PATH path ${folder}/include ${header})
@@ -238,39 +228,12 @@ macro(culm_add_header_check name)
     set(unit ${CMAKE_CURRENT_BINARY_DIR}/headers/${unit}.cpp)
     file(CONFIGURE OUTPUT ${unit} CONTENT "#include <${path}>\n")
     list(APPEND units ${unit})
-    culm_find_included(${path} included)
-    if(NOT "${first}" IN_LIST included)
-      set_source_files_properties(${unit} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-    endif()
   endforeach()
-  # what they include may change
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
   add_library(culm_${name}_headers OBJECT ${units})
   target_link_libraries(culm_${name}_headers PRIVATE ${target})
   culm_finish_target(culm_${name}_headers)
-  if(layer)
-    culm_precompile(culm_${name}_headers ${layer} HEADERS)
-  endif()
+  target_compile_options(culm_${name}_headers PRIVATE -O0)
 endmacro()
-
-# All headers of culm that one of them includes, directly or not.
-function(culm_find_included path result)
-  get_property(known GLOBAL PROPERTY CULM_INCLUDED_${path} SET)
-  if(NOT known)
-    string(REGEX REPLACE "^culm/([^/]+)/.*" "packages/\\1/include/${path}" file ${path})
-    file(STRINGS ${PROJECT_SOURCE_DIR}/${file} lines REGEX "^#include <culm/[^>]+>")
-    set(all)
-    foreach(line IN LISTS lines)
-      string(REGEX REPLACE "^#include <([^>]+)>.*" "\\1" direct "${line}")
-      culm_find_included(${direct} further)
-      list(APPEND all <${direct}> ${further})
-    endforeach()
-    list(REMOVE_DUPLICATES all)
-    set_property(GLOBAL PROPERTY CULM_INCLUDED_${path} "${all}")
-  endif()
-  get_property(all GLOBAL PROPERTY CULM_INCLUDED_${path})
-  set(${result} "${all}" PARENT_SCOPE)
-endfunction()
 
 # Makes `find_package(culm)` work after `cmake --install`.
 function(culm_install_config)

@@ -140,9 +140,9 @@ def verify_linkage(culm, report):
         found = frequencies(culm, deck, [*rigid, f"Solver/Form={form}", "Analyses/modes/Solver=Dense"])
         report.check(f"{form}, rigid bars: as many modes at 0 Hz", sum(f == 0.0 for f in found), 7, 0)
         report.check("    and no others", len(found), 7, 0)
-        # a Krylov space holds but one vector of a value, and here all are zero
-        run = culm.run(deck, [*rigid, f"Solver/Form={form}", "Analyses/modes/Solver=Spectra"])
-        report.check(f"{form}, rigid bars, Spectra: exit code", run.exit, 4, 0)
+        # a Krylov space holds but one vector of a value, and here all are zero: whole matrices serve
+        found = frequencies(culm, deck, [*rigid, f"Solver/Form={form}", "Analyses/modes/Solver=Spectra"])
+        report.check(f"{form}, rigid bars, Spectra: as many modes at 0 Hz", sum(f == 0.0 for f in found), 7, 0)
 
 
 def l_frame_exact(rotary, shear=5.0 / 6.0):

@@ -244,7 +244,7 @@ HYBRID_DECK = "hybrid/half_frame.xml"
 
 def hybrid(culm, n):
     """Level, u, v of the loaded point, and the events."""
-    settings = [f"n={n}", "Analyses/snap/Largest Length=60", "Analyses/snap/Limit Points=3"]
+    settings = [f"n={n}", "Analyses/snap/Largest Length=60", "Analyses/snap/Limit Points=2"]
     settings += ["Analyses/snap/Steps=90", "Solver/Linear Solver=MUMPS"]
     history, events = follow(culm, HYBRID_DECK, settings)
     return curve_of(history, "load point uz [m]", "load point uy [m]"), events

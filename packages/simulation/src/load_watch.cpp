@@ -53,14 +53,28 @@ bool LoadWatch::any_acted() const {
 }
 
 void LoadWatch::report(const model::State& state, Findings& findings) const {
-  for (const Load& load : loads_) {
-    if (load.seen != Seen::held) continue;
-    findings.broken(
-        "idle load",
-        fmt::format("{} moves nothing: all of it acts where supports hold the model and "
-                    "goes straight into them",
-                    title(*load.batch)),
-        state.time);
+  const auto count = [&](Seen seen) {
+    return std::count_if(loads_.begin(), loads_.end(),
+                         [&](const Load& load) { return load.seen == seen; });
+  };
+  const auto held = count(Seen::held);
+  if (held == 0) return;
+  const auto first = std::find_if(loads_.begin(), loads_.end(),
+                                  [](const Load& load) { return load.seen == Seen::held; });
+  const std::string text =
+      held == 1 ? fmt::format(
+                      "{} moves nothing: all of it acts where supports hold the model and "
+                      "goes straight into them",
+                      title(*first->batch))
+                : fmt::format(
+                      "{} loads, {} the first of them, move nothing: all of them act where "
+                      "supports hold the model and go straight into them",
+                      held, title(*first->batch));
+  // shares that consistent loads have at supports belong to loads that act
+  if (count(Seen::moving) == 0) {
+    findings.broken("idle load", text, state.time);
+  } else {
+    findings.warn("idle load", text, state.time);
   }
 }
 

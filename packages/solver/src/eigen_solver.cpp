@@ -101,7 +101,8 @@ InvertedPairs solve(const ShiftedPencil& op, int count, EigenPairs& result) {
   if (result.solver != "Dense") {
     pairs = result.solver == "Anasazi" ? search(op, count, solve_krylov_schur, result.note)
                                        : search(op, count, solve_lanczos, result.note);
-    if (pairs.nu.size() > 0) return pairs;
+    // where all values are one, what is found may be no number
+    if (pairs.nu.size() > 0 && pairs.nu.allFinite() && pairs.vectors.allFinite()) return pairs;
     if (op.inverse.size() > largest_dense) throw_unconverged(pairs.convergence, count);
     add_note("the Krylov space did not hold the eigenvalues, so whole matrices were reduced",
              result.note);
@@ -123,6 +124,7 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const Eigen::Index finite =
       (pairs.nu.array().abs() > 1e2 * eps * pairs.nu.cwiseAbs().maxCoeff()).count();
+  if (finite == 0) throw_broken_down();
   result.are_all = result.solver == "Dense" || finite < pairs.nu.size();
   pairs = {pairs.nu.head(finite), pairs.vectors.leftCols(finite)};
   if (const auto shift = clear_shift(pairs.nu, settings.shift); shift && may_move) {
