@@ -2,8 +2,7 @@
 #   DEPENDS     packages whose headers ours include
 #   EXTERNAL    culm_external:: targets that our public headers include
 #   PRIVATE     culm_external:: targets used in src/ and test/ only
-#   PRECOMPILE  headers to precompile: this package begins a layer, see below; the first of them is
-#               the one that the headers of the layer include
+#   PRECOMPILE  headers to precompile: this package begins a layer, see below
 #   RANKS       process counts on which the tests run as well, under mpiexec)
 #
 # The folder is its own file list: include/culm/NAME/*.hpp, src/*.cpp, test/*_test.cpp. Makes
@@ -112,16 +111,15 @@ endfunction()
 function(culm_choose_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PRECOMPILE;DEPENDS")
   get_property(layers GLOBAL PROPERTY CULM_LAYERS)
-  set(below)
+  set(layer)
   foreach(dependency IN LISTS arg_DEPENDS)
     get_property(its_layer GLOBAL PROPERTY CULM_${dependency}_LAYER)
     list(FIND layers "${its_layer}" place)
-    list(FIND layers "${below}" highest)
+    list(FIND layers "${layer}" highest)
     if(place GREATER highest)
-      set(below ${its_layer})
+      set(layer ${its_layer})
     endif()
   endforeach()
-  set(layer ${below})
   if(arg_PRECOMPILE)
     set(layer ${name})
     set_property(GLOBAL APPEND PROPERTY CULM_LAYERS ${name})
