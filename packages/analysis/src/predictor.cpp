@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace culm::analysis {
@@ -77,18 +76,19 @@ void Predictor::accept(const model::State& state, double step) {
 // Rotations count by a tenth of the length of the model, as along paths.
 double Predictor::measure_reversal(const Motions& start, const MeanVelocity& now) const {
   const double arm = PathCondition::turning_arm(system_.model());
-  Motions before(start.size()), after(start.size());
-  for (std::size_t node = 0; node < start.size(); ++node) {
-    before[node] = start[node] - past_.front().values[node];
-    after[node] = now.values[node] - start[node];
-    for (Motions* change : {&before, &after}) (*change)[node].tail<3>() *= arm;
+  std::array<double, 3> products{};  // before . before, after . after, before . after
+  for (const int i : system_.owned_nodes()) {
+    const auto node = static_cast<std::size_t>(i);
+    Vec6 before = start[node] - past_.front().values[node];
+    Vec6 after = now.values[node] - start[node];
+    for (Vec6* change : {&before, &after}) change->tail<3>() *= arm;
+    products[0] += before.squaredNorm();
+    products[1] += after.squaredNorm();
+    products[2] += before.dot(after);
   }
-  const std::vector<double> a = system_.gather_motions(before);
-  const std::vector<double> b = system_.gather_motions(after);
-  const double squares = std::inner_product(a.begin(), a.end(), a.begin(), 0.0) *
-                         std::inner_product(b.begin(), b.end(), b.begin(), 0.0);
-  const double product = std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-  return squares > 0.0 ? product / std::sqrt(squares) : 1.0;
+  system_.comm().sum(products);
+  const double squares = products[0] * products[1];
+  return squares > 0.0 ? products[2] / std::sqrt(squares) : 1.0;
 }
 
 void Predictor::save(Snapshot& snapshot) const {

@@ -39,11 +39,6 @@ StepControl::StepControl(const assembly::System& system, const StepSettings& set
                          double error_constant)
     : system_(system), settings_(settings), error_constant_(error_constant) {
   memory_.next = settings_.adaptive ? start * settings_.step : settings_.step;
-  const model::Model& model = system.model();
-  for (int node = 0; node < model.nodes().size(); ++node) {
-    const int block = model.unknowns().node_block(node);
-    if (system.layout().owners()[index(block)] == system.comm().rank()) nodes_.push_back(node);
-  }
   if (settings_.adaptive) slot_scale_ = error_scales(system);
 }
 
@@ -73,7 +68,7 @@ model::NodeSlots StepControl::mean_acceleration(const model::NodeSlots& velocity
 // The third derivative from the last four configurations, by divided differences.
 double StepControl::estimate_error(const model::State& state, double h) const {
   double largest = 0.0;
-  for (int node : nodes_) {
+  for (int node : system_.owned_nodes()) {
     const model::NodeSlots change = mean_acceleration(mean_velocity(state, h, node), h, node) -
                                     model::NodeTable::slots(memory_.acceleration, node);
     for (int s = 0; s < 4; ++s) {
@@ -87,7 +82,7 @@ double StepControl::estimate_error(const model::State& state, double h) const {
 void StepControl::remember(const model::State& state, double h) {
   memory_.velocity.resize(state.next.size());
   memory_.acceleration.resize(state.next.size());
-  for (int node : nodes_) {
+  for (int node : system_.owned_nodes()) {
     const model::NodeSlots velocity = mean_velocity(state, h, node);
     if (memory_.last > 0.0) {
       model::NodeTable::slots(memory_.acceleration, node) = mean_acceleration(velocity, h, node);
@@ -100,7 +95,7 @@ void StepControl::remember(const model::State& state, double h) {
 // which may change its length; tan(angle / 2)^2 = (1 - cos) / (1 + cos)
 double StepControl::largest_turn(const model::State& state) const {
   double cosine = 1.0;
-  for (int node : nodes_) {
+  for (int node : system_.owned_nodes()) {
     const auto prev = model::NodeTable::slots(state.prev, node);
     const auto next = model::NodeTable::slots(state.next, node);
     const bool is_triad = system_.model().nodes().kind(node) == NodeKind::node12;

@@ -54,6 +54,9 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
   for (const auto& batch : model.loads()) driven_.push_back(batch.get());
   for (int node = 0; node < model.nodes().size(); ++node) {
     if (model.nodes().is_slave(node)) slaves_.push_back(node);
+    if (layout_.owners()[index(unknowns.node_block(node))] == comm_.rank()) {
+      owned_nodes_.push_back(node);
+    }
   }
   matrix_ = Teuchos::rcp(new CrsMatrix(layout_.graph()));
   matrix_->fillComplete(layout_.row_map(), layout_.row_map());

@@ -103,10 +103,9 @@ void System::move_nodes(model::State& state, const Motions& motions) const {
 }
 
 std::vector<double> System::gather_motions(const Motions& motions) const {
-  std::vector<double> numbers;
-  for (int node = 0; node < model_.nodes().size(); ++node) {
-    const bool mine = layout_.owners()[index(model_.unknowns().node_block(node))] == comm_.rank();
-    for (int i = 0; i < 6; ++i) numbers.push_back(mine ? motions[index(node)][i] : nothing);
+  std::vector<double> numbers(6 * motions.size(), nothing);
+  for (const int node : owned_nodes_) {
+    Eigen::Map<Vec6>(numbers.data() + 6 * node) = motions[index(node)];
   }
   comm_.sum(numbers);
   return numbers;

@@ -85,7 +85,6 @@ class StepControl {
   StepMemory memory_;
   std::optional<double> error_;
   double turn_ = 0.0;  ///< |tau| = 2 tan(angle / 2) of the last judged step, the largest of a node
-  std::vector<int> nodes_;          ///< whose unknowns this rank owns, and their followers
   std::vector<double> slot_scale_;  ///< what an error counts, by slot; zero without mass
 };
 

@@ -142,6 +142,8 @@ class System {
   const Vector& residual() const { return *residual_; }
   const Teuchos::RCP<const CrsMatrix>& matrix() const { return matrix_view_; }
   const Layout& layout() const { return layout_; }
+  /// Whose blocks this rank owns, eliminated ones with their masters' included; rising.
+  const std::vector<int>& owned_nodes() const { return owned_nodes_; }
   const model::Model& model() const { return model_; }
   const parallel::Comm& comm() const { return comm_; }
 
@@ -167,6 +169,7 @@ class System {
   Ledger::Id update_effect_;
   model::VelocityDissipation* velocity_dissipation_ = nullptr;  ///< needs all nodes on all ranks
   std::vector<int> slaves_;
+  std::vector<int> owned_nodes_;
   std::vector<double> reactions_;           ///< owned ones
   std::vector<double> gathered_reactions_;  ///< all
   Teuchos::RCP<CrsMatrix> matrix_;
