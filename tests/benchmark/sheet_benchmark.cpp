@@ -77,7 +77,7 @@ class Plate {
         std::make_unique<solver::NewtonSolver>(*system, *linear, solver::NewtonSettings{}, ledger);
     state = model.initial_state();
     state.time = 1.0;
-    system->begin_step(state, Stencil::statics());
+    system->prepare(state, Stencil::statics());
     system->choose_multiplier_scale(state, Stencil::statics());
     system->evaluate(state, Stencil::statics(), Want::residual_and_tangent);
     linear->factor();
@@ -143,7 +143,7 @@ void Plate_LoadStep(benchmark::State& run, const char* name) {
   double iterations = 0.0;
   for (auto _ : run) {
     plate.state = start;
-    plate.system->begin_step(plate.state, Stencil::statics());
+    plate.system->prepare(plate.state, Stencil::statics());
     const solver::StepOutcome outcome = plate.newton->solve(plate.state, Stencil::statics());
     if (!outcome.converged()) run.SkipWithError("the step did not converge");
     iterations += outcome.iterations;

@@ -57,7 +57,7 @@ class Cantilever {
         std::make_unique<solver::NewtonSolver>(*system, *linear, solver::NewtonSettings{}, ledger);
     state = model.initial_state();
     state.time = 1.0;
-    system->begin_step(state, Stencil::statics());
+    system->prepare(state, Stencil::statics());
     system->choose_multiplier_scale(state, Stencil::statics());
   }
 
@@ -144,7 +144,7 @@ void NewtonIteration(benchmark::State& run, Form form) {
   double iterations = 0.0;
   for (auto _ : run) {
     c.state = start;
-    c.system->begin_step(c.state, Stencil::statics());
+    c.system->prepare(c.state, Stencil::statics());
     const solver::StepOutcome outcome = c.newton->solve(c.state, Stencil::statics());
     if (!outcome.converged()) run.SkipWithError("the step did not converge");
     iterations += outcome.iterations;

@@ -33,11 +33,11 @@ Vector linear_step(Context& context, model::State at, double level) {
   const double present = at.time;
   at.prev = at.next;
   at.time = at.time_prev = level;
-  system.begin_step(at, stencil);
+  system.prepare(at, stencil);
   system.evaluate(at, stencil, Want::residual);
   Vector load(system.residual(), Teuchos::Copy);
   at.time = at.time_prev = present;
-  system.begin_step(at, stencil);
+  system.prepare(at, stencil);
   const assembly::Evaluation found = system.evaluate(at, stencil, Want::residual_and_tangent);
   load.update(1.0, system.residual(), -1.0);
   const double size = system.comm().max(load.normInf());
@@ -65,7 +65,7 @@ Teuchos::RCP<const CrsMatrix> stress_stiffness(Context& context, model::State at
   const Stencil stencil = Stencil::statics();
   const model::Coordinates q = at.next;
   at.time = at.time_prev = level;
-  system.begin_step(at, stencil);
+  system.prepare(at, stencil);
   system.extrapolate(at, stencil, step, 1.0);
   system.move(at, step, 1.0);
   at.next = q;
@@ -152,7 +152,7 @@ Schema Buckling::schema() {
                .optional(defaults.solver));
 }
 
-std::unique_ptr<Analysis> Buckling::make(const Options& options) {
+std::unique_ptr<Inspection> Buckling::make(const Options& options) {
   BucklingSettings settings;
   settings.modes = options.integer("Modes");
   if (options.has("Reference Level")) settings.reference_level = options.number("Reference Level");
@@ -172,15 +172,15 @@ double Buckling::reference_level(const model::State& state) const {
   return level;
 }
 
-void Buckling::start(Context& context, model::State& state) {
+void Buckling::begin(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
   const Stencil stencil = Stencil::statics();
-  context.system.begin_step(state, stencil);
+  context.system.prepare(state, stencil);
   context.system.choose_multiplier_scale(state, stencil);  // in which the step has its multipliers
   step_ = linear_step(context, state, reference_level(state));
 }
 
-AnalysisReport Buckling::advance(Context& context, model::State& state, Observer&) {
+AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
   assembly::System& system = context.system;
   const double level = reference_level(state);

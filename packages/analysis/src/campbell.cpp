@@ -24,14 +24,14 @@ void climb(Context& context, model::State& state, solver::NewtonSolver& newton, 
   do {
     const bool is_last = level - state.time_prev <= increment * (1.0 + 1e-9);
     state.time = is_last ? level : state.time_prev + increment;
-    context.system.begin_step(state, stencil);
+    context.system.prepare(state, stencil);
     const solver::StepOutcome outcome = newton.solve(state, stencil);
     if (outcome.converged()) {
-      accept(state);
+      context.system.accept(state);
       continue;
     }
     const double failed = state.time;
-    reject(state);
+    context.system.discard(state);
     increment *= 0.5;
     if (increment <= 1e-4 * way) {
       throw NumericalError(fmt::format(
@@ -131,13 +131,13 @@ Schema Campbell::schema() {
       .check(check_levels);
 }
 
-std::unique_ptr<Analysis> Campbell::make(const Options& options) {
+std::unique_ptr<Inspection> Campbell::make(const Options& options) {
   return std::make_unique<Campbell>(CampbellSettings{options.numbers("Levels"),
                                                      read_modal_settings(options),
                                                      newton_settings(options.list("Newton"))});
 }
 
-AnalysisReport Campbell::advance(Context& context, model::State& state, Observer&) {
+AnalysisReport Campbell::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Campbell"));
   const model::Model& model = context.system.model();
   solver::NewtonSolver newton(context.system, context.linear, settings_.newton, context.ledger);

@@ -40,18 +40,21 @@ void Certificate::start(const model::State& state) {
   largest_angular_ = momentum_.angular.norm();
 }
 
-void Certificate::record(const model::State& state, const Stencil& stencil,
-                         double constraint_violation, bool is_last) {
+void Certificate::add_work(const model::State& state, const Stencil& stencil,
+                           double constraint_violation) {
   ++steps_;
   const model::StepWork step = system_.step_work(state, stencil);
   work_ += step;
   impulse_ += stencil.step * step.force;
   angular_impulse_ += stencil.step * step.moment;
   constraint_violation_ = larger(constraint_violation_, constraint_violation);
-  if (steps_ % interval == 0 || is_last) compare(state);
 }
 
-void Certificate::compare(const model::State& state) {
+void Certificate::compare(const model::State& state, bool is_last) {
+  if (steps_ % interval == 0 || is_last) measure(state);
+}
+
+void Certificate::measure(const model::State& state) {
   momentum_ = system_.momentum(state.next, state.velocity);
   last_ = system_.energies(state.next, momentum_);
   largest_kinetic_ = std::max(largest_kinetic_, last_.kinetic);
@@ -72,7 +75,7 @@ void Certificate::finish(double change, double velocity) {
   hidden_violation_ = relative(change, velocity);
 }
 
-// The places of all numbers that record() builds upon.
+// The places of all numbers that add_work() and measure() build upon.
 template <class Self>
 auto Certificate::memory(Self& self) {
   std::vector<decltype(&self.energy_drift_)> places = {

@@ -4,7 +4,6 @@
 #include <culm/base/error.hpp>
 
 #include "mirrored_faces.hpp"
-#include "missed_pulses.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +74,8 @@ Schema Dynamics::schema() {
       .list("Newton", newton_schema(), Presence::defaulted);
 }
 
-std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
+std::unique_ptr<Stepper> Dynamics::make(const Options& options, Context& context,
+                                        model::State& state) {
   DynamicsSettings settings;
   if (options.has("Start Time")) settings.start_time = options.number("Start Time");
   settings.steps = step_settings(options);
@@ -88,7 +88,7 @@ std::unique_ptr<Analysis> Dynamics::make(const Options& options) {
   } else if (options.text("Scheme") == "Trapezoidal") {
     scheme = std::make_unique<TrapezoidalScheme>();
   }
-  return std::make_unique<Dynamics>(std::move(settings), std::move(scheme));
+  return std::make_unique<Dynamics>(std::move(settings), std::move(scheme), context, state);
 }
 
 namespace {
@@ -133,164 +133,169 @@ void close_joints(Context& context, model::State& state) {
 
 }  // namespace
 
+Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme, Context& context,
+                   model::State& state)
+    : Stepper(context, state),
+      settings_(std::move(settings)),
+      scheme_(std::move(scheme)),
+      control_(context.system, settings_.steps, scheme_->error_constant()),
+      predictor_(context.system),
+      certificate_(context.system, scheme_->conserves()),
+      pulses_(context.system.model().functions()) {}
+
 // Motion that constraints do not allow would never decay, so it is removed.
-void Dynamics::fit_motion(Context& context, model::State& state) const {
-  if (state.at_rest && context.system.model().has_initial_displacements()) {
-    close_joints(context, state);
+void Dynamics::fit_motion() {
+  model::State& state = this->state();
+  if (state.at_rest && system().model().has_initial_displacements()) {
+    close_joints(context(), state);
   }
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
   // what a motion ends with fulfils the constraints to the second order of its step only
   const double tolerance = state.at_rest ? 1e-9 : 1e-4;
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
-  if (state.at_rest) context.system.model().add_initial_velocities(state.next, state.velocity);
+  if (state.at_rest) system().model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const assembly::VelocityFit fit = context.system.project_velocity(
-      state, 1e-4 * settings_.steps.step, mass_solver(context, state));
+  const assembly::VelocityFit fit = system().project_velocity(state, 1e-4 * settings_.steps.step,
+                                                              mass_solver(context(), state));
   if (fit.change > tolerance * std::max(1.0, largest(state.velocity))) {
-    context.findings.warn(
+    context().findings.warn(
         "initial velocities",
         fmt::format("initial velocities were made to fit the constraints; largest change {:.3g}",
                     fit.change) +
-            describe_place(context.system.model(), fit),
+            describe_place(system().model(), fit),
         state.time);
   }
 }
 
 // On a copy: the state's own energy would change.
-void Dynamics::measure_hidden_constraints(Context& context, const model::State& state) {
-  model::State copy = state;
+void Dynamics::measure_hidden_constraints() {
+  model::State copy = state();
+  solver::LinearSolver& linear = context().linear;
   bool sound = true;  // a closed loop may just pass a singular position
-  const assembly::VelocityFit fit = context.system.project_velocity(
+  const assembly::VelocityFit fit = system().project_velocity(
       copy, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
-        sound = context.linear.factor() && context.linear.solve(b, x) <= 1e-8;
+        sound = linear.factor() && linear.solve(b, x) <= 1e-8;
         if (!sound) x.putScalar(0.0);
       });
-  if (sound) certificate_->finish(fit.change, context.system.comm().max(largest(copy.velocity)));
+  if (sound) certificate_.finish(fit.change, system().comm().max(largest(copy.velocity)));
 }
 
-void Dynamics::fit(Context& context, model::State& state) {
-  warn_of_turning_part(context.system.model(), context.log);
-  assembly::System& system = context.system;
-  if (system.velocity_dissipation() != nullptr && !scheme_->conserves()) {
-    throw InputError(settings_.scheme,
-                     fmt::format("'{}' does not know the 'Velocity Dissipation' that a structure "
-                                 "asks for; allowed: 'Conserving'",
-                                 scheme_->name()));
+// Where momenta are kept at all; what is carried moves stiff parts a little more than rounding does.
+void Dynamics::keep_balance() {
+  system().carry_residuals(scheme_->conserves() && certificate_.is_free());
+}
+
+void Dynamics::refuse_other_schemes() const {
+  if (scheme_->conserves()) return;
+  for (const model::Batch* batch : system().model().batches()) {
+    if (!batch->needs_mean_velocity()) continue;
+    throw InputError(settings_.scheme, fmt::format("'{}' does not know '{}', which the deck asks "
+                                                   "for; allowed: 'Conserving'",
+                                                   scheme_->name(), batch->effect()));
   }
+}
+
+void Dynamics::do_fit() {
+  model::State& state = this->state();
+  warn_of_turning_part(system().model(), context().log);
+  refuse_other_schemes();
   state.time = state.time_prev = settings_.start_time.value_or(state.time);
-  if (state.time >= settings_.steps.end_time) {
+  if (reaches_end()) {
     throw InputError(settings_.end_time,
                      fmt::format("the analysis starts at {:g}, unless 'Start Time' says otherwise; "
                                  "got {:g}",
                                  state.time, settings_.steps.end_time));
   }
-  fit_motion(context, state);
+  fit_motion();
 }
 
-void Dynamics::start(Context& context, model::State& state) {
-  assembly::System& system = context.system;
+void Dynamics::do_begin() {
+  model::State& state = this->state();
   scheme_->start(state);
-  system.drop_residual();
-  control_.emplace(system, settings_.steps, scheme_->error_constant());
-  predictor_.emplace(system);
-  steps_ = 0;
-  cut_backs_ = {};
-  const Stencil stencil = scheme_->begin(state, settings_.steps.step);
-  system.begin_step(state, stencil);
-  system.choose_multiplier_scale(state, stencil);
-  post_mortem_.emplace(context, state, stencil);
-  newton_.emplace(system, context.linear, settings_.newton, context.ledger);
-  certificate_.emplace(system, scheme_->conserves());
-  certificate_->start(state);
+  stencil_ = scheme_->begin(state, settings_.steps.step);
+  system().prepare(state, stencil_);
+  system().choose_multiplier_scale(state, stencil_);
+  make_post_mortem(state, stencil_);
+  do_prepare_resume();
+  certificate_.start(state);
 }
 
-void Dynamics::save(const Context& context, Snapshot& snapshot) const {
-  snapshot.set("dynamics/steps", steps_);
-  scheme_->save(context.system, snapshot);
-  control_->save(snapshot);
-  predictor_->save(snapshot);
-  cut_backs_.save(snapshot);
-  newton_->save(snapshot);
-  certificate_->save(snapshot);
-  post_mortem_->save(snapshot);
+void Dynamics::do_prepare_resume() {
+  make_newton(settings_.newton);
+  certificate_effect_ = context().ledger.add("Certificate");
+  keep_balance();
 }
 
-void Dynamics::restore(Context& context, const Snapshot& snapshot) {
-  assembly::System& system = context.system;
-  steps_ = snapshot.integer("dynamics/steps");
-  scheme_->restore(snapshot);
-  control_.emplace(system, settings_.steps, scheme_->error_constant());
-  predictor_.emplace(system);
-  control_->restore(snapshot);
-  predictor_->restore(snapshot);
-  cut_backs_.restore(snapshot);
-  newton_.emplace(system, context.linear, settings_.newton, context.ledger);
-  newton_->restore(snapshot);
-  certificate_.emplace(system, scheme_->conserves());
-  certificate_->restore(snapshot);
-  post_mortem_.emplace(context, snapshot);
+StepReport Dynamics::do_attempt(double end) {
+  model::State& state = this->state();
+  StepReport report;
+  report.time = state.time = end;
+  report.final_time = settings_.steps.end_time;
+  report.increment = end - state.time_prev;
+  stencil_ = scheme_->begin(state, report.increment);
+  system().prepare(state, stencil_);
+  predictor_.predict(state, report.increment);
+  report.outcome = newton().solve(state, stencil_);
+  if (report.outcome.converged()) report.outcome.end = control_.judge(state, stencil_);
+  refuse_mirrored(context(), state, report.outcome);
+  return report;
 }
 
-AnalysisReport Dynamics::advance(Context& context, model::State& state, Observer& observer) {
-  assembly::System& system = context.system;
-  const double end_time = settings_.steps.end_time;
-  const Ledger::Id certificate_effect = context.ledger.add("Certificate");
-  // where momenta are kept at all; what is carried moves stiff parts a little more than rounding
-  // does
-  const bool carries = scheme_->conserves() && certificate_->is_free();
-  MissedPulses pulses(system.model().functions());
-  while (state.time < end_time) {
-    state.time = control_->end_of_step(state.time_prev);
-    const double taken = state.time - state.time_prev;
-    const Stencil stencil = scheme_->begin(state, taken);
-    system.begin_step(state, stencil);
-    predictor_->predict(state, taken);
-    StepReport report{steps_, state.time, end_time, taken, true, newton_->solve(state, stencil)};
-    if (report.outcome.converged()) report.outcome.end = control_->judge(state, stencil);
-    refuse_mirrored(context, state, report.outcome);
-    report.accepted = report.outcome.converged();
-    if (report.accepted) {
-      report.step = ++steps_;
-      report.is_last = state.time >= end_time;
-      pulses.check(state.time_prev, state.time, context.log);
-      control_->accept(state, taken);
-      cut_backs_.accept(taken, control_->turn());
-      predictor_->accept(state, taken);
-      if (carries) system.carry_residual(taken);
-      scheme_->finish(state, taken);
-      if (model::VelocityDissipation* dissipation = system.velocity_dissipation()) {
-        dissipation->correct(state, taken);
-      }
-      {
-        const Ledger::Scope scope(context.ledger, certificate_effect);
-        certificate_->record(state, stencil, report.outcome.last.constraint_violation,
-                             report.is_last);
-      }
-      accept(state);
-    } else {
-      control_->reject(report.outcome.end, taken);
-      predictor_->reject();
-      reject(state);
-      // an error that is too large is the business of adaptive steps
-      if (report.outcome.end != solver::StepEnd::inaccurate) {
-        cut_backs_.reject(report.outcome.end, predictor_->reversal());
-      }
-    }
-    post_mortem_->record(report);
-    observer.step(report, state);
-    const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
-    if (!report.accepted && (not_finite || control_->is_exhausted())) {
-      post_mortem_->give_up(state, stencil);
-    }
+void Dynamics::do_accept(const StepReport& report) {
+  model::State& state = this->state();
+  const double taken = report.increment;
+  pulses_.check(state.time_prev, state.time, context().findings);
+  control_.accept(state, taken);
+  cut_backs_.accept(taken, control_.turn());
+  predictor_.accept(state, taken);
+  {
+    const Ledger::Scope scope(context().ledger, certificate_effect_);
+    certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
   }
-  system.drop_residual();
-  measure_hidden_constraints(context, state);
-  if (const std::string broken = certificate_->broken(); !broken.empty()) {
-    context.findings.broken("certificate", "the certificate is broken: " + broken, state.time);
+  scheme_->finish(state, taken);
+  system().accept(state);
+  const Ledger::Scope scope(context().ledger, certificate_effect_);
+  certificate_.compare(state, reaches_end());
+}
+
+bool Dynamics::do_fail(const StepReport& report) {
+  control_.reject(report.outcome.end, report.increment);
+  predictor_.reject();
+  // an error that is too large is the business of adaptive steps
+  if (report.outcome.end != solver::StepEnd::inaccurate) {
+    cut_backs_.reject(report.outcome.end, predictor_.reversal());
+  }
+  return control_.is_exhausted();
+}
+
+AnalysisReport Dynamics::do_finish() {
+  system().carry_residuals(false);
+  measure_hidden_constraints();
+  Findings& findings = context().findings;
+  if (const std::string broken = certificate_.broken(); !broken.empty()) {
+    findings.broken("certificate", "the certificate is broken: " + broken, state().time);
   }
   const std::string hint = cut_backs_.hint(settings_.steps.step);
-  if (!hint.empty()) context.findings.warn("cut-backs", hint, state.time);
-  return {certificate_->text(), certificate_->numbers()};
+  if (!hint.empty()) findings.warn("cut-backs", hint, state().time);
+  return {certificate_.text(), certificate_.numbers()};
+}
+
+void Dynamics::do_save(Snapshot& snapshot) const {
+  scheme_->save(system(), snapshot);
+  control_.save(snapshot);
+  predictor_.save(snapshot);
+  cut_backs_.save(snapshot);
+  certificate_.save(snapshot);
+  pulses_.save(snapshot);
+}
+
+void Dynamics::do_restore(const Snapshot& snapshot) {
+  scheme_->restore(snapshot);
+  control_.restore(snapshot);
+  predictor_.restore(snapshot);
+  cut_backs_.restore(snapshot);
+  certificate_.restore(snapshot);
+  pulses_.restore(snapshot);
 }
 
 }  // namespace culm::analysis

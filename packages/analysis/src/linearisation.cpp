@@ -40,7 +40,7 @@ Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::Stat
   Teuchos::RCP<CrsMatrix> damping;
   for (const double step : {1.0, 0.5}) {
     const Stencil stencil{step, 1.0, 1.0, 0.0};
-    system.begin_step(state, stencil);
+    system.prepare(state, stencil);
     system.evaluate(state, stencil, Want::residual_and_tangent);
     const auto tangent = system.matrix()->getLocalMatrixHost().values;
     if (damping.is_null()) {
@@ -65,7 +65,7 @@ Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::Stat
 Linearisation linearise(Context& context, const model::State& state) {
   assembly::System& system = context.system;
   const Stencil stencil = Stencil::statics();
-  system.begin_step(state, stencil);
+  system.prepare(state, stencil);
   system.choose_multiplier_scale(state, stencil);
   const assembly::Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
   Linearisation linear;
@@ -78,7 +78,7 @@ Linearisation linearise(Context& context, const model::State& state) {
                                   .share < 1e3;
   linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
   linear.damping = find_damping(system, state);
-  system.begin_step(state, stencil);
+  system.prepare(state, stencil);
   const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
   const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
   remove_border(system, *mass);

@@ -100,9 +100,9 @@ Schema Matrices::schema() {
                 "the present state, as MatrixMarket files and into run.h5.");
 }
 
-std::unique_ptr<Analysis> Matrices::make(const Options&) { return std::make_unique<Matrices>(); }
+std::unique_ptr<Inspection> Matrices::make(const Options&) { return std::make_unique<Matrices>(); }
 
-AnalysisReport Matrices::advance(Context& context, model::State& state, Observer&) {
+AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   assembly::System& system = context.system;
   const Linearisation linear = linearise(context, state);
   system.synchronise(state);

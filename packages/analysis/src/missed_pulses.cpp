@@ -1,4 +1,4 @@
-#include "missed_pulses.hpp"
+#include <culm/analysis/missed_pulses.hpp>
 
 #include <fmt/format.h>
 
@@ -55,24 +55,40 @@ bool is_missed(const model::Amplitude& function, double size, double at_start, d
 MissedPulses::MissedPulses(const std::map<std::string, model::Amplitude>& functions) {
   for (const auto& [name, function] : functions) {
     if (function.corners().size() < 2) continue;
-    candidates_.push_back({name, function, largest_corner(function)});
+    candidates_.push_back({name, function, largest_corner(function), false});
   }
 }
 
-void MissedPulses::check(double start, double end, const Log& log) {
-  std::erase_if(candidates_, [&](const Candidate& candidate) {
+void MissedPulses::check(double start, double end, Findings& findings) {
+  for (Candidate& candidate : candidates_) {
+    if (candidate.is_told) continue;
     const model::Amplitude& function = candidate.function;
     // what begins with the motion, as a square does, has not acted before
     const bool begins = is_first_ && start == function.corners().front();
     const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -infinity));
-    if (!is_missed(function, candidate.size, at_start, start, end)) return false;
-    log.warning(fmt::format(
-        "function '{}' has a pulse that begins and ends within the time step from {:.6g} s to "
-        "{:.6g} s: it acts in part or not at all; take steps that are shorter than the pulse",
-        candidate.name, start, end));
-    return true;
-  });
+    if (!is_missed(function, candidate.size, at_start, start, end)) continue;
+    candidate.is_told = true;
+    findings.warn("missed pulse",
+                  fmt::format("function '{}' has a pulse that begins and ends within the time step "
+                              "from {:.6g} s to {:.6g} s: it acts in part or not at all; take "
+                              "steps that are shorter than the pulse",
+                              candidate.name, start, end),
+                  end);
+  }
   is_first_ = false;
+}
+
+void MissedPulses::save(Snapshot& snapshot) const {
+  std::vector<double> told;
+  for (const Candidate& candidate : candidates_) told.push_back(candidate.is_told ? 1.0 : 0.0);
+  snapshot.set("pulses/told", std::move(told));
+  snapshot.set("pulses/first", is_first_ ? 1.0 : 0.0);
+}
+
+void MissedPulses::restore(const Snapshot& snapshot) {
+  const std::vector<double>& told = snapshot.numbers("pulses/told", candidates_.size());
+  for (std::size_t i = 0; i < told.size(); ++i) candidates_[i].is_told = told[i] != 0.0;
+  is_first_ = snapshot.number("pulses/first") != 0.0;
 }
 
 }  // namespace culm::analysis

@@ -159,11 +159,11 @@ Schema Modal::schema() {
   return add_modal_fields(schema);
 }
 
-std::unique_ptr<Analysis> Modal::make(const Options& options) {
+std::unique_ptr<Inspection> Modal::make(const Options& options) {
   return std::make_unique<Modal>(read_modal_settings(options));
 }
 
-AnalysisReport Modal::advance(Context& context, model::State& state, Observer&) {
+AnalysisReport Modal::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
   ModeSet set = find_modes(context, state, settings_);
   AnalysisReport report;

@@ -96,11 +96,11 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
   assembly::System& system = context_.system;
   const double level = state.time;
   state.time = level + level_step;
-  system.begin_step(state, stencil);
+  system.prepare(state, stencil);
   system.evaluate(state, stencil, Want::residual);
   Vector load(system.residual(), Teuchos::Copy);
   state.time = level;
-  system.begin_step(state, stencil);
+  system.prepare(state, stencil);
   system.evaluate(state, stencil, Want::residual_and_tangent);
   load.update(1.0 / level_step, system.residual(), -1.0 / level_step);
   is_factored_ = context_.linear.factor();

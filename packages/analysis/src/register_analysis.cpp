@@ -9,14 +9,22 @@
 
 namespace culm::analysis {
 
+Variants AnalysisRegistry::variants() const {
+  Variants all = steppers.variants();
+  all.merge(inspections.variants());
+  return all;
+}
+
 void register_analyses(AnalysisRegistry& registry) {
-  registry.add("Static", Statics::schema(), Statics::make);
-  registry.add("Path", PathFollowing::schema(), PathFollowing::make);
-  registry.add("Dynamic", Dynamics::schema(), Dynamics::make);
-  registry.add("Modal", Modal::schema(), Modal::make);
-  registry.add("Buckling", Buckling::schema(), Buckling::make);
-  registry.add("Campbell", Campbell::schema(), Campbell::make);
-  registry.add("Matrices", Matrices::schema(), Matrices::make);
+  registry.steppers.add("Static", Statics::schema(), Statics::make);
+  registry.steppers.add("Path", PathFollowing::schema(), PathFollowing::make);
+  registry.steppers.add("Dynamic", Dynamics::schema(), Dynamics::make);
+  registry.inspections.add("Modal", Modal::schema(), Modal::make);
+  registry.inspections.add("Buckling", Buckling::schema(), Buckling::make);
+  registry.inspections.add("Campbell", Campbell::schema(), Campbell::make);
+  registry.inspections.add("Matrices", Matrices::schema(), Matrices::make);
+  registry.gives_shapes = {"Modal", "Buckling"};
+  registry.follows_path = {"Path"};
 }
 
 }  // namespace culm::analysis

@@ -65,7 +65,8 @@ Schema Statics::schema() {
       .check(check_levels);
 }
 
-std::unique_ptr<Analysis> Statics::make(const Options& options) {
+std::unique_ptr<Stepper> Statics::make(const Options& options, Context& context,
+                                       model::State& state) {
   StaticsSettings settings;
   settings.final_level = options.number("Final Level");
   settings.start_level = options.number("Start Level");
@@ -76,7 +77,7 @@ std::unique_ptr<Analysis> Statics::make(const Options& options) {
   settings.easy_iterations = options.integer("Easy Iterations");
   settings.levels = options.numbers("Levels");
   settings.newton = newton_settings(options.list("Newton"));
-  return std::make_unique<Statics>(std::move(settings));
+  return std::make_unique<Statics>(std::move(settings), context, state);
 }
 
 // The next level on the way, not passing one that must be met; leaves no sliver before it.
@@ -90,54 +91,70 @@ double Statics::next_level(double level, double increment) const {
   return rest < 1.5 * increment ? level + 0.5 * rest : level + increment;
 }
 
-void Statics::start(Context& context, model::State& state) {
+void Statics::do_begin() {
   const Stencil stencil = Stencil::statics();
-  for (const model::Constraint& c : context.system.model().equations()) {
+  for (const model::Constraint& c : system().model().equations()) {
     if (c.velocity_rows.empty()) continue;
-    context.log.warning(
+    context().log.warning(
         fmt::format("{} '{}' acts in dynamics only; statics knows no velocity", c.type, c.name));
   }
-  state.time = state.time_prev = settings_.start_level;
+  state().time = state().time_prev = settings_.start_level;
   increment_ = settings_.increment;
-  steps_ = 0;
-  determinant_sign_ = 0;
-  crossings_.clear();
-  trend_ = {};
-  context.system.begin_step(state, stencil);
-  context.system.choose_multiplier_scale(state, stencil);
-  post_mortem_.emplace(context, state, stencil, next_level(state.time, increment_));
-  newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
+  system().prepare(state(), stencil);
+  system().choose_multiplier_scale(state(), stencil);
+  make_post_mortem(state(), stencil, proposal());
+  make_newton(settings_.newton);
 }
 
-void Statics::save(const Context&, Snapshot& snapshot) const {
+StepReport Statics::do_attempt(double level) {
+  const Stencil stencil = Stencil::statics();
+  state().time = level;
+  system().prepare(state(), stencil);
+  StepReport report;
+  report.time = level;
+  report.final_time = settings_.final_level;
+  report.increment = level - state().time_prev;
+  report.outcome = newton().solve(state(), stencil);
+  refuse_mirrored(context(), state(), report.outcome);
+  return report;
+}
+
+void Statics::do_accept(const StepReport& report) {
+  watch_stability(report);
+  system().accept(state());
+  if (report.outcome.iterations <= settings_.easy_iterations && report.increment >= increment_) {
+    increment_ = std::min(1.5 * increment_, settings_.largest_increment);
+  }
+}
+
+bool Statics::do_fail(const StepReport& report) {
+  increment_ = 0.5 * report.increment;
+  trend_.add(state().time);
+  return increment_ < settings_.smallest_increment || dead_end();
+}
+
+void Statics::do_save(Snapshot& snapshot) const {
   snapshot.set("statics/increment", increment_);
-  snapshot.set("statics/steps", steps_);
   snapshot.set("statics/determinant sign", determinant_sign_);
   snapshot.set("statics/crossings", crossings_);
   trend_.save(snapshot);
-  newton_->save(snapshot);
-  post_mortem_->save(snapshot);
 }
 
-void Statics::restore(Context& context, const Snapshot& snapshot) {
+void Statics::do_restore(const Snapshot& snapshot) {
   increment_ = snapshot.number("statics/increment");
-  steps_ = snapshot.integer("statics/steps");
   determinant_sign_ = snapshot.integer("statics/determinant sign");
   crossings_ = snapshot.numbers("statics/crossings");
   trend_.restore(snapshot);
-  newton_.emplace(context.system, context.linear, settings_.newton, context.ledger);
-  newton_->restore(snapshot);
-  post_mortem_.emplace(context, snapshot);
 }
 
-void Statics::watch_stability(const Context& context, const StepReport& report) {
+void Statics::watch_stability(const StepReport& report) {
   const auto& outcome = report.outcome;
   if (outcome.last_determinant.sign == 0) return;
   if (determinant_sign_ == 0) determinant_sign_ = outcome.first_determinant.sign;
   if (outcome.last_determinant.sign == determinant_sign_) return;
   determinant_sign_ = outcome.last_determinant.sign;
   crossings_.push_back(report.time);
-  context.findings.warn(
+  context().findings.warn(
       "stability",
       fmt::format("between the levels {:.6g} and {:.6g} the determinant of the stiffness changes "
                   "its sign: a limit point or a bifurcation was passed, and the equilibrium that "
@@ -147,39 +164,7 @@ void Statics::watch_stability(const Context& context, const StepReport& report) 
       report.time);
 }
 
-AnalysisReport Statics::advance(Context& context, model::State& state, Observer& observer) {
-  const Stencil stencil = Stencil::statics();
-  while (state.time < settings_.final_level) {
-    state.time = next_level(state.time_prev, increment_);
-    const double taken = state.time - state.time_prev;
-    context.system.begin_step(state, stencil);
-    StepReport report{steps_, state.time, settings_.final_level,
-                      taken,  true,       newton_->solve(state, stencil)};
-    refuse_mirrored(context, state, report.outcome);
-    report.accepted = report.outcome.converged();
-    if (report.accepted) report.step = ++steps_;
-    report.is_last = report.accepted && state.time >= settings_.final_level;
-    post_mortem_->record(report);
-    if (report.accepted) {
-      watch_stability(context, report);
-      accept(state);
-      if (report.outcome.iterations <= settings_.easy_iterations && taken >= increment_) {
-        increment_ = std::min(1.5 * increment_, settings_.largest_increment);
-      }
-    } else {
-      reject(state);
-      increment_ = 0.5 * taken;
-      trend_.add(state.time);
-    }
-    observer.step(report, state);
-    // a number that is not finite will not become so with a smaller step
-    const bool not_finite = report.outcome.end == solver::StepEnd::not_finite;
-    if (report.accepted) continue;
-    const std::optional<double> end = trend_.end(settings_.final_level);
-    if (not_finite || end || increment_ < settings_.smallest_increment) {
-      post_mortem_->give_up(state, stencil, end);
-    }
-  }
+AnalysisReport Statics::do_finish() {
   AnalysisReport report;
   for (const double level : crossings_) {
     report.text += fmt::format(

@@ -160,7 +160,7 @@ void StepControl::save(Snapshot& snapshot) const {
   for (const auto& [name, values] : {std::pair{"steps/velocity", &memory_.velocity},
                                      {"steps/acceleration", &memory_.acceleration}}) {
     model::Coordinates all = *values;
-    system_.complete(all);
+    if (!snapshot.is_for_memory()) system_.complete(all);
     snapshot.set(name, std::move(all));
   }
 }

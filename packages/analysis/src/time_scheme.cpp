@@ -65,7 +65,7 @@ void GeneralisedAlphaScheme::finish(model::State& state, double h) {
 
 void GeneralisedAlphaScheme::save(const assembly::System& system, Snapshot& snapshot) const {
   model::Coordinates all = acceleration_;
-  system.complete(all);
+  if (!snapshot.is_for_memory()) system.complete(all);
   snapshot.set("scheme/acceleration", std::move(all));
 }
 

@@ -1,4 +1,4 @@
-#include "../src/missed_pulses.hpp"
+#include <culm/analysis/missed_pulses.hpp>
 
 #include <gtest/gtest.h>
 
@@ -34,9 +34,9 @@ Amplitude square(double duration) {
 // Warnings of steps of one length from 0 to 2.
 int warnings(const Amplitude& function, double step) {
   std::ostringstream printed;
-  const Log log{printed, LogLevel::info};
+  Findings findings(Log{printed, LogLevel::info});
   MissedPulses pulses({{"hit", function}});
-  for (int n = 0; n * step < 2.0; ++n) pulses.check(n * step, (n + 1) * step, log);
+  for (int n = 0; n * step < 2.0; ++n) pulses.check(n * step, (n + 1) * step, findings);
   int count = 0;
   const std::string text = printed.str();
   for (auto at = text.find("'hit'"); at != std::string::npos; at = text.find("'hit'", at + 1)) {

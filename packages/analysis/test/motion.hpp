@@ -1,65 +1,61 @@
 /// A model in motion without deck: what the tests of time stepping share.
 #pragma once
 
-#include <culm/analysis/analysis.hpp>
-#include <culm/analysis/predictor.hpp>
-#include <culm/analysis/time_scheme.hpp>
+#include <culm/analysis/dynamics.hpp>
 
 #include <culm_kit/chain_model.hpp>
 
 #include <functional>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
 
 namespace culm::analysis {
 
-/// A model with velocities, its equations, and single steps of a scheme.
+/// A model with velocities, and the stepper of its motion, begun, with steps of any length.
 class Motion {
  public:
   explicit Motion(const std::function<void(model::Model&)>& build,
-                  std::unique_ptr<TimeScheme> time_scheme = std::make_unique<ConservingScheme>(),
-                  solver::NewtonSettings settings = {})
-      : scheme(std::move(time_scheme)) {
+                  std::unique_ptr<TimeScheme> scheme = std::make_unique<ConservingScheme>(),
+                  solver::NewtonSettings newton = {})
+      : error_constant(scheme->error_constant()) {
     build(model);
     model.freeze(model::Form::null_space);
     system = std::make_unique<assembly::System>(model, comm, ledger);
     linear = solver::make_rooted_klu2(system->matrix(), comm);
-    settings.force_tolerance = 1e-12;
-    newton = std::make_unique<solver::NewtonSolver>(*system, *linear, settings, ledger);
     state = model.initial_state();
-    state.velocity.assign(state.next.size(), 0.0);
-    model.add_initial_velocities(state.next, state.velocity);
-    state.at_rest = false;
-    scheme->start(state);
+    context = std::make_unique<Context>(Context{*system, *linear, ledger, log, findings});
+    newton.force_tolerance = 1e-12;
+    DynamicsSettings settings;
+    settings.steps = {1e9, 1.0, 0.0, {}};
+    settings.newton = newton;
+    stepper = std::make_unique<Dynamics>(std::move(settings), std::move(scheme), *context, state);
+    stepper->fit();
+    stepper->begin();
   }
 
-  /// Solves a step of length h [s]; accepts nothing.
-  solver::StepOutcome solve(double h) {
-    state.time = state.time_prev + h;
-    stencil = scheme->begin(state, h);
-    system->begin_step(state, stencil);
-    Predictor(*system).predict(state, h);
-    return newton->solve(state, stencil);
-  }
-  void finish(double h) {
-    scheme->finish(state, h);
-    accept(state);
-  }
-  void advance(double h, int steps) {
+  /// Attempts a step of length h [s].
+  const StepReport& attempt(double h) { return stepper->attempt(state.time_prev + h); }
+  /// Makes steps of length h [s].
+  void advance(double h, int steps = 1) {
     for (int i = 0; i < steps; ++i) {
-      if (!solve(h).converged()) throw std::runtime_error("a step did not converge");
-      finish(h);
+      if (!attempt(h).accepted) throw std::runtime_error("a step did not converge");
+      stepper->accept();
     }
   }
 
   parallel::Comm comm;
   Ledger ledger;
+  std::ostringstream said;
+  Log log{said, LogLevel::info};
+  Findings findings{log};
   model::Model model;
-  std::unique_ptr<TimeScheme> scheme;
+  double error_constant;
   std::unique_ptr<assembly::System> system;
   std::unique_ptr<solver::LinearSolver> linear;
-  std::unique_ptr<solver::NewtonSolver> newton;
   model::State state;
-  Stencil stencil;
+  std::unique_ptr<Context> context;
+  std::unique_ptr<Dynamics> stepper;
 };
 
 /// A body of three different inertias that spins fast about a fixed point, d2 its axis.

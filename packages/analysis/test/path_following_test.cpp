@@ -112,7 +112,7 @@ class Push final : public model::Batch {
   void place(model::Placement placement, model::Form) override {
     placement_ = std::move(placement);
   }
-  void begin_step(const model::State& state, const Stencil&) override { level_ = state.time; }
+  void prepare(const model::State& state, const Stencil&) override { level_ = state.time; }
   Verdict assemble(const model::State&, const Stencil&, Want, model::Target& target) override {
     const Vec6 values = -level_ * load_;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -174,8 +174,9 @@ class Truss : public Observer {
 
   AnalysisReport follow() {
     Context context{*system, *linear, ledger, log, findings};
-    PathFollowing path(settings);
-    return path.run(context, state, *this);
+    PathFollowing path(settings, context, state);
+    path.begin();
+    return run(path, *this);
   }
 
   void step(const StepReport& report, model::State& now) override {
@@ -321,8 +322,9 @@ class SoftlyPushedTruss : public Observer {
     const auto linear = solver::make_rooted_klu2(system.matrix(), comm);
     model::State state = model.initial_state();
     Context context{system, *linear, ledger, log, findings};
-    PathFollowing path(settings);
-    return path.run(context, state, *this);
+    PathFollowing path(settings, context, state);
+    path.begin();
+    return run(path, *this);
   }
 
   void step(const StepReport& report, model::State& now) override {
@@ -424,8 +426,9 @@ class Shaft : public Observer {
     model::State state = model.initial_state();
     Findings findings(log);
     Context context{*system, *linear, ledger, log, findings};
-    PathFollowing path(settings);
-    return path.run(context, state, *this);
+    PathFollowing path(settings, context, state);
+    path.begin();
+    return run(path, *this);
   }
 
   void step(const StepReport& report, model::State& now) override {

@@ -19,7 +19,7 @@ class Predicted {
   double step() {
     model::State guess = top.state;
     predictor.predict(guess, h_);
-    if (!top.solve(h_).converged()) throw std::runtime_error("a step did not converge");
+    if (!top.attempt(h_).accepted) throw std::runtime_error("a step did not converge");
     guess.prev = guess.next;
     guess.next = top.state.next;
     double error = 0.0;
@@ -27,7 +27,7 @@ class Predicted {
       error = std::max(error, motion.lpNorm<Eigen::Infinity>());
     }
     predictor.accept(top.state, h_);
-    top.finish(h_);
+    top.stepper->accept();
     return top.comm.max(error);
   }
 
@@ -54,11 +54,11 @@ TEST(Predictor, DoesNotTakeVelocitiesThatJump) {
   for (int k = 0; k < 3; ++k) run.step();
   EXPECT_GT(run.predictor.reversal(), 0.0);
   for (int k = 0; k < 6; ++k) {
-    ASSERT_TRUE(run.top.solve(1e-3).converged());
+    ASSERT_TRUE(run.top.attempt(1e-3).accepted);
     model::State jumping = run.top.state;
     for (double& v : jumping.velocity) v *= k % 2 == 0 ? 6.0 : -4.0;
     run.predictor.accept(jumping, 1e-3);
-    run.top.finish(1e-3);
+    run.top.stepper->accept();
   }
   EXPECT_LT(run.predictor.reversal(), -0.5);
   run.predictor.reject();

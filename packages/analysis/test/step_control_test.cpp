@@ -14,20 +14,19 @@ StepSettings adaptive(double step, double end, double tolerance) {
 
 TEST(StepControl, EstimatesTheErrorOfAStep) {
   Motion top(build_top);
-  StepControl control(*top.system, adaptive(1e-4, 1.0, 1e9), top.scheme->error_constant());
+  StepControl control(*top.system, adaptive(1e-4, 1.0, 1e9), top.error_constant);
   for (const double h : {1e-4, 1.3e-4, 0.9e-4, 1e-4, 1.1e-4}) {
-    ASSERT_TRUE(top.solve(h).converged());
-    ASSERT_EQ(control.judge(top.state, top.stencil), solver::StepEnd::converged);
+    ASSERT_TRUE(top.attempt(h).accepted);
+    ASSERT_EQ(control.judge(top.state, Stencil::midpoint(h)), solver::StepEnd::converged);
     control.accept(top.state, h);
-    top.finish(h);
+    top.stepper->accept();
   }
   // one step and the same time in sixteen
   const double h = 1e-4;
-  const model::State start = top.state;
-  ASSERT_TRUE(top.solve(h).converged());
-  ASSERT_EQ(control.judge(top.state, top.stencil), solver::StepEnd::converged);
+  ASSERT_TRUE(top.attempt(h).accepted);
+  ASSERT_EQ(control.judge(top.state, Stencil::midpoint(h)), solver::StepEnd::converged);
   const model::Coordinates once = top.state.next;
-  top.state = start;
+  top.stepper->discard();
   top.advance(h / 16.0, 16);
   double error = 0.0;
   for (int s = 1; s < 4; ++s) {
@@ -42,14 +41,14 @@ TEST(StepControl, EstimatesTheErrorOfAStep) {
 
 TEST(StepControl, KnowsNoErrorInTheFirstTwoSteps) {
   Motion top(build_top);
-  StepControl control(*top.system, adaptive(1e-3, 1.0, 1e-6), top.scheme->error_constant());
+  StepControl control(*top.system, adaptive(1e-3, 1.0, 1e-6), top.error_constant);
   for (int i = 0; i < 3; ++i) {
     const double h = control.end_of_step(top.state.time_prev) - top.state.time_prev;
-    ASSERT_TRUE(top.solve(h).converged());
-    control.judge(top.state, top.stencil);
+    ASSERT_TRUE(top.attempt(h).accepted);
+    control.judge(top.state, Stencil::midpoint(h));
     EXPECT_EQ(control.error().has_value(), i == 2);
     control.accept(top.state, h);
-    top.finish(h);
+    top.stepper->accept();
     if (i < 2) {
       EXPECT_DOUBLE_EQ(control.memory().next, h);
     }
@@ -58,16 +57,16 @@ TEST(StepControl, KnowsNoErrorInTheFirstTwoSteps) {
 
 TEST(StepControl, RepeatsAStepWithAnErrorFarAboveTheTolerance) {
   Motion top(build_top);
-  StepControl control(*top.system, adaptive(1e-3, 1.0, 1e-12), top.scheme->error_constant());
+  StepControl control(*top.system, adaptive(1e-3, 1.0, 1e-12), top.error_constant);
   const double h = 1e-3;
   for (int i = 0; i < 2; ++i) {
-    ASSERT_TRUE(top.solve(h).converged());
-    ASSERT_EQ(control.judge(top.state, top.stencil), solver::StepEnd::converged);
+    ASSERT_TRUE(top.attempt(h).accepted);
+    ASSERT_EQ(control.judge(top.state, Stencil::midpoint(h)), solver::StepEnd::converged);
     control.accept(top.state, h);
-    top.finish(h);
+    top.stepper->accept();
   }
-  ASSERT_TRUE(top.solve(h).converged());
-  EXPECT_EQ(control.judge(top.state, top.stencil), solver::StepEnd::inaccurate);
+  ASSERT_TRUE(top.attempt(h).accepted);
+  EXPECT_EQ(control.judge(top.state, Stencil::midpoint(h)), solver::StepEnd::inaccurate);
   control.reject(solver::StepEnd::inaccurate, h);
   EXPECT_DOUBLE_EQ(control.memory().next, 0.5 * h);
   EXPECT_FALSE(control.is_exhausted());
@@ -81,23 +80,21 @@ TEST(StepControl, StopsRotationsBeforeTheyBecomeAmbiguous) {
     top.state.velocity.assign(12, 0.0);
     model::NodeTable::slots(top.state.velocity, 0).col(1) = Vec3(0.0, 0.0, -150.0);
     model::NodeTable::slots(top.state.velocity, 0).col(3) = Vec3(150.0, 0.0, 0.0);
-    StepControl control(*top.system, fixed(h, 1.0), top.scheme->error_constant());
-    ASSERT_TRUE(top.solve(h).converged());
-    EXPECT_EQ(control.judge(top.state, top.stencil), end);
+    EXPECT_EQ(top.attempt(h).outcome.end, end);
   }
 }
 
 TEST(StepControl, AdaptiveStepsTurnAboutFiftyDegreesAtMost) {
   Motion top(build_top);
   const double h = 8e-3;  // 150 / s times h is 1.2
-  StepControl control(*top.system, adaptive(h, 1.0, 1e9), top.scheme->error_constant());
-  ASSERT_TRUE(top.solve(h).converged());
-  EXPECT_EQ(control.judge(top.state, top.stencil), solver::StepEnd::turned_too_far);
+  StepControl control(*top.system, adaptive(h, 1.0, 1e9), top.error_constant);
+  ASSERT_TRUE(top.attempt(h).accepted);
+  EXPECT_EQ(control.judge(top.state, Stencil::midpoint(h)), solver::StepEnd::turned_too_far);
 }
 
 TEST(StepControl, FixedStepsReturnToTheirGrid) {
   const Motion top(build_top);
-  StepControl control(*top.system, fixed(0.1, 0.25), top.scheme->error_constant());
+  StepControl control(*top.system, fixed(0.1, 0.25), top.error_constant);
   EXPECT_DOUBLE_EQ(control.end_of_step(0.0), 0.1);
   control.reject(solver::StepEnd::diverged, 0.1);
   EXPECT_DOUBLE_EQ(control.end_of_step(0.0), 0.05);

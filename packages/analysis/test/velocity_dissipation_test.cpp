@@ -1,3 +1,5 @@
+#include <culm/model/velocity_dissipation.hpp>
+
 #include "motion.hpp"
 
 #include <gtest/gtest.h>
@@ -45,11 +47,9 @@ class Damped : public Motion {
   explicit Damped(const std::function<void(model::Model&)>& build) : Motion(build) {}
   // one step; returns what the dissipation took
   double step(double h) {
-    if (!solve(h).converged()) throw std::runtime_error("a step did not converge");
-    scheme->finish(state, h);
-    system->velocity_dissipation()->correct(state, h);
-    const double taken = system->step_work(state, stencil).dissipation;
-    accept(state);
+    if (!attempt(h).accepted) throw std::runtime_error("a step did not converge");
+    const double taken = system->step_work(state, Stencil::midpoint(h)).dissipation;
+    stepper->accept();
     return taken;
   }
   model::Momentum momentum() const { return system->momentum(state.next, state.velocity); }

@@ -81,17 +81,36 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
           static_cast<std::size_t>(std::find(first, last, static_cast<int>(row)) - first)));
     }
   }
-  velocity_dissipation_ = model::VelocityDissipation::find(model);
+  for (const model::Batch* batch : batches_) needs_all_nodes_ |= batch->needs_all_nodes();
   reactions_.assign(index(unknowns.num_reactions()), 0.0);
   linear_increment_.assign(model.nodes().reference().size(), 0.0);
 }
 
-void System::begin_step(const model::State& state, const Stencil& stencil) {
-  for (model::Batch* batch : batches_) batch->begin_step(state, stencil);
+void System::prepare(const model::State& state, const Stencil& stencil) {
+  for (model::Batch* batch : batches_) batch->prepare(state, stencil);
+}
+
+void System::accept(model::State& state) {
+  if (carries_residuals_) carry_residual(state.time - state.time_prev);
+  for (model::Batch* batch : batches_) batch->accept(state);
+  state.prev = state.next;
+  state.multipliers_prev = state.multipliers;
+  state.time_prev = state.time;
+}
+
+void System::discard(model::State& state) const {
+  state.next = state.prev;
+  state.multipliers = state.multipliers_prev;
+  state.time = state.time_prev;
+}
+
+void System::carry_residuals(bool wanted) {
+  carries_residuals_ = wanted;
+  if (!wanted) carried_.reset();
 }
 
 void System::change_level(const model::State& state, const Stencil& stencil) {
-  for (model::Batch* batch : driven_) batch->begin_step(state, stencil);
+  for (model::Batch* batch : driven_) batch->prepare(state, stencil);
 }
 
 void System::level_gradient(model::State& state, const Stencil& stencil, double step,
@@ -106,7 +125,7 @@ void System::level_gradient(model::State& state, const Stencil& stencil, double 
     state.time = end;
     gradient.scale(-1.0);
     for (model::Batch* batch : driven_) {
-      batch->begin_step(state, stencil);
+      batch->prepare(state, stencil);
       batch->assemble(state, stencil, Want::residual, target);
     }
   }
@@ -201,7 +220,7 @@ void System::move(model::State& state, const Vector& increment, double factor) {
     }
   }
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
-  if (velocity_dissipation_ != nullptr) complete(state.next);
+  if (needs_all_nodes_) complete(state.next);
 }
 
 const model::Coordinates& System::linear_motion(const model::State& state, const Vector& increment,

@@ -24,7 +24,7 @@ Vec6 velocity_of(const model::NodeTable& nodes, const model::State& state, int n
 double System::project_position(model::State& state, const Solve& solve_mass) {
   const model::Coordinates start = state.next;
   const Stencil stencil = Stencil::statics();
-  begin_step(state, stencil);
+  prepare(state, stencil);
   // coordinates are rounded to epsilon times their size
   double size = model_.length();
   for (const double x : start) size = std::max(size, std::abs(x));
@@ -99,7 +99,7 @@ void System::move_nodes(model::State& state, const Motions& motions) const {
     model_.nodes().move(node, u, state.next);
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
-  if (velocity_dissipation_ != nullptr) complete(state.next);
+  if (needs_all_nodes_) complete(state.next);
 }
 
 std::vector<double> System::gather_motions(const Motions& motions) const {
@@ -131,7 +131,7 @@ std::vector<double> System::drive_speed(model::State& state, double probe) {
   const double time = state.time;
   for (const auto& [fraction, weight] : {std::pair{1.0, 1.0}, {0.5, -4.0}, {0.0, 3.0}}) {
     state.time = time + fraction * probe;
-    begin_step(state, Stencil::statics());
+    prepare(state, Stencil::statics());
     evaluate(state, Stencil::statics(), Want::residual);
     const auto h = values_of(static_cast<const Vector&>(*residual_));
     for (std::size_t row = 0; row < speed.size(); ++row) speed[row] += weight / probe * h[row];
@@ -208,7 +208,7 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
         slot_motion(model_, block.owner, w, state.next);
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
-  if (velocity_dissipation_ != nullptr) complete(state.velocity);
+  if (needs_all_nodes_) complete(state.velocity);
   // what moves no mass, such as the frame of a linear shell, has no velocity of its own
   std::vector<bool> moves_mass = model::slots_with_mass(model_);
   for (int slave : slaves_) {

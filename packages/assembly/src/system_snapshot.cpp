@@ -40,21 +40,29 @@ void System::synchronise(model::State& state) {
 }
 
 void System::save(model::State& state, Snapshot& snapshot) {
-  synchronise(state);
+  if (!snapshot.is_for_memory()) synchronise(state);
   snapshot.set("state/time", state.time);
   snapshot.set("state/position", state.next);
   snapshot.set("state/velocity", state.velocity);
   snapshot.set("state/multipliers", state.multipliers);
   snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
   snapshot.set("system/multiplier scale", multiplier_scale_);
-  snapshot.set("system/carried", gather_carried());
-  std::vector<double> memory;
-  for (const model::Batch* batch : batches_) {
-    std::vector<double> part(batch->memory_size(), nothing);
-    batch->save(part);
-    memory.insert(memory.end(), part.begin(), part.end());
+  if (snapshot.is_for_memory()) {
+    snapshot.set("system/carried", carried_.value_or(std::vector<double>{}));
+  } else {
+    snapshot.set("system/carried", gather_carried());
   }
-  comm_.sum(memory);
+  const model::Items which =
+      snapshot.is_for_memory() ? model::Items::local : model::Items::owned;
+  std::size_t size = 0;
+  for (const model::Batch* batch : batches_) size += batch->memory_size();
+  std::vector<double> memory(size, nothing);
+  std::span<double> rest = memory;
+  for (const model::Batch* batch : batches_) {
+    batch->save(which, rest.first(batch->memory_size()));
+    rest = rest.subspan(batch->memory_size());
+  }
+  if (!snapshot.is_for_memory()) comm_.sum(memory);
   snapshot.set("system/batches", std::move(memory));
 }
 
@@ -67,7 +75,14 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
   state.multipliers_prev = state.multipliers;
   state.at_rest = snapshot.number("state/at rest") != 0.0;
   multiplier_scale_ = snapshot.number("system/multiplier scale");
-  restore_carried(snapshot.numbers("system/carried"));
+  const std::vector<double>& carried = snapshot.numbers("system/carried");
+  if (!snapshot.is_for_memory()) {
+    restore_carried(carried);
+  } else if (carried.empty()) {
+    carried_.reset();
+  } else {
+    carried_ = carried;
+  }
   std::size_t size = 0;
   for (const model::Batch* batch : batches_) size += batch->memory_size();
   std::span<const double> memory = snapshot.numbers("system/batches", size);
@@ -99,15 +114,22 @@ void System::restore_carried(const std::vector<double>& all) {
 
 void System::save_matrix(Snapshot& snapshot) const {
   const auto values = matrix_->getLocalMatrixHost().values;
-  const std::vector<double> all =
-      comm_.gather(std::span<const double>(values.data(), values.extent(0)));
+  const std::span<const double> mine(values.data(), values.extent(0));
   snapshot.set("matrix/ranks", comm_.size());
-  snapshot.set("matrix/values", all);
+  if (snapshot.is_for_memory()) {
+    snapshot.set("matrix/values", {mine.begin(), mine.end()});
+  } else {
+    snapshot.set("matrix/values", comm_.gather(mine));
+  }
 }
 
 bool System::restore_matrix(const Snapshot& snapshot) {
   if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
   const auto values = matrix_->getLocalMatrixHost().values;
+  if (snapshot.is_for_memory()) {
+    std::ranges::copy(snapshot.numbers("matrix/values", values.extent(0)), values.data());
+    return true;
+  }
   const std::vector<double>& all =
       snapshot.numbers("matrix/values", static_cast<std::size_t>(matrix_->getGlobalNumEntries()));
   // pieces are in the order of the ranks

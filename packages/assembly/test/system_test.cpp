@@ -32,7 +32,7 @@ TEST_P(SystemTest, DistributedSystemEqualsDenseAssembly) {
   kit::DenseAssembly dense(reference_model);
   model::State state = kit::random_state(reference_model, 3);
   const Stencil stencil = Stencil::midpoint(0.1);
-  dense.begin_step(state, stencil);
+  dense.prepare(state, stencil);
   const Eigen::VectorXd residual = dense.residual(state, stencil);
   const Eigen::MatrixXd tangent = dense.tangent(state, stencil);
 
@@ -40,7 +40,7 @@ TEST_P(SystemTest, DistributedSystemEqualsDenseAssembly) {
   build(model, GetParam());
   Ledger ledger;
   System system(model, parallel::Comm(), ledger);
-  system.begin_step(state, stencil);
+  system.prepare(state, stencil);
   const Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
   EXPECT_EQ(found.verdict, Verdict::ok);
 
@@ -109,7 +109,7 @@ TEST_P(SystemTest, EnergyCountsEachElementOnce) {
 
 // Largest residual of all force rows over the bound on rounding of its row.
 double rounding_share(System& system, const model::State& state) {
-  system.begin_step(state, Stencil::statics());
+  system.prepare(state, Stencil::statics());
   const Evaluation found = system.evaluate(state, Stencil::statics(), Want::residual_and_tangent);
   return check_rounding(system, state.prev, state.next, state.multipliers, 0.0, found.force_scale)
       .share;

@@ -48,6 +48,11 @@ TYPED_TEST(ProjectedElement, NullSpaceResidualIsProjected) {
   }
 }
 
+TYPED_TEST(ProjectedElement, AttemptsLeaveNoTrace) {
+  kit::expect_attempts_leave_no_trace([&](model::Model& model) { fill<TypeParam>(model, true); },
+                                      effect);
+}
+
 TYPED_TEST(ProjectedElement, AssembleAllocatesNothing) {
   kit::expect_no_allocation([&](model::Model& model) { fill<TypeParam>(model, true); }, effect);
 }

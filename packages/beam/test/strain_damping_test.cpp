@@ -38,7 +38,7 @@ struct Step {
     model.freeze(model::Form::multipliers);
     state = kit::random_state(model, 3);
     kit::DenseAssembly dense(model);
-    dense.begin_step(state, stencil);
+    dense.prepare(state, stencil);
     batch = kit::find_batch(model, effect);
     force = dense.residual(state, stencil, {batch}).head(36);
   }

@@ -13,9 +13,10 @@ void LinkLoad::add(Link link) {
   Item item;
   item.link = std::move(link);
   const Measure kind = item.link.measure;
-  item.y_prev = values_of(item.link, slots_of(item.link, nodes_.reference()));
+  item.prev.y = values_of(item.link, slots_of(item.link, nodes_.reference()));
   // angles are zero in the reference
-  item.z_prev = kind == Measure::angle ? 0.0 : measure(kind, item.y_prev, 0.0, item.y_prev);
+  item.prev.z = kind == Measure::angle ? 0.0 : measure(kind, item.prev.y, 0.0, item.prev.y);
+  item.accepted = item.prev;
   items_.push_back(std::move(item));
 }
 
@@ -33,22 +34,33 @@ void LinkLoad::place(model::Placement placement, model::Form form) {
   use_predicted_ = false;
 }
 
-void LinkLoad::begin_step(const model::State& state, const Stencil&) {
+LinkLoad::Place LinkLoad::follow(const Item& item, const Place& from, const Vec<2>& y) {
+  return {y, measure(item.link.measure, from.y, from.z, y)};
+}
+
+void LinkLoad::prepare(const model::State& state, const Stencil&) {
   use_predicted_ = false;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     Item& item = this->item(i);
     const Vec<2> y = values_of(item.link, slots_of(item.link, state.prev));
-    item.z_prev = measure(item.link.measure, item.y_prev, item.z_prev, y);
-    item.y_prev = y;
+    item.prev = follow(item, item.accepted, y);
+  }
+}
+
+void LinkLoad::accept(model::State& state) {
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    Item& item = this->item(i);
+    const Vec<2> y = values_of(item.link, slots_of(item.link, state.next));
+    item.accepted = item.prev = follow(item, item.prev, y);
   }
 }
 
 LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
                                      const model::State& state, const Stencil& stencil) const {
-  const MeasureStep step = measure_step(item.link.measure, item.y_prev, item.z_prev,
+  const MeasureStep step = measure_step(item.link.measure, item.prev.y, item.prev.z,
                                         values_of(item.link, next), stencil.theta);
   const auto [force, derivative] =
-      law_->answer(item.z_prev - item.link.rest, step.next - item.link.rest, state, stencil);
+      law_->answer(item.prev.z - item.link.rest, step.next - item.link.rest, state, stencil);
   return {force * step.gradient,
           force * step.derivative + derivative * step.gradient * step.slope.transpose(), force};
 }
@@ -137,20 +149,22 @@ void LinkLoad::extrapolate(const model::State& state, const Stencil& stencil,
   use_predicted_ = true;
 }
 
-void LinkLoad::save(std::span<double> memory) const {
+void LinkLoad::save(model::Items which, std::span<double> memory) const {
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
+    if (which == model::Items::owned && !placement_.owned[i]) continue;
     const auto place = item_memory * static_cast<std::size_t>(placement_.items[i]);
-    memory[place] = item(i).y_prev[0];
-    memory[place + 1] = item(i).y_prev[1];
-    memory[place + 2] = item(i).z_prev;
+    const Place& accepted = item(i).accepted;
+    memory[place] = accepted.y[0];
+    memory[place + 1] = accepted.y[1];
+    memory[place + 2] = accepted.z;
   }
 }
 
 void LinkLoad::restore(std::span<const double> memory) {
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    items_[i].y_prev = {memory[item_memory * i], memory[item_memory * i + 1]};
-    items_[i].z_prev = memory[item_memory * i + 2];
+    items_[i].accepted = {{memory[item_memory * i], memory[item_memory * i + 1]},
+                          memory[item_memory * i + 2]};
+    items_[i].prev = items_[i].accepted;
   }
 }
 
@@ -159,8 +173,7 @@ double LinkLoad::stored_energy(const model::Coordinates& q) const {
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
     const Item& item = this->item(i);
-    const double z = measure(item.link.measure, item.y_prev, item.z_prev,
-                             values_of(item.link, slots_of(item.link, q)));
+    const double z = follow(item, item.prev, values_of(item.link, slots_of(item.link, q))).z;
     energy += law_->energy((z == no_length ? 0.0 : z) - item.link.rest);
   }
   return energy;
@@ -172,8 +185,7 @@ LinkLoad::Sample LinkLoad::sample(int item, const model::State& state) const {
   const auto i = static_cast<std::size_t>(at - placement_.items.begin());
   if (!placement_.owned[i]) return {};
   const Item& it = this->item(i);
-  const double z = measure(it.link.measure, it.y_prev, it.z_prev,
-                           values_of(it.link, slots_of(it.link, state.next)));
+  const double z = follow(it, it.prev, values_of(it.link, slots_of(it.link, state.next))).z;
   const double u = (z == no_length ? 0.0 : z) - it.link.rest;
   return {u, it.force ? *it.force : law_->answer(u, u, state, Stencil::statics()).force};
 }
@@ -184,9 +196,8 @@ model::StepWork LinkLoad::step_work(const model::State& state, const Stencil& st
     if (!placement_.owned[i]) continue;
     const Item& item = this->item(i);
     const Motion motion(nodes_, item.link.nodes, state, stencil.theta);
-    const double z =
-        measure(item.link.measure, item.y_prev, item.z_prev, values_of(item.link, motion.next));
-    const double prev = item.z_prev - item.link.rest;
+    const double z = follow(item, item.prev, values_of(item.link, motion.next)).z;
+    const double prev = item.prev.z - item.link.rest;
     const double next = z - item.link.rest;
     law_->add_work(law_->answer(prev, next, state, stencil).force, prev, next, work);
     const Vec<2> stress = respond(item, motion.next, state, stencil).stress;

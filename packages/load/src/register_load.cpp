@@ -13,6 +13,7 @@ void register_loads(model::BuilderRegistry& registry) {
   register_surface_force(registry);
   register_director_force(registry);
   register_gravity(registry);
+  register_external(registry);
   register_rotating_frame(registry);
   register_spring(registry);
   register_directed_spring(registry);

@@ -73,6 +73,18 @@ void SlotLoad::add_slot_forces(int node, const model::NodeSlots& forces) {
   item_on({node}).constant += forces;
 }
 
+int SlotLoad::add_settable_force(int node) {
+  items_.push_back(
+      {{node}, Eigen::Matrix3Xd::Zero(3, 4), Eigen::MatrixXd::Zero(4, 4), false, true});
+  return size() - 1;
+}
+
+void SlotLoad::set_force(int item, const Vec3& force) {
+  Item& it = items_[static_cast<std::size_t>(item)];
+  internal_check(it.is_settable, "a force that is fixed was set");
+  it.constant.col(0) = force;
+}
+
 std::vector<int> SlotLoad::blocks(int item, const model::UnknownTable& unknowns) const {
   std::vector<int> result;
   for (int node : items_[static_cast<std::size_t>(item)].nodes) {
@@ -85,7 +97,9 @@ bool SlotLoad::turns(const Item& item) const {
   for (std::size_t a = 0; a < item.nodes.size(); ++a) {
     const auto forces = item.constant.middleCols<4>(4 * static_cast<int>(a));
     const bool lever = nodes_.is_slave(item.nodes[a]);
-    if (!forces.rightCols<3>().isZero(0.0) || (lever && !forces.col(0).isZero(0.0))) return true;
+    if (!forces.rightCols<3>().isZero(0.0) || (lever && (item.is_settable || !forces.col(0).isZero(0.0)))) {
+      return true;
+    }
   }
   return false;
 }

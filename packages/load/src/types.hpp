@@ -13,6 +13,7 @@ void register_pressure(model::BuilderRegistry& registry);       // Pressure
 void register_surface_force(model::BuilderRegistry& registry);  // Surface Force
 void register_director_force(model::BuilderRegistry& registry);  // Director Force
 void register_gravity(model::BuilderRegistry& registry);         // Gravity
+void register_external(model::BuilderRegistry& registry);        // External
 
 void register_rotating_frame(model::BuilderRegistry& registry);  // Rotating Frame
 

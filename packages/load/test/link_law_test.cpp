@@ -102,7 +102,7 @@ class LinkLaws : public testing::TestWithParam<LinkCase> {
       next.rightCols<3>() = exp_rotation(shrink * log_rotation(turn)) * prev.rightCols<3>();
     }
     DenseAssembly dense(step.model);
-    dense.begin_step(step.state, step.stencil);
+    dense.prepare(step.state, step.stencil);
     step.batch = kit::find_batch(step.model, effect);
     step.force =
         -dense.residual(step.state, step.stencil, {step.batch}).head(12 * GetParam().num_nodes);
@@ -174,7 +174,7 @@ TEST_P(LinkLaws, StaticForceIsTheDerivativeOfTheEnergy) {
   DenseAssembly dense(model);
   model::Batch* batch = kit::find_batch(model, effect);
   model::State state = kit::random_state(model, 3);
-  dense.begin_step(state, Stencil::statics());
+  dense.prepare(state, Stencil::statics());
   const Eigen::VectorXd force = dense.residual(state, Stencil::statics(), {batch});
   const double h = 1e-5;
   for (int i = 0; i < 12 * GetParam().num_nodes; ++i) {
@@ -200,6 +200,11 @@ TEST_P(LinkLaws, RigidMotionOfBothNodesStoresNothing) {
   EXPECT_NEAR(step.batch->stored_energy(q), step.batch->stored_energy(step.state.next), 1e-13);
 }
 
+TEST_P(LinkLaws, AttemptsLeaveNoTrace) {
+  kit::expect_attempts_leave_no_trace([&](model::Model& model) { fill(model, &spring, true); },
+                                      effect);
+}
+
 TEST_P(LinkLaws, AssembleAllocatesNothing) {
   for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
     model::Model model;
@@ -210,7 +215,7 @@ TEST_P(LinkLaws, AssembleAllocatesNothing) {
     const Stencil stencil = Stencil::midpoint(0.4);
     const DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
     kit::NoHeap guard;
-    tested.front()->begin_step(state, stencil);
+    tested.front()->prepare(state, stencil);
     tested.front()->extrapolate(state, stencil, state.velocity);
     EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
   }
@@ -254,11 +259,11 @@ TEST(AngleLink, CountsFullTurns) {
   });
   double angle = 0.0;
   for (int step = 0; step < 11; ++step) {
-    one.dense->begin_step(one.state, Stencil::statics());
+    one.dense->accept(one.state);
     one.state.prev = one.state.next;
     angle += 2.0;
     NodeTable::slots(one.state.next, 1).rightCols<3>() = exp_rotation(angle * oblique);
-    one.dense->begin_step(one.state, Stencil::statics());
+    one.dense->prepare(one.state, Stencil::statics());
     const Eigen::VectorXd r = one.dense->residual(one.state, Stencil::statics());
     EXPECT_NEAR(r.segment<3>(9).dot(oblique), 2.0 * angle, 1e-12);
     EXPECT_LT((r.segment<3>(3) + r.segment<3>(9)).norm(), 1e-12);
@@ -266,7 +271,7 @@ TEST(AngleLink, CountsFullTurns) {
   }
   // a load made anew, as by a run that goes on, does not know them unless it is told
   std::vector<double> memory(one.load->memory_size());
-  one.load->save(memory);
+  one.load->save(model::Items::owned, memory);
   EXPECT_EQ(memory.size(), 3U);
   const double energy = one.load->stored_energy(one.state.next);
   std::vector<double> fresh(3, 0.0);
@@ -288,7 +293,7 @@ TEST(GroundLink, HasItsStiffnessAtNoLength) {
                            : ground_link(n, {0, Vec3::Zero()}, Vec3(0.25, -0.5, 1.0));
             });
     for (const Stencil& stencil : {Stencil::statics(), Stencil::midpoint(0.1)}) {
-      one.dense->begin_step(one.state, stencil);
+      one.dense->prepare(one.state, stencil);
       EXPECT_EQ(kit::largest(one.dense->residual(one.state, stencil)), 0.0);
       Mat3 expected = 7.0 * stencil.theta * Mat3::Identity();
       if (plane) expected(2, 2) = 0.0;

@@ -50,7 +50,7 @@ TEST_F(LinkSample, ForcesAreThoseOfTheStep) {
   fill(std::make_unique<SpringLaw>(PiecewiseLinear::proportional(30.0)), 1.5);
   kit::DenseAssembly dense(model);
   const model::State state = stretched(model.initial_state(), 0.2);
-  dense.begin_step(state, Stencil::midpoint(0.5));
+  dense.prepare(state, Stencil::midpoint(0.5));
   dense.residual(state, Stencil::midpoint(0.5));
   const LinkLoad::Sample sample = link->sample(0, state);
   EXPECT_NEAR(sample.coordinate, 0.7, 1e-14);
@@ -61,7 +61,7 @@ TEST_F(LinkSample, ADamperResistsItsRate) {
   fill(std::make_unique<DamperLaw>(PiecewiseLinear::proportional(30.0)), 2.0);
   kit::DenseAssembly dense(model);
   const model::State state = stretched(model.initial_state(), 0.2);
-  dense.begin_step(state, Stencil::midpoint(0.5));
+  dense.prepare(state, Stencil::midpoint(0.5));
   dense.residual(state, Stencil::midpoint(0.5));
   EXPECT_NEAR(link->sample(0, state).force, 30.0 * 0.2 / 0.5, 1e-12);
 }

@@ -71,7 +71,7 @@ class LinkTypes : public testing::Test {
     slots.col(0) += u;
     slots.rightCols<3>() = exp_rotation(r);
     const Stencil stencil = step > 0.0 ? Stencil::midpoint(step) : Stencil::statics();
-    dense.begin_step(state, stencil);
+    dense.prepare(state, stencil);
     return -dense.residual(state, stencil, {model.batches().back()}).tail<6>();
   }
 };

@@ -212,7 +212,7 @@ void ConstraintBatch::place(Placement placement, Form form) {
   form_ = form;
 }
 
-void ConstraintBatch::begin_step(const State& state, const Stencil& stencil) {
+void ConstraintBatch::prepare(const State& state, const Stencil& stencil) {
   const double time_mid = (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
   for (Item& item : items_) {
     if (!item.constraint.drive) continue;

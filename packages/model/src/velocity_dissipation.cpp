@@ -18,15 +18,10 @@ constexpr double settled = 1e-15;
 
 }  // namespace
 
-VelocityDissipation* VelocityDissipation::find(const Model& model) {
-  for (const auto& load : model.loads()) {
-    if (auto* found = dynamic_cast<VelocityDissipation*>(load.get())) return found;
-  }
-  return nullptr;
-}
-
 VelocityDissipation& VelocityDissipation::of(Model& model) {
-  if (VelocityDissipation* found = find(model)) return *found;
+  for (const auto& load : model.loads()) {
+    if (auto* found = dynamic_cast<VelocityDissipation*>(load.get())) return *found;
+  }
   auto made = std::make_unique<VelocityDissipation>(model);
   VelocityDissipation& result = *made;
   model.add_load(std::move(made));
@@ -56,10 +51,10 @@ void VelocityDissipation::place(Placement placement, Form form) {
     const auto [body, node] = items_[static_cast<std::size_t>(placement_.items[i])];
     if (node == 0) bodies_[static_cast<std::size_t>(body)].counted = placement_.owned[i];
   }
-  prepare();
+  collect_masses();
 }
 
-void VelocityDissipation::prepare() {
+void VelocityDissipation::collect_masses() {
   for (const auto& batch : model_.element_batches()) {
     if (const auto* source = dynamic_cast<const MassSource*>(batch.get())) {
       masses_.push_back(source);
@@ -100,8 +95,9 @@ void VelocityDissipation::take(const Coordinates& values, Pair Body::*pair) {
   }
 }
 
-void VelocityDissipation::begin_step(const State& state, const Stencil& stencil) {
-  if (stencil.inertia == 0.0) return;
+void VelocityDissipation::prepare(const State& state, const Stencil& stencil) {
+  step_ = stencil.inertia == 0.0 ? 0.0 : stencil.step;
+  if (step_ == 0.0) return;
   take(state.velocity, &Body::velocity);
 }
 
@@ -223,8 +219,9 @@ Verdict VelocityDissipation::assemble(const State& state, const Stencil& stencil
   return Verdict::ok;
 }
 
-void VelocityDissipation::correct(State& state, double h) {
-  project_all(state, h);
+void VelocityDissipation::accept(State& state) {
+  if (step_ == 0.0) return;
+  project_all(state, step_);
   for (const Body& body : bodies_) {
     const double share = body.chi / (1.0 + body.chi);
     for (std::size_t a = 0; a < body.nodes.size(); ++a) {

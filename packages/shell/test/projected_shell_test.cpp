@@ -55,6 +55,8 @@ TEST_P(ProjectedShell, TangentIsDerivativeOfResidual) {
   kit::expect_tangent_is_derivative(fill, effect);
 }
 
+TEST_P(ProjectedShell, AttemptsLeaveNoTrace) { kit::expect_attempts_leave_no_trace(fill, effect); }
+
 TEST_P(ProjectedShell, AssembleAllocatesNothing) { kit::expect_no_allocation(fill, effect); }
 
 INSTANTIATE_TEST_SUITE_P(Slaves, ProjectedShell,

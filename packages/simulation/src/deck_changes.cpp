@@ -88,7 +88,7 @@ void compare(const Options& before, const Options& now, const Names& free, Input
 }
 
 void compare_analyses(const Options& before, const Options& now, std::size_t analysis, double time,
-                      InputIssues& issues) {
+                      const std::set<std::string>& returns, InputIssues& issues) {
   for (std::size_t i = 0; i <= analysis; ++i) {
     const Options& old = before.entries()[i];
     if (i >= now.entries().size() || now.entries()[i].name() != old.name()) {
@@ -109,8 +109,7 @@ void compare_analyses(const Options& before, const Options& now, std::size_t ana
       compare_parameter(old, present, name, issues);
     }
     for (const char* name : {"End Time", "Final Level"}) {
-      // a path goes up and down
-      if (find(present, name) == nullptr || present.text("Type") == "Path") continue;
+      if (find(present, name) == nullptr || returns.contains(present.text("Type"))) continue;
       if (present.number(name) >= time) continue;
       issues.add(present.where(name), "the run has reached " + to_string(Value(time)) + ", got " +
                                           to_string(Value(present.number(name))));
@@ -121,13 +120,13 @@ void compare_analyses(const Options& before, const Options& now, std::size_t ana
 }  // namespace
 
 InputIssues find_forbidden_changes(const Options& before, const Options& now, std::size_t analysis,
-                                   double time) {
+                                   double time, const std::set<std::string>& returns) {
   InputIssues issues;
   compare(before, now, {"Title", "Output", "Analyses"}, issues);
   for (const char* list : {"History", "Shell"}) {
     compare(before.list("Output").list(list), now.list("Output").list(list), {}, issues);
   }
-  compare_analyses(before.list("Analyses"), now.list("Analyses"), analysis, time, issues);
+  compare_analyses(before.list("Analyses"), now.list("Analyses"), analysis, time, returns, issues);
   return issues;
 }
 

@@ -5,6 +5,8 @@
 #include <culm/base/options.hpp>
 
 #include <cstddef>
+#include <set>
+#include <string>
 
 namespace culm::simulation {
 
@@ -13,7 +15,8 @@ namespace culm::simulation {
 /// of the present analysis everything but type and scheme; of those before it the Newton iteration.
 /// @param analysis  number of the present analysis
 /// @param time      what it has reached
+/// @param returns   types of analyses whose time or level may fall
 InputIssues find_forbidden_changes(const Options& before, const Options& now, std::size_t analysis,
-                                   double time);
+                                   double time, const std::set<std::string>& returns);
 
 }  // namespace culm::simulation

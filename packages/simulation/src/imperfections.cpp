@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
 #include <culm/base/text.hpp>
+#include <culm/base/text.hpp>
 #include <culm/output/recorded_shape.hpp>
 
 #include <Eigen/Core>
@@ -42,7 +43,8 @@ Schema imperfections_schema() {
       .entries(std::move(shape));
 }
 
-Imperfections::Imperfections(const Options& deck) : list_(deck.list("Imperfections")) {
+Imperfections::Imperfections(const Options& deck, const std::set<std::string>& gives_shapes)
+    : list_(deck.list("Imperfections")) {
   const std::vector<Options>& analyses = deck.list("Analyses").entries();
   InputIssues issues;
   for (const Options& entry : list_.entries()) {
@@ -58,9 +60,10 @@ Imperfections::Imperfections(const Options& deck) : list_(deck.list("Imperfectio
       continue;
     }
     const std::string& type = found->text("Type");
-    if (type != "Buckling" && type != "Modal") {
-      issues.add(entry.where("Analysis"),
-                 "must be of type Buckling or Modal, '" + source + "' is of type " + type);
+    if (!gives_shapes.contains(type)) {
+      const std::vector<std::string> types(gives_shapes.begin(), gives_shapes.end());
+      issues.add(entry.where("Analysis"), "must be of type " + join(types, " or ") + ", '" +
+                                              source + "' is of type " + type);
     } else if (entry.integer("Shape") > found->integer("Modes")) {
       issues.add(entry.where("Shape"),
                  fmt::format("'{}' looks for {} shapes, got {}", source, found->integer("Modes"),

@@ -20,8 +20,9 @@ Schema imperfections_schema();
 /// shape that an analysis of this run finds in those after it.
 class Imperfections {
  public:
-  /// Throws InputError where an entry names no analysis of the deck.
-  explicit Imperfections(const Options& deck);
+  /// Throws InputError where an entry names no analysis of the deck that gives shapes.
+  /// @param gives_shapes  types of analyses that do
+  Imperfections(const Options& deck, const std::set<std::string>& gives_shapes);
 
   /// Entries whose shape is not there yet when an analysis begins.
   std::set<std::string> unknown_in(std::size_t analysis) const;

@@ -55,11 +55,6 @@ std::optional<std::size_t> origin_of(const std::vector<Options>& analyses, std::
   return {};
 }
 
-bool moves(const Options& analysis) {
-  const std::string& type = analysis.text("Type");
-  return type == "Static" || type == "Path" || type == "Dynamic";
-}
-
 struct Range {
   std::size_t first = 0;
   std::size_t size = 0;
@@ -115,11 +110,13 @@ Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfecti
       memory_(memory) {
   const std::vector<Options>& analyses = deck.list("Analyses").entries();
   for (std::size_t i = 0; i < analyses.size(); ++i) {
-    Setting setting{read_inactive(deck, analyses[i]), analyses[i].text("Type") == "Path"};
+    const std::string& type = analyses[i].text("Type");
+    Setting setting{read_inactive(deck, analyses[i]),
+                    catalogue.analyses.follows_path.contains(type)};
     setting.inactive.merge(imperfections.unknown_in(i));
     // what looks at a state has the loads that led there
     const std::optional<std::size_t> origin = origin_of(analyses, i);
-    if (origin && !moves(analyses[i])) setting.is_path = of(*origin).setting.is_path;
+    if (origin && catalogue.analyses.inspections.contains(type)) setting.is_path = of(*origin).setting.is_path;
     by_analysis_.push_back(&find_or_build(setting));
   }
   refuse_jumps();

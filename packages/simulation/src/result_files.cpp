@@ -143,23 +143,12 @@ void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
 }
 
 std::vector<output::HistoryColumn> ResultFiles::columns() const {
-  std::vector<output::HistoryColumn> all;
-  for (const WatchedQuantity& watched : *watched_) {
-    for (output::HistoryColumn column : watched.quantity->columns()) {
-      column.name = column.name.empty() ? watched.name : watched.name + " " + column.name;
-      all.push_back(std::move(column));
-    }
-  }
-  return all;
+  return columns_of(*watched_);
 }
 
 std::vector<double> ResultFiles::evaluate(model::State& state) const {
   system_->synchronise(state);
-  std::vector<double> numbers;
-  for (const WatchedQuantity& watched : *watched_) {
-    watched.quantity->evaluate(*system_, state, numbers);
-  }
-  return numbers;
+  return simulation::evaluate(*watched_, *system_, state);
 }
 
 void ResultFiles::add_history(double time, const std::vector<double>& numbers) {

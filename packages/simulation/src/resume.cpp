@@ -83,7 +83,9 @@ void check_resumed_deck(const Catalogue& catalogue, const Options& deck, const S
         "as with another version of culm");
   }
   const auto analysis = static_cast<std::size_t>(snapshot.integer("run/analysis"));
-  find_forbidden_changes(before, deck, analysis, snapshot.number("state/time")).throw_if_any();
+  find_forbidden_changes(before, deck, analysis, snapshot.number("state/time"),
+                         catalogue.analyses.follows_path)
+      .throw_if_any();
 }
 
 std::string describe(const FoundCheckpoint& found, const Options& deck) {

@@ -55,8 +55,7 @@ RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
 }
 
 void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
-                        const analysis::Analysis& analysis, analysis::Context& context,
-                        const std::string& linear_solver) {
+                        analysis::Context& context, const std::string& linear_solver) {
   name_ = entry.name();
   progress_.begin(name_);
   findings_.begin(name_);
@@ -65,7 +64,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   context_ = &context;
   linear_solver_ = linear_solver;
   turns_.emplace(context.system);
-  analysis_ = &analysis;
+  stepper_ = nullptr;
   number_ = number;
   is_last_ = is_last;
   has_stepped_ = false;
@@ -135,7 +134,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   const Checkpoints::Demand demand = checkpoints_.demand();
   const bool ends = is_last_ && report.is_last;
   if (demand == Checkpoints::Demand::none && !ends) return;
-  write_checkpoint(state);
+  write_checkpoint();
   if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());
 }
 
@@ -168,13 +167,12 @@ void RunObserver::watch_turns(double time, const model::State& state) {
   turn_.place = fmt::format("at {:.6g} of '{}'", time, name_);
 }
 
-void RunObserver::write_checkpoint(model::State& state) {
+void RunObserver::write_checkpoint() {
   if (!checkpoints_.are_active() || !has_stepped_) return;
   const Ledger::Scope scope(ledger_, checkpoint_effect_);
   Snapshot snapshot;
   save(snapshot);
-  context_->system.save(state, snapshot);
-  analysis_->save(*context_, snapshot);
+  stepper_->save(snapshot);
   files_.save(snapshot);
   checkpoints_.write(snapshot);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/element_turns.hpp>
+#include <culm/analysis/stepper.hpp>
 #include <culm/simulation/progress.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/result_files.hpp>
@@ -43,14 +44,15 @@ class RunObserver final : public analysis::Observer {
   ///                 one
   /// @param linear_solver its name and why it was taken, for the report
   void begin(const Options& entry, std::size_t number, bool is_last,
-             const analysis::Analysis& analysis, analysis::Context& context,
-             const std::string& linear_solver);
+             analysis::Context& context, const std::string& linear_solver);
+  /// What makes the steps from now on, and what its checkpoints hold; none: nothing does.
+  void follow(analysis::Stepper* stepper) { stepper_ = stepper; }
   /// Goes on within an analysis that has begun before.
   void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
-  void write_checkpoint(model::State& state);
+  void write_checkpoint();
   void finish_analysis(const analysis::AnalysisReport& report, const model::State& state);
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
@@ -84,7 +86,7 @@ class RunObserver final : public analysis::Observer {
   Ledger::Id history_effect_;
   Ledger::Id states_effect_;
   Ledger::Id checkpoint_effect_ = 0;
-  const analysis::Analysis* analysis_ = nullptr;
+  analysis::Stepper* stepper_ = nullptr;
   analysis::Context* context_ = nullptr;  // of the analysis
   std::string name_;                      // of the analysis
   std::size_t number_ = 0;

@@ -1,4 +1,3 @@
-#include <culm/analysis/element_turns.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/deck/resolved.hpp>
@@ -9,11 +8,10 @@
 #include <culm/simulation/simulation.hpp>
 #include <culm/solver/fill.hpp>
 
-#include "earlier_states.hpp"
 #include "model_report.hpp"
 #include "on_root.hpp"
-#include "phase.hpp"
 #include "run_observer.hpp"
+#include "simulation_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -61,25 +59,6 @@ output::RunInfo describe_run(const Options& deck, const model::Model& model,
 }
 
 }  // namespace
-
-struct Simulation::Parts {
-  parallel::Comm comm;
-  const Catalogue& catalogue;
-  Options deck;
-  DeckSource source;
-  Log log;
-  double memory;
-  Findings findings = Findings(log);
-  Imperfections imperfections = Imperfections(deck);
-  Phases phases = Phases(catalogue, deck, imperfections, log, memory);
-  EarlierStates earlier = EarlierStates(deck.list("Analyses"));
-  Ledger ledger = {};
-  std::size_t present = 0;  ///< the analysis whose phase the state belongs to
-  analysis::ElementTurn reference_turn =
-      {};  ///< the largest one without load; its share tells if any
-
-  void warn_of_reference();
-};
 
 // Shapes that elements are too coarse for before any load.
 void Simulation::Parts::warn_of_reference() {
@@ -129,7 +108,6 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   model::State state = phase.model->initial_state();
   try {
     if (from != nullptr) {
-      phase.system->restore(*from, state);
       p.findings.restore(*from);
       observer.restore(*from);
       p.earlier.restore(*from);
@@ -161,20 +139,45 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     if (!resumes) start_analysis(i, state);
     files.use(*phase.system, phase.watched);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
-    const auto analysis = p.catalogue.analyses.make(entries[i].text("Type"), entries[i]);
-    observer.begin(entries[i], i, i + 1 == entries.size(), *analysis, context, phase.linear.reason);
+    observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear.reason);
     if (resumes) observer.resume(*from);
-    try {
-      const auto report = resumes ? analysis->resume(context, state, observer, *from)
-                                  : analysis->run(context, state, observer);
-      observer.finish_analysis(report, state);
-      p.imperfections.keep(entries[i].name(), *phase.model, report);
-    } catch (const Error& error) {
-      // other tolerances or steps may find the way that these did not
-      if (is_numerical(error)) write_last_checkpoint(state, observer);
-      throw;
-    }
+    const auto report =
+        run_analysis(entries[i], context, state, observer, resumes ? from : nullptr);
+    p.imperfections.keep(entries[i].name(), *phase.model, report);
     keep_state(entries[i].name(), state);
+  }
+}
+
+analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis::Context& context,
+                                                  model::State& state, RunObserver& observer,
+                                                  const Snapshot* from) {
+  const analysis::AnalysisRegistry& known = parts_->catalogue.analyses;
+  const std::string& type = entry.text("Type");
+  if (known.inspections.contains(type)) {
+    const auto inspection = known.inspections.make(type, entry);
+    observer.start(state);
+    inspection->begin(context, state);
+    const analysis::AnalysisReport report = inspection->inspect(context, state);
+    observer.finish_analysis(report, state);
+    return report;
+  }
+  const auto stepper = known.steppers.make(type, entry, context, state);
+  observer.follow(stepper.get());
+  if (from != nullptr) {
+    stepper->resume(*from);
+  } else {
+    stepper->fit();
+    observer.start(state);
+    stepper->begin();
+  }
+  try {
+    const analysis::AnalysisReport report = analysis::run(*stepper, observer);
+    observer.finish_analysis(report, state);
+    return report;
+  } catch (const Error& error) {
+    // other tolerances or steps may find the way that these did not
+    if (is_numerical(error)) write_last_checkpoint(observer);
+    throw;
   }
 }
 
@@ -231,9 +234,9 @@ void Simulation::keep_state(const std::string& name, model::State& state) {
   p.earlier.keep(name, p.present, std::move(snapshot));
 }
 
-void Simulation::write_last_checkpoint(model::State& state, RunObserver& observer) const {
+void Simulation::write_last_checkpoint(RunObserver& observer) const {
   try {
-    observer.write_checkpoint(state);
+    observer.write_checkpoint();
   } catch (const FileError& second) {
     parts_->log.warning(second.what());
   }
@@ -260,7 +263,13 @@ void Simulation::examine() {
     model::State state = phase.model->initial_state();
     start_analysis(i, state);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
-    p.catalogue.analyses.make(entries[i].text("Type"), entries[i])->examine(context, state);
+    const analysis::AnalysisRegistry& known = p.catalogue.analyses;
+    const std::string& type = entries[i].text("Type");
+    if (known.inspections.contains(type)) {
+      known.inspections.make(type, entries[i])->begin(context, state);
+    } else {
+      known.steppers.make(type, entries[i], context, state)->begin();
+    }
   }
 }
 

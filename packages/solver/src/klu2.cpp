@@ -108,8 +108,17 @@ void Klu2::scale() {
   }
 }
 
+void Klu2::restore_pivots() {
+  if (!remembered_) return;
+  const std::vector<int> pivots = std::move(*remembered_);
+  parts_->free_factors();
+  if (!pivots.empty()) set_pivots(pivots);
+  remembered_.reset();
+}
+
 bool Klu2::choose_pivots() {
   Parts& p = *parts_;
+  if (!remembered_) remembered_ = pivots();
   kept_pivots_ = false;
   p.free_factors();
   // without an analysis the matrix is singular by its pattern
@@ -163,6 +172,7 @@ std::vector<int> Klu2::pivots() const {
 // it prefer the diagonal to any larger entry. Order and pattern of the factors follow from that.
 bool Klu2::set_pivots(std::span<const int> pivots) {
   Parts& p = *parts_;
+  if (std::ranges::equal(this->pivots(), pivots)) return true;  // else it costs a factorisation
   std::vector<int> sorted(pivots.begin(), pivots.end());
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t k = 0; k < sorted.size(); ++k) {

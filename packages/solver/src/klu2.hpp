@@ -5,6 +5,7 @@
 #include <culm/solver/linear_solver.hpp>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,10 @@ class Klu2 {
   /// Which unknown is eliminated with which row, as numbers for set_pivots of the same matrix
   /// pattern; empty without factors.
   std::vector<int> pivots() const;
+  /// The pivots at hand are those to which restore_pivots goes back.
+  void remember_pivots() { remembered_.reset(); }
+  /// Goes back where others were chosen since.
+  void restore_pivots();
   /// The next factorisation keeps these pivots. It then rounds as it would have after those that
   /// chose them. @return false if they are not pivots of a matrix of this size
   bool set_pivots(std::span<const int> pivots);
@@ -55,6 +60,7 @@ class Klu2 {
   std::vector<double> values_;  ///< of the matrix, each column divided by its largest entry
   std::vector<double> scale_;   ///< by column
   bool kept_pivots_ = false;
+  std::optional<std::vector<int>> remembered_;  ///< those before others were chosen; else none
 };
 
 }  // namespace culm::solver

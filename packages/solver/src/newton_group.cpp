@@ -153,6 +153,7 @@ bool NewtonGroup::solve_linear() {
   if (has_tangent_) {
     const Ledger::Scope scope(p.ledger, p.factor_effect);
     p.singular = !p.linear.factor();
+    ++p.factorisations;
     p.has_factors = !p.singular;
     p.factored_inertia = p.stencil.inertia;
     if (p.singular) return false;

@@ -30,6 +30,7 @@ struct NewtonProblem {
   Determinant first_determinant = {};                     ///< of the first tangent of a static step
   bool has_factors = false;       ///< the linear solver holds factors of a tangent of this analysis
   double factored_inertia = 0.0;  ///< Stencil::inertia of that tangent
+  long factorisations = 0;        ///< so far
   double last_residual = 0.0;     ///< relative one of the iteration before; 0 before the first
   int iterations = 0;             ///< of this step, so far
   int expected_iterations = 0;    ///< those of the step before; 0 before the first

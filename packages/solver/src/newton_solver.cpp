@@ -132,7 +132,17 @@ Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const std::shared_ptr<Newton
 }  // namespace
 
 struct NewtonSolver::Nox {
+  // What an attempt changes and the next one reads.
+  struct Kept {
+    int expected_iterations = 0;
+    bool has_factors = false;
+    double factored_inertia = 0.0;
+    long factorisations = 0;
+  };
+
   std::shared_ptr<NewtonProblem> problem;
+  Kept kept;
+  Snapshot kept_matrix = Snapshot(Snapshot::Use::memory);  // of the factors that serve on
   Teuchos::RCP<NewtonGroup> group;
   Teuchos::RCP<BalanceTest> balance;
   Teuchos::RCP<NOX::StatusTest::Combo> tests;
@@ -239,6 +249,29 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   nox.problem->expected_iterations = outcome.converged() ? outcome.iterations : 0;
   nox.group->finish();
   return outcome;
+}
+
+void NewtonSolver::keep() {
+  const NewtonProblem& p = *nox_->problem;
+  p.linear.remember_pivots();
+  const bool is_new = p.factorisations != nox_->kept.factorisations;
+  nox_->kept = {p.expected_iterations, p.has_factors, p.factored_inertia, p.factorisations};
+  // the matrix has not changed since it was factored
+  if (p.settings.refresh == Refresh::on_slow_convergence && p.has_factors && is_new) {
+    p.system.save_matrix(nox_->kept_matrix);
+  }
+}
+
+void NewtonSolver::go_back() {
+  NewtonProblem& p = *nox_->problem;
+  const bool is_new = p.factorisations != nox_->kept.factorisations;
+  p.expected_iterations = nox_->kept.expected_iterations;
+  p.linear.restore_pivots();
+  if (p.settings.refresh == Refresh::every_iteration || !is_new) return;
+  p.factored_inertia = nox_->kept.factored_inertia;
+  p.has_factors = nox_->kept.has_factors && p.system.restore_matrix(nox_->kept_matrix) &&
+                  p.linear.factor();
+  nox_->kept.factorisations = p.factorisations;
 }
 
 void NewtonSolver::save(Snapshot& snapshot) const {

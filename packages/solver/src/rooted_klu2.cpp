@@ -69,6 +69,13 @@ class RootedKlu2 final : public LinearSolver {
 
   std::vector<int> pivots() const override { return klu_ ? klu_->pivots() : std::vector<int>{}; }
 
+  void remember_pivots() override {
+    if (klu_) klu_->remember_pivots();
+  }
+  void restore_pivots() override {
+    if (klu_) klu_->restore_pivots();
+  }
+
   bool set_pivots(std::span<const int> pivots) override {
     const bool fit = !comm_.is_root() || pivots.empty() || klu_->set_pivots(pivots);
     return comm_.max(fit ? 0 : 1) == 0;

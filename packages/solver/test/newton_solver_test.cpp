@@ -23,7 +23,7 @@ class CarriedChain {
     linear = choose_linear_solver(solver, system->matrix(), comm).solver;
     newton = std::make_unique<NewtonSolver>(*system, *linear, settings, ledger);
     state = model.initial_state();
-    system->begin_step(state, Stencil::statics());
+    system->prepare(state, Stencil::statics());
     system->choose_multiplier_scale(state, Stencil::statics());
   }
   StepOutcome solve() {

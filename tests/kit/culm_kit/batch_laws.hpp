@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::kit {
@@ -54,7 +55,7 @@ inline void expect_tangent_is_derivative(const FillModel& fill, const std::strin
       ASSERT_NE(tested.front(), nullptr);
       const model::State state = random_state(model, 3);
       DenseAssembly dense(model);
-      dense.begin_step(state, stencil);
+      dense.prepare(state, stencil);
       const Eigen::MatrixXd K = dense.tangent(state, stencil, tested);
       const Eigen::MatrixXd expected = dense.difference_tangent(state, stencil, tested, step);
       const double scale = 1.0 + largest(dense.residual(state, stencil, tested));
@@ -114,8 +115,8 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
     full_state.acceleration_offset = state.acceleration_offset;
     set_multipliers(reduced, effect, state);
     set_multipliers(full, effect, full_state);
-    reduced_system.begin_step(state, stencil);
-    full_system.begin_step(full_state, stencil);
+    reduced_system.prepare(state, stencil);
+    full_system.prepare(full_state, stencil);
     const Eigen::VectorXd r =
         node_rows(reduced, reduced_system.residual(state, stencil, {find_batch(reduced, effect)}));
     const Eigen::VectorXd R =
@@ -123,6 +124,56 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
     const Eigen::MatrixXd P = null_space_matrix(reduced.nodes(), at_theta(state, stencil.theta));
     ASSERT_GT(largest(R), 0.0);
     EXPECT_LT(largest(r - P.transpose() * R), 1e-13 * (1.0 + largest(R)));
+  }
+}
+
+/// Two steps of a batch: what the second one sees, with `attempt` made before each of the first's
+/// and the second's own evaluation.
+inline std::pair<Eigen::VectorXd, Eigen::MatrixXd> second_step(
+    const FillModel& fill, const std::string& effect, const Stencil& stencil,
+    const std::function<void(DenseAssembly&, const model::State&)>& attempt) {
+  model::Model model;
+  fill(model);
+  model.freeze(model::Form::null_space);
+  const DenseAssembly::Batches tested = {find_batch(model, effect)};
+  DenseAssembly dense(model);
+  model::State state = random_state(model, 3);
+  const model::State later = random_state(model, 8);
+  attempt(dense, state);
+  dense.prepare(state, stencil);
+  dense.residual(state, stencil, tested);
+  dense.accept(state);
+  state.prev = state.next;
+  state.next = later.next;
+  state.time_prev = state.time;
+  state.time += 0.4;
+  attempt(dense, state);
+  dense.prepare(state, stencil);
+  return {dense.residual(state, stencil, tested), dense.tangent(state, stencil, tested)};
+}
+
+/// What was attempted and discarded leaves no trace, bit by bit: neither other ends of a step nor
+/// other lengths, nor a preparation that nothing followed.
+inline void expect_attempts_leave_no_trace(const FillModel& fill, const std::string& effect) {
+  const auto wander = [&](DenseAssembly& dense, const model::State& state) {
+    for (const Stencil& other : law_stencils) {
+      for (const int seed : {21, 22}) {
+        model::State trial = state;
+        trial.next = random_state(dense.model(), seed).next;
+        trial.time = state.time_prev + 0.1 * seed;
+        dense.prepare(trial, other);
+        dense.tangent(trial, other, {find_batch(dense.model(), effect)});
+      }
+    }
+    dense.prepare(state, Stencil::statics());
+  };
+  for (const Stencil& stencil : law_stencils) {
+    SCOPED_TRACE(testing::Message() << "theta " << stencil.theta << " / " << stencil.theta_strain);
+    const auto undisturbed =
+        second_step(fill, effect, stencil, [](DenseAssembly&, const model::State&) {});
+    const auto disturbed = second_step(fill, effect, stencil, wander);
+    EXPECT_EQ(undisturbed.first, disturbed.first);
+    EXPECT_EQ(undisturbed.second, disturbed.second);
   }
 }
 
@@ -135,7 +186,7 @@ inline void expect_no_allocation(const FillModel& fill, const std::string& effec
     DenseAssembly dense(model);
     const model::State state = random_state(model, 3);
     const Stencil stencil = Stencil::midpoint(0.4);
-    dense.begin_step(state, stencil);
+    dense.prepare(state, stencil);
     const DenseAssembly::Batches tested = {find_batch(model, effect)};
     NoHeap guard;
     EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);

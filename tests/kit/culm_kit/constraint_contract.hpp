@@ -228,12 +228,16 @@ TYPED_TEST_P(ConstraintContract, AssembleAllocatesNothing) {
   expect_no_allocation([&](model::Model& model) { this->fill(model, true); }, this->name);
 }
 
+TYPED_TEST_P(ConstraintContract, AttemptsLeaveNoTrace) {
+  expect_attempts_leave_no_trace([&](model::Model& model) { this->fill(model, true); }, this->name);
+}
+
 REGISTER_TYPED_TEST_SUITE_P(ConstraintContract, HoldsInTheReference, GradientIsDerivativeOfTheRows,
                             IncrementIsMidpointGradientTimesMotion,
                             RowsAreIndependentOfTheInternalOnesTheyDoNotReplace,
                             EliminationLeavesTheMotionsThatTheRowsLeave,
                             TangentIsDerivativeOfResidual, NullSpaceResidualIsProjected,
-                            AssembleAllocatesNothing);
+                            AssembleAllocatesNothing, AttemptsLeaveNoTrace);
 
 template <class Case>
 class JointContract : public ConstraintContract<Case> {};

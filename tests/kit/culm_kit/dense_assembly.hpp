@@ -59,9 +59,15 @@ class DenseAssembly {
 
   int size() const { return model_.unknowns().num_unknowns(); }
 
-  /// Starts a step of all batches at the given state.
-  void begin_step(const model::State& state, const Stencil& stencil) {
-    for (model::Batch* batch : model_.batches()) batch->begin_step(state, stencil);
+  const model::Model& model() const { return model_; }
+
+  /// Begins an attempt of all batches at the given state.
+  void prepare(const model::State& state, const Stencil& stencil) {
+    for (model::Batch* batch : model_.batches()) batch->prepare(state, stencil);
+  }
+  /// Ends a step of all batches, in which the state was evaluated last.
+  void accept(model::State& state) {
+    for (model::Batch* batch : model_.batches()) batch->accept(state);
   }
 
   /// Residual of some batches, of all when none are named.

@@ -159,9 +159,14 @@ TYPED_TEST_P(LoadContract, AssembleAllocatesNothing) {
   expect_no_allocation([&](model::Model& model) { this->fill(model, true); }, this->effect());
 }
 
+TYPED_TEST_P(LoadContract, AttemptsLeaveNoTrace) {
+  expect_attempts_leave_no_trace([&](model::Model& model) { this->fill(model, true); },
+                                 this->effect());
+}
+
 REGISTER_TYPED_TEST_SUITE_P(LoadContract, TangentIsDerivativeOfResidual,
                             NullSpaceResidualIsProjected, ForceAndMomentAreThoseAskedFor,
                             TurnsWithTheBodyOnlyIfItFollows, ActsWithTheAmplitudeAtTheta,
-                            AssembleAllocatesNothing);
+                            AssembleAllocatesNothing, AttemptsLeaveNoTrace);
 
 }  // namespace culm::kit

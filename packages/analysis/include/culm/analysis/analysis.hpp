@@ -1,4 +1,4 @@
-/// What every analysis shares.
+/// What all analyses share.
 #pragma once
 
 #include <culm/analysis/shape.hpp>
@@ -73,44 +73,14 @@ struct AnalysisReport {
   std::vector<ReportMatrix> matrices = {};
 };
 
-/// Makes the new equilibrium the start of the next step.
-void accept(model::State& state);
-/// Goes back to the start of the step.
-void reject(model::State& state);
-
-/// A way to move a state, in steps. Everything it remembers from one step to the next stands in its
-/// members, where save() finds it. run() and resume() throw NumericalError or NonFiniteError with a
-/// post-mortem when they have to give up; the state is then the last accepted one.
-class Analysis {
+/// An analysis that makes no steps: it looks at a state, which it may bring to a level of its own.
+class Inspection {
  public:
-  virtual ~Analysis() = default;
-
-  AnalysisReport run(Context& context, model::State& state, Observer& observer) {
-    fit(context, state);
-    observer.start(state);
-    start(context, state);
-    return advance(context, state, observer);
-  }
-  /// What run() does before its first step: throws where no step can be made, as from a mechanism.
-  void examine(Context& context, model::State& state) { start(context, state); }
-  /// Goes on from the step in which save() was called. The state is that of then.
-  AnalysisReport resume(Context& context, model::State& state, Observer& observer,
-                        const Snapshot& snapshot) {
-    restore(context, snapshot);
-    return advance(context, state, observer);
-  }
-  /// Writes what the next step needs beside the state. For observers of a step; collective.
-  virtual void save(const Context& context, Snapshot& snapshot) const = 0;
-
- private:
-  /// Brings positions and velocities to where the analysis can begin.
-  virtual void fit(Context&, model::State&) {}
-  /// Looks at the present state and prepares the first step.
-  virtual void start(Context& context, model::State& state) = 0;
-  /// Takes over what save wrote. Throws FileError if it does not fit.
-  virtual void restore(Context& context, const Snapshot& snapshot) = 0;
-  /// Makes all steps to the end.
-  virtual AnalysisReport advance(Context& context, model::State& state, Observer& observer) = 0;
+  virtual ~Inspection() = default;
+  /// What inspect does first: throws where nothing can be found, as of a mechanism.
+  virtual void begin(Context&, model::State&) {}
+  /// After begin.
+  virtual AnalysisReport inspect(Context& context, model::State& state) = 0;
 };
 
 }  // namespace culm::analysis

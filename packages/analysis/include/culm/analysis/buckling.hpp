@@ -22,19 +22,17 @@ struct BucklingSettings {
 /// Linear buckling about the present state, which stays as it is: (K + mu DK) phi = 0, where DK is
 /// what the stresses, reactions and loads of one linear step under the reference load add to the
 /// tangent. @source formulation 5.5
-class Buckling final : public Analysis {
+class Buckling final : public Inspection {
  public:
   explicit Buckling(BucklingSettings settings) : settings_(std::move(settings)) {}
 
   static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
+  static std::unique_ptr<Inspection> make(const Options& options);
 
-  void save(const Context&, Snapshot&) const override {}  // it makes no steps
+  void begin(Context& context, model::State& state) override;
+  AnalysisReport inspect(Context& context, model::State& state) override;
 
  private:
-  void start(Context& context, model::State& state) override;
-  void restore(Context&, const Snapshot&) override {}
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
   double reference_level(const model::State& state) const;
 
   BucklingSettings settings_;

@@ -19,20 +19,16 @@ struct CampbellSettings {
 /// Static equilibrium and modes at each of some load levels, from the present state on. Modes are
 /// followed from level to level by their shapes. With a rotating frame whose speed grows with the
 /// level this is the Campbell diagram. The state ends at the last level.
-class Campbell final : public Analysis {
+class Campbell final : public Inspection {
  public:
   explicit Campbell(CampbellSettings settings) : settings_(std::move(settings)) {}
 
   static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
+  static std::unique_ptr<Inspection> make(const Options& options);
 
-  void save(const Context&, Snapshot&) const override {}  // it is one step to others
+  AnalysisReport inspect(Context& context, model::State& state) override;
 
  private:
-  void start(Context&, model::State&) override {}
-  void restore(Context&, const Snapshot&) override {}
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
-
   CampbellSettings settings_;
 };
 

@@ -19,10 +19,10 @@ class Certificate {
   Certificate(const assembly::System& system, bool promises);
 
   void start(const model::State& state);
-  /// After each accepted step, with the velocity of its end already in state.velocity. Work and
-  /// impulses are summed in every step, balances compared in every tenth and in the last one.
-  void record(const model::State& state, const Stencil& stencil, double constraint_violation,
-              bool is_last);
+  /// In each accepted step, before anything of it moves on: sums work and impulses.
+  void add_work(const model::State& state, const Stencil& stencil, double constraint_violation);
+  /// After the step was accepted: compares balances in every tenth step and in the last one.
+  void compare(const model::State& state, bool is_last);
 
   /// Once at the end, if it can be told. Constraints hold for positions; their rates, H v = dg/dt,
   /// hold to the second order of the step only. @param change largest change of the velocity that
@@ -57,7 +57,7 @@ class Certificate {
   template <class Self>
   static auto memory(Self& self);
   std::vector<Line> lines() const;
-  void compare(const model::State& state);
+  void measure(const model::State& state);
   double energy_scale() const;
   double linear_scale() const;
   double angular_scale() const;

@@ -3,9 +3,10 @@
 
 #include <culm/analysis/certificate.hpp>
 #include <culm/analysis/cut_backs.hpp>
-#include <culm/analysis/post_mortem.hpp>
+#include <culm/analysis/missed_pulses.hpp>
 #include <culm/analysis/predictor.hpp>
 #include <culm/analysis/step_control.hpp>
+#include <culm/analysis/stepper.hpp>
 #include <culm/analysis/time_scheme.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
@@ -24,33 +25,45 @@ struct DynamicsSettings {
 };
 
 /// Time integration with fixed or adaptive steps. @source formulation 4.6b
-class Dynamics final : public Analysis {
+class Dynamics final : public Stepper {
  public:
-  Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme)
-      : settings_(std::move(settings)), scheme_(std::move(scheme)) {}
+  Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme, Context& context,
+           model::State& state);
 
   static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
+  static std::unique_ptr<Stepper> make(const Options& options, Context& context,
+                                       model::State& state);
 
-  void save(const Context& context, Snapshot& snapshot) const override;
+  const StepControl& control() const { return control_; }
+  const Certificate& certificate() const { return certificate_; }
 
  private:
-  void fit(Context& context, model::State& state) override;
-  void start(Context& context, model::State& state) override;
-  void restore(Context& context, const Snapshot& snapshot) override;
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
-  void fit_motion(Context& context, model::State& state) const;
-  void measure_hidden_constraints(Context& context, const model::State& state);
+  void do_fit() override;
+  void do_begin() override;
+  void do_prepare_resume() override;
+  bool reaches_end() const override { return state().time_prev >= settings_.steps.end_time; }
+  double propose() const override { return control_.end_of_step(state().time_prev); }
+  StepReport do_attempt(double end) override;
+  void do_accept(const StepReport& report) override;
+  bool do_fail(const StepReport& report) override;
+  Stencil failed_stencil() const override { return stencil_; }
+  AnalysisReport do_finish() override;
+  void do_save(Snapshot& snapshot) const override;
+  void do_restore(const Snapshot& snapshot) override;
+  void refuse_other_schemes() const;
+  void fit_motion();
+  void measure_hidden_constraints();
+  void keep_balance();
 
   DynamicsSettings settings_;
   std::unique_ptr<TimeScheme> scheme_;
-  int steps_ = 0;
-  std::optional<StepControl> control_;
-  std::optional<Predictor> predictor_;
+  Stencil stencil_;  ///< of the last attempt
+  StepControl control_;
+  Predictor predictor_;
   CutBacks cut_backs_;
-  std::optional<solver::NewtonSolver> newton_;
-  std::optional<PostMortem> post_mortem_;
-  std::optional<Certificate> certificate_;
+  Certificate certificate_;
+  MissedPulses pulses_;
+  Ledger::Id certificate_effect_ = 0;
 };
 
 }  // namespace culm::analysis

@@ -10,17 +10,12 @@ namespace culm::analysis {
 /// Writes what linearise() finds about the present state: stiffness, mass, damping, constraint
 /// Jacobian H and the basis P by which coordinates follow from unknowns. The equations are
 /// M y'' + C y' + K y + H^T mu = 0, H y = 0, dq = P y.
-class Matrices final : public Analysis {
+class Matrices final : public Inspection {
  public:
   static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
+  static std::unique_ptr<Inspection> make(const Options& options);
 
-  void save(const Context&, Snapshot&) const override {}  // it makes no steps
-
- private:
-  void start(Context&, model::State&) override {}
-  void restore(Context&, const Snapshot&) override {}
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
+  AnalysisReport inspect(Context& context, model::State& state) override;
 };
 
 }  // namespace culm::analysis

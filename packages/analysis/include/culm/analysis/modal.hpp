@@ -12,20 +12,16 @@ Schema& add_modal_fields(Schema& schema);
 ModalSettings read_modal_settings(const Options& options);
 
 /// Small vibrations about the present state, which stays as it is. @source formulation 5.4
-class Modal final : public Analysis {
+class Modal final : public Inspection {
  public:
   explicit Modal(ModalSettings settings) : settings_(std::move(settings)) {}
 
   static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
+  static std::unique_ptr<Inspection> make(const Options& options);
 
-  void save(const Context&, Snapshot&) const override {}  // it makes no steps
+  AnalysisReport inspect(Context& context, model::State& state) override;
 
  private:
-  void start(Context&, model::State&) override {}
-  void restore(Context&, const Snapshot&) override {}
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
-
   ModalSettings settings_;
 };
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <culm/analysis/path_events.hpp>
-#include <culm/analysis/post_mortem.hpp>
-#include <culm/base/options.hpp>
-#include <culm/base/schema.hpp>
+#include <culm/analysis/path_settings.hpp>
+#include <culm/analysis/stepper.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,92 +13,73 @@
 
 namespace culm::analysis {
 
-/// What to do at a bifurcation.
-enum class AtBifurcation { report, stop, follow };
-
-/// The node that a path is seen by.
-struct WatchSettings {
-  Where node_where;
-  std::string node;
-  Vec3 direction = Vec3::UnitX();
-};
-
-/// How a path is followed.
-struct PathSettings {
-  PathControl control = PathControl::linearised_sphere;
-  double start_level = 0.0;
-  /// First change of the level [-]; with displacement control of the displacement [m].
-  double first_increment = 0.1;
-  int desired_iterations = 5;
-  double smallest_length = 1e-6;  ///< over the first one [-]
-  double largest_length = 10.0;   ///< likewise
-  int steps = 200;                ///< at most
-  std::optional<double> final_level;
-  std::optional<double> final_displacement;  ///< of the watched node [m]
-  std::optional<int> limit_points;           ///< to end after
-  std::optional<WatchSettings> watch;
-  AtBifurcation at_bifurcation = AtBifurcation::report;
-  std::optional<double> branch_amplitude;  ///< [m]; the present arc length if absent
-  solver::NewtonSettings newton;
-};
-
 /// Follows an equilibrium path by arc length or displacement control, with automatic step length.
-/// state.time is the level. @source formulation 5.3
-class PathFollowing final : public Analysis {
+/// state.time is the level; a step is attempted by the length of its way. @source formulation 5.3
+class PathFollowing final : public Stepper {
  public:
-  explicit PathFollowing(PathSettings settings) : settings_(std::move(settings)) {}
+  /// Throws InputError if the watched node is none, or several.
+  PathFollowing(PathSettings settings, Context& context, model::State& state);
 
-  static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
-
-  void save(const Context& context, Snapshot& snapshot) const override;
+  static Schema schema() { return path_schema(); }
+  static std::unique_ptr<Stepper> make(const Options& options, Context& context,
+                                       model::State& state);
 
  private:
-  void start(Context& context, model::State& state) override;
-  void restore(Context& context, const Snapshot& snapshot) override;
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
+  /// What is known of the path behind and at the accepted state.
+  struct Knowledge {
+    PathPoint behind, here;
+    bool has_behind = false;    ///< there is a point before the present one
+    bool is_examined = false;   ///< the tangent at the present point is known
+    bool has_branched = false;  ///< the crossing path was taken, or not found
+    bool is_ended = false;      ///< the path ends here by an event
+    std::vector<PathEvent> events;
+  };
 
-  void make_tools(Context& context);
-  void balance_start(Context& context, model::State& state);
+  void do_begin() override;
+  void do_prepare_resume() override { make_newton(settings_.newton); }
+  bool reaches_end() const override;
+  double propose() const override { return size_; }
+  StepReport do_attempt(double size) override;
+  void do_accept(const StepReport& report) override;
+  void do_discard() override { known_ = before_; }
+  bool do_fail(const StepReport& report) override;
+  void explain_failure() override;
+  Stencil failed_stencil() const override { return Stencil::statics(); }
+  AnalysisReport do_finish() override;
+  void do_save(Snapshot& snapshot) const override;
+  void do_restore(const Snapshot& snapshot) override;
+
+  void balance_start();
   /// Tangent of the path and determinant of the stiffness at state.next.
-  std::pair<PathTangent, solver::Determinant> find_tangent(Context& context, model::State& state);
+  std::pair<PathTangent, solver::Determinant> find_tangent();
   /// Throws NumericalError if nothing changes with the level, or not what is to be prescribed.
-  void refuse_idle_level(const model::State& state) const;
-  /// Throws NumericalError if loads stop growing with the level at this one.
-  void refuse_end_of_loads(Context& context, model::State& state) const;
-  bool is_at_end(const Context& context, const model::State& state) const;
-  bool is_on_target(const Context& context, const model::State& state) const;
+  void refuse_idle_level() const;
+  bool is_on_target() const;
   bool passed_limit_points() const;
   /// Says where the number of steps ended the path before it reached what the deck names.
-  void report_early_end(Context& context, const model::State& state) const;
-  StepReport attempt(Context& context, model::State& state);
+  void report_early_end() const;
+  solver::StepOutcome go_on(double size);
   /// Where an attempt went beyond the end of the path, goes back to it.
-  void land(Context& context, model::State& state, solver::StepOutcome& outcome);
+  void land(solver::StepOutcome& outcome);
   /// Looks for events between the last two points once the tangent of the later one is known.
-  /// @return whether they end the path
-  bool examine(Context& context, const PathTangent& tangent,
-               const solver::Determinant& determinant);
-  void switch_branch(Context& context, model::State& state, Observer& observer);
-  /// Accepts or rejects an attempt and chooses the size of the next one.
-  void take(Context& context, model::State& state, StepReport& report, Observer& observer);
+  /// @return whether the path that crosses there is to be taken
+  bool examine(const PathTangent& tangent, const solver::Determinant& determinant);
+  /// Tells the events that were found since the last step was accepted or failed.
+  void tell_events();
+  /// A step onto the path that crosses at the bifurcation just passed; nothing if none is found.
+  std::optional<solver::StepOutcome> branch_off();
   std::string describe(const PathEvent& event) const;
   AnalysisReport report() const;
 
   PathSettings settings_;
-  int steps_ = 0;
-  int failures_ = 0;           ///< since the last step that was taken
-  double size_ = 0.0;          ///< of the next step [m]
-  double first_size_ = 0.0;    ///< of the first one
-  double last_length_ = 0.0;   ///< between the last two points [m]
-  bool is_examined_ = false;   ///< the tangent at the present point is known
-  bool has_behind_ = false;    ///< there is a point before the present one
-  bool wants_branch_ = false;  ///< a bifurcation was passed that is to be followed
-  bool has_branched_ = false;
-  PathPoint behind_, here_;
-  std::vector<PathEvent> events_;
-  std::optional<PathCondition> condition_;
-  std::optional<solver::NewtonSolver> newton_;
-  std::optional<PostMortem> post_mortem_;
+  PathCondition condition_;
+  int failures_ = 0;          ///< since the last step that was taken
+  double size_ = 0.0;         ///< of the next step [m]
+  double attempted_ = 0.0;    ///< of the last attempt [m]
+  double first_size_ = 0.0;   ///< of the first step
+  double last_length_ = 0.0;  ///< between the last two points [m]
+  bool is_on_branch_ = false;  ///< the last attempt took a crossing path
+  Knowledge known_, before_;   ///< now, and before the last attempt
 };
 
 }  // namespace culm::analysis

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <culm/analysis/failure_trend.hpp>
-#include <culm/analysis/post_mortem.hpp>
+#include <culm/analysis/stepper.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
 
@@ -25,31 +25,37 @@ struct StaticsSettings {
 
 /// Load control with automatic cut-back and growth of the increment. The level plays the role of
 /// time in load functions. @source formulation 5.1
-class Statics final : public Analysis {
+class Statics final : public Stepper {
  public:
-  explicit Statics(StaticsSettings settings) : settings_(std::move(settings)) {}
+  Statics(StaticsSettings settings, Context& context, model::State& state)
+      : Stepper(context, state), settings_(std::move(settings)) {}
 
   static Schema schema();
-  static std::unique_ptr<Analysis> make(const Options& options);
-
-  void save(const Context& context, Snapshot& snapshot) const override;
+  static std::unique_ptr<Stepper> make(const Options& options, Context& context,
+                                       model::State& state);
 
  private:
-  void start(Context& context, model::State& state) override;
-  void restore(Context& context, const Snapshot& snapshot) override;
-  AnalysisReport advance(Context& context, model::State& state, Observer& observer) override;
+  void do_begin() override;
+  void do_prepare_resume() override { make_newton(settings_.newton); }
+  bool reaches_end() const override { return state().time_prev >= settings_.final_level; }
+  double propose() const override { return next_level(state().time_prev, increment_); }
+  StepReport do_attempt(double level) override;
+  void do_accept(const StepReport& report) override;
+  bool do_fail(const StepReport& report) override;
+  std::optional<double> dead_end() const override { return trend_.end(settings_.final_level); }
+  Stencil failed_stencil() const override { return Stencil::statics(); }
+  AnalysisReport do_finish() override;
+  void do_save(Snapshot& snapshot) const override;
+  void do_restore(const Snapshot& snapshot) override;
   double next_level(double level, double increment) const;
   /// Warns where the structure lost or regained its stability in an accepted step.
-  void watch_stability(const Context& context, const StepReport& report);
+  void watch_stability(const StepReport& report);
 
   StaticsSettings settings_;
   double increment_ = 0.0;
-  int steps_ = 0;
   int determinant_sign_ = 0;  ///< of the tangent at the last equilibrium; 0 if unknown
   FailureTrend trend_;
   std::vector<double> crossings_;  ///< levels of the steps in which it changed
-  std::optional<solver::NewtonSolver> newton_;
-  std::optional<PostMortem> post_mortem_;
 };
 
 }  // namespace culm::analysis

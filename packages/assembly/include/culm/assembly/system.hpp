@@ -4,7 +4,7 @@
 #include <culm/assembly/layout.hpp>
 #include <culm/base/ledger.hpp>
 #include <culm/base/snapshot.hpp>
-#include <culm/model/velocity_dissipation.hpp>
+#include <culm/model/model.hpp>
 
 #include <functional>
 #include <optional>
@@ -48,12 +48,18 @@ class System {
  public:
   System(model::Model& model, const parallel::Comm& comm, Ledger& ledger);
 
-  /// Once per step, with the accepted state in state.prev.
-  void begin_step(const model::State& state, const Stencil& stencil);
+  /// Before each attempt of a step, with the accepted state in state.prev.
+  void prepare(const model::State& state, const Stencil& stencil);
+  /// Once per step that is accepted, after its last evaluation at state.next, in dynamics with the
+  /// velocity of its end: makes the end of the step the start of the next one, also of what batches
+  /// carry.
+  void accept(model::State& state);
+  /// Instead: goes back to the start of the step.
+  void discard(model::State& state) const;
   /// Tells loads and constraints of another end of the step, state.time; elements do not know it.
   void change_level(const model::State& state, const Stencil& stencil);
   /// Derivative of the residual by state.time: a difference over `step`, exact where loads are
-  /// linear in time. Needs begin_step; changes neither residual() nor reactions.
+  /// linear in time. Needs prepare; changes neither residual() nor reactions.
   void level_gradient(model::State& state, const Stencil& stencil, double step, Vector& gradient);
   /// Residual, and the tangent when wanted.
   Evaluation evaluate(const model::State& state, const Stencil& stencil, Want want);
@@ -73,20 +79,20 @@ class System {
   /// Brings an array over the slots of all nodes up to date on all ranks: each value from the rank
   /// that owns the node, exactly.
   void complete(model::Coordinates& values) const;
-  /// Writes the state, and what system and batches remember from step to step. Collective.
+  /// Writes the state, and what system and batches remember from step to step. Collective where the
+  /// snapshot is for files.
   void save(model::State& state, Snapshot& snapshot);
-  /// Writes the present values of the matrix, for factors that serve on; collective.
+  /// Writes the present values of the matrix, for factors that serve on; collective where the
+  /// snapshot is for files.
   void save_matrix(Snapshot& snapshot) const;
   /// Takes them back. @return false with another number of ranks, where they do not fit
   bool restore_matrix(const Snapshot& snapshot);
   /// Goes back to what save wrote; on any number of ranks. Throws FileError if it does not fit.
   void restore(const Snapshot& snapshot, model::State& state);
-  /// Remembers the impulse that the last evaluation left unbalanced over `time` [s] and lets it act
-  /// in the next step: what iteration and rounding leave then cancels from step to step instead of
-  /// adding up, and momenta do not drift.
-  void carry_residual(double time);
-  /// Forgets it.
-  void drop_residual() { carried_.reset(); }
+  /// From now on the impulse that a step leaves unbalanced acts in the next one: what iteration and
+  /// rounding leave then cancels from step to step instead of adding up, and momenta do not drift.
+  /// Or no longer.
+  void carry_residuals(bool wanted);
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
@@ -117,8 +123,6 @@ class System {
   /// What loads, drives and dampers did in the step from state.prev to state.next.
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const;
   double multiplier_scale() const { return multiplier_scale_; }
-  /// Null if no structure asks for it.
-  model::VelocityDissipation* velocity_dissipation() const { return velocity_dissipation_; }
 
   /// Force [N] and moment about the node [N m] by which supports and joints act on the structure
   /// there: of the last evaluation where they take unknowns away, of the state's multipliers where
@@ -152,6 +156,7 @@ class System {
   std::pair<double, int> find_largest(double value, int place) const;
   int largest_equation(std::span<const double> rows, double largest) const;
   double largest_diagonal() const;
+  void carry_residual(double time);
   std::vector<double> gather_carried() const;
   void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);
@@ -167,7 +172,7 @@ class System {
   std::vector<model::Batch*> driven_;  ///< those that depend on time itself
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
-  model::VelocityDissipation* velocity_dissipation_ = nullptr;  ///< needs all nodes on all ranks
+  bool needs_all_nodes_ = false;  ///< on all ranks, up to date in each evaluation
   std::vector<int> slaves_;
   std::vector<int> owned_nodes_;
   std::vector<double> reactions_;           ///< owned ones
@@ -180,6 +185,7 @@ class System {
   std::vector<std::size_t> row_begin_;
   std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
+  bool carries_residuals_ = false;
   std::optional<std::vector<double>> carried_;  ///< impulses by owned row [N s, N m s]
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;

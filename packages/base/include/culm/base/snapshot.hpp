@@ -13,6 +13,14 @@ namespace culm {
 /// Doubles are kept bit by bit; whole numbers fit in them.
 class Snapshot {
  public:
+  /// What it is good for.
+  enum class Use {
+    files,   ///< whole on rank 0, and the same for any number of ranks
+    memory,  ///< what each rank has, to go back within a run: no communication
+  };
+  explicit Snapshot(Use use = Use::files) : use_(use) {}
+  bool is_for_memory() const { return use_ == Use::memory; }
+
   void set(const std::string& name, std::vector<double> numbers);
   void set(const std::string& name, double number);
   void set_text(const std::string& name, std::string text);
@@ -32,6 +40,7 @@ class Snapshot {
   static Snapshot decode(std::string_view bytes);
 
  private:
+  Use use_;
   std::map<std::string, std::vector<double>> numbers_;
   std::map<std::string, std::string> texts_;
 };

@@ -32,13 +32,14 @@ class LinkLoad final : public model::Batch {
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
   void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State& state, const Stencil& stencil) override;
+  void prepare(const model::State& state, const Stencil& stencil) override;
+  void accept(model::State& state) override;
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void extrapolate(const model::State& state, const Stencil& stencil,
                    const model::Coordinates& increment) override;
   std::size_t memory_size() const override { return item_memory * items_.size(); }
-  void save(std::span<double> memory) const override;
+  void save(model::Items which, std::span<double> memory) const override;
   void restore(std::span<const double> memory) override;
   double stored_energy(const model::Coordinates& q) const override;
   /// The coordinate u of an item [m, rad] at a state, and the force that resisted it in the last
@@ -56,10 +57,15 @@ class LinkLoad final : public model::Batch {
   static constexpr std::size_t item_memory = 3;  ///< forms and coordinate
 
   using Motion = model::ItemMotion<2>;
+  /// Where a link is: the two forms, and the coordinate with all full turns.
+  struct Place {
+    Vec<2> y = Vec<2>::Zero();
+    double z = 0.0;
+  };
   struct Item {
     Link link;
-    Vec<2> y_prev = Vec<2>::Zero();  ///< forms at the start of the step
-    double z_prev = 0.0;             ///< and the coordinate, with all full turns
+    Place accepted;  ///< at the end of the last accepted step
+    Place prev;      ///< at the start of the step, which is where a motion begins, too
     Vec<2> predicted_stress = Vec<2>::Zero();
     std::optional<double> force;  ///< of the last evaluation
   };
@@ -70,6 +76,8 @@ class LinkLoad final : public model::Batch {
     double force = 0.0;
   };
 
+  /// Where the link is at forms y, not more than half a turn from `from`.
+  static Place follow(const Item& item, const Place& from, const Vec<2>& y);
   Response respond(const Item& item, const Motion::Slots& next, const model::State& state,
                    const Stencil& stencil) const;
   template <class Space>

@@ -31,6 +31,11 @@ class MomentLoad final : public model::MemorylessBatch {
   /// @param components  of the moment [N m]; in space where the node is one of a shell
   void add_moment(int node, const Vec3& components) { items_.push_back({node, components}); }
 
+  /// Changes one of them, by its place in the order of adding.
+  void set_moment(int item, const Vec3& components) {
+    items_[static_cast<std::size_t>(item)].components = components;
+  }
+
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   /// A moment fixed in space has no stiffness on triads in the null-space form.

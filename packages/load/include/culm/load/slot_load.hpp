@@ -29,6 +29,9 @@ class SlotLoad final : public model::Batch {
   void add_force(const model::Marker& point, const Vec3& components, Frame frame);
   /// Adds constant forces on the slots of a node, shape (3, 4) [N, N m].
   void add_slot_forces(int node, const model::NodeSlots& forces);
+  /// Adds a force in space on a node that set_force changes, zero before. @return item
+  int add_settable_force(int node);
+  void set_force(int item, const Vec3& force);
 
   const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
@@ -36,7 +39,7 @@ class SlotLoad final : public model::Batch {
   /// Only forces that follow, or that have an arm about a node, change with its rotation.
   bool has_tangent() const override;
   void place(model::Placement placement, model::Form form) override;
-  void begin_step(const model::State&, const Stencil&) override {}  // nothing is kept
+  void prepare(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
@@ -50,6 +53,7 @@ class SlotLoad final : public model::Batch {
     Eigen::Matrix3Xd constant;  // f0, shape (3, slots)
     Eigen::MatrixXd linear;     // L, shape (slots, slots)
     bool follows = false;       // L is not zero
+    bool is_settable = false;   // f0 may become another one
   };
 
   Item& item_on(const std::vector<int>& nodes);

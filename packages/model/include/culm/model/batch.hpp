@@ -21,6 +21,12 @@ struct Placement {
   Scatter scatter;          ///< one entry per item above, same order
 };
 
+/// Which items of a rank.
+enum class Items {
+  owned,  ///< each item of the model on one rank
+  local,  ///< all that a rank evaluates
+};
+
 /// What the owned items of a batch did in a step from state.prev to state.next.
 struct StepWork {
   double external = 0.0;       ///< work of loads that have no potential [J]
@@ -56,8 +62,9 @@ class Batch {
 
   /// Once before the first step.
   virtual void place(Placement placement, Form form) = 0;
-  /// Once per step, when state.prev is accepted and state.time is the new end of the step.
-  virtual void begin_step(const State& state, const Stencil& stencil) = 0;
+  /// Before each attempt of a step, when state.prev is accepted and state.time is the end of the
+  /// step: any number of times, and as if it were the first.
+  virtual void prepare(const State& state, const Stencil& stencil) = 0;
   /// Adds residual and, when wanted, tangent of all local items. Allocates nothing.
   virtual Verdict assemble(const State& state, const Stencil& stencil, Want want,
                            Target& target) = 0;
@@ -66,12 +73,21 @@ class Batch {
   virtual void extrapolate(const State& state, const Stencil& stencil,
                            const Coordinates& increment) = 0;
 
+  /// Once per accepted step, while state.prev is still its start and state.next, which was evaluated
+  /// last, its end: what items carry from step to step moves on. In dynamics state.velocity is that
+  /// of the end, and a batch that says needs_mean_velocity may change it.
+  virtual void accept(State&) {}
+  /// Whether velocities must be those of the conserving scheme, for accept to correct them.
+  virtual bool needs_mean_velocity() const { return false; }
+  /// Whether an evaluation reads nodes that no item of this rank touches.
+  virtual bool needs_all_nodes() const { return false; }
+
   /// Numbers that items carry from step to step beside the state, such as turns that were counted:
-  /// how many, for all items of the model. Zero where begin_step computes everything anew.
+  /// how many, for all items of the model. Zero where prepare computes everything anew.
   virtual std::size_t memory_size() const { return 0; }
-  /// Writes those of the owned items to their places in the array of all; leaves the others alone.
-  virtual void save(std::span<double>) const {}
-  /// Takes them over for all local items; after place, before begin_step.
+  /// Writes those of some items to their places in the array of all; leaves the others alone.
+  virtual void save(Items, std::span<double>) const {}
+  /// Takes them over for all local items; after place, before prepare.
   virtual void restore(std::span<const double>) {}
 
   /// Energy stored in the owned items at a configuration [J]: strain energy, or the potential of a

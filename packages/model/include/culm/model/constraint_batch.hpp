@@ -27,7 +27,7 @@ class ConstraintBatch final : public Batch {
   bool has_tangent() const override { return true; }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
   void place(Placement placement, Form form) override;
-  void begin_step(const State& state, const Stencil& stencil) override;
+  void prepare(const State& state, const Stencil& stencil) override;
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override;
   void extrapolate(const State&, const Stencil&, const Coordinates&) override {}  // no stress
   double stored_energy(const Coordinates&) const override { return 0.0; }

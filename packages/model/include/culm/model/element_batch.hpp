@@ -79,11 +79,12 @@ class ElementBatch final : public Batch,
     use_predicted_ = false;
   }
 
-  void begin_step(const State& state, const Stencil& stencil) override {
+  void prepare(const State& state, const Stencil& stencil) override {
     use_predicted_ = false;
     if (stencil.inertia != 0.0 && masses_.empty()) {
       for (int item : placement_.items) masses_.push_back(element(item).mass());
     }
+    if constexpr (has_internals) internals_.prepare();
     // in statics the old strain has no weight
     if (stencil.step == 0.0 && !has_internals) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -91,19 +92,23 @@ class ElementBatch final : public Batch,
       const E& element = this->element(placement_.items[i]);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, strain_prev_[at(i, p)]);
-        if constexpr (has_internals) internals_.begin_step(at(i, p), strain_prev_[at(i, p)]);
       }
     }
+  }
+
+  void accept(State&) override {
+    if constexpr (has_internals) internals_.accept();
   }
 
   std::size_t memory_size() const override {
     return static_cast<std::size_t>(size()) * item_memory();
   }
 
-  void save([[maybe_unused]] std::span<double> memory) const override {
+  void save([[maybe_unused]] Items which,
+            [[maybe_unused]] std::span<double> memory) const override {
     if constexpr (has_internals) {
       for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-        if (!placement_.owned[i]) continue;
+        if (which == Items::owned && !placement_.owned[i]) continue;
         for (int p = 0; p < E::num_points; ++p) {
           internals_.save(at(i, p), memory.subspan(memory_place(i, p)));
         }
@@ -226,9 +231,9 @@ class ElementBatch final : public Batch,
           }
         } else {
           Internals internals{};
-          if constexpr (has_internals) internals = internals_.at(at(i, p), y);
+          if constexpr (has_internals) internals = internals_.next(at(i, p));
           respond(i, p, y, damped, internals, response);
-          taken += response.stress.dot(y - prev) - (energy_of(i, p, y) - energy_of(i, p, prev));
+          taken += response.stress.dot(y - prev) - (end_energy(i, p, y) - start_energy(i, p));
         }
       }
     }
@@ -425,7 +430,26 @@ class ElementBatch final : public Batch,
     }
   }
 
-  // At one of the ends of the step.
+  // In a step that is being accepted.
+  double start_energy(std::size_t i, int p) const {
+    const E& element = this->element(placement_.items[i]);
+    const Strain& y = strain_prev_[at(i, p)];
+    if constexpr (has_internals) {
+      return element.energy(p, y, internals_.prev(at(i, p)));
+    } else {
+      return element.energy(p, y);
+    }
+  }
+  double end_energy(std::size_t i, int p, const Strain& y) const {
+    const E& element = this->element(placement_.items[i]);
+    if constexpr (has_internals) {
+      return element.energy(p, y, internals_.next(at(i, p)));
+    } else {
+      return element.energy(p, y);
+    }
+  }
+
+  // At one of the ends of a step.
   double energy_of(std::size_t i, int p, const Strain& y) const {
     const E& element = this->element(placement_.items[i]);
     if constexpr (has_internals) {

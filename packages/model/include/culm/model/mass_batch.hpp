@@ -25,7 +25,7 @@ class MassBatch final : public Batch, public MassSource {
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
   void place(Placement placement, Form form) override;
-  void begin_step(const State&, const Stencil&) override {}  // nothing is kept
+  void prepare(const State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override;
   void extrapolate(const State&, const Stencil&, const Coordinates&) override {}  // no stress
   double stored_energy(const Coordinates&) const override { return 0.0; }

@@ -20,7 +20,7 @@ class MemorylessBatch : public Batch {
     placement_ = std::move(placement);
     form_ = form;
   }
-  void begin_step(const State&, const Stencil&) override {}
+  void prepare(const State&, const Stencil&) override {}
   void extrapolate(const State&, const Stencil&, const Coordinates&) override {}
   double stored_energy(const Coordinates&) const override { return 0.0; }
 

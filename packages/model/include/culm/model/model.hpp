@@ -6,6 +6,7 @@
 #include <culm/model/constraint.hpp>
 #include <culm/model/constraint_batch.hpp>
 #include <culm/model/mass_batch.hpp>
+#include <culm/model/nodal_input.hpp>
 #include <culm/model/structure.hpp>
 
 #include <deque>
@@ -71,6 +72,10 @@ class Model {
   /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
   void add_rigid_link(std::string name, int slave, int master);
   void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
+  /// A load that a program sets, by its name in the deck.
+  void add_input(const std::string& name, std::unique_ptr<NodalInput> input) {
+    inputs_.emplace(name, std::move(input));
+  }
   /// Notes a function of the deck that a load or a constraint follows.
   void add_function(const std::string& name, const Amplitude& function) {
     functions_.emplace(name, function);
@@ -110,6 +115,8 @@ class Model {
   const std::vector<std::unique_ptr<Batch>>& element_batches() const { return element_batches_; }
 
   const std::vector<std::unique_ptr<Batch>>& loads() const { return loads_; }
+  /// Loads that a program sets, by name.
+  const std::map<std::string, std::unique_ptr<NodalInput>>& inputs() const { return inputs_; }
   /// Functions of the deck that are followed, by name.
   const std::map<std::string, Amplitude>& functions() const { return functions_; }
   const std::vector<std::unique_ptr<ConstraintBatch>>& constraint_batches() const {
@@ -144,6 +151,7 @@ class Model {
   std::vector<Constraint> equations_;
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
+  std::map<std::string, std::unique_ptr<NodalInput>> inputs_;
   std::map<std::string, Amplitude> functions_;
   std::vector<InitialVelocity> initial_velocities_;
   std::vector<InitialDisplacement> initial_displacements_;

@@ -21,24 +21,22 @@ class VelocityDissipation final : public Batch {
  public:
   /// That of a model, added when it is first asked for.
   static VelocityDissipation& of(Model& model);
-  /// That of a model, if it has one.
-  static VelocityDissipation* find(const Model& model);
 
   explicit VelocityDissipation(const Model& model) : model_(model) {}
 
   /// @param chi in (0, 1]
   void add_body(std::vector<int> nodes, double chi);
 
-  /// After a step, when state.velocity is the plain 2 Dq/h - v_prev: makes it that of the damped
-  /// relation. @param h length of the step [s]
-  void correct(State& state, double h);
-
   const std::string& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
   bool has_tangent() const override { return false; }
   void place(Placement placement, Form form) override;
-  void begin_step(const State& state, const Stencil& stencil) override;
+  void prepare(const State& state, const Stencil& stencil) override;
+  /// Makes of the plain velocity 2 Dq/h - v_prev that of the damped relation.
+  void accept(State& state) override;
+  bool needs_mean_velocity() const override { return true; }
+  bool needs_all_nodes() const override { return true; }
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override;
   void extrapolate(const State&, const Stencil&, const Coordinates&) override {}  // no stress
   double stored_energy(const Coordinates&) const override { return 0.0; }
@@ -66,7 +64,7 @@ class VelocityDissipation final : public Batch {
     Basis z, mz;  ///< orthonormal in the metric of the mass; zero where columns depend on others
   };
 
-  void prepare();
+  void collect_masses();
   void take(const Coordinates& values, Pair Body::*pair);
   void project_all(const State& state, double h);
   void project(Body& body);
@@ -81,6 +79,7 @@ class VelocityDissipation final : public Batch {
   std::vector<std::pair<int, int>> items_;  ///< (body, which of its nodes)
   Placement placement_;
   Form form_ = Form::null_space;
+  double step_ = 0.0;           ///< length of the step [s]; 0 without inertia
   std::vector<bool> has_mass_;  ///< by slot
   Coordinates values_, product_;
 };

@@ -28,6 +28,18 @@ class Quantity {
   virtual void restore(double) {}
 };
 
+/// A quantity under the name that the deck gives it.
+struct WatchedQuantity {
+  std::string name;
+  std::unique_ptr<Quantity> quantity;
+};
+
+/// The columns of all, each with the name of its quantity.
+std::vector<output::HistoryColumn> columns_of(const std::vector<WatchedQuantity>& watched);
+/// The numbers of all, of a state that is up to date on all ranks.
+std::vector<double> evaluate(const std::vector<WatchedQuantity>& watched,
+                             const assembly::System& system, const model::State& state);
+
 /// Makers report mistakes as issues and may then return nothing.
 using QuantityRegistry = Registry<std::unique_ptr<Quantity>, model::BuildContext&>;
 

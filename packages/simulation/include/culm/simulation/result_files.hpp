@@ -18,12 +18,6 @@
 
 namespace culm::simulation {
 
-/// A quantity under the name that the deck gives it.
-struct WatchedQuantity {
-  std::string name;
-  std::unique_ptr<Quantity> quantity;
-};
-
 /// What to show of the layers of shells, in each recorded state.
 struct LayerSettings {
   bool stresses = false;

@@ -1,6 +1,7 @@
 /// A deck as a running model.
 #pragma once
 
+#include <culm/analysis/stepper.hpp>
 #include <culm/base/ledger.hpp>
 #include <culm/base/log.hpp>
 #include <culm/base/options.hpp>
@@ -12,7 +13,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace culm::simulation {
 
@@ -48,6 +51,27 @@ class Simulation {
   /// @param from  checkpoint of an earlier run in this folder, to go on with
   void run(const RunSettings& settings, const StopRequest& request, const Snapshot* from = nullptr);
 
+  // --- step by step, by another program; nothing is written to files ----------------------------
+  /// Takes up an analysis of the deck that makes steps, the first one if no name is given: from
+  /// where the deck says, ready for its first attempt. What was taken up before ends. Throws
+  /// UsageError if there is no such analysis, else what run() throws before a first step.
+  /// @return to be driven by the caller; lives until the next begin()
+  analysis::Stepper& begin(const std::string& analysis = {});
+  /// Sets the load of type 'External' of this name for all attempts from now on. Call it on all
+  /// ranks alike. Throws UsageError for an unknown name or another number of values, NonFiniteError
+  /// for a value that is no number.
+  /// @param values  by node, as `nodes` names them: force [N] and moment about the node [N m]
+  void set_load(const std::string& name, std::span<const double> values);
+  /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by number.
+  std::vector<int> nodes(const std::string& name) const;
+  /// The state of the stepper, up to date on all ranks: of the last attempt if one is open.
+  const model::State& state();
+  /// What the deck's history watches, and its values at state().
+  std::vector<output::HistoryColumn> quantity_columns() const;
+  std::vector<double> quantities();
+  /// The model of the analysis that was taken up.
+  const model::Model& model() const;
+
   /// Structures, masses, unknowns and effects, for `culm check`.
   std::string summary() const;
 
@@ -59,10 +83,14 @@ class Simulation {
  private:
   void run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
                     const Snapshot* from);
+  /// @param from  checkpoint to go on with, within this analysis
+  analysis::AnalysisReport run_analysis(const Options& entry, analysis::Context& context,
+                                        model::State& state, RunObserver& observer,
+                                        const Snapshot* from);
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void keep_state(const std::string& name, model::State& state);
-  void write_last_checkpoint(model::State& state, RunObserver& observer) const;
+  void write_last_checkpoint(RunObserver& observer) const;
 
   struct Parts;
   std::unique_ptr<Parts> parts_;

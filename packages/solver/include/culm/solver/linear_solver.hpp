@@ -38,6 +38,10 @@ class LinearSolver {
   /// copy. @return |A v| / |A| for the returned v of unit maximum norm; zero with v = 0 if not even
   /// the copy has factors, as with numbers that are not finite or differ too much in size
   virtual double weakest_direction(Vector& v) = 0;
+  /// The pivots of the last factorisation are those to which restore_pivots goes back.
+  virtual void remember_pivots() {}
+  /// Where others were chosen since, goes back: later factorisations are as if it had not happened.
+  virtual void restore_pivots() {}
   /// What later factorisations keep of earlier ones, to go on as after them, bit by bit. On the
   /// root only; empty if there is nothing, as with solvers that begin anew each time.
   virtual std::vector<int> pivots() const { return {}; }

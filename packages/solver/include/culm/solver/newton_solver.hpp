@@ -74,14 +74,19 @@ class NewtonSolver {
   ~NewtonSolver();
 
   /// Solves for state.next and the multipliers, starting from their values.
-  /// begin_step of the system must have been called for the step. On failure state holds the last
+  /// prepare of the system must have been called for the step. On failure state holds the last
   /// iterate.
   /// @param condition makes the level an unknown, too; none: it stays as it is
   StepOutcome solve(model::State& state, const Stencil& stencil,
                     LevelCondition* condition = nullptr);
 
+  /// What it has learned so far belongs to the step that was just ended.
+  void keep();
+  /// Forgets what was learned since, as if the attempts after keep() had not been made.
+  void go_back();
+
   /// What the linear solver keeps, and the tangent whose factors serve on, if there is one, under
-  /// "newton/". Collective; the snapshot is complete on the root.
+  /// "newton/". Collective where the snapshot is for files, which is complete on the root.
   void save(Snapshot& snapshot) const;
   /// Factors it again. With another number of ranks the next step begins with a new tangent.
   void restore(const Snapshot& snapshot);

@@ -1,7 +1,8 @@
 /// Pulses of loads that are shorter than a time step.
 #pragma once
 
-#include <culm/base/log.hpp>
+#include <culm/base/findings.hpp>
+#include <culm/base/snapshot.hpp>
 #include <culm/model/amplitude.hpp>
 
 #include <map>
@@ -18,13 +19,18 @@ class MissedPulses {
   explicit MissedPulses(const std::map<std::string, model::Amplitude>& functions);
 
   /// Looks at the step from `start` to `end` [s]; the first call is for the first step of a motion.
-  void check(double start, double end, const Log& log);
+  void check(double start, double end, Findings& findings);
+
+  /// What was told already, under "pulses/".
+  void save(Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
 
  private:
   struct Candidate {
     std::string name;
     model::Amplitude function;
     double size;  // of the values at the corners
+    bool is_told = false;
   };
   std::vector<Candidate> candidates_;
   bool is_first_ = true;

@@ -1,0 +1,122 @@
+#include <culm/analysis/stepper.hpp>
+#include <culm/base/error.hpp>
+
+#include <string>
+
+namespace culm::analysis {
+
+void Stepper::require(Stage stage, const char* verb) const {
+  internal_check(stage_ == stage, std::string("a step cannot ") + verb + " now");
+}
+
+void Stepper::fit() {
+  require(Stage::unbegun, "fit");
+  do_fit();
+}
+
+void Stepper::begin() {
+  require(Stage::unbegun, "begin");
+  do_begin();
+  newton().keep();
+  stage_ = Stage::resting;
+}
+
+void Stepper::resume(const Snapshot& snapshot) {
+  require(Stage::unbegun, "resume");
+  do_prepare_resume();
+  stage_ = Stage::resting;
+  restore(snapshot);
+}
+
+const StepReport& Stepper::attempt(double target) {
+  if (stage_ == Stage::tried) discard();
+  require(Stage::resting, "be attempted");
+  is_exhausted_ = false;
+  try {
+    report_ = do_attempt(target);
+  } catch (...) {
+    go_back();
+    throw;
+  }
+  report_.accepted = report_.outcome.converged();
+  report_.step = steps_ + (report_.accepted ? 1 : 0);
+  stage_ = Stage::tried;
+  return report_;
+}
+
+void Stepper::accept() {
+  require(Stage::tried, "be accepted");
+  internal_check(report_.accepted, "an attempt that did not converge cannot be accepted");
+  ++steps_;
+  post_mortem().record(report_);
+  do_accept(report_);
+  newton().keep();
+  stage_ = Stage::resting;
+}
+
+void Stepper::go_back() {
+  system().discard(state_);
+  stage_ = Stage::resting;
+}
+
+void Stepper::discard() {
+  require(Stage::tried, "be discarded");
+  go_back();
+  do_discard();
+  newton().go_back();
+}
+
+void Stepper::fail() {
+  require(Stage::tried, "fail");
+  report_.accepted = false;
+  report_.step = steps_;
+  post_mortem().record(report_);
+  go_back();
+  newton().keep();
+  const bool not_finite = report_.outcome.end == solver::StepEnd::not_finite;
+  is_exhausted_ = do_fail(report_) || not_finite;  // no nearer target will make it finite
+}
+
+void Stepper::give_up() {
+  require(Stage::resting, "be given up");
+  explain_failure();
+  post_mortem().give_up(state_, failed_stencil(), dead_end());
+}
+
+AnalysisReport Stepper::finish() {
+  if (stage_ == Stage::tried) discard();
+  return do_finish();
+}
+
+void Stepper::save(Snapshot& snapshot) {
+  require(Stage::resting, "be saved");
+  system().save(state_, snapshot);
+  snapshot.set("steps", steps_);
+  do_save(snapshot);
+  newton_->save(snapshot);
+  post_mortem_->save(snapshot);
+}
+
+void Stepper::restore(const Snapshot& snapshot) {
+  if (stage_ == Stage::tried) discard();
+  require(Stage::resting, "be restored");
+  system().restore(snapshot, state_);
+  steps_ = snapshot.integer("steps");
+  do_restore(snapshot);
+  newton_->restore(snapshot);
+  newton_->keep();
+  if (!post_mortem_) post_mortem_.emplace(context_, snapshot);
+}
+
+AnalysisReport run(Stepper& stepper, Observer& observer) {
+  while (!stepper.is_at_end()) {
+    const StepReport& tried = stepper.attempt(stepper.proposal());
+    if (stepper.is_at_end()) break;
+    tried.accepted ? stepper.accept() : stepper.fail();
+    observer.step(tried, stepper.state());
+    if (stepper.is_exhausted()) stepper.give_up();
+  }
+  return stepper.finish();
+}
+
+}  // namespace culm::analysis

@@ -1,0 +1,105 @@
+// Simulations that another program drives, step by step.
+
+#include <culm/base/error.hpp>
+#include <culm/base/nearest.hpp>
+#include <culm/simulation/simulation.hpp>
+
+#include "simulation_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace culm::simulation {
+
+analysis::Stepper& Simulation::begin(const std::string& analysis) {
+  Parts& p = *parts_;
+  const std::vector<Options>& entries = p.deck.list("Analyses").entries();
+  const analysis::AnalysisRegistry& known = p.catalogue.analyses;
+  std::vector<std::string> names;
+  std::size_t number = entries.size();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (known.inspections.contains(entries[i].text("Type"))) continue;
+    names.push_back(entries[i].name());
+    if (number == entries.size() && (analysis.empty() || analysis == entries[i].name())) number = i;
+  }
+  if (number == entries.size()) {
+    throw UsageError("no analysis '" + analysis + "' of the deck makes steps" +
+                     did_you_mean(analysis, names));
+  }
+  if (p.state.next.empty()) p.state = p.phases.of(p.present).model->initial_state();
+  if (p.stepper != nullptr) {
+    p.stepper->finish();
+    p.stepper.reset();
+    keep_state(entries[p.present].name(), p.state);
+  }
+  p.phases.enter(p.present, p.comm, p.ledger);
+  start_analysis(number, p.state);
+  Phase& phase = p.phases.enter(number, p.comm, p.ledger);
+  p.findings.begin(entries[number].name());
+  p.context.emplace(analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log,
+                                      p.findings});
+  p.stepper = known.steppers.make(entries[number].text("Type"), entries[number], *p.context,
+                                  p.state);
+  p.stepper->fit();
+  p.stepper->begin();
+  return *p.stepper;
+}
+
+void Simulation::set_load(const std::string& name, std::span<const double> values) {
+  const auto& inputs = model().inputs();
+  const auto found = inputs.find(name);
+  if (found == inputs.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, input] : inputs) names.push_back(known);
+    throw UsageError("there is no load '" + name + "' of type 'External'" +
+                     did_you_mean(name, names));
+  }
+  model::NodalInput& input = *found->second;
+  if (values.size() != 6 * input.nodes().size()) {
+    throw UsageError(fmt::format("load '{}' acts on {} nodes and takes {} values, got {}", name,
+                                 input.nodes().size(), 6 * input.nodes().size(), values.size()));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw NonFiniteError(fmt::format("load '{}' got {} for component {} at node '{}'", name,
+                                     values[i], i % 6, model().node_name(input.nodes()[i / 6])));
+  }
+  for (std::size_t i = 0; i < input.nodes().size(); ++i) {
+    const double* v = values.data() + 6 * i;
+    input.set(i, Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]));
+  }
+}
+
+std::vector<int> Simulation::nodes(const std::string& name) const {
+  const auto input = model().inputs().find(name);
+  if (input != model().inputs().end()) return input->second->nodes();
+  std::vector<int> found = model().select_nodes(name);
+  if (found.empty()) {
+    throw UsageError("there are no nodes '" + name + "'" +
+                     did_you_mean(name, model().selectable_names()));
+  }
+  return found;
+}
+
+const model::State& Simulation::state() {
+  Parts& p = *parts_;
+  internal_check(p.stepper != nullptr, "begin() comes before state()");
+  p.context->system.synchronise(p.state);
+  return p.state;
+}
+
+std::vector<output::HistoryColumn> Simulation::quantity_columns() const {
+  return columns_of(parts_->phases.of(parts_->present).watched);
+}
+
+std::vector<double> Simulation::quantities() {
+  const model::State& now = state();
+  return evaluate(parts_->phases.of(parts_->present).watched, parts_->context->system, now);
+}
+
+const model::Model& Simulation::model() const {
+  return *parts_->phases.of(parts_->present).model;
+}
+
+}  // namespace culm::simulation

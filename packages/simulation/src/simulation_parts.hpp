@@ -1,0 +1,41 @@
+/// What a simulation is made of.
+#pragma once
+
+#include <culm/analysis/element_turns.hpp>
+#include <culm/analysis/stepper.hpp>
+#include <culm/simulation/simulation.hpp>
+
+#include "earlier_states.hpp"
+#include "imperfections.hpp"
+#include "phase.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace culm::simulation {
+
+struct Simulation::Parts {
+  parallel::Comm comm;
+  const Catalogue& catalogue;
+  Options deck;
+  DeckSource source;
+  Log log;
+  double memory;
+  Findings findings = Findings(log);
+  Imperfections imperfections = Imperfections(deck, catalogue.analyses.gives_shapes);
+  Phases phases = Phases(catalogue, deck, imperfections, log, memory);
+  EarlierStates earlier = EarlierStates(deck.list("Analyses"));
+  Ledger ledger = {};
+  std::size_t present = 0;  ///< the analysis whose phase the state belongs to
+  analysis::ElementTurn reference_turn =
+      {};  ///< the largest one without load; its share tells if any
+
+  // driven from outside, see begin()
+  model::State state = {};
+  std::optional<analysis::Context> context = {};
+  std::unique_ptr<analysis::Stepper> stepper = {};
+
+  void warn_of_reference();
+};
+
+}  // namespace culm::simulation

@@ -1,0 +1,131 @@
+// What was attempted, discarded or gone back from leaves no trace: the steps of decks, made twice, once
+// straight on and once with detours, are equal bit by bit.
+//
+// usage: culm_rollback deck.xml ...
+
+#include <culm/base/error.hpp>
+#include <culm/simulation/session.hpp>
+#include <culm/simulation/simulation.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace culm;
+
+constexpr int most_steps = 4;
+
+// A deck in the hands of this program; what it says is kept.
+class Deck {
+ public:
+  explicit Deck(const std::string& path)
+      : source_(simulation::read_source(comm_, path, {})),
+        options_(simulation::read_deck(catalogue_, source_)),
+        simulation_(comm_, catalogue_, options_, source_, Log(said_, LogLevel::info)) {}
+
+  std::vector<std::string> stepped_analyses() const {
+    std::vector<std::string> names;
+    for (const Options& entry : options_.list("Analyses").entries()) {
+      if (!catalogue_.analyses.inspections.contains(entry.text("Type"))) {
+        names.push_back(entry.name());
+      }
+    }
+    return names;
+  }
+  analysis::Stepper& begin(const std::string& analysis) {
+    const std::string type = options_.list("Analyses").list(analysis).text("Type");
+    is_path_ = catalogue_.analyses.follows_path.contains(type);
+    return simulation_.begin(analysis);
+  }
+  // A share of the proposed step; paths are told the length of their way.
+  double target(const analysis::Stepper& stepper, double share) const {
+    const double proposal = stepper.proposal();
+    const double from = is_path_ ? 0.0 : stepper.state().time_prev;
+    return share == 1.0 ? proposal : from + share * (proposal - from);
+  }
+
+ private:
+  parallel::Comm comm_;
+  simulation::Catalogue catalogue_;
+  std::ostringstream said_;
+  simulation::DeckSource source_;
+  Options options_;
+  simulation::Simulation simulation_;
+  bool is_path_ = false;
+};
+
+// As a run makes it. @return whether it was accepted
+bool step(const Deck& deck, analysis::Stepper& stepper) {
+  const bool accepted = stepper.attempt(deck.target(stepper, 1.0)).accepted;
+  if (stepper.is_at_end()) {
+    stepper.discard();
+    return false;
+  }
+  accepted ? stepper.accept() : stepper.fail();
+  return accepted;
+}
+
+// Other steps, then back; two steps on, one of them cut short, then back.
+void wander(const Deck& deck, analysis::Stepper& stepper) {
+  for (const double share : {0.37, 1.6}) stepper.attempt(deck.target(stepper, share));
+  stepper.discard();
+  Snapshot here(Snapshot::Use::memory);
+  stepper.save(here);
+  for (const double share : {1.0, 0.5}) {
+    const bool accepted = stepper.attempt(deck.target(stepper, share)).accepted;
+    if (stepper.is_at_end()) break;
+    accepted ? stepper.accept() : stepper.fail();
+  }
+  stepper.restore(here);
+}
+
+bool is_equal(const analysis::Stepper& a, const analysis::Stepper& b) {
+  const model::State& one = a.state();
+  const model::State& two = b.state();
+  return one.time == two.time && one.next == two.next && one.velocity == two.velocity &&
+         one.multipliers == two.multipliers && a.steps() == b.steps() &&
+         a.proposal() == b.proposal();
+}
+
+// @return what differs; empty if nothing does
+std::string compare(const std::string& path) {
+  Deck straight(path), wandering(path);
+  for (const std::string& name : straight.stepped_analyses()) {
+    analysis::Stepper& a = straight.begin(name);
+    analysis::Stepper& b = wandering.begin(name);
+    for (int i = 1; i <= most_steps && !a.is_at_end(); ++i) {
+      wander(wandering, b);
+      if (!is_equal(a, b)) return name + ", back at step " + std::to_string(i);
+      step(straight, a);
+      step(wandering, b);
+      if (!is_equal(a, b)) return name + ", step " + std::to_string(i);
+      if (a.is_exhausted()) break;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const culm::simulation::Session session(argc, argv);
+  int failed = 0;
+  for (int i = 1; i < argc; ++i) {
+    std::string difference;
+    try {
+      difference = compare(argv[i]);
+    } catch (const std::exception& error) {
+      difference = error.what();
+    }
+    if (difference.empty()) continue;
+    std::printf("%s: %s\n", argv[i], difference.c_str());
+    ++failed;
+  }
+  std::printf("%d of %d decks differ\n", failed, argc - 1);
+  return failed == 0 && argc > 1 ? 0 : 1;
+}
