@@ -108,6 +108,13 @@ void Stepper::restore(const Snapshot& snapshot) {
   if (!post_mortem_) post_mortem_.emplace(context_, snapshot);
 }
 
+AnalysisReport run(Stepper& stepper) {
+  struct Nobody final : Observer {
+    void step(const StepReport&, model::State&) override {}
+  } nobody;
+  return run(stepper, nobody);
+}
+
 AnalysisReport run(Stepper& stepper, Observer& observer) {
   while (!stepper.is_at_end()) {
     const StepReport& tried = stepper.attempt(stepper.proposal());

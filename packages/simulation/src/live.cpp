@@ -46,7 +46,7 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   return *p.stepper;
 }
 
-void Simulation::set_load(const std::string& name, std::span<const double> values) {
+void Simulation::set_load(const std::string& name, const std::vector<double>& values) {
   const auto& inputs = model().inputs();
   const auto found = inputs.find(name);
   if (found == inputs.end()) {
@@ -80,6 +80,14 @@ std::vector<int> Simulation::nodes(const std::string& name) const {
                      did_you_mean(name, model().selectable_names()));
   }
   return found;
+}
+
+Vec3 Simulation::position(int node) { return model::NodeTable::slots(state().next, node).col(0); }
+
+Vec3 Simulation::velocity(int node) {
+  const model::State& now = state();
+  if (now.velocity.empty()) return Vec3::Zero();
+  return model::NodeTable::slots(now.velocity, node).col(0);
 }
 
 const model::State& Simulation::state() {

@@ -75,11 +75,24 @@ void Simulation::Parts::warn_of_reference() {
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log, double memory)
-    : parts_(new Parts{comm, catalogue, deck, std::move(source), log, memory}) {
-  parts_->phases.enter(0, comm, parts_->ledger);
+    : Simulation(std::unique_ptr<Parts>(
+          new Parts{comm, nullptr, catalogue, deck, std::move(source), log, memory})) {}
+
+Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
+  parts_->phases.enter(0, parts_->comm, parts_->ledger);
   parts_->warn_of_reference();
 }
 
+Simulation Simulation::open(const std::string& path, std::vector<std::string> overrides,
+                            const Log& log, const parallel::Comm& comm) {
+  const auto catalogue = std::make_shared<const Catalogue>();
+  DeckSource source = read_source(comm, path, std::move(overrides));
+  const Options deck = read_deck(*catalogue, source);
+  return Simulation(std::unique_ptr<Parts>(new Parts{comm, catalogue, *catalogue, deck,
+                                                     std::move(source), log, machine_memory()}));
+}
+
+Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 void Simulation::run(const RunSettings& settings, const StopRequest& request,

@@ -16,6 +16,7 @@ namespace culm::simulation {
 
 struct Simulation::Parts {
   parallel::Comm comm;
+  std::shared_ptr<const Catalogue> held;  ///< the catalogue, where nobody else keeps it
   const Catalogue& catalogue;
   Options deck;
   DeckSource source;

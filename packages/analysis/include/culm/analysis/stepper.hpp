@@ -64,6 +64,8 @@ class Stepper {
   /// Of the last attempt if one is open, else the accepted one.
   const model::State& state() const { return state_; }
   model::State& state() { return state_; }
+  /// Time [s] or level of the accepted state.
+  double time() const { return state_.time_prev; }
   int steps() const { return steps_; }
 
  protected:
@@ -123,5 +125,7 @@ class Stepper {
 /// Makes all steps to the end, as a deck asks for them. Throws what Stepper::give_up throws; the
 /// state is then the last accepted one.
 AnalysisReport run(Stepper& stepper, Observer& observer);
+/// The same where nobody looks on.
+AnalysisReport run(Stepper& stepper);
 
 }  // namespace culm::analysis

@@ -13,7 +13,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +39,14 @@ class Simulation {
   /// @param memory what the model may need [B]
   Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
              DeckSource source, const Log& log, double memory = machine_memory());
+  /// The same from a file, with all types that culm has. Collective; throws FileError, UsageError
+  /// for an override that is no assignment, and InputError.
+  /// @param overrides  such as "Structures/beam/Curve/Elements=32"; what is missing is created
+  /// @param log        where messages go; nothing else is printed
+  static Simulation open(const std::string& path, std::vector<std::string> overrides = {},
+                         const Log& log = Log(LogLevel::quiet),
+                         const parallel::Comm& comm = parallel::Comm());
+  Simulation(Simulation&&) noexcept;
   ~Simulation();
 
   /// Runs all analyses and writes results. On NumericalError or NonFiniteError the files hold
@@ -61,9 +68,12 @@ class Simulation {
   /// ranks alike. Throws UsageError for an unknown name or another number of values, NonFiniteError
   /// for a value that is no number.
   /// @param values  by node, as `nodes` names them: force [N] and moment about the node [N m]
-  void set_load(const std::string& name, std::span<const double> values);
+  void set_load(const std::string& name, const std::vector<double>& values);
   /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by number.
   std::vector<int> nodes(const std::string& name) const;
+  /// Position of a node at state() [m], and its velocity at the last accepted one [m/s]; collective.
+  Vec3 position(int node);
+  Vec3 velocity(int node);
   /// The state of the stepper, up to date on all ranks: of the last attempt if one is open.
   const model::State& state();
   /// What the deck's history watches, and its values at state().
@@ -93,6 +103,7 @@ class Simulation {
   void write_last_checkpoint(RunObserver& observer) const;
 
   struct Parts;
+  explicit Simulation(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
 
