@@ -180,6 +180,7 @@ Schema beam_schema() {
                   "on top of 'Damping'; none without it.")
               .non_negative()
               .optional(std::vector<double>{}))
+      .list("Relaxation", relaxation_schema(6), Presence::defaulted)
       .list_by_type("Curve", axes().variants())
       .check([](const Options& beam, InputIssues& issues) {
         const bool is_helical = beam.text("Element") == "Helical";
@@ -201,6 +202,9 @@ Schema beam_schema() {
         } else if (factors == 6 && is_helical) {
           issues.add(beam.where("Strain Damping"), "needs director elements, got helical ones");
         }
+        if (is_helical && !beam.list("Relaxation").entries().empty()) {
+          issues.add(beam.list("Relaxation").where(), "needs director elements, got helical ones");
+        }
       });
   return schema;
 }
@@ -212,7 +216,8 @@ void add_beam(const Options& options, StructureContext& context) {
   const ElementChoice choice{
       kind,
       fidelity,
-      {options.number("Dissipation"), options.number("Damping"), options.numbers("Strain Damping")},
+      {options.number("Dissipation"), options.number("Damping"), options.numbers("Strain Damping"),
+       read_relaxation(options.list("Relaxation"), 6)},
       options.flag("Torsion")};
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");

@@ -253,9 +253,11 @@ Layup read_layup(const Options& options, const std::map<std::string, Material>& 
   }
   for (const Layer& layer : layers) {
     if (layer.material.dissipation != layers[0].material.dissipation ||
-        layer.material.damping != layers[0].material.damping) {
+        layer.material.damping != layers[0].material.damping ||
+        layer.material.relaxation != layers[0].material.relaxation) {
       throw InputError(options.where(field),
-                       "the materials of one layup must have the same Dissipation and Damping");
+                       "the materials of one layup must have the same Dissipation, Damping and "
+                       "Relaxation");
     }
   }
   Layup layup{stack(std::move(layers), options.integer("Repeat"), options.text("Symmetric"))};

@@ -21,13 +21,14 @@ Schema common_material_schema() {
                .optional(0.0))
       .add(number("Damping", "s", "Physical damping: time by which stress runs ahead of strain.")
                .non_negative()
-               .optional(0.0));
+               .optional(0.0))
+      .list("Relaxation", relaxation_schema(1), Presence::defaulted);
   return schema;
 }
 
 Material make_material(Material::Law law, const Options& options) {
   return {std::move(law), options.number("Density"), options.number("Dissipation"),
-          options.number("Damping")};
+          options.number("Damping"), read_relaxation(options.list("Relaxation"), 1)};
 }
 
 }  // namespace culm::material

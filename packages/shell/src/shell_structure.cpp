@@ -265,6 +265,22 @@ Vec3 centre_of(const ShellMesh& mesh) {
   return sum / static_cast<double>(mesh.positions.size());
 }
 
+// Layers agree in it. All strains of a wall relax alike.
+template <class E>
+model::StrainDamping damping_of(const material::Layup& layup, const Options& options) {
+  const material::Material& material = layup.layers.front().material;
+  if (!HasStiffness<E> && !material.relaxation.empty()) {
+    throw InputError(options.where(),
+                     "its material relaxes, which needs a law that is linear in the strains");
+  }
+  model::StrainDamping damping{material.dissipation, material.damping, {}};
+  for (const MaxwellBranch& branch : material.relaxation) {
+    damping.branches.push_back({branch.time, std::vector<double>(E::num_strains,
+                                                                 branch.ratios.front())});
+  }
+  return damping;
+}
+
 template <class E>
 void add_elements(const std::string& effect, const ShellMesh& mesh,
                   const std::shared_ptr<const material::Layup>& layup, const Options& options,
@@ -276,8 +292,7 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
     return;
   }
   const ShellOptions choice = read_options(options);
-  const material::Material& material = layup->layers.front().material;
-  auto& batch = model::elements<E>(model, effect, {material.dissipation, material.damping, {}});
+  auto& batch = model::elements<E>(model, effect, damping_of<E>(*layup, options));
   std::vector<int> items;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
@@ -292,9 +307,8 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
 void add_linear(const ShellMesh& mesh, const std::shared_ptr<const material::Layup>& layup,
                 const Options& options, model::Structure& structure, model::Model& model) {
   const ShellOptions choice = read_options(options);
-  const material::Material& material = layup->layers.front().material;
   auto& batch = model::elements<LinearShell>(model, "Shell, linear",
-                                             {material.dissipation, material.damping, {}});
+                                             damping_of<LinearShell>(*layup, options));
   const int frame = add_frame(structure.name, structure.nodes, model);
   std::vector<int> items;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {

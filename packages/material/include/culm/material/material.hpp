@@ -5,8 +5,10 @@
 #include <culm/base/schema.hpp>
 #include <culm/material/neo_hooke.hpp>
 #include <culm/material/st_venant_kirchhoff.hpp>
+#include <culm/mechanics/relaxation.hpp>
 
 #include <variant>
+#include <vector>
 
 namespace culm::material {
 
@@ -18,6 +20,7 @@ struct Material {
   double density = 0.0;      ///< [kg/m^3]
   double dissipation = 0.0;  ///< numerical dissipation χ, formulation 4.5 [-]
   double damping = 0.0;      ///< time by which stress runs ahead of strain [s]
+  std::vector<MaxwellBranch> relaxation = {};  ///< each with one ratio
 
   /// Whether stress is proportional to strain.
   bool is_linear() const { return std::holds_alternative<StVenantKirchhoff>(law); }
@@ -26,9 +29,9 @@ struct Material {
 /// Stiffness at small strains of any law [N/m^2]
 const Mat6& small_strain_stiffness(const Material::Law& law);
 
-/// `Density`, `Dissipation` and `Damping`, which every type of material has.
+/// `Density`, `Dissipation`, `Damping` and `Relaxation`, which every type of material has.
 Schema common_material_schema();
-/// A material of a law with those three.
+/// A material of a law with those.
 Material make_material(Material::Law law, const Options& options);
 
 }  // namespace culm::material

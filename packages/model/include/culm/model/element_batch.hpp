@@ -4,6 +4,7 @@
 #include <culm/math/small_product.hpp>
 #include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
+#include <culm/model/branch_store.hpp>
 #include <culm/model/element_contribution.hpp>
 #include <culm/model/element_motion.hpp>
 #include <culm/model/inertia.hpp>
@@ -41,7 +42,10 @@ class ElementBatch final : public Batch,
   using Strain = Vec<M>;
 
   ElementBatch(std::string effect, const NodeTable& nodes, const StrainDamping& damping = {})
-      : effect_(std::move(effect)), nodes_(nodes), damping_(damping) {
+      : effect_(std::move(effect)), nodes_(nodes), damping_(damping), branches_(damping.branches) {
+    internal_check(branches_.empty() || HasStiffness<E>, "these elements do not relax");
+    internal_check(!ActsOnUnknowns<E> || branches_.is_uniform(),
+                   "these elements do not relax strain by strain");
     if (damping.viscosities.empty()) return;
     internal_check(damps_each_strain && damping.viscosities.size() == M,
                    "these elements do not damp strains one by one");
@@ -76,6 +80,7 @@ class ElementBatch final : public Batch,
     strain_prev_.assign(placement_.items.size() * E::num_points, Strain::Zero());
     predicted_stress_.resize(strain_prev_.size());
     if constexpr (has_internals) internals_.resize(strain_prev_.size());
+    branches_.resize(strain_prev_.size());
     use_predicted_ = false;
   }
 
@@ -85,6 +90,7 @@ class ElementBatch final : public Batch,
       for (int item : placement_.items) masses_.push_back(element(item).mass());
     }
     if constexpr (has_internals) internals_.prepare();
+    branches_.prepare(stencil.step);
     // in statics the old strain has no weight
     if (stencil.step == 0.0 && !has_internals) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -96,32 +102,42 @@ class ElementBatch final : public Batch,
     }
   }
 
-  void accept(State&) override {
+  void accept([[maybe_unused]] State& state) override {
     if constexpr (has_internals) internals_.accept();
+    if (branches_.empty()) return;
+    Strain y;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      const ItemSlots q = gather(placement_.items[i], state.next);
+      for (int p = 0; p < E::num_points; ++p) {
+        element(placement_.items[i]).strain(p, q, y);
+        branches_.accept(at(i, p), y - strain_prev_[at(i, p)]);
+      }
+    }
   }
 
   std::size_t memory_size() const override {
     return static_cast<std::size_t>(size()) * item_memory();
   }
 
-  void save([[maybe_unused]] Items which,
-            [[maybe_unused]] std::span<double> memory) const override {
-    if constexpr (has_internals) {
-      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-        if (which == Items::owned && !placement_.owned[i]) continue;
-        for (int p = 0; p < E::num_points; ++p) {
-          internals_.save(at(i, p), memory.subspan(memory_place(i, p)));
-        }
+  void save(Items which, std::span<double> memory) const override {
+    if (point_memory() == 0) return;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (which == Items::owned && !placement_.owned[i]) continue;
+      for (int p = 0; p < E::num_points; ++p) {
+        const std::span<double> mine = memory.subspan(memory_place(i, p));
+        if constexpr (has_internals) internals_.save(at(i, p), mine);
+        branches_.save(at(i, p), mine.subspan(internal_memory));
       }
     }
   }
 
-  void restore([[maybe_unused]] std::span<const double> memory) override {
-    if constexpr (has_internals) {
-      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-        for (int p = 0; p < E::num_points; ++p) {
-          internals_.restore(at(i, p), memory.subspan(memory_place(i, p)));
-        }
+  void restore(std::span<const double> memory) override {
+    if (point_memory() == 0) return;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      for (int p = 0; p < E::num_points; ++p) {
+        const std::span<const double> mine = memory.subspan(memory_place(i, p));
+        if constexpr (has_internals) internals_.restore(at(i, p), mine);
+        branches_.restore(at(i, p), mine.subspan(internal_memory));
       }
     }
   }
@@ -167,6 +183,7 @@ class ElementBatch final : public Batch,
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, slots, y);
         energy += energy_of(i, p, y);
+        if constexpr (HasStiffness<E>) energy += branches_.energy(at(i, p), element.stiffness(p));
       }
     }
     return energy;
@@ -209,7 +226,7 @@ class ElementBatch final : public Batch,
     const Stencil damped = with_damping(stencil);
     if constexpr (HasStiffness<E>) {
       // the mean stress of a linear law does just what changes the stored energy
-      if (damped.theta_strain == 0.5 && !roots_) return {};
+      if (damped.theta_strain == 0.5 && !roots_ && !branches_.acts()) return {};
     }
     double taken = 0.0;
     double taken_by_strains = 0.0;  // by the damping of each
@@ -228,6 +245,9 @@ class ElementBatch final : public Batch,
           if (roots_) {
             taken_by_strains +=
                 2.0 / stencil.step * element(item).energy(p, roots_->cwiseProduct(y - prev));
+          }
+          if (branches_.acts()) {
+            taken_by_strains += branches_.taken(at(i, p), element(item).stiffness(p), y - prev);
           }
         } else {
           Internals internals{};
@@ -320,19 +340,17 @@ class ElementBatch final : public Batch,
     using Values = Nothing;
   };
   using Internals = typename InternalTypes<E, has_internals>::Values;
+  static constexpr std::size_t internal_memory = [] {
+    if constexpr (has_internals) return InternalStore<E>::point_memory;
+    return std::size_t{0};
+  }();
 
   // numbers that an item remembers, and where those of a point of a local item are in the array of
   // all items
-  static constexpr std::size_t item_memory() {
+  std::size_t item_memory() const {
     return static_cast<std::size_t>(E::num_points) * point_memory();
   }
-  static constexpr std::size_t point_memory() {
-    if constexpr (!has_internals) {
-      return 0;
-    } else {
-      return InternalStore<E>::point_memory;
-    }
-  }
+  std::size_t point_memory() const { return internal_memory + branches_.point_memory(); }
   std::size_t memory_place(std::size_t i, int p) const {
     return static_cast<std::size_t>(placement_.items[i]) * item_memory() +
            static_cast<std::size_t>(p) * point_memory();
@@ -416,6 +434,12 @@ class ElementBatch final : public Batch,
           response.stress += roots_->cwiseProduct((element.stiffness(p) * rate).eval());
         }
       }
+      if (branches_.acts()) {
+        Strain change = y - prev;
+        if (dy != nullptr) change += *dy;
+        branches_.add_stress(at(i, p), element.stiffness(p), change, stencil.theta,
+                             response.stress);
+      }
       return Verdict::ok;
     } else {
       Verdict verdict = Verdict::ok;
@@ -490,6 +514,13 @@ class ElementBatch final : public Batch,
         if constexpr (damps_each_strain) {
           if (roots_ && stencil.step > 0.0) add_damping(R, element.stiffness(p), stencil, RD);
         }
+        if (branches_.acts()) {
+          RowMat<M, M> stiffness = RowMat<M, M>::Zero();
+          branches_.add_stiffness(element.stiffness(p), stencil.theta, stiffness);
+          RowMat<W, M> product;
+          multiply(R, stiffness, product);
+          RD += product;
+        }
       } else {
         multiply(R, response.tangent, RD);
       }
@@ -536,8 +567,9 @@ class ElementBatch final : public Batch,
       element.add_curvature(p, stress, curvature);
       c.scalars += stencil.theta * curvature;
       if constexpr (HasStiffness<E>) {
-        E::add_stiffness(motion.mid, motion.next, element.stiffness(p), stencil.theta_strain,
-                         c.tangent);
+        double weight = stencil.theta_strain;
+        if (branches_.acts()) weight += branches_.stiffness_weight(stencil.theta);
+        E::add_stiffness(motion.mid, motion.next, element.stiffness(p), weight, c.tangent);
       } else {
         E::add_stiffness(motion.mid, motion.next, response.tangent, 1.0, c.tangent);
       }
@@ -595,6 +627,7 @@ class ElementBatch final : public Batch,
   bool use_predicted_ = false;
   std::optional<Strain> roots_;  // sqrt(eta) of the strains that are damped each by itself
   [[no_unique_address]] typename InternalTypes<E, has_internals>::Store internals_;
+  BranchStore<M> branches_;
 };
 
 /// The batch of elements E of a model with this ledger name and damping, made when it is first

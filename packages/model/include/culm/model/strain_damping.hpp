@@ -1,6 +1,8 @@
 /// What takes energy out of strains.
 #pragma once
 
+#include <culm/mechanics/relaxation.hpp>
+
 #include <vector>
 
 namespace culm::model {
@@ -15,6 +17,7 @@ struct StrainDamping {
   /// Stress sqrt(eta_I) C_IJ sqrt(eta_J) de_J/dt: eta_I C_II on the diagonal, and for any C it
   /// takes energy.
   std::vector<double> viscosities;
+  std::vector<MaxwellBranch> branches = {};  ///< viscoelasticity, with a ratio for each strain
 
   bool operator==(const StrainDamping&) const = default;
   /// The same for `count` strains from the place `first` on.
@@ -22,6 +25,10 @@ struct StrainDamping {
     StrainDamping part = *this;
     if (!viscosities.empty()) {
       part.viscosities.assign(viscosities.begin() + first, viscosities.begin() + first + count);
+    }
+    for (MaxwellBranch& branch : part.branches) {
+      const auto from = branch.ratios.begin() + first;
+      branch.ratios = std::vector<double>(from, from + count);
     }
     return part;
   }
