@@ -1,1 +1,20 @@
-"""The verbs of culm that run decks many times or draw pages: study, hard, effects, report."""
+"""culm from Python: simulations step by step, results as tables, and the verbs written in Python."""
+
+_LIBRARY = ("Simulation", "Stepper", "Snapshot", "Error", "UsageError", "InputError", "NumericalError",
+            "NonFiniteError", "FileError")
+
+
+def __getattr__(name):
+    """What the extension module offers, loaded with MPI and Trilinos when it is first asked for."""
+    if name not in _LIBRARY:
+        raise AttributeError(f"module 'culm' has no attribute '{name}'")
+    import _culm
+    return getattr(_culm, name)
+
+
+def history(folder):
+    """The history of a run as a pandas frame, by time or level."""
+    import pathlib
+
+    import pandas
+    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0)
