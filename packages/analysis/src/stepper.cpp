@@ -50,6 +50,7 @@ void Stepper::accept() {
   ++steps_;
   post_mortem().record(report_);
   do_accept(report_);
+  report_.is_last = reaches_end();
   newton().keep();
   stage_ = Stage::resting;
 }
