@@ -1,6 +1,5 @@
-#include "deck_changes.hpp"
-
 #include <culm/base/value.hpp>
+#include <culm/simulation/deck_changes.hpp>
 
 #include <algorithm>
 #include <string>

@@ -1,11 +1,11 @@
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/output/checkpoint_file.hpp>
+#include <culm/simulation/deck_changes.hpp>
 #include <culm/simulation/identity.hpp>
 #include <culm/simulation/resume.hpp>
 
 #include "checkpoints.hpp"
-#include "deck_changes.hpp"
 #include "on_root.hpp"
 #include "run_observer.hpp"
 

@@ -1,4 +1,4 @@
-#include "../src/deck_changes.hpp"
+#include <culm/simulation/deck_changes.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,139 @@
+#include <culm/base/error.hpp>
+#include <culm/simulation/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace culm::simulation {
+namespace {
+
+// A cantilever whose end is pushed: by a load of a deck, or by one that a program sets.
+std::string cantilever(const std::string& load) {
+  return R"(<ParameterList name="culm">
+  <ParameterList name="Sections"><ParameterList name="bar">
+    <Parameter name="Type" value="Stiffness Values"/>
+    <Parameter name="EA" value="100"/> <Parameter name="GA1" value="50"/>
+    <Parameter name="GA2" value="50"/> <Parameter name="EI1" value="2"/>
+    <Parameter name="EI2" value="2"/> <Parameter name="GIp" value="1"/>
+    <Parameter name="rhoA" value="1"/> <Parameter name="rhoI1" value="0.01"/>
+    <Parameter name="rhoI2" value="0.01"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="Structures"><ParameterList name="beam">
+    <Parameter name="Type" value="Beam"/> <Parameter name="Section" value="bar"/>
+    <ParameterList name="Curve">
+      <Parameter name="Type" value="Line"/> <Parameter name="From" value="{0, 0, 0}"/>
+      <Parameter name="To" value="{1, 0, 0}"/> <Parameter name="Elements" value="3"/>
+    </ParameterList>
+  </ParameterList></ParameterList>
+  <ParameterList name="Constraints"><ParameterList name="clamp">
+    <Parameter name="Type" value="Rigid Support"/> <Parameter name="Node" value="beam/first"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="Loads">)" +
+         load + R"(</ParameterList>
+  <ParameterList name="Analyses">
+    <ParameterList name="bending">
+      <Parameter name="Type" value="Static"/> <Parameter name="Steps" value="2"/>
+    </ParameterList>
+    <ParameterList name="modes">
+      <Parameter name="Type" value="Modal"/> <Parameter name="Modes" value="1"/>
+    </ParameterList>
+    <ParameterList name="motion">
+      <Parameter name="Type" value="Dynamic"/> <Parameter name="Start Time" value="0"/>
+      <Parameter name="End Time" value="0.5"/> <Parameter name="Step" value="0.05"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Output"><ParameterList name="History"><ParameterList name="end">
+    <Parameter name="Type" value="Displacement"/> <Parameter name="Node" value="beam/last"/>
+  </ParameterList></ParameterList></ParameterList>
+</ParameterList>)";
+}
+
+const std::string external = R"(<ParameterList name="push">
+  <Parameter name="Type" value="External"/> <Parameter name="Node" value="beam/last"/>
+</ParameterList>)";
+
+const std::string constant = R"(<ParameterList name="force">
+  <Parameter name="Type" value="Force"/> <Parameter name="Node" value="beam/last"/>
+  <Parameter name="Force" value="{0.1, 0.5, -0.2}"/> <Parameter name="Function" value="Constant"/>
+</ParameterList><ParameterList name="moment">
+  <Parameter name="Type" value="Moment"/> <Parameter name="Node" value="beam/last"/>
+  <Parameter name="Moment" value="{0.3, 0, 0.1}"/> <Parameter name="Function" value="Constant"/>
+</ParameterList>)";
+
+struct Live {
+  explicit Live(const std::string& text)
+      : source{{{"deck.xml", text}}, {}},
+        simulation(parallel::Comm(), catalogue, read_deck(catalogue, source), source,
+                   Log(said, LogLevel::info)) {}
+
+  Catalogue catalogue;
+  DeckSource source;
+  std::ostringstream said;
+  Simulation simulation;
+};
+
+const std::vector<double> push = {0.1, 0.5, -0.2, 0.3, 0.0, 0.1};
+
+TEST(LiveSimulation, ALoadThatIsSetActsAsThatOfADeck) {
+  Live set(cantilever(external)), written(cantilever(constant));
+  for (const char* name : {"bending", "motion"}) {
+    analysis::Stepper& one = set.simulation.begin(name);
+    analysis::Stepper& two = written.simulation.begin(name);
+    while (!two.is_at_end()) {
+      set.simulation.set_load("push", push);
+      for (analysis::Stepper* stepper : {&one, &two}) {
+        ASSERT_TRUE(stepper->attempt(stepper->proposal()).accepted);
+        stepper->accept();
+      }
+    }
+    const int end = set.simulation.nodes("beam/last").front();
+    const Vec3 moved = set.simulation.position(end) - Vec3::UnitX();
+    EXPECT_GT(moved.norm(), 0.01);
+    EXPECT_LT((set.simulation.position(end) - written.simulation.position(end)).norm(), 1e-12);
+    const std::vector<double> watched = set.simulation.quantities();
+    ASSERT_EQ(watched.size(), set.simulation.quantity_columns().size());
+    EXPECT_NEAR(watched[1], moved[1], 1e-15);
+  }
+}
+
+// A force that changes from step to step has no potential: what it does is work, and the balance
+// closes.
+TEST(LiveSimulation, WorkOfALoadThatIsSetIsInTheBalance) {
+  Live live(cantilever(external));
+  live.simulation.begin("bending");
+  analysis::Stepper& stepper = live.simulation.begin("motion");
+  for (int i = 0; !stepper.is_at_end(); ++i) {
+    live.simulation.set_load("push", {0.0, i % 3 - 1.0, 0.2 * i, 0.0, 0.1 * i, 0.0});
+    ASSERT_TRUE(stepper.attempt(stepper.proposal()).accepted);
+    stepper.accept();
+  }
+  for (const auto& [name, value] : stepper.finish().numbers) {
+    if (name == "relative energy drift") {
+      EXPECT_LT(value, 1e-11);
+    }
+  }
+}
+
+TEST(LiveSimulation, RefusesWhatItDoesNotKnow) {
+  Live live(cantilever(external));
+  EXPECT_THROW(live.simulation.begin("modes"), UsageError);
+  analysis::Stepper& stepper = live.simulation.begin();
+  EXPECT_THROW(live.simulation.set_load("pusch", push), UsageError);
+  EXPECT_THROW(live.simulation.set_load("push", {1.0, 2.0}), UsageError);
+  std::vector<double> broken = push;
+  broken[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(live.simulation.set_load("push", broken), NonFiniteError);
+  EXPECT_THROW(live.simulation.nodes("beam/lst"), UsageError);
+  EXPECT_THROW(stepper.accept(), InternalError);
+  EXPECT_THROW(stepper.fail(), InternalError);
+  stepper.attempt(stepper.proposal());
+  Snapshot snapshot(Snapshot::Use::memory);
+  EXPECT_THROW(stepper.save(snapshot), InternalError);
+}
+
+}  // namespace
+}  // namespace culm::simulation
