@@ -38,11 +38,18 @@ class Start {
   culm::simulation::Session session_;
 };
 
+// What the module keeps until Python ends, and each simulation as long as it lives.
+std::shared_ptr<Start>& start() {
+  static std::shared_ptr<Start> kept;
+  return kept;
+}
+
 // A simulation and what it says.
 class Live {
  public:
   Live(const std::string& deck, std::vector<std::string> overrides)
-      : simulation_(Simulation::open(deck, std::move(overrides),
+      : start_(start()),
+        simulation_(Simulation::open(deck, std::move(overrides),
                                      culm::Log(said_, culm::LogLevel::info))) {}
 
   // What was said since the last call.
@@ -54,6 +61,7 @@ class Live {
   Simulation& simulation() { return simulation_; }
 
  private:
+  std::shared_ptr<Start> start_;  // the last to go
   std::ostringstream said_;
   Simulation simulation_;
 };
@@ -102,9 +110,9 @@ void register_errors(py::module_& module) {
 
 PYBIND11_MODULE(_culm, module) {
   using Free = py::call_guard<py::gil_scoped_release>;
-  static std::unique_ptr<Start> start = std::make_unique<Start>();
+  start() = std::make_shared<Start>();
   // before MPI's own library goes
-  py::module_::import("atexit").attr("register")(py::cpp_function([] { start.reset(); }));
+  py::module_::import("atexit").attr("register")(py::cpp_function([] { start().reset(); }));
   register_errors(module);
 
   py::class_<Snapshot>(module, "Snapshot", "What Stepper.save keeps for Stepper.restore.");

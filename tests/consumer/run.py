@@ -51,7 +51,8 @@ def main():
                   "PYTHONDONTWRITEBYTECODE": "1"}
         from_python = run(sys.executable, source / "driver.py", DECK, env=python)
         print(f"C++: {from_cpp}Python: {from_python}", end="")
-        if from_cpp != from_python or not 0.0 < float(from_cpp) + 5.0191 < 1.0:
+        without_wind = -0.016  # [m]
+        if from_cpp != from_python or float(from_cpp) < without_wind + 0.1:
             sys.exit("the programs do not agree, or the wind did not push the nacelle")
 
 

@@ -28,6 +28,10 @@ Schema& Schema::add(Field field) {
 
 Schema& Schema::add_all(const Schema& other) {
   for (const Field& field : other.fields_) add(field);
+  for (const auto& list : other.lists_) {
+    check_name_is_free(list.name);
+    lists_.push_back(list);
+  }
   checks_.insert(checks_.end(), other.checks_.begin(), other.checks_.end());
   return *this;
 }
