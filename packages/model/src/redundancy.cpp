@@ -279,7 +279,7 @@ class Unraveller {
       nodes.push_back(node_of_[static_cast<std::size_t>(it.row())]);
     }
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
   }
 
@@ -371,7 +371,7 @@ std::vector<RedundantSet> dependent_sets(const RowTable& table, const Factors& f
       other = sets.erase(other);
     }
     std::ranges::sort(set.members);
-    set.members.erase(std::ranges::unique(set.members).begin(), set.members.end());
+    set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
     sets.push_back(std::move(set));
   }
   std::ranges::sort(sets, {}, [](const RedundantSet& set) { return set.members.front(); });
