@@ -139,6 +139,11 @@ def demand_same(expected, found):
     demand(not complaints, f"{found.name} differs from {expected.name} in {complaints[:10]}")
 
 
+def memory():
+    """A folder in memory, if there is one: there no checkpoint waits for a busy disk."""
+    return "/dev/shm" if os.path.isdir("/dev/shm") else None
+
+
 def settings(*assignments):
     return [word for assignment in assignments for word in ("--set", assignment)]
 
@@ -427,7 +432,7 @@ def journal_is_void(folder):
 
 
 def check_killed(folder):
-    """Files after a SIGKILL: they can be read, and agree with each other up to one step. Returns
+    """Files of a run that was ended: they can be read, and agree with each other up to one step. Returns
     the number of steps."""
     for name in ("run.checkpoint", "run.checkpoint.old"):
         path = folder / name
@@ -451,7 +456,23 @@ def check_killed(folder):
     return rows - 1
 
 
-def kill_at_random(process, history, whole_size, generator):
+def interrupt(process):
+    """As a terminal does: all processes in the foreground get it."""
+    for pid in [process.pid] + children(process.pid):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGINT)
+
+
+def terminate(process):
+    """One rank alone: it stops all others after the step, or at once where the run has not begun."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(([process.pid] + children(process.pid))[-1], signal.SIGTERM)
+
+
+ENDS = [kill_tree, terminate, interrupt]
+
+
+def end_at_random(process, end, history, whole_size, generator):
     """Once in four times during the start or soon after it, otherwise when the history has grown by a
     random part of the whole: so runs get on and are killed in their midst at any speed."""
     if generator.random() < 0.25:
@@ -462,53 +483,73 @@ def kill_at_random(process, history, whole_size, generator):
             return history.stat().st_size if history.exists() else 0
 
         enough = size() + generator.uniform(0.0, 0.5) * whole_size
-        end = time.monotonic() + TIME_LIMIT
-        while size() < enough and process.poll() is None and time.monotonic() < end:
+        limit = time.monotonic() + TIME_LIMIT
+        while size() < enough and process.poll() is None and time.monotonic() < limit:
             time.sleep(0.001)
-    kill_tree(process)
+    end(process)
 
 
-def kills(program, folder, options):
-    """Kills a run at random moments. Each resume goes on where the one before was."""
-    words = [INPUTS / "joint/torsion.xml", *EVERY_STEP, *settings("Output/Every=10")]
-    words += settings("Analyses/motion/Step=4e-3")
-    whole, parts = folder / "whole", folder / "parts"
-    program("run", *words, "--output", "whole")
-    generator = random.Random(options.seed)
-    done = resumed = ends = 0
-    steps = None  # on disk after the last kill
-    while done < options.kills or parts.exists():
-        last = done >= options.kills
-        resumes = any((parts / f"run.checkpoint{old}").exists() for old in ("", ".old"))
-        process = program.start(*(["resume", "parts"] if resumes else ["run", *words, "--output", "parts"]))
-        if not last:
-            history = parts / "history.csv"
-            kill_at_random(process, history, (whole / "history.csv").stat().st_size, generator)
-        code, out, err = program.finish(process)
-        demand(code == 0 or not last, f"exit code {code}: {out}{err}")
-        demand("damaged" not in err and "cut off" not in err and "holds" not in err, err)
-        if "going on from" in out and steps is not None:
-            begin = int(out.split("after ")[1].split()[0])
-            demand(begin >= steps - 1, f"{steps} steps were done, it goes on after {begin}")
-            resumed += 1
-        if code == 0:
-            demand_same(whole, parts)
-            shutil.rmtree(parts)
-            steps = None
-            ends += 1
-            if last:
-                break
-            continue
-        done += 1
-        if (parts / "history.csv").exists():
-            steps = check_killed(parts)
-    demand(options.kills < 8 or resumed > 0, "no resume got as far as to be killed")
-    print(f"{done} kills, {resumed} resumes, {ends} ends, all like the whole run")
+KILLED = {
+    "torsion": [
+        INPUTS / "joint/torsion.xml",
+        *settings("Output/Every=10", "Analyses/motion/Step=4e-3"),
+    ],
+    "shell": [
+        INPUTS / "shell/tumbling_cylinder.xml",
+        *settings("Output/Every=3", "Analyses/fly/End Time=1.5", "Solver/Linear Solver=KLU2"),
+    ],
+}
+
+
+def kills(name):
+    def test(program, folder, options):
+        """Ends a run at random moments, in turn by SIGKILL, SIGTERM and SIGINT. Each resume goes on
+        where the one before was."""
+        words = KILLED[name] + EVERY_STEP
+        whole, parts = folder / "whole", folder / "parts"
+        program("run", *words, "--output", "whole")
+        generator = random.Random(options.seed)
+        done = resumed = ends = 0
+        steps = None  # on disk after the last kill
+        while done < options.kills or parts.exists():
+            last = done >= options.kills
+            resumes = any((parts / f"run.checkpoint{old}").exists() for old in ("", ".old"))
+            begin = ["run", *words, "--output", "parts"]
+            process = program.start(*(["resume", "parts"] if resumes else begin))
+            if not last:
+                history = parts / "history.csv"
+                whole_size = (whole / "history.csv").stat().st_size
+                end_at_random(process, ENDS[done % len(ENDS)], history, whole_size, generator)
+            code, out, err = program.finish(process)
+            demand(code == 0 or not last, f"exit code {code}: {out}{err}")
+            demand(code not in range(2, 7), f"exit code {code} of a run that was ended: {out}{err}")
+            demand("damaged" not in err and "cut off" not in err and "holds" not in err, err)
+            if "going on from" in out and steps is not None:
+                taken = int(out.split("after ")[1].split()[0])
+                demand(taken >= steps - 1, f"{steps} steps were done, it goes on after {taken}")
+                resumed += 1
+            if code == 0:
+                demand_same(whole, parts)
+                shutil.rmtree(parts)
+                steps = None
+                ends += 1
+                if last:
+                    break
+                continue
+            done += 1
+            if (parts / "history.csv").exists():
+                steps = check_killed(parts)
+        demand(options.kills < 8 or resumed > 0, "no resume got as far as to be killed")
+        print(f"{done} kills, {resumed} resumes, {ends} ends, all like the whole run")
+
+    test.__name__ = f"kills: {name}"
+    return test
 
 
 def tests(ranks):
     names = [name for name in PARTS if ranks == 1 or name in ON_SEVERAL_RANKS]
-    return [run_in_parts(name, PARTS[name]) for name in names] + ALWAYS
+    killed = [name for name in KILLED if ranks == 1 or name in ON_SEVERAL_RANKS]
+    return [run_in_parts(name, PARTS[name]) for name in names] + ALWAYS + [kills(name) for name in killed]
 
 
 ALWAYS = [
@@ -523,7 +564,6 @@ ALWAYS = [
     checkpoints_can_be_switched_off,
     other_number_of_processes,
     living_run_is_left_alone,
-    kills,
 ]
 
 
@@ -537,11 +577,13 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="tests whose name has this in it")
     options = parser.parse_args()
+    # a shell that starts this in the background lets it and its children ignore SIGINT
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     failed = 0
     for test in tests(options.ranks):
         if options.only not in test.__name__:
             continue
-        with tempfile.TemporaryDirectory(prefix="culm-resume-") as folder:
+        with tempfile.TemporaryDirectory(prefix="culm-resume-", dir=memory()) as folder:
             start = time.monotonic()
             try:
                 test(Program(options, pathlib.Path(folder)), pathlib.Path(folder), options)

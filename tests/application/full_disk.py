@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Runs on a disk that gets full: they must say so with exit code 6 and the file, leave files that can be
+read, and go on to the results of a run that nobody disturbed once there is room again.
+
+usage: unshare --user --map-root-user --mount full_disk.py --culm PROGRAM [--mpiexec PROGRAM --ranks N]
+
+The disk is a small tmpfs, which only a mount namespace of its own lets an ordinary user have.
+"""
+
+import argparse
+import contextlib
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from resume import EVERY_STEP, SHELL, TORSION, Failure, Program, check_killed, demand, demand_same, memory
+
+# a run, and for which parts of its results there is room
+RUNS = [("torsion", TORSION, 0.4), ("torsion", TORSION, 0.7), ("shell", SHELL, 0.4), ("shell", SHELL, 0.7)]
+ON_SEVERAL_RANKS = RUNS[-1:]  # mpiexec takes its time
+FULL = "No space left on device"
+
+
+@contextlib.contextmanager
+def small_disk(path, size):
+    path.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", path], check=True)
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", path], check=True)
+
+
+def size_of(folder):
+    return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+
+
+def fill(program, folder, words, part):
+    """A disk with room for a part of the results, then for more, until all is there."""
+    program("run", *words, *EVERY_STEP, "--output", "whole")
+    whole = size_of(folder / "whole")
+    disk = folder / "disk"
+    with small_disk(disk, int(part * whole)):
+        _, _, err = program("run", *words, *EVERY_STEP, "--output", "disk/out", expect=(6,))
+        demand(FULL in err and "disk/out/" in err, f"stderr is {err}")
+        demand(check_killed(disk / "out") > 0, "the disk had no room for a step")
+        _, _, err = program("resume", "disk/out", "--quiet", expect=(6,))
+        demand(FULL in err and "disk/out/" in err, f"stderr of resume is {err}")
+        subprocess.run(["mount", "-o", f"remount,size={4 * whole}", disk], check=True)
+        program("resume", "disk/out", "--quiet")
+        demand_same(folder / "whole", disk / "out")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True)
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--ranks", type=int, default=1)
+    options = parser.parse_args()
+    failed = 0
+    for name, words, part in RUNS if options.ranks == 1 else ON_SEVERAL_RANKS:
+        with tempfile.TemporaryDirectory(prefix="culm-full-", dir=memory()) as path:
+            folder = pathlib.Path(path)
+            try:
+                fill(Program(options, folder), folder, words, part)
+                outcome = "passed"
+            except Failure as failure:
+                outcome = f"FAILED: {failure}"
+                failed += 1
+            print(f"{name}, room for {part} of it: {outcome}", flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
