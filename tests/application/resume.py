@@ -195,7 +195,7 @@ PARTS = {
     "sequence": [
         INPUTS / "sequence/release.xml",
         "--quiet",
-        *settings("Analyses/released/Step=0.01", "Analyses/let down/Steps=3", "Output/Every=3"),
+        *settings("Analyses/released/Step=10", "Analyses/let down/Steps=3", "Output/Every=3"),
     ],
     "imperfection": [INPUTS / "sequence/bent_column.xml", "--quiet", *settings("Analyses/bent/Final Level=0.7")],
 }
