@@ -1,8 +1,11 @@
 #include <culm/base/error.hpp>
 #include <culm/base/snapshot.hpp>
+#include <culm/base/text.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace culm {
@@ -69,7 +72,15 @@ const std::vector<double>& Snapshot::numbers(const std::string& name, std::size_
 
 double Snapshot::number(const std::string& name) const { return numbers(name, 1).front(); }
 
-int Snapshot::integer(const std::string& name) const { return static_cast<int>(number(name)); }
+int Snapshot::integer(const std::string& name) const {
+  const double value = number(name);
+  constexpr double most = std::numeric_limits<int>::max();
+  if (!(std::abs(value) <= most) || value != std::trunc(value)) {
+    throw FileError("the checkpoint has " + format_number(value) + " for '" + name +
+                    "', which is a whole number of at most " + format_number(most) + " either way");
+  }
+  return static_cast<int>(value);
+}
 
 const std::string& Snapshot::text(const std::string& name) const { return find(texts_, name); }
 

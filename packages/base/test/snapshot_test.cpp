@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace culm {
 namespace {
@@ -42,6 +44,27 @@ TEST(Snapshot, SaysWhatIsMissing) {
     FAIL();
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(), "the checkpoint has 3 numbers of 'state/next', the model 12");
+  }
+}
+
+TEST(Snapshot, WholeNumbersAreWholeAndFitAnInt) {
+  Snapshot snapshot;
+  snapshot.set("most", std::numeric_limits<int>::max());
+  snapshot.set("least", -std::numeric_limits<int>::max());
+  EXPECT_EQ(snapshot.integer("most"), std::numeric_limits<int>::max());
+  EXPECT_EQ(snapshot.integer("least"), -std::numeric_limits<int>::max());
+  const std::vector<std::pair<double, const char*>> wrong = {
+      {1e300, "1e+300"}, {-2147483648.0, "-2147483648"}, {0.5, "0.5"}, {NAN, "nan"}};
+  for (const auto& [value, text] : wrong) {
+    snapshot.set("deck/files", value);
+    try {
+      (void)snapshot.integer("deck/files");
+      FAIL() << value;
+    } catch (const FileError& error) {
+      EXPECT_EQ(error.what(), std::string("the checkpoint has ") + text +
+                                  " for 'deck/files', which is a whole number of at most "
+                                  "2147483647 either way");
+    }
   }
 }
 
