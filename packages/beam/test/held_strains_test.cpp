@@ -131,7 +131,8 @@ struct HeldCase {
 
 namespace culm::kit {
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(JointContract);  // a beam's rows are no joint's
-using HeldCases = testing::Types<beam::HeldCase<true, false>, beam::HeldCase<false, true>,
-                                 beam::HeldCase<true, true>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(HeldStrains, ConstraintContract, HeldCases);
+const auto held_cases = testing::Values(subject<beam::HeldCase<true, false>>("Shear"),
+                                        subject<beam::HeldCase<false, true>>("Torsion"),
+                                        subject<beam::HeldCase<true, true>>("Both"));
+INSTANTIATE_TEST_SUITE_P(HeldStrains, ConstraintContract, held_cases, name_of_subject);
 }  // namespace culm::kit

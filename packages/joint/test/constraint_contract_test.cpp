@@ -17,6 +17,8 @@
 
 #include <culm_kit/constraint_contract.hpp>
 
+#include <vector>
+
 namespace culm::joint {
 namespace {
 
@@ -293,30 +295,61 @@ struct RigidTransition : ToTriad {
   }
 };
 
-using ShellCases =
-    testing::Types<RigidShell, RigidShellMoving, SphericalShell, SphericalShellWithOffset,
-                   SimpleShell, SimpleShellWithOffset, SymmetryShell, SymmetryShellOblique,
-                   RevoluteShell, RevoluteShellOblique, ShellHinge, ShellFold, InextensibleFold,
-                   Layers, DirectorAlongAxis, DirectorOblique>;
-using ShellJoints = testing::Types<Inextensible, Soft, RigidTransition>;
+using kit::subject;
+using Subjects = std::vector<kit::ConstraintSubject>;
 
-using Joints = testing::Types<Ball, Hinge, Cylinder, Slider, Cardan, Welded, Angle, BallBetween,
-                              HingeBetween, SliderBetween, WeldedBetween>;
-using Cases = testing::Types<Rigid, Spherical, SphericalWithOffset, SimpleAlongAxis, SimpleOblique,
-                             SimpleWithOffset, SimpleMoving, SimpleLocal, Revolute, RevoluteOblique,
-                             Planar, PlanarOblique, Turning, TurningLocal, RigidLink,
-                             SphericalMoving, RigidMoving, RigidBetween, SphericalBetween,
-                             SimpleLocalBetween, RevoluteBetween, PlanarBetween, TurningBetween>;
+const Subjects cases = {
+    subject<Rigid>("Rigid"), subject<Spherical>("Spherical"),
+    subject<SphericalWithOffset>("SphericalWithOffset"),
+    subject<SimpleAlongAxis>("SimpleAlongAxis"), subject<SimpleOblique>("SimpleOblique"),
+    subject<SimpleWithOffset>("SimpleWithOffset"), subject<SimpleMoving>("SimpleMoving"),
+    subject<SimpleLocal>("SimpleLocal"), subject<Revolute>("Revolute"),
+    subject<RevoluteOblique>("RevoluteOblique"), subject<Planar>("Planar"),
+    subject<PlanarOblique>("PlanarOblique"), subject<Turning>("Turning"),
+    subject<TurningLocal>("TurningLocal"), subject<RigidLink>("RigidLink"),
+    subject<SphericalMoving>("SphericalMoving"), subject<RigidMoving>("RigidMoving"),
+    subject<RigidBetween>("RigidBetween"), subject<SphericalBetween>("SphericalBetween"),
+    subject<SimpleLocalBetween>("SimpleLocalBetween"), subject<RevoluteBetween>("RevoluteBetween"),
+    subject<PlanarBetween>("PlanarBetween"), subject<TurningBetween>("TurningBetween"),
+};
+const Subjects joints = {
+    subject<Ball>("Ball"), subject<Hinge>("Hinge"), subject<Cylinder>("Cylinder"),
+    subject<Slider>("Slider"), subject<Cardan>("Cardan"), subject<Welded>("Welded"),
+    subject<Angle>("Angle"), subject<BallBetween>("BallBetween"),
+    subject<HingeBetween>("HingeBetween"), subject<SliderBetween>("SliderBetween"),
+    subject<WeldedBetween>("WeldedBetween"),
+};
+const Subjects shell_cases = {
+    subject<RigidShell>("RigidShell"), subject<RigidShellMoving>("RigidShellMoving"),
+    subject<SphericalShell>("SphericalShell"),
+    subject<SphericalShellWithOffset>("SphericalShellWithOffset"),
+    subject<SimpleShell>("SimpleShell"), subject<SimpleShellWithOffset>("SimpleShellWithOffset"),
+    subject<SymmetryShell>("SymmetryShell"), subject<SymmetryShellOblique>("SymmetryShellOblique"),
+    subject<RevoluteShell>("RevoluteShell"), subject<RevoluteShellOblique>("RevoluteShellOblique"),
+    subject<ShellHinge>("ShellHinge"), subject<ShellFold>("ShellFold"),
+    subject<InextensibleFold>("InextensibleFold"), subject<Layers>("Layers"),
+    subject<DirectorAlongAxis>("DirectorAlongAxis"), subject<DirectorOblique>("DirectorOblique"),
+};
+const Subjects shell_joints = {
+    subject<Inextensible>("Inextensible"), subject<Soft>("Soft"),
+    subject<RigidTransition>("RigidTransition"),
+};
 
 }  // namespace
 }  // namespace culm::joint
 
 namespace culm::kit {
-INSTANTIATE_TYPED_TEST_SUITE_P(Joint, ConstraintContract, joint::Cases);
-INSTANTIATE_TYPED_TEST_SUITE_P(Joint, JointContract, testing::Types<joint::RigidLink>);
-INSTANTIATE_TYPED_TEST_SUITE_P(Pair, ConstraintContract, joint::Joints);
-INSTANTIATE_TYPED_TEST_SUITE_P(Pair, JointContract, joint::Joints);
-INSTANTIATE_TYPED_TEST_SUITE_P(Shell, ConstraintContract, joint::ShellCases);
-INSTANTIATE_TYPED_TEST_SUITE_P(ShellJoint, ConstraintContract, joint::ShellJoints);
-INSTANTIATE_TYPED_TEST_SUITE_P(ShellJoint, JointContract, joint::ShellJoints);
+INSTANTIATE_TEST_SUITE_P(Joint, ConstraintContract, testing::ValuesIn(joint::cases),
+                         name_of_subject);
+INSTANTIATE_TEST_SUITE_P(Joint, JointContract,
+                         testing::Values(subject<joint::RigidLink>("RigidLink")), name_of_subject);
+INSTANTIATE_TEST_SUITE_P(Pair, ConstraintContract, testing::ValuesIn(joint::joints),
+                         name_of_subject);
+INSTANTIATE_TEST_SUITE_P(Pair, JointContract, testing::ValuesIn(joint::joints), name_of_subject);
+INSTANTIATE_TEST_SUITE_P(Shell, ConstraintContract, testing::ValuesIn(joint::shell_cases),
+                         name_of_subject);
+INSTANTIATE_TEST_SUITE_P(ShellJoint, ConstraintContract, testing::ValuesIn(joint::shell_joints),
+                         name_of_subject);
+INSTANTIATE_TEST_SUITE_P(ShellJoint, JointContract, testing::ValuesIn(joint::shell_joints),
+                         name_of_subject);
 }  // namespace culm::kit
