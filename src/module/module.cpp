@@ -49,8 +49,8 @@ class Live {
  public:
   Live(const std::string& deck, std::vector<std::string> overrides)
       : start_(start()),
-        simulation_(Simulation::open(deck, std::move(overrides),
-                                     culm::Log(said_, culm::LogLevel::info))) {}
+        simulation_(
+            Simulation::open(deck, std::move(overrides), culm::Log(said_, culm::LogLevel::info))) {}
 
   // What was said since the last call.
   std::string messages() {
@@ -129,8 +129,9 @@ PYBIND11_MODULE(_culm, module) {
       .def("accept", &Stepper::accept, Free(), "Makes the attempt the accepted state.")
       .def("discard", &Stepper::discard, "Goes back as if the attempt had not been made.")
       .def("fail", &Stepper::fail, "Goes back; the next proposal is nearer.")
-      .def("run", [](Stepper& stepper) { culm::analysis::run(stepper); }, Free(),
-           "Makes all steps to the end.")
+      .def(
+          "run", [](Stepper& stepper) { culm::analysis::run(stepper); }, Free(),
+          "Makes all steps to the end.")
       .def("finish", &finish, "Ends the analysis; returns the numbers of its report.")
       .def(
           "save",
@@ -161,12 +162,14 @@ PYBIND11_MODULE(_culm, module) {
       .def("set_load", &set_load, py::arg("name"), py::arg("values"),
            "Sets a load of type 'External': force [N] and moment [N m] of each node.")
       .def(
-          "nodes", [](Live& live, const std::string& name) { return live.simulation().nodes(name); },
+          "nodes",
+          [](Live& live, const std::string& name) { return live.simulation().nodes(name); },
           py::arg("name"), "Numbers of the nodes of a name.")
       .def_property_readonly(
           "coordinates",
           [](py::object self) { return view(self.cast<Live&>().simulation().state().next, self); },
-          "Position and directors of all nodes, shape (nodes, 4, 3) [m, 1], read only; brought up to "
+          "Position and directors of all nodes, shape (nodes, 4, 3) [m, 1], read only; brought up "
+          "to "
           "date by reading the property.")
       .def_property_readonly(
           "velocities",

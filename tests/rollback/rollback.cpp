@@ -1,5 +1,5 @@
-// What was attempted, discarded or gone back from leaves no trace: the steps of decks, made twice, once
-// straight on and once with detours, are equal bit by bit.
+// What was attempted, discarded or gone back from leaves no trace: the steps of decks, made twice,
+// once straight on and once with detours, are equal bit by bit.
 //
 // usage: culm_rollback deck.xml ...
 

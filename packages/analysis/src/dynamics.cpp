@@ -155,8 +155,8 @@ void Dynamics::fit_motion() {
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) system().model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const assembly::VelocityFit fit = system().project_velocity(state, 1e-4 * settings_.steps.step,
-                                                              mass_solver(context(), state));
+  const assembly::VelocityFit fit =
+      system().project_velocity(state, 1e-4 * settings_.steps.step, mass_solver(context(), state));
   if (fit.change > tolerance * std::max(1.0, largest(state.velocity))) {
     context().findings.warn(
         "initial velocities",
@@ -180,7 +180,8 @@ void Dynamics::measure_hidden_constraints() {
   if (sound) certificate_.finish(fit.change, system().comm().max(largest(copy.velocity)));
 }
 
-// Where momenta are kept at all; what is carried moves stiff parts a little more than rounding does.
+// Where momenta are kept at all; what is carried moves stiff parts a little more than rounding
+// does.
 void Dynamics::keep_balance() {
   system().carry_residuals(scheme_->conserves() && certificate_.is_free());
 }

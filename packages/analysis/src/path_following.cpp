@@ -60,8 +60,7 @@ double find_level_difference(const PathSettings& settings) {
 PathFollowing::PathFollowing(PathSettings settings, Context& context, model::State& state)
     : Stepper(context, state),
       settings_(std::move(settings)),
-      condition_(context.system, settings_.control,
-                 find_watched(settings_, context.system.model()),
+      condition_(context.system, settings_.control, find_watched(settings_, context.system.model()),
                  find_level_difference(settings_)) {}
 
 std::unique_ptr<Stepper> PathFollowing::make(const Options& options, Context& context,
@@ -154,9 +153,9 @@ bool PathFollowing::is_on_target() const {
 }
 
 bool PathFollowing::passed_limit_points() const {
-  const auto count = std::count_if(known_.events.begin(), known_.events.end(), [](const PathEvent& event) {
-    return event.kind == PathEventKind::limit_point;
-  });
+  const auto count = std::count_if(
+      known_.events.begin(), known_.events.end(),
+      [](const PathEvent& event) { return event.kind == PathEventKind::limit_point; });
   return settings_.limit_points && count >= *settings_.limit_points;
 }
 
@@ -375,10 +374,9 @@ AnalysisReport PathFollowing::report() const {
 }
 
 void PathFollowing::do_save(Snapshot& snapshot) const {
-  snapshot.set("path/step",
-               {size_, first_size_, last_length_, static_cast<double>(failures_),
-                known_.is_examined ? 1.0 : 0.0, known_.has_behind ? 1.0 : 0.0,
-                known_.has_branched ? 1.0 : 0.0, known_.is_ended ? 1.0 : 0.0});
+  snapshot.set("path/step", {size_, first_size_, last_length_, static_cast<double>(failures_),
+                             known_.is_examined ? 1.0 : 0.0, known_.has_behind ? 1.0 : 0.0,
+                             known_.has_branched ? 1.0 : 0.0, known_.is_ended ? 1.0 : 0.0});
   snapshot.set("path/behind", numbers_of(known_.behind));
   snapshot.set("path/here", numbers_of(known_.here));
   std::vector<double> events;

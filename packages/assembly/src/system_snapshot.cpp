@@ -52,8 +52,7 @@ void System::save(model::State& state, Snapshot& snapshot) {
   } else {
     snapshot.set("system/carried", gather_carried());
   }
-  const model::Items which =
-      snapshot.is_for_memory() ? model::Items::local : model::Items::owned;
+  const model::Items which = snapshot.is_for_memory() ? model::Items::local : model::Items::owned;
   std::size_t size = 0;
   for (const model::Batch* batch : batches_) size += batch->memory_size();
   std::vector<double> memory(size, nothing);

@@ -13,7 +13,14 @@ Options default_list(const Schema& schema, std::string name, const Where& where)
       options.declare(field.name());
     }
   }
-  for (const Schema::Slot& slot : schema.lists()) options.declare_list(slot.name);
+  if (schema.entries()) options.declare_entries();
+  for (const Schema::Slot& slot : schema.lists()) {
+    if (slot.presence == Presence::defaulted && !slot.by_type()) {
+      options.add_list(default_list(*slot.schema, slot.name, where));
+    } else {
+      options.declare_list(slot.name);
+    }
+  }
   return options;
 }
 

@@ -26,9 +26,7 @@ void fill(model::Model& model) {
   model::elements<Beam>(model, effect, relaxing()).add(DirectorBeamCase<2>::make(), nodes);
 }
 
-TEST(Relaxation, TangentIsDerivativeOfResidual) {
-  kit::expect_tangent_is_derivative(fill, effect);
-}
+TEST(Relaxation, TangentIsDerivativeOfResidual) { kit::expect_tangent_is_derivative(fill, effect); }
 TEST(Relaxation, AssemblesWithoutHeap) { kit::expect_no_allocation(fill, effect); }
 TEST(Relaxation, AttemptsLeaveNoTrace) { kit::expect_attempts_leave_no_trace(fill, effect); }
 
@@ -52,8 +50,8 @@ TEST(Relaxation, EnergyBalanceIsExact) {
     const Eigen::VectorXd force = dense.residual(state, stencil, {batch});
     double work = 0.0;
     for (int node = 0; node < 3; ++node) {
-      const model::NodeSlots moved = model::NodeTable::slots(state.next, node) -
-                                     model::NodeTable::slots(state.prev, node);
+      const model::NodeSlots moved =
+          model::NodeTable::slots(state.next, node) - model::NodeTable::slots(state.prev, node);
       work += force.segment<12>(12 * node).dot(moved.reshaped());
     }
     const double before = batch->stored_energy(state.prev);

@@ -41,8 +41,8 @@ void build(const Options& options, model::BuildContext& context) {
   const model::NodeTable& table = context.model.nodes();
   auto forces = std::make_unique<SlotLoad>(effect, table, always);
   auto moments = std::make_unique<MomentLoad>(effect + ", moments", table, always, Frame::space);
-  context.model.add_input(
-      options.name(), std::make_unique<ExternalLoad>(std::move(nodes), *forces, *moments));
+  context.model.add_input(options.name(),
+                          std::make_unique<ExternalLoad>(std::move(nodes), *forces, *moments));
   context.model.add_load(std::move(forces));
   context.model.add_load(std::move(moments));
 }

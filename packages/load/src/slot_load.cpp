@@ -97,7 +97,8 @@ bool SlotLoad::turns(const Item& item) const {
   for (std::size_t a = 0; a < item.nodes.size(); ++a) {
     const auto forces = item.constant.middleCols<4>(4 * static_cast<int>(a));
     const bool lever = nodes_.is_slave(item.nodes[a]);
-    if (!forces.rightCols<3>().isZero(0.0) || (lever && (item.is_settable || !forces.col(0).isZero(0.0)))) {
+    if (!forces.rightCols<3>().isZero(0.0) ||
+        (lever && (item.is_settable || !forces.col(0).isZero(0.0)))) {
       return true;
     }
   }

@@ -32,7 +32,8 @@ Schema relaxation_schema(int strains) {
       .check([strains, values](const Options& options, InputIssues& issues) {
         const std::size_t count = options.numbers("Ratios").size();
         if (count == 1 || count == static_cast<std::size_t>(strains)) return;
-        issues.add(options.where("Ratios"), "must have " + values + ", got " + std::to_string(count));
+        issues.add(options.where("Ratios"),
+                   "must have " + values + ", got " + std::to_string(count));
       });
   return Schema("Relaxation",
                 "Viscoelasticity in dynamics: branches by name that relax, on top of the lasting "

@@ -275,8 +275,8 @@ model::StrainDamping damping_of(const material::Layup& layup, const Options& opt
   }
   model::StrainDamping damping{material.dissipation, material.damping, {}};
   for (const MaxwellBranch& branch : material.relaxation) {
-    damping.branches.push_back({branch.time, std::vector<double>(E::num_strains,
-                                                                 branch.ratios.front())});
+    damping.branches.push_back(
+        {branch.time, std::vector<double>(E::num_strains, branch.ratios.front())});
   }
   return damping;
 }

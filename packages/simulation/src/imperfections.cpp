@@ -3,7 +3,6 @@
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
 #include <culm/base/text.hpp>
-#include <culm/base/text.hpp>
 #include <culm/output/recorded_shape.hpp>
 
 #include <Eigen/Core>

@@ -37,10 +37,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   start_analysis(number, p.state);
   Phase& phase = p.phases.enter(number, p.comm, p.ledger);
   p.findings.begin(entries[number].name());
-  p.context.emplace(analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log,
-                                      p.findings});
-  p.stepper = known.steppers.make(entries[number].text("Type"), entries[number], *p.context,
-                                  p.state);
+  p.context.emplace(
+      analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});
+  p.stepper =
+      known.steppers.make(entries[number].text("Type"), entries[number], *p.context, p.state);
   p.stepper->fit();
   p.stepper->begin();
   return *p.stepper;
@@ -106,8 +106,6 @@ std::vector<double> Simulation::quantities() {
   return evaluate(parts_->phases.of(parts_->present).watched, parts_->context->system, now);
 }
 
-const model::Model& Simulation::model() const {
-  return *parts_->phases.of(parts_->present).model;
-}
+const model::Model& Simulation::model() const { return *parts_->phases.of(parts_->present).model; }
 
 }  // namespace culm::simulation

@@ -116,7 +116,8 @@ Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfecti
     setting.inactive.merge(imperfections.unknown_in(i));
     // what looks at a state has the loads that led there
     const std::optional<std::size_t> origin = origin_of(analyses, i);
-    if (origin && catalogue.analyses.inspections.contains(type)) setting.is_path = of(*origin).setting.is_path;
+    if (origin && catalogue.analyses.inspections.contains(type))
+      setting.is_path = of(*origin).setting.is_path;
     by_analysis_.push_back(&find_or_build(setting));
   }
   refuse_jumps();

@@ -142,9 +142,7 @@ void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
       Files{std::move(recorder), std::move(xdmf), std::move(history), std::move(pictures)});
 }
 
-std::vector<output::HistoryColumn> ResultFiles::columns() const {
-  return columns_of(*watched_);
-}
+std::vector<output::HistoryColumn> ResultFiles::columns() const { return columns_of(*watched_); }
 
 std::vector<double> ResultFiles::evaluate(model::State& state) const {
   system_->synchronise(state);

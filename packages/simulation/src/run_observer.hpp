@@ -43,8 +43,8 @@ class RunObserver final : public analysis::Observer {
   /// @param is_last  of the deck: its end is a checkpoint, from which the run can go on to a later
   ///                 one
   /// @param linear_solver its name and why it was taken, for the report
-  void begin(const Options& entry, std::size_t number, bool is_last,
-             analysis::Context& context, const std::string& linear_solver);
+  void begin(const Options& entry, std::size_t number, bool is_last, analysis::Context& context,
+             const std::string& linear_solver);
   /// What makes the steps from now on, and what its checkpoints hold; none: nothing does.
   void follow(analysis::Stepper* stepper) { stepper_ = stepper; }
   /// Goes on within an analysis that has begun before.

@@ -88,8 +88,8 @@ Simulation Simulation::open(const std::string& path, std::vector<std::string> ov
   const auto catalogue = std::make_shared<const Catalogue>();
   DeckSource source = read_source(comm, path, std::move(overrides));
   const Options deck = read_deck(*catalogue, source);
-  return Simulation(std::unique_ptr<Parts>(new Parts{comm, catalogue, *catalogue, deck,
-                                                     std::move(source), log, machine_memory()}));
+  return Simulation(std::unique_ptr<Parts>(
+      new Parts{comm, catalogue, *catalogue, deck, std::move(source), log, machine_memory()}));
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -45,7 +45,8 @@ Options deck(double mass = 1.0,
 std::vector<std::string> changes(const Options& before, const Options& now,
                                  std::size_t analysis = 1, double time = 1.5) {
   std::vector<std::string> texts;
-  for (const InputIssue& issue : find_forbidden_changes(before, now, analysis, time, {"Path"}).sorted()) {
+  for (const InputIssue& issue :
+       find_forbidden_changes(before, now, analysis, time, {"Path"}).sorted()) {
     texts.push_back(to_string(issue));
   }
   return texts;

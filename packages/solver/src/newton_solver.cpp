@@ -269,8 +269,8 @@ void NewtonSolver::go_back() {
   p.linear.restore_pivots();
   if (p.settings.refresh == Refresh::every_iteration || !is_new) return;
   p.factored_inertia = nox_->kept.factored_inertia;
-  p.has_factors = nox_->kept.has_factors && p.system.restore_matrix(nox_->kept_matrix) &&
-                  p.linear.factor();
+  p.has_factors =
+      nox_->kept.has_factors && p.system.restore_matrix(nox_->kept_matrix) && p.linear.factor();
   nox_->kept.factorisations = p.factorisations;
 }
 

@@ -170,9 +170,7 @@ class ConstraintContract : public testing::TestWithParam<ConstraintSubject> {
   int num_rows_ = 0;
 };
 
-TEST_P(ConstraintContract, HoldsInTheReference) {
-  EXPECT_LT(largest(h(reference())), round_off);
-}
+TEST_P(ConstraintContract, HoldsInTheReference) { EXPECT_LT(largest(h(reference())), round_off); }
 
 TEST_P(ConstraintContract, GradientIsDerivativeOfTheRows) {
   const model::Coordinates q = any(1);
@@ -193,8 +191,7 @@ TEST_P(ConstraintContract, IncrementIsMidpointGradientTimesMotion) {
   model::State state;
   state.prev = any(1);
   state.next = any(2);
-  const Eigen::VectorXd increment =
-      H(at_theta(state, 0.5)) * (flat(state.next) - flat(state.prev));
+  const Eigen::VectorXd increment = H(at_theta(state, 0.5)) * (flat(state.next) - flat(state.prev));
   EXPECT_LT(largest(h(state.next) - h(state.prev) - increment), round_off);
 }
 
@@ -261,9 +258,7 @@ TEST_P(ConstraintContract, AttemptsLeaveNoTrace) {
 
 class JointContract : public ConstraintContract {};
 
-TEST_P(JointContract, HoldsUnderRigidMotion) {
-  EXPECT_LT(largest(h(moved(1))), 10.0 * round_off);
-}
+TEST_P(JointContract, HoldsUnderRigidMotion) { EXPECT_LT(largest(h(moved(1))), 10.0 * round_off); }
 
 // At q_1/2 of a step between admissible ends H^T lambda has no resultant force and moment: the
 // joint keeps the momenta.

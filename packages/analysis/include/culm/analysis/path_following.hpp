@@ -73,11 +73,11 @@ class PathFollowing final : public Stepper {
 
   PathSettings settings_;
   PathCondition condition_;
-  int failures_ = 0;          ///< since the last step that was taken
-  double size_ = 0.0;         ///< of the next step [m]
-  double attempted_ = 0.0;    ///< of the last attempt [m]
-  double first_size_ = 0.0;   ///< of the first step
-  double last_length_ = 0.0;  ///< between the last two points [m]
+  int failures_ = 0;           ///< since the last step that was taken
+  double size_ = 0.0;          ///< of the next step [m]
+  double attempted_ = 0.0;     ///< of the last attempt [m]
+  double first_size_ = 0.0;    ///< of the first step
+  double last_length_ = 0.0;   ///< between the last two points [m]
   bool is_on_branch_ = false;  ///< the last attempt took a crossing path
   Knowledge known_, before_;   ///< now, and before the last attempt
 };

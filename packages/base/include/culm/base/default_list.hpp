@@ -8,8 +8,9 @@
 
 namespace culm {
 
-/// A list as a deck that says nothing would give it: the parameters of the schema with their
-/// defaults, and none of its lists. For types that are made of others, and for tests.
+/// A list as a deck that says nothing would give it: parameters and lists of the schema with their
+/// defaults, but no list whose type has to be chosen. For types that are made of others, and for
+/// tests.
 /// @param where  what messages about it shall name
 Options default_list(const Schema& schema, std::string name, const Where& where);
 

@@ -17,9 +17,9 @@ struct Material {
   using Law = std::variant<StVenantKirchhoff, NeoHooke>;
 
   Law law;
-  double density = 0.0;      ///< [kg/m^3]
-  double dissipation = 0.0;  ///< numerical dissipation χ, formulation 4.5 [-]
-  double damping = 0.0;      ///< time by which stress runs ahead of strain [s]
+  double density = 0.0;                        ///< [kg/m^3]
+  double dissipation = 0.0;                    ///< numerical dissipation χ, formulation 4.5 [-]
+  double damping = 0.0;                        ///< time by which stress runs ahead of strain [s]
   std::vector<MaxwellBranch> relaxation = {};  ///< each with one ratio
 
   /// Whether stress is proportional to strain.

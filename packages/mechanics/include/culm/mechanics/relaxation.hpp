@@ -8,9 +8,9 @@
 
 namespace culm {
 
-/// A spring and a dashpot in line. The strain d of its spring follows d' = e' - d / time, its stress
-/// is sqrt(g_I) C_IJ sqrt(g_J) d_J on top of C e: g_I C_II on the diagonal, and for any C it takes
-/// energy.
+/// A spring and a dashpot in line. The strain d of its spring follows d' = e' - d / time, its
+/// stress is sqrt(g_I) C_IJ sqrt(g_J) d_J on top of C e: g_I C_II on the diagonal, and for any C it
+/// takes energy.
 struct MaxwellBranch {
   double time = 0.0;           ///< relaxation time [s]
   std::vector<double> ratios;  ///< g, stiffness over that of the lasting spring, by strain [-]

@@ -73,9 +73,9 @@ class Batch {
   virtual void extrapolate(const State& state, const Stencil& stencil,
                            const Coordinates& increment) = 0;
 
-  /// Once per accepted step, while state.prev is still its start and state.next, which was evaluated
-  /// last, its end: what items carry from step to step moves on. In dynamics state.velocity is that
-  /// of the end, and a batch that says needs_mean_velocity may change it.
+  /// Once per accepted step, while state.prev is still its start and state.next, which was
+  /// evaluated last, its end: what items carry from step to step moves on. In dynamics
+  /// state.velocity is that of the end, and a batch that says needs_mean_velocity may change it.
   virtual void accept(State&) {}
   /// Whether velocities must be those of the conserving scheme, for accept to correct them.
   virtual bool needs_mean_velocity() const { return false; }

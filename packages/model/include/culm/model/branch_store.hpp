@@ -12,8 +12,8 @@
 namespace culm::model {
 
 /// The strains of the springs of all branches at all points of a batch, as they were accepted, with
-/// M strains. Steps without length, as in statics, end relaxed. Empty, and without work, where there
-/// are no branches.
+/// M strains. Steps without length, as in statics, end relaxed. Empty, and without work, where
+/// there are no branches.
 template <int M>
 class BranchStore {
  public:
@@ -31,9 +31,8 @@ class BranchStore {
   bool empty() const { return branches_.empty(); }
   /// Whether all strains relax alike, in each branch.
   bool is_uniform() const {
-    return std::ranges::all_of(branches_, [](const Branch& b) {
-      return (b.roots.array() == b.roots[0]).all();
-    });
+    return std::ranges::all_of(
+        branches_, [](const Branch& b) { return (b.roots.array() == b.roots[0]).all(); });
   }
   void resize(std::size_t points) { strains_.assign(points * branches_.size(), Strain::Zero()); }
   /// Before an attempt of a step [s].

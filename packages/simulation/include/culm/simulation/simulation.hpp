@@ -69,9 +69,11 @@ class Simulation {
   /// for a value that is no number.
   /// @param values  by node, as `nodes` names them: force [N] and moment about the node [N m]
   void set_load(const std::string& name, const std::vector<double>& values);
-  /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by number.
+  /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by
+  /// number.
   std::vector<int> nodes(const std::string& name) const;
-  /// Position of a node at state() [m], and its velocity at the last accepted one [m/s]; collective.
+  /// Position of a node at state() [m], and its velocity at the last accepted one [m/s];
+  /// collective.
   Vec3 position(int node);
   Vec3 velocity(int node);
   /// The state of the stepper, up to date on all ranks: of the last attempt if one is open.
