@@ -20,9 +20,12 @@ include(GoogleTest)
 
 find_program(CULM_CCACHE ccache)
 if(CULM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Without this sloppiness ccache does not cache anything that uses a precompiled header.
+  # Without this sloppiness ccache does not cache anything that uses a precompiled header. It must
+  # look at the headers themselves: where only a comment changed, preprocessed texts are equal, and
+  # it would return a precompiled header that does not know the changed file.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CULM_CCACHE}
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
+      ${CULM_CCACHE}
   )
 endif()
 
