@@ -44,7 +44,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
     // no edits make up for the lengths
-    const auto [shorter, longer] = std::minmax(candidate.size(), wanted.size());
+    const auto [shorter, longer] = std::minmax({candidate.size(), wanted.size()});
     if (longer - shorter >= least) continue;
     const std::size_t distance = edit_distance(wanted, to_lower(candidate));
     // A name of which every letter had to change is another name.
