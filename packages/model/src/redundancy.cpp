@@ -180,47 +180,56 @@ class Factors {
  public:
   explicit Factors(const Sparse& gradients) : Factors(gradients, all_columns(gradients)) {}
 
-  Factors(const Sparse& gradients, std::vector<int> columns) : columns_(std::move(columns)) {
-    Sparse some(gradients.rows(), static_cast<int>(columns_.size()));
+  Factors(const Sparse& gradients, const std::vector<int>& columns)
+      : rows_(static_cast<int>(gradients.rows())), columns_(columns) {
+    // Eigen writes beyond the memory of factors without rows or columns
+    if (rows_ == 0 || columns.empty()) return;
+    Sparse some(rows_, static_cast<int>(columns.size()));
     std::vector<Eigen::Triplet<double>> entries;
     for (int k = 0; k < some.cols(); ++k) {
-      for (Sparse::InnerIterator it(gradients, columns_[static_cast<std::size_t>(k)]); it; ++it) {
+      for (Sparse::InnerIterator it(gradients, columns[static_cast<std::size_t>(k)]); it; ++it) {
         entries.emplace_back(static_cast<int>(it.row()), k, it.value());
       }
     }
     some.setFromTriplets(entries.begin(), entries.end());
     qr_.setPivotThreshold(1e-10);
     qr_.compute(some);
-    const auto rank = qr_.rank();
-    independent_ = Sparse(qr_.matrixR()).topLeftCorner(rank, rank);
+    rank_ = static_cast<int>(qr_.rank());
+    independent_ = Sparse(qr_.matrixR()).topLeftCorner(rank_, rank_);
+    for (int place = 0; place < cols(); ++place) {
+      const int k = qr_.colsPermutation().indices()[place];
+      columns_[static_cast<std::size_t>(place)] = columns[static_cast<std::size_t>(k)];
+    }
   }
 
-  int rank() const { return static_cast<int>(qr_.rank()); }
-  int cols() const { return static_cast<int>(qr_.cols()); }
+  int rank() const { return rank_; }
+  int cols() const { return static_cast<int>(columns_.size()); }
   // Number of the gradient at a place; those from the rank on depend on the ones before.
-  int column(int place) const {
-    return columns_[static_cast<std::size_t>(qr_.colsPermutation().indices()[place])];
-  }
+  int column(int place) const { return columns_[static_cast<std::size_t>(place)]; }
 
   // A dependent column as a combination of the independent ones, by place.
   Eigen::VectorXd combination(int place) const {
-    Eigen::VectorXd x = Sparse(qr_.matrixR()).col(place).head(rank());
+    if (rank_ == 0) return {};
+    Eigen::VectorXd x = Sparse(qr_.matrixR()).col(place).head(rank_);
     independent_.triangularView<Eigen::Upper>().solveInPlace(x);
     return x;
   }
 
   // The smallest u with G^T u = b in the independent columns.
   Eigen::VectorXd smallest_solution(const Eigen::VectorXd& b) const {
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(qr_.rows());
-    for (int place = 0; place < rank(); ++place) y[place] = b[column(place)];
-    Eigen::VectorXd head = y.head(rank());
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(rows_);
+    if (rank_ == 0) return y;
+    for (int place = 0; place < rank_; ++place) y[place] = b[column(place)];
+    Eigen::VectorXd head = y.head(rank_);
     independent_.transpose().triangularView<Eigen::Lower>().solveInPlace(head);
-    y.head(rank()) = head;
+    y.head(rank_) = head;
     return qr_.matrixQ() * y;
   }
 
  private:
-  std::vector<int> columns_;
+  int rows_;
+  int rank_ = 0;
+  std::vector<int> columns_;  // by place
   Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr_;
   Sparse independent_;  // the square part of R
 };
