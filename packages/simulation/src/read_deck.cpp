@@ -1,8 +1,10 @@
+#include <culm/base/error.hpp>
 #include <culm/simulation/read_deck.hpp>
 
 #include "on_root.hpp"
 
 #include <filesystem>
+#include <string>
 #include <utility>
 
 namespace culm::simulation {
@@ -40,13 +42,19 @@ void DeckSource::save(Snapshot& snapshot) const {
 }
 
 DeckSource DeckSource::restore(const Snapshot& snapshot) {
+  const auto count = [&](const std::string& name, int least) {
+    const int found = snapshot.integer(name);
+    if (found >= least) return found;
+    throw FileError("the checkpoint has " + std::to_string(found) + " for '" + name +
+                    "', which is at least " + std::to_string(least));
+  };
   DeckSource source;
-  for (int i = 0; i < snapshot.integer("deck/files"); ++i) {
+  for (int i = 0; i < count("deck/files", 1); ++i) {
     const std::string number = std::to_string(i);
     source.texts.push_back(
         {snapshot.text("deck/name " + number), snapshot.text("deck/text " + number), {}});
   }
-  for (int i = 0; i < snapshot.integer("deck/overrides"); ++i) {
+  for (int i = 0; i < count("deck/overrides", 0); ++i) {
     source.overrides.push_back(snapshot.text("deck/override " + std::to_string(i)));
   }
   return source;
