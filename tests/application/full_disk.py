@@ -9,12 +9,11 @@ The disk is a small tmpfs, which only a mount namespace of its own lets an ordin
 
 import argparse
 import contextlib
-import pathlib
+import functools
 import subprocess
 import sys
-import tempfile
 
-from resume import EVERY_STEP, SHELL, TORSION, Failure, Program, check_killed, demand, demand_same, memory
+from resume import EVERY_STEP, SHELL, TORSION, check_killed, demand, demand_same, run_each
 
 # a run, and for which parts of its results there is room
 RUNS = [("torsion", TORSION, 0.4), ("torsion", TORSION, 0.7), ("shell", SHELL, 0.4), ("shell", SHELL, 0.7)]
@@ -58,18 +57,10 @@ def main():
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--ranks", type=int, default=1)
     options = parser.parse_args()
-    failed = 0
-    for name, words, part in RUNS if options.ranks == 1 else ON_SEVERAL_RANKS:
-        with tempfile.TemporaryDirectory(prefix="culm-full-", dir=memory()) as path:
-            folder = pathlib.Path(path)
-            try:
-                fill(Program(options, folder), folder, words, part)
-                outcome = "passed"
-            except Failure as failure:
-                outcome = f"FAILED: {failure}"
-                failed += 1
-            print(f"{name}, room for {part} of it: {outcome}", flush=True)
-    return 1 if failed else 0
+    return run_each(options, [
+        (f"{name}, room for {part} of it", functools.partial(fill, words=words, part=part))
+        for name, words, part in (RUNS if options.ranks == 1 else ON_SEVERAL_RANKS)
+    ])
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ usage: resume.py --culm PROGRAM [--mpiexec PROGRAM --ranks N] [--kills N] [--fli
 
 import argparse
 import contextlib
+import functools
 import os
 import pathlib
 import random
@@ -142,6 +143,24 @@ def demand_same(expected, found):
 def memory():
     """A folder in memory, if there is one: there no checkpoint waits for a busy disk."""
     return "/dev/shm" if os.path.isdir("/dev/shm") else None
+
+
+def run_each(options, trials):
+    """Runs each (name, trial) as trial(program, folder) in a folder of its own and prints how it ended.
+    Returns the exit code."""
+    failed = 0
+    for name, trial in trials:
+        with tempfile.TemporaryDirectory(prefix="culm-trial-", dir=memory()) as path:
+            folder = pathlib.Path(path)
+            start = time.monotonic()
+            try:
+                trial(Program(options, folder), folder)
+                outcome = "passed"
+            except Failure as failure:
+                outcome = f"FAILED: {failure}"
+                failed += 1
+            print(f"{name}: {outcome} ({time.monotonic() - start:.1f} s)", flush=True)
+    return 1 if failed else 0
 
 
 def settings(*assignments):
@@ -579,20 +598,8 @@ def main():
     options = parser.parse_args()
     # a shell that starts this in the background lets it and its children ignore SIGINT
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    failed = 0
-    for test in tests(options.ranks):
-        if options.only not in test.__name__:
-            continue
-        with tempfile.TemporaryDirectory(prefix="culm-resume-", dir=memory()) as folder:
-            start = time.monotonic()
-            try:
-                test(Program(options, pathlib.Path(folder)), pathlib.Path(folder), options)
-                outcome = "passed"
-            except Failure as failure:
-                outcome = f"FAILED: {failure}"
-                failed += 1
-            print(f"{test.__name__}: {outcome} ({time.monotonic() - start:.1f} s)", flush=True)
-    return 1 if failed else 0
+    chosen = [test for test in tests(options.ranks) if options.only in test.__name__]
+    return run_each(options, [(test.__name__, functools.partial(test, options=options)) for test in chosen])
 
 
 if __name__ == "__main__":

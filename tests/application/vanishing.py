@@ -5,12 +5,11 @@ usage: vanishing.py --culm PROGRAM [--mpiexec PROGRAM --ranks N]
 """
 
 import argparse
-import pathlib
+import functools
 import shutil
 import sys
-import tempfile
 
-from resume import INPUTS, Failure, Program, demand, kill_tree, settings, wait_for
+from resume import INPUTS, demand, kill_tree, run_each, settings, wait_for
 
 LONG = [INPUTS / "body/heavy_top.xml", "--quiet", *settings("Output/Every=1", "Output/Checkpoints=false")]
 ENDLESS = settings("Analyses/motion/End Time=600")
@@ -78,18 +77,10 @@ def main():
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--ranks", type=int, default=1)
     options = parser.parse_args()
-    failed = 0
-    for name, action, says in CASES if options.ranks == 1 else CASES[:1]:
-        with tempfile.TemporaryDirectory(prefix="culm-vanishing-") as path:
-            folder = pathlib.Path(path)
-            try:
-                vanish(Program(options, folder), folder, name, action, says)
-                outcome = "passed"
-            except Failure as failure:
-                outcome = f"FAILED: {failure}"
-                failed += 1
-            print(f"{action.__name__} {name}: {outcome}", flush=True)
-    return 1 if failed else 0
+    return run_each(options, [
+        (f"{action.__name__} {name}", functools.partial(vanish, name=name, action=action, says=says))
+        for name, action, says in (CASES if options.ranks == 1 else CASES[:1])
+    ])
 
 
 if __name__ == "__main__":
