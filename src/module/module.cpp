@@ -60,18 +60,53 @@ class Live {
   }
   Simulation& simulation() { return simulation_; }
 
+  void begin(const std::string& analysis) {
+    ++taken_up_;  // also where it fails: what was taken up before is gone
+    stepper_ = nullptr;
+    stepper_ = &simulation_.begin(analysis);
+  }
+  long taken_up() const { return taken_up_; }
+  Stepper* stepper() const { return stepper_; }
+
  private:
   std::shared_ptr<Start> start_;  // the last to go
   std::ostringstream said_;
   Simulation simulation_;
+  Stepper* stepper_ = nullptr;
+  long taken_up_ = 0;
 };
 
-// A view of coordinates, x and the three directors of each node, as long as the owner lives.
-py::array view(const std::vector<double>& coordinates, py::handle owner) {
+// The stepper of an analysis, as long as it is taken up.
+class Handle {
+ public:
+  explicit Handle(Live& live) : live_(live), number_(live.taken_up()) {}
+
+  Stepper& get() const {
+    if (live_.taken_up() != number_ || live_.stepper() == nullptr) {
+      throw culm::UsageError("this analysis has ended: another one was taken up");
+    }
+    return *live_.stepper();
+  }
+  Stepper* operator->() const { return &get(); }
+  bool is_of(const Handle& other) const {
+    return &live_ == &other.live_ && number_ == other.number_;
+  }
+
+ private:
+  Live& live_;
+  long number_;
+};
+
+// What a stepper saved, and which one.
+struct Saved {
+  Handle stepper;
+  Snapshot snapshot = Snapshot(Snapshot::Use::memory);
+};
+
+// A copy of coordinates, x and the three directors of each node.
+py::array copy(const std::vector<double>& coordinates) {
   const auto nodes = static_cast<py::ssize_t>(coordinates.size() / 12);
-  py::array_t<double> array({nodes, py::ssize_t{4}, py::ssize_t{3}}, coordinates.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
+  return py::array_t<double>({nodes, py::ssize_t{4}, py::ssize_t{3}}, coordinates.data());
 }
 
 using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -91,9 +126,9 @@ py::dict quantities(Live& live) {
   return all;
 }
 
-py::dict finish(Stepper& stepper) {
+py::dict finish(const Handle& stepper) {
   py::dict numbers;
-  for (const auto& [name, value] : stepper.finish().numbers) numbers[py::str(name)] = value;
+  for (const auto& [name, value] : stepper->finish().numbers) numbers[py::str(name)] = value;
   return numbers;
 }
 
@@ -115,38 +150,59 @@ PYBIND11_MODULE(_culm, module) {
   py::module_::import("atexit").attr("register")(py::cpp_function([] { start().reset(); }));
   register_errors(module);
 
-  py::class_<Snapshot>(module, "Snapshot", "What Stepper.save keeps for Stepper.restore.");
+  py::class_<Saved>(module, "Snapshot", "What Stepper.save keeps for Stepper.restore.");
 
-  py::class_<Stepper>(module, "Stepper", "Makes the steps of an analysis.")
+  py::class_<Handle>(module, "Stepper", "Makes the steps of an analysis.")
       .def(
           "attempt",
-          [](Stepper& stepper, std::optional<double> target) {
-            return stepper.attempt(target.value_or(stepper.proposal())).accepted;
+          [](const Handle& stepper, std::optional<double> target) {
+            return stepper->attempt(target.value_or(stepper->proposal())).accepted;
           },
           py::arg("target") = py::none(), Free(),
           "Solves a step from the accepted state to a target, the proposed one if none is given. "
           "Returns whether it converged.")
-      .def("accept", &Stepper::accept, Free(), "Makes the attempt the accepted state.")
-      .def("discard", &Stepper::discard, "Goes back as if the attempt had not been made.")
-      .def("fail", &Stepper::fail, "Goes back; the next proposal is nearer.")
       .def(
-          "run", [](Stepper& stepper) { culm::analysis::run(stepper); }, Free(),
+          "accept", [](const Handle& stepper) { stepper->accept(); }, Free(),
+          "Makes the attempt the accepted state.")
+      .def(
+          "discard", [](const Handle& stepper) { stepper->discard(); },
+          "Goes back as if the attempt had not been made.")
+      .def(
+          "fail", [](const Handle& stepper) { stepper->fail(); },
+          "Goes back; the next proposal is nearer.")
+      .def(
+          "run", [](const Handle& stepper) { culm::analysis::run(stepper.get()); }, Free(),
           "Makes all steps to the end.")
       .def("finish", &finish, "Ends the analysis; returns the numbers of its report.")
       .def(
           "save",
-          [](Stepper& stepper) {
-            auto snapshot = std::make_unique<Snapshot>(Snapshot::Use::memory);
-            stepper.save(*snapshot);
-            return snapshot;
+          [](const Handle& stepper) {
+            auto saved = std::make_unique<Saved>(Saved{stepper});
+            stepper->save(saved->snapshot);
+            return saved;
           },
           "The accepted state and all that the next step needs.")
-      .def("restore", &Stepper::restore, py::arg("snapshot"), "Goes back to what save returned.")
-      .def_property_readonly("proposal", &Stepper::proposal, "Where the next step should go.")
-      .def_property_readonly("time", &Stepper::time, "Time [s] or level of the accepted state.")
-      .def_property_readonly("steps", &Stepper::steps, "Accepted steps so far.")
-      .def_property_readonly("is_at_end", &Stepper::is_at_end)
-      .def_property_readonly("is_exhausted", &Stepper::is_exhausted);
+      .def(
+          "restore",
+          [](const Handle& stepper, const Saved& saved) {
+            if (!saved.stepper.is_of(stepper)) {
+              throw culm::UsageError("the snapshot belongs to another analysis or simulation");
+            }
+            stepper->restore(saved.snapshot);
+          },
+          py::arg("snapshot"), "Goes back to what save returned.")
+      .def_property_readonly(
+          "proposal", [](const Handle& stepper) { return stepper->proposal(); },
+          "Where the next step should go.")
+      .def_property_readonly(
+          "time", [](const Handle& stepper) { return stepper->time(); },
+          "Time [s] or level of the accepted state.")
+      .def_property_readonly(
+          "steps", [](const Handle& stepper) { return stepper->steps(); }, "Accepted steps so far.")
+      .def_property_readonly("is_at_end",
+                             [](const Handle& stepper) { return stepper->is_at_end(); })
+      .def_property_readonly("is_exhausted",
+                             [](const Handle& stepper) { return stepper->is_exhausted(); });
 
   py::class_<Live>(module, "Simulation", "A deck whose steps the caller makes.")
       .def(py::init<const std::string&, std::vector<std::string>>(), py::arg("deck"),
@@ -154,10 +210,11 @@ PYBIND11_MODULE(_culm, module) {
            "Builds the model of a deck. Overrides are such as 'Structures/beam/Curve/Elements=32'.")
       .def(
           "begin",
-          [](Live& live, const std::string& analysis) -> Stepper& {
-            return live.simulation().begin(analysis);
+          [](Live& live, const std::string& analysis) {
+            live.begin(analysis);
+            return Handle(live);
           },
-          py::arg("analysis") = "", py::return_value_policy::reference_internal,
+          py::arg("analysis") = "", py::keep_alive<0, 1>(),
           "Takes up an analysis that makes steps, the first one if no name is given.")
       .def("set_load", &set_load, py::arg("name"), py::arg("values"),
            "Sets a load of type 'External': force [N] and moment [N m] of each node.")
@@ -166,16 +223,10 @@ PYBIND11_MODULE(_culm, module) {
           [](Live& live, const std::string& name) { return live.simulation().nodes(name); },
           py::arg("name"), "Numbers of the nodes of a name.")
       .def_property_readonly(
-          "coordinates",
-          [](py::object self) { return view(self.cast<Live&>().simulation().state().next, self); },
-          "Position and directors of all nodes, shape (nodes, 4, 3) [m, 1], read only; brought up "
-          "to "
-          "date by reading the property.")
+          "coordinates", [](Live& live) { return copy(live.simulation().state().next); },
+          "A copy of position and directors of all nodes, shape (nodes, 4, 3) [m, 1].")
       .def_property_readonly(
-          "velocities",
-          [](py::object self) {
-            return view(self.cast<Live&>().simulation().state().velocity, self);
-          },
+          "velocities", [](Live& live) { return copy(live.simulation().state().velocity); },
           "Their rates at the accepted state [m/s, 1/s]; no nodes in statics.")
       .def("quantities", &quantities, "What the deck's history watches, by name and unit.")
       .def("messages", &Live::messages, "What culm said since the last call.");

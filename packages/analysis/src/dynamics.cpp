@@ -229,6 +229,10 @@ void Dynamics::do_prepare_resume() {
 
 StepReport Dynamics::do_attempt(double end) {
   model::State& state = this->state();
+  if (end <= state.time_prev) {
+    throw UsageError(
+        fmt::format("a step of time from {:g} s cannot end at {:g} s", state.time_prev, end));
+  }
   StepReport report;
   report.time = state.time = end;
   report.final_time = settings_.steps.end_time;

@@ -121,6 +121,7 @@ class Finder {
     }
     set_.is_complex ? find_complex() : find_real();
     warn_of_rounding();
+    warn_of_relaxation();
     const ModeMasses masses(context_.system.model(), state_);
     set_.total = masses.total();
     for (std::size_t i = 0; i < set_.modes.size(); ++i) {
@@ -229,6 +230,15 @@ class Finder {
     for (double of_square : rounding) {
       hidden_ = std::max(hidden_, std::sqrt(zero_bound * of_square) / (2.0 * std::numbers::pi));
     }
+  }
+
+  void warn_of_relaxation() const {
+    const auto batches = context_.system.model().batches();
+    if (std::ranges::none_of(batches, [](const model::Batch* b) { return b->relaxes(); })) return;
+    context_.findings.warn("relaxation",
+                           "modes do not see 'Relaxation': frequencies are those of the lasting "
+                           "stiffness, without the damping of its branches",
+                           state_.time);
   }
 
   // Stiff directions leave their rounding in soft ones.

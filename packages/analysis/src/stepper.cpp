@@ -1,28 +1,32 @@
 #include <culm/analysis/stepper.hpp>
 #include <culm/base/error.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace culm::analysis {
 
-void Stepper::require(Stage stage, const char* verb) const {
-  internal_check(stage_ == stage, std::string("a step cannot ") + verb + " now");
+void Stepper::require(bool holds, const char* verb) {
+  if (holds) return;
+  throw UsageError(std::string("a step cannot ") + verb +
+                   " now: begin; then attempt; then accept, discard or fail; save and restore "
+                   "between steps; nothing after the end");
 }
 
 void Stepper::fit() {
-  require(Stage::unbegun, "fit");
+  require(stage_ == Stage::unbegun, "be fitted");
   do_fit();
 }
 
 void Stepper::begin() {
-  require(Stage::unbegun, "begin");
+  require(stage_ == Stage::unbegun, "begin");
   do_begin();
   newton().keep();
   stage_ = Stage::resting;
 }
 
 void Stepper::resume(const Snapshot& snapshot) {
-  require(Stage::unbegun, "resume");
+  require(stage_ == Stage::unbegun, "be resumed");
   do_prepare_resume();
   stage_ = Stage::resting;
   restore(snapshot);
@@ -30,23 +34,27 @@ void Stepper::resume(const Snapshot& snapshot) {
 
 const StepReport& Stepper::attempt(double target) {
   if (stage_ == Stage::tried) discard();
-  require(Stage::resting, "be attempted");
+  require(stage_ == Stage::resting, "be attempted");
+  if (!std::isfinite(target)) throw NonFiniteError("a step cannot be attempted to no number");
   is_exhausted_ = false;
+  stage_ = Stage::tried;
   try {
     report_ = do_attempt(target);
   } catch (...) {
-    go_back();
+    discard();
     throw;
   }
   report_.accepted = report_.outcome.converged();
   report_.step = steps_ + (report_.accepted ? 1 : 0);
-  stage_ = Stage::tried;
   return report_;
 }
 
 void Stepper::accept() {
-  require(Stage::tried, "be accepted");
-  internal_check(report_.accepted, "an attempt that did not converge cannot be accepted");
+  require(stage_ == Stage::tried, "be accepted");
+  if (!report_.accepted) {
+    throw UsageError("an attempt cannot be accepted that did not converge: " +
+                     solver::describe(report_.outcome.end));
+  }
   ++steps_;
   post_mortem().record(report_);
   do_accept(report_);
@@ -61,14 +69,14 @@ void Stepper::go_back() {
 }
 
 void Stepper::discard() {
-  require(Stage::tried, "be discarded");
+  require(stage_ == Stage::tried, "be discarded");
   go_back();
   do_discard();
   newton().go_back();
 }
 
 void Stepper::fail() {
-  require(Stage::tried, "fail");
+  require(stage_ == Stage::tried, "fail");
   report_.accepted = false;
   report_.step = steps_;
   post_mortem().record(report_);
@@ -79,18 +87,20 @@ void Stepper::fail() {
 }
 
 void Stepper::give_up() {
-  require(Stage::resting, "be given up");
+  require(stage_ == Stage::resting, "be given up");
   explain_failure();
   post_mortem().give_up(state_, failed_stencil(), dead_end());
 }
 
 AnalysisReport Stepper::finish() {
   if (stage_ == Stage::tried) discard();
+  require(stage_ != Stage::unbegun, "end");
+  stage_ = Stage::ended;
   return do_finish();
 }
 
 void Stepper::save(Snapshot& snapshot) {
-  require(Stage::resting, "be saved");
+  require(stage_ == Stage::resting || stage_ == Stage::ended, "be saved");
   system().save(state_, snapshot);
   snapshot.set("steps", steps_);
   do_save(snapshot);
@@ -100,7 +110,7 @@ void Stepper::save(Snapshot& snapshot) {
 
 void Stepper::restore(const Snapshot& snapshot) {
   if (stage_ == Stage::tried) discard();
-  require(Stage::resting, "be restored");
+  require(stage_ == Stage::resting, "be restored");
   system().restore(snapshot, state_);
   steps_ = snapshot.integer("steps");
   do_restore(snapshot);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace culm::simulation {
 
@@ -39,10 +40,11 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   p.findings.begin(entries[number].name());
   p.context.emplace(
       analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});
-  p.stepper =
+  auto stepper =
       known.steppers.make(entries[number].text("Type"), entries[number], *p.context, p.state);
-  p.stepper->fit();
-  p.stepper->begin();
+  stepper->fit();
+  stepper->begin();
+  p.stepper = std::move(stepper);
   return *p.stepper;
 }
 
@@ -92,7 +94,7 @@ Vec3 Simulation::velocity(int node) {
 
 const model::State& Simulation::state() {
   Parts& p = *parts_;
-  internal_check(p.stepper != nullptr, "begin() comes before state()");
+  if (p.stepper == nullptr) throw UsageError("there is no state yet: 'begin' comes first");
   p.context->system.synchronise(p.state);
   return p.state;
 }

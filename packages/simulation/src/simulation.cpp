@@ -118,6 +118,11 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
                        p.imperfections, p.reference_turn,
                        Progress(p.log, settings.quiet, settings.terminal));
+  for (const auto& [name, input] : phase.model->inputs()) {
+    p.findings.warn("external load",
+                    "load '" + name + "' is zero: only a program that makes the steps can set it",
+                    0.0);
+  }
   model::State state = phase.model->initial_state();
   try {
     if (from != nullptr) {

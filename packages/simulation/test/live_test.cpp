@@ -128,11 +128,17 @@ TEST(LiveSimulation, RefusesWhatItDoesNotKnow) {
   broken[4] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(live.simulation.set_load("push", broken), NonFiniteError);
   EXPECT_THROW(live.simulation.nodes("beam/lst"), UsageError);
-  EXPECT_THROW(stepper.accept(), InternalError);
-  EXPECT_THROW(stepper.fail(), InternalError);
+  EXPECT_THROW(stepper.accept(), UsageError);
+  EXPECT_THROW(stepper.fail(), UsageError);
   stepper.attempt(stepper.proposal());
   Snapshot snapshot(Snapshot::Use::memory);
-  EXPECT_THROW(stepper.save(snapshot), InternalError);
+  EXPECT_THROW(stepper.save(snapshot), UsageError);
+  analysis::Stepper& motion = live.simulation.begin("motion");
+  EXPECT_THROW(motion.attempt(0.0), UsageError);
+  EXPECT_THROW(motion.attempt(std::numeric_limits<double>::infinity()), NonFiniteError);
+  EXPECT_TRUE(motion.attempt(motion.proposal()).accepted);
+  motion.finish();
+  EXPECT_THROW(motion.attempt(motion.proposal()), UsageError);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace culm::analysis {
 ///   begin | resume      attempt … attempt      accept | discard | fail      save, restore
 ///
 /// Every attempt starts from the same accepted state and with the same first guess, whatever was
-/// attempted before: equal loads and equal targets give equal bits. Verbs out of order are an
-/// InternalError. A stepper borrows its context and its state.
+/// attempted before: equal loads and equal targets give equal bits. Verbs out of order are a
+/// UsageError. A stepper borrows its context and its state.
 class Stepper {
  public:
   Stepper(Context& context, model::State& state) : context_(context), state_(state) {}
@@ -38,7 +38,8 @@ class Stepper {
   double proposal() const { return propose(); }
   /// Solves a step from the accepted state to `target`, of the kind that proposal() gives; whatever
   /// was attempted before is forgotten. Not converging is a value: StepReport::accepted is false.
-  /// The state's end of the step is that of this attempt until the next verb.
+  /// The state's end of the step is that of this attempt until the next verb. Throws UsageError for
+  /// a time that is not after the accepted one, NonFiniteError for no number.
   const StepReport& attempt(double target);
   /// Makes the end of a converged attempt the accepted state. Exactly once per step.
   void accept();
@@ -50,7 +51,8 @@ class Stepper {
   bool is_exhausted() const { return is_exhausted_; }
   /// Throws NumericalError or NonFiniteError with a post-mortem of the attempts that failed.
   [[noreturn]] void give_up();
-  /// What the analysis says at its end. An attempt that is still open is discarded.
+  /// What the analysis says at its end. An attempt that is still open is discarded; no other
+  /// follows.
   AnalysisReport finish();
 
   /// The accepted state and all that the next step needs beside it; between steps. A snapshot for
@@ -108,8 +110,8 @@ class Stepper {
   virtual void do_save(Snapshot& snapshot) const = 0;
   virtual void do_restore(const Snapshot& snapshot) = 0;
 
-  enum class Stage { unbegun, resting, tried };
-  void require(Stage stage, const char* verb) const;
+  enum class Stage { unbegun, resting, tried, ended };
+  static void require(bool holds, const char* verb);
   void go_back();
 
   Context& context_;

@@ -79,6 +79,8 @@ class Batch {
   virtual void accept(State&) {}
   /// Whether velocities must be those of the conserving scheme, for accept to correct them.
   virtual bool needs_mean_velocity() const { return false; }
+  /// Whether items relax in time, which a linearisation does not see.
+  virtual bool relaxes() const { return false; }
   /// Whether an evaluation reads nodes that no item of this rank touches.
   virtual bool needs_all_nodes() const { return false; }
 

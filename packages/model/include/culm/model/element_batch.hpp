@@ -102,6 +102,8 @@ class ElementBatch final : public Batch,
     }
   }
 
+  bool relaxes() const override { return !branches_.empty(); }
+
   void accept([[maybe_unused]] State& state) override {
     if constexpr (has_internals) internals_.accept();
     if (branches_.empty()) return;
@@ -182,7 +184,9 @@ class ElementBatch final : public Batch,
       const E& element = this->element(placement_.items[i]);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, slots, y);
-        energy += energy_of(i, p, y);
+        Internals internals{};
+        if constexpr (has_internals) internals = internals_.at(at(i, p), y);
+        energy += energy_of(i, p, y, internals);
         if constexpr (HasStiffness<E>) energy += branches_.energy(at(i, p), element.stiffness(p));
       }
     }
@@ -250,10 +254,14 @@ class ElementBatch final : public Batch,
             taken_by_strains += branches_.taken(at(i, p), element(item).stiffness(p), y - prev);
           }
         } else {
-          Internals internals{};
-          if constexpr (has_internals) internals = internals_.next(at(i, p));
-          respond(i, p, y, damped, internals, response);
-          taken += response.stress.dot(y - prev) - (end_energy(i, p, y) - start_energy(i, p));
+          Internals before{}, after{};
+          if constexpr (has_internals) {
+            before = internals_.prev(at(i, p));
+            after = internals_.next(at(i, p));
+          }
+          respond(i, p, y, damped, after, response);
+          taken += response.stress.dot(y - prev) -
+                   (energy_of(i, p, y, after) - energy_of(i, p, prev, before));
         }
       }
     }
@@ -454,30 +462,11 @@ class ElementBatch final : public Batch,
     }
   }
 
-  // In a step that is being accepted.
-  double start_energy(std::size_t i, int p) const {
-    const E& element = this->element(placement_.items[i]);
-    const Strain& y = strain_prev_[at(i, p)];
-    if constexpr (has_internals) {
-      return element.energy(p, y, internals_.prev(at(i, p)));
-    } else {
-      return element.energy(p, y);
-    }
-  }
-  double end_energy(std::size_t i, int p, const Strain& y) const {
+  double energy_of(std::size_t i, int p, const Strain& y,
+                   [[maybe_unused]] const Internals& internals) const {
     const E& element = this->element(placement_.items[i]);
     if constexpr (has_internals) {
-      return element.energy(p, y, internals_.next(at(i, p)));
-    } else {
-      return element.energy(p, y);
-    }
-  }
-
-  // At one of the ends of a step.
-  double energy_of(std::size_t i, int p, const Strain& y) const {
-    const E& element = this->element(placement_.items[i]);
-    if constexpr (has_internals) {
-      return element.energy(p, y, internals_.at(at(i, p), y));
+      return element.energy(p, y, internals);
     } else {
       return element.energy(p, y);
     }
