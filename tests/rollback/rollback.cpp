@@ -88,7 +88,7 @@ bool is_equal(const analysis::Stepper& a, const analysis::Stepper& b) {
   const model::State& one = a.state();
   const model::State& two = b.state();
   return one.time == two.time && one.next == two.next && one.velocity == two.velocity &&
-         one.multipliers == two.multipliers && a.steps() == b.steps() &&
+         one.multipliers == two.multipliers && one.own == two.own && a.steps() == b.steps() &&
          a.proposal() == b.proposal();
 }
 

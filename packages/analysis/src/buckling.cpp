@@ -184,7 +184,7 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
   assembly::System& system = context.system;
   const double level = reference_level(state);
-  const Linearisation linear = linearise(context, state);
+  const Linearisation linear = linearise(context, state, Stencil::statics());
   model::Coordinates motion = system.linear_motion(state, *step_, 1.0);
   system.complete(motion);
   const auto change = stress_stiffness(context, state, level, *step_, *linear.stiffness);

@@ -112,8 +112,8 @@ class Finder {
 
   ModeSet find() {
     const bool counts = settings_.damping || rotor_;  // a rotor keeps gyroscopic forces alone
-    set_.is_complex =
-        linear_.asymmetry > largest_asymmetry || (counts && !linear_.damping.is_null());
+    rates_ = counts ? linear_.damping : rates_of_signals(context_.system, linear_.damping);
+    set_.is_complex = linear_.asymmetry > largest_asymmetry || !rates_.is_null();
     if (!linear_.damping.is_null() && !counts) {
       context_.log.info(
           "note: modes are those without damping and gyroscopic forces; 'Damping' = true counts "
@@ -181,8 +181,8 @@ class Finder {
   }
 
   void find_complex() {
-    Teuchos::RCP<const assembly::CrsMatrix> damping = linear_.damping;
-    if (damping.is_null() || !(settings_.damping || rotor_)) {
+    Teuchos::RCP<const assembly::CrsMatrix> damping = rates_;
+    if (damping.is_null()) {
       const auto none = Teuchos::rcp(new assembly::CrsMatrix(*linear_.mass, Teuchos::Copy));
       const auto values = none->getLocalMatrixHost().values;
       for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = 0.0;
@@ -281,6 +281,7 @@ class Finder {
   const ModalSettings& settings_;
   Linearisation linear_;
   std::optional<TurningRotor> rotor_;
+  Teuchos::RCP<const assembly::CrsMatrix> rates_;  // what counts of the damping
   solver::EigenSettings solver_;
   ModeSet set_;
   double hidden_ = 0.0;  // frequency that may be nothing but rounding [Hz]

@@ -13,25 +13,58 @@ namespace {
 
 using assembly::CrsMatrix;
 
-// Want::mass borders the mass by the constraint Jacobian; it has no part in inertia.
-void remove_border(const assembly::System& system, CrsMatrix& mass) {
-  std::vector<bool> is_multiplier;  // by local column
+// Which unknowns of the system a matrix keeps.
+enum class Keep {
+  motions,  // those of nodes
+  states,   // and those of batches that are no forces of equations
+};
+
+bool is_kept(const model::Model& model, const model::Block& block, int i, Keep keep) {
+  if (keep == Keep::motions) return block.kind == model::BlockKind::node;
+  return !model.is_force(block, i);
+}
+
+// Whether the unknown of each local column is kept.
+std::vector<bool> kept_columns(const assembly::System& system, Keep keep) {
+  const model::Model& model = system.model();
+  std::vector<bool> kept;
   for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
-    const model::Block& block = system.model().unknowns().block(local.block);
+    const model::Block& block = model.unknowns().block(local.block);
     const auto end = static_cast<std::size_t>(local.first_column + block.shape.active);
-    if (is_multiplier.size() < end) is_multiplier.resize(end, false);
-    if (block.kind != model::BlockKind::multipliers) continue;
-    for (auto i = static_cast<std::size_t>(local.first_column); i < end; ++i) {
-      is_multiplier[i] = true;
+    if (kept.size() < end) kept.resize(end, false);
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[static_cast<std::size_t>(i)];
+      if (at < 0) continue;
+      kept[static_cast<std::size_t>(local.first_column + at)] = is_kept(model, block, i, keep);
     }
   }
-  const auto matrix = mass.getLocalMatrixHost();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(matrix.numRows()); ++row) {
-    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
-      const auto column = static_cast<std::size_t>(matrix.graph.entries(k));
-      if (is_multiplier[row] || is_multiplier[column]) matrix.values(k) = 0.0;
+  return kept;
+}
+
+template <class Wanted>
+void erase_unless(CrsMatrix& matrix, const Wanted& wanted) {
+  const auto local = matrix.getLocalMatrixHost();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(local.numRows()); ++row) {
+    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      if (!wanted(row, static_cast<std::size_t>(local.graph.entries(k)))) local.values(k) = 0.0;
     }
   }
+}
+
+// Constraints border the matrices of inertia and damping, and have no part in them.
+void remove_border(const assembly::System& system, Keep keep, CrsMatrix& matrix) {
+  const std::vector<bool> kept = kept_columns(system, keep);
+  erase_unless(matrix,
+               [&](std::size_t row, std::size_t column) { return kept[row] && kept[column]; });
+}
+
+double largest_entry(const assembly::System& system, const CrsMatrix& matrix) {
+  const auto values = matrix.getLocalMatrixHost().values;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < values.extent(0); ++k) {
+    largest = std::max(largest, std::abs(values(k)));
+  }
+  return system.comm().max(largest);
 }
 
 // Velocities are differences of coordinates over the step, so the damping is what of the tangent
@@ -50,21 +83,27 @@ Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::Stat
     const auto values = damping->getLocalMatrixHost().values;
     for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = tangent(k) - values(k);
   }
-  remove_border(system, *damping);
-  const auto values = damping->getLocalMatrixHost().values;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < values.extent(0); ++k) {
-    largest = std::max(largest, std::abs(values(k)));
-  }
-  if (system.comm().max(largest) == 0.0) return Teuchos::null;
+  remove_border(system, Keep::states, *damping);
+  if (largest_entry(system, *damping) == 0.0) return Teuchos::null;
   return damping;
 }
 
 }  // namespace
 
-Linearisation linearise(Context& context, const model::State& state) {
+Teuchos::RCP<const CrsMatrix> rates_of_signals(const assembly::System& system,
+                                               const Teuchos::RCP<const CrsMatrix>& damping) {
+  if (damping.is_null() || system.model().unknowns().num_signals() == 0) return Teuchos::null;
+  const std::vector<bool> is_motion = kept_columns(system, Keep::motions);
+  const auto rates = Teuchos::rcp(new CrsMatrix(*damping, Teuchos::Copy));
+  erase_unless(*rates, [&](std::size_t row, std::size_t column) {
+    return !is_motion[row] || !is_motion[column];
+  });
+  if (largest_entry(system, *rates) == 0.0) return Teuchos::null;
+  return rates;
+}
+
+Linearisation linearise(Context& context, const model::State& state, const Stencil& stencil) {
   assembly::System& system = context.system;
-  const Stencil stencil = Stencil::statics();
   system.prepare(state, stencil);
   system.choose_multiplier_scale(state, stencil);
   const assembly::Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
@@ -72,16 +111,17 @@ Linearisation linearise(Context& context, const model::State& state) {
   if (found.force_scale > 0.0) linear.residual = found.force_residual / found.force_scale;
   const double balanced = 1e-6 * found.force_scale;
   // what rounding may leave, with a margin for states that other programs or analyses found
-  linear.is_equilibrium = found.force_residual <= balanced ||
-                          assembly::check_rounding(system, state.prev, state.next,
-                                                   state.multipliers, balanced, found.force_scale)
-                                  .share < 1e3;
+  linear.is_equilibrium =
+      found.force_residual <= balanced ||
+      assembly::check_rounding(system, {state.prev, state.next, state.multipliers, state.own},
+                               balanced, found.force_scale)
+              .share < 1e3;
   linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
   linear.damping = find_damping(system, state);
   system.prepare(state, stencil);
   const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
   const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
-  remove_border(system, *mass);
+  remove_border(system, Keep::motions, *mass);
   linear.mass = mass;
   if (worse(found.verdict, inertia.verdict) != Verdict::ok) {
     throw NonFiniteError(

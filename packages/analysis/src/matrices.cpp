@@ -23,15 +23,17 @@ ReportMatrix gather(const std::string& name, const CrsMatrix& matrix, const para
           comm.gather(std::span<const double>(mine.value))};
 }
 
-// Number of each unknown among the motions, or -1 - k for the k-th multiplier.
-std::vector<int> split_unknowns(const model::UnknownTable& unknowns) {
+// Number of each unknown among the motions and signals, or -1 - k for the k-th multiplier.
+std::vector<int> split_unknowns(const model::Model& model) {
+  const model::UnknownTable& unknowns = model.unknowns();
   std::vector<int> numbers(static_cast<std::size_t>(unknowns.num_unknowns()));
   int motions = 0;
   int multipliers = 0;
   for (const model::Block& block : unknowns.blocks()) {
     for (int i = 0; i < block.shape.active; ++i) {
+      // supports take nothing away from blocks of multipliers
       numbers[static_cast<std::size_t>(block.first + i)] =
-          block.kind == model::BlockKind::node ? motions++ : -1 - multipliers++;
+          model.is_force(block, i) ? -1 - multipliers++ : motions++;
     }
   }
   return numbers;
@@ -106,7 +108,7 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   assembly::System& system = context.system;
   const Linearisation linear = linearise(context, state);
   system.synchronise(state);
-  const std::vector<int> numbers = split_unknowns(system.model().unknowns());
+  const std::vector<int> numbers = split_unknowns(system.model());
   AnalysisReport report;
   const auto add = [&](const char* name, const CrsMatrix& matrix) {
     const ReportMatrix all = gather(name, matrix, system.comm());
@@ -116,7 +118,7 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   const ReportMatrix stiffness = add("stiffness", *linear.stiffness);
   add("mass", *linear.mass);
   if (!linear.damping.is_null()) add("damping", *linear.damping);
-  if (system.model().unknowns().num_multipliers() > 0) {
+  if (system.model().unknowns().num_forces() > 0) {
     report.matrices.push_back(
         part("constraint_jacobian", stiffness, numbers, true, system.multiplier_scale()));
   }

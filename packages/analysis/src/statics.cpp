@@ -93,7 +93,7 @@ double Statics::next_level(double level, double increment) const {
 
 void Statics::do_begin() {
   const Stencil stencil = Stencil::statics();
-  for (const model::Constraint& c : system().model().equations()) {
+  for (const model::Constraint& c : system().model().constraints()) {
     if (c.velocity_rows.empty()) continue;
     context().log.warning(
         fmt::format("{} '{}' acts in dynamics only; statics knows no velocity", c.type, c.name));

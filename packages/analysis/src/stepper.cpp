@@ -21,6 +21,7 @@ void Stepper::fit() {
 void Stepper::begin() {
   require(stage_ == Stage::unbegun, "begin");
   do_begin();
+  system().sample(state_);
   newton().keep();
   stage_ = Stage::resting;
 }
@@ -58,6 +59,7 @@ void Stepper::accept() {
   ++steps_;
   post_mortem().record(report_);
   do_accept(report_);
+  system().sample(state_);
   report_.is_last = reaches_end();
   newton().keep();
   stage_ = Stage::resting;

@@ -48,6 +48,10 @@ std::string UnknownNames::name_of(int unknown) const {
     const model::Constraint& c = model.equations()[static_cast<std::size_t>(block.owner)];
     return fmt::format("{}, equation {}", quoted_name(c), written + 1);
   }
+  if (block.kind == model::BlockKind::own) {
+    const model::OwnBlock& own = model.own_blocks()[static_cast<std::size_t>(block.owner)];
+    return fmt::format("{}, {}", own.name, own.unknowns[static_cast<std::size_t>(written)].name);
+  }
   const bool null_space = model.unknowns().form() == model::Form::null_space;
   return fmt::format("{}, {}", model.node_name(block.owner),
                      null_space ? direction_name(written) : coordinate_name(written));

@@ -52,7 +52,7 @@ std::string rigid_motion_name(const Vec3& x0, const Vec3& v0, const Vec3& turn) 
 
 bool WeakDirection::is_multiplier(const Vector& vector, std::size_t i) const {
   const auto unknown = vector.getMap()->getGlobalElement(static_cast<int>(i));
-  return names_.place_of(static_cast<int>(unknown)).block.kind == model::BlockKind::multipliers;
+  return names_.place_of(static_cast<int>(unknown)).block.kind != model::BlockKind::node;
 }
 
 double WeakDirection::resistance(const Vector& motion) const {
@@ -100,9 +100,14 @@ std::string WeakDirection::redundant_constraints(const Vector& multipliers) cons
   const model::Model& model = system_.model();
   const auto shares = names_.entries(multipliers, notable);
   std::map<int, std::vector<std::string>> equations;  // their numbers, by constraint
+  std::vector<std::string> others;                    // what batches own
   for (const auto& [unknown, share] : shares) {
     const UnknownNames::Place place = names_.place_of(unknown);
-    equations[place.block.owner].push_back(std::to_string(place.written + 1));
+    if (place.block.kind == model::BlockKind::own) {
+      others.push_back(names_.name_of(unknown));
+    } else {
+      equations[place.block.owner].push_back(std::to_string(place.written + 1));
+    }
   }
   std::string text = "Likely cause: redundant constraints. These equations depend on each other:\n";
   std::set<int> held;
@@ -116,6 +121,7 @@ std::string WeakDirection::redundant_constraints(const Vector& multipliers) cons
     named.insert(quoted_name(c));
     for (const int node : c.nodes) held.insert(model.nodes().master(node));
   }
+  for (const std::string& other : others) text += fmt::format("  {}\n", other);
   std::set<std::string> as_well;
   for (const model::Constraint& c : model.constraints()) {
     const bool meets = std::any_of(c.nodes.begin(), c.nodes.end(), [&](int node) {
@@ -134,6 +140,7 @@ WeakDirection::Motions WeakDirection::moved_nodes(const Vector& motion) const {
   std::map<int, model::NodeSlots> increments;  // by node; six motions or twelve coordinates
   for (const auto& [unknown, value] : entries) {
     const UnknownNames::Place place = names_.place_of(unknown);
+    if (place.block.kind != model::BlockKind::node) continue;
     auto& slots = increments.try_emplace(place.block.owner, model::NodeSlots::Zero()).first->second;
     slots.data()[place.written] = value;
   }

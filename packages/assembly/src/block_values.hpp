@@ -15,6 +15,11 @@ inline std::size_t index(int i) { return static_cast<std::size_t>(i); }
 /// What a sum over ranks adds to a value without changing it: x + -0 is x also where x is a zero.
 constexpr double nothing = -0.0;
 
+/// What the value of an own unknown changes by for one of its column.
+inline double own_scale(const model::OwnUnknown& unknown, double multiplier_scale) {
+  return unknown.kind == model::UnknownKind::multiplier ? multiplier_scale : unknown.scale;
+}
+
 /// Unknowns of a block as kernels write them, zero where supports took them away.
 inline std::array<double, 12> unknowns_of(const model::BlockShape& shape, int first_column,
                                           std::span<const double> values, double factor) {

@@ -24,9 +24,7 @@ Vec3 position_size(const model::BlockShape& shape, const Vec3& prev, const Vec3&
 }
 
 // Sizes of the unknowns of the local columns, in proportion to which they are rounded.
-std::vector<double> unknown_sizes(const System& system, const model::Coordinates& prev,
-                                  const model::Coordinates& next,
-                                  const std::vector<double>& multipliers) {
+std::vector<double> unknown_sizes(const System& system, const EvaluatedPoint& point) {
   // directors are of unit length
   std::vector<double> sizes(system.layout().column_map()->getNodeNumElements(), 1.0);
   for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
@@ -34,16 +32,23 @@ std::vector<double> unknown_sizes(const System& system, const model::Coordinates
     const bool is_node = block.kind == model::BlockKind::node;
     Vec3 position = Vec3::Zero();
     if (is_node) {
-      position = position_size(block.shape, model::NodeTable::slots(prev, block.owner).col(0),
-                               model::NodeTable::slots(next, block.owner).col(0));
+      position = position_size(block.shape, model::NodeTable::slots(point.prev, block.owner).col(0),
+                               model::NodeTable::slots(point.next, block.owner).col(0));
     }
     for (int i = 0; i < (is_node ? 3 : block.shape.width); ++i) {
       const int at = block.shape.position[index(i)];
       if (at < 0) continue;
-      sizes[index(local.first_column + at)] =
-          is_node ? position[i]
-                  : std::abs(multipliers[index(block.first_multiplier + i)]) /
-                        system.multiplier_scale();
+      double& size = sizes[index(local.first_column + at)];
+      const std::size_t value = index(block.first_value + i);
+      if (is_node) {
+        size = position[i];
+      } else if (block.kind == model::BlockKind::multipliers) {
+        size = std::abs(point.multipliers[value]) / system.multiplier_scale();
+      } else {
+        const auto& unknowns = system.model().own_blocks()[index(block.owner)].unknowns;
+        size =
+            std::abs(point.own[value]) / own_scale(unknowns[index(i)], system.multiplier_scale());
+      }
     }
   }
   return sizes;
@@ -51,10 +56,9 @@ std::vector<double> unknown_sizes(const System& system, const model::Coordinates
 
 }  // namespace
 
-RoundingCheck check_rounding(const System& system, const model::Coordinates& prev,
-                             const model::Coordinates& next, const std::vector<double>& multipliers,
-                             double limit, double force_scale) {
-  const std::vector<double> sizes = unknown_sizes(system, prev, next, multipliers);
+RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
+                             double force_scale) {
+  const std::vector<double> sizes = unknown_sizes(system, point);
   const auto residual = values_of(system.residual());
   const auto matrix = system.matrix()->getLocalMatrixHost();
   double share = 0.0;

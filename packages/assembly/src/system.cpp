@@ -19,11 +19,11 @@ long long entries_of(const model::Batch& batch, const model::UnknownTable& unkno
   return entries;
 }
 
-long long multipliers_of(const model::Batch& batch, const model::UnknownTable& unknowns) {
+long long unknowns_beside_nodes(const model::Batch& batch, const model::UnknownTable& unknowns) {
   long long count = 0;
   for (int item = 0; item < batch.size(); ++item) {
     for (int b : batch.blocks(item, unknowns)) {
-      if (unknowns.block(b).kind == model::BlockKind::multipliers) {
+      if (unknowns.block(b).kind != model::BlockKind::node) {
         count += unknowns.block(b).shape.active;
       }
     }
@@ -45,8 +45,8 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     Ledger::Entry entry;
     entry.name = batch->effect();
     entry.items = batch->size();
-    const long long multipliers = multipliers_of(*batch, unknowns);
-    if (multipliers > 0) entry.unknowns = multipliers;
+    const long long others = unknowns_beside_nodes(*batch, unknowns);
+    if (others > 0) entry.unknowns = others;
     if (batch->has_tangent()) entry.entries_per_iteration = entries_of(*batch, unknowns);
     effects_.push_back(ledger.add(entry));
   }
@@ -95,12 +95,14 @@ void System::accept(model::State& state) {
   for (model::Batch* batch : batches_) batch->accept(state);
   state.prev = state.next;
   state.multipliers_prev = state.multipliers;
+  state.own_prev = state.own;
   state.time_prev = state.time;
 }
 
 void System::discard(model::State& state) const {
   state.next = state.prev;
   state.multipliers = state.multipliers_prev;
+  state.own = state.own_prev;
   state.time = state.time_prev;
 }
 
@@ -210,7 +212,13 @@ void System::move(model::State& state, const Vector& increment, double factor) {
     const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
     if (block.kind == model::BlockKind::multipliers) {
       for (int i = 0; i < block.shape.width; ++i) {
-        state.multipliers[index(block.first_multiplier + i)] += multiplier_scale_ * u[index(i)];
+        state.multipliers[index(block.first_value + i)] += multiplier_scale_ * u[index(i)];
+      }
+    } else if (block.kind == model::BlockKind::own) {
+      const auto& own = model_.own_blocks()[index(block.owner)].unknowns;
+      for (int i = 0; i < block.shape.width; ++i) {
+        state.own[index(block.first_value + i)] +=
+            own_scale(own[index(i)], multiplier_scale_) * u[index(i)];
       }
     } else if (unknowns.form() == model::Form::null_space) {
       model_.nodes().move(block.owner, Eigen::Map<const Vec6>(u.data()), state.next);
@@ -250,7 +258,7 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
 
 void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil) {
   multiplier_scale_ = 1.0;
-  if (model_.unknowns().num_multipliers() == 0) return;
+  if (model_.unknowns().num_forces() == 0) return;
   evaluate(state, stencil, Want::residual_and_tangent);
   const double largest = comm_.max(largest_diagonal());
   // a power of two scales without rounding; the root lies between the force and the unit rows

@@ -25,7 +25,7 @@ std::map<int, Eigen::MatrixXd> held_directions(const model::Model& model,
                                                const model::Coordinates& q) {
   std::map<int, Eigen::MatrixXd> held;
   for (const model::Constraint& c : model.equations()) {
-    if (c.nodes.size() != 1 || !c.velocity_rows.empty()) continue;
+    if (c.nodes.size() != 1) continue;
     const model::UnknownTable& unknowns = model.unknowns();
     const int node = c.nodes.front();
     const model::Block& block = unknowns.block(unknowns.node_block(node));

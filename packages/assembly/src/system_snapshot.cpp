@@ -31,11 +31,13 @@ void System::synchronise(model::State& state) {
   const model::UnknownTable& unknowns = model_.unknowns();
   for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
     const model::Block& block = unknowns.block(b);
-    if (block.kind != model::BlockKind::multipliers) continue;
+    if (block.kind == model::BlockKind::node) continue;
     if (layout_.owners()[index(b)] == comm_.rank()) continue;
-    std::fill_n(state.multipliers.begin() + block.first_multiplier, block.shape.width, nothing);
+    auto& values = block.kind == model::BlockKind::own ? state.own : state.multipliers;
+    std::fill_n(values.begin() + block.first_value, block.shape.width, nothing);
   }
   comm_.sum(state.multipliers);
+  comm_.sum(state.own);
   comm_.sum(gathered_reactions_);
 }
 
@@ -45,6 +47,7 @@ void System::save(model::State& state, Snapshot& snapshot) {
   snapshot.set("state/position", state.next);
   snapshot.set("state/velocity", state.velocity);
   snapshot.set("state/multipliers", state.multipliers);
+  snapshot.set("state/own", state.own);
   snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
   snapshot.set("system/multiplier scale", multiplier_scale_);
   if (snapshot.is_for_memory()) {
@@ -72,6 +75,7 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
   state.multipliers = snapshot.numbers("state/multipliers", state.multipliers.size());
   state.multipliers_prev = state.multipliers;
+  state.own = state.own_prev = snapshot.numbers("state/own", state.own.size());
   state.at_rest = snapshot.number("state/at rest") != 0.0;
   multiplier_scale_ = snapshot.number("system/multiplier scale");
   const std::vector<double>& carried = snapshot.numbers("system/carried");

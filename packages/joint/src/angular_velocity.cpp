@@ -1,8 +1,8 @@
-#include <culm/base/error.hpp>
 #include <culm/joint/angular_velocity.hpp>
 #include <culm/joint/rotation.hpp>
 #include <culm/joint/triad_nodes.hpp>
 #include <culm/math/rotation.hpp>
+#include <culm/model/signal_column.hpp>
 
 #include "supports.hpp"
 
@@ -19,41 +19,30 @@ Mat3 directors(const model::Coordinates& q, int node) {
 
 }  // namespace
 
-model::Constraint AngularVelocity::placeholder(std::string name, const std::string& type,
-                                               const model::NodeTable& nodes, int node,
-                                               const Vec3& axis) {
+model::Constraint AngularVelocity::constraint(std::string name, const std::string& type,
+                                              const model::NodeTable& nodes, int node,
+                                              const Vec3& axis) {
   model::Constraint constraint = support_of(Anchor(nodes, node));
   constraint.name = std::move(name);
   constraint.type = type;
-  model::ConstraintRow nothing;
-  nothing.alpha.assign(4, 0.0);
-  constraint.rows = {nothing};
-  constraint.velocity_rows = rotation(Anchor(nodes, node), axis, {}).rows;
+  constraint.rows = constraint.velocity_rows = rotation(Anchor(nodes, node), axis, {}).rows;
   return constraint;
 }
 
-int AngularVelocity::equation_of(const Item& item) const {
-  const auto& equations = model_.equations();
-  const auto at =
-      std::find_if(equations.begin(), equations.end(), [&item](const model::Constraint& equation) {
-        return equation.name == item.constraint && equation.nodes == std::vector{item.node};
-      });
-  internal_check(at != equations.end(), "an angular velocity has no multiplier");
-  return static_cast<int>(at - equations.begin());
+void AngularVelocity::add(int node, const TurnAxis& axis, const Prescribed& velocity,
+                          std::string constraint) {
+  const int block =
+      model_.add_own_block({effect(), {{"moment", model::UnknownKind::multiplier, 1.0, 0.0}}});
+  items_.push_back({node, axis, velocity, std::move(constraint), model_.signal(block, 0)});
 }
 
 std::vector<int> AngularVelocity::blocks(int item, const model::UnknownTable& unknowns) const {
   const Item& it = items_[static_cast<std::size_t>(item)];
-  return {unknowns.node_block(it.node), unknowns.constraint_block(equation_of(it))};
-}
-
-void AngularVelocity::place(model::Placement placement, model::Form form) {
-  MemorylessBatch::place(std::move(placement), form);
-  const model::UnknownTable& unknowns = model_.unknowns();
-  for (Item& item : items_) {
-    const model::Block& block = unknowns.block(unknowns.constraint_block(equation_of(item)));
-    item.multiplier = static_cast<std::size_t>(block.first_multiplier);
+  std::vector<int> result = {unknowns.node_block(it.node), unknowns.own_block(it.moment.block)};
+  if (const model::Signal* signal = it.velocity.function.signal()) {
+    result.push_back(unknowns.own_block(signal->block));
   }
+  return result;
 }
 
 Verdict AngularVelocity::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -73,7 +62,7 @@ Verdict AngularVelocity::assemble(const model::State& state, const Stencil& sten
 void AngularVelocity::assemble_rest(std::size_t i, const model::State& state, Want want,
                                     model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-  const double lambda = state.multipliers[item.multiplier];
+  const double lambda = item.moment.in_step(state, 1.0);
   placement().scatter.add_residual(i, 1, &lambda, target);
   if (want == Want::residual) return;
   placement().scatter.add_tangent(i, 1, 1, Mat<1, 1>(target.multiplier_scale), target);
@@ -87,9 +76,9 @@ Verdict AngularVelocity::assemble_item(std::size_t i, const model::State& state,
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const AxisTurn<Space> turn(item.axis, directors(state.prev, item.node),
                              directors(state.next, item.node), stencil.theta);
-  const double lambda = state.multipliers[item.multiplier];
-  const double middle = 0.5 * (state.time_prev + state.time);
-  const double h = turn.turn - 2.0 * std::tan(0.5 * stencil.step * item.velocity.at(middle));
+  const double lambda = item.moment.in_step(state, 1.0);
+  const double half_angle = 0.5 * stencil.step * item.velocity.at_middle(state);
+  const double h = turn.turn - 2.0 * std::tan(half_angle);
   const Vec<W> force = lambda * turn.moment;
   if (!std::isfinite(h + force.sum())) return Verdict::not_finite;
   target.force_scale = std::max(target.force_scale, force.template lpNorm<Eigen::Infinity>());
@@ -103,6 +92,11 @@ Verdict AngularVelocity::assemble_item(std::size_t i, const model::State& state,
   placement().scatter.add_tangent(i, 0, 1, Vec<W>(scale * turn.moment), target);
   const Mat<1, W> gradient = scale * turn.gradient.transpose();
   placement().scatter.add_tangent(i, 1, 0, gradient, target);
+  if (const model::Signal* signal = item.velocity.function.signal()) {
+    const double cosine = std::cos(half_angle);
+    const Vec<1> derivative(-scale * stencil.step * item.velocity.amount / (cosine * cosine));
+    model::add_signal_column(placement().scatter, i, 1, 2, *signal, 0.5, derivative, target);
+  }
   return Verdict::ok;
 }
 
@@ -115,7 +109,7 @@ model::StepWork AngularVelocity::step_work(const model::State& state,
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     const AxisTurn<model::NullSpace> turn(item.axis, directors(state.prev, item.node),
                                           directors(state.next, item.node), stencil.theta);
-    work.drives -= state.multipliers[item.multiplier] * turn.turn;
+    work.drives -= item.moment.in_step(state, 1.0) * turn.turn;
   }
   return work;
 }
@@ -127,7 +121,7 @@ Vec6 AngularVelocity::reaction(int node, const model::State& state,
     if (item.node != node || (!constraint.empty() && item.constraint != constraint)) continue;
     const Vec3 n = item.axis.follows ? Vec3(directors(state.next, node) * item.axis.components)
                                      : item.axis.components;
-    total.tail<3>() -= state.multipliers[item.multiplier] * n;
+    total.tail<3>() -= item.moment.in_step(state, 1.0) * n;
   }
   return total;
 }
@@ -140,7 +134,8 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
                                   model::node_field());
   add_motion("Angular Velocity", "rad/s", "Angular velocity at function value 1.", schema);
   registry.add(type, schema, [=](const Options& options, model::BuildContext& context) {
-    const auto velocity = read_motion(options, "Angular Velocity", context);
+    const auto velocity =
+        read_motion(options, "Angular Velocity", context, "Function", model::Follows::signals);
     if (!velocity) return;
     model::Model& model = context.model;
     const std::vector<int> nodes = model::select_nodes(options, "Node", context);
@@ -149,7 +144,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
     for (int node : nodes) {
       Vec3 axis = read_direction(options, "Axis");
       model::Constraint constraint =
-          AngularVelocity::placeholder(options.name(), type, model.nodes(), node, axis);
+          AngularVelocity::constraint(options.name(), type, model.nodes(), node, axis);
       constraint.where = options.where();
       model.add_constraint(std::move(constraint));
       if (follows) axis = directors(model.nodes().reference(), node).transpose() * axis;

@@ -150,9 +150,12 @@ void add_motion(const std::string& amount, const std::string& unit, const std::s
 namespace {
 
 std::optional<model::Amplitude> read_function(const Options& options, const std::string& parameter,
-                                              model::BuildContext& context) {
-  auto function = model::find_function(options, context, parameter);
-  if (!function || function->is_function_of_time()) return function;
+                                              model::BuildContext& context,
+                                              model::Follows follows = model::Follows::functions) {
+  auto function = model::find_function(options, context, parameter, follows);
+  if (!function || function->is_function_of_time() || function->signal() != nullptr) {
+    return function;
+  }
   context.issues.add(options.where(parameter),
                      "function '" + options.text(parameter) +
                          "' has one value per step and cannot prescribe a motion");
@@ -162,8 +165,9 @@ std::optional<model::Amplitude> read_function(const Options& options, const std:
 }  // namespace
 
 std::optional<Prescribed> read_motion(const Options& options, const std::string& amount,
-                                      model::BuildContext& context, const std::string& function) {
-  auto found = read_function(options, function, context);
+                                      model::BuildContext& context, const std::string& function,
+                                      model::Follows follows) {
+  auto found = read_function(options, function, context, follows);
   if (!found) return {};
   return Prescribed{options.number(amount), *std::move(found)};
 }

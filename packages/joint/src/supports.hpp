@@ -71,6 +71,7 @@ std::optional<Translation> read_translation(const Options& options, model::Build
 /// Nothing, and an issue, if there is no such function or it is not one of time.
 std::optional<Prescribed> read_motion(const Options& options, const std::string& amount,
                                       model::BuildContext& context,
-                                      const std::string& function = "Function");
+                                      const std::string& function = "Function",
+                                      model::Follows follows = model::Follows::functions);
 
 }  // namespace culm::joint

@@ -25,8 +25,7 @@ class AxisTurns : public testing::TestWithParam<bool> {
 
   static void fill(model::Model& model, bool with_slave) {
     model.nodes().add(kit::random_node(10));
-    model.add_constraint(
-        AngularVelocity::placeholder(effect, "placeholder", model.nodes(), 0, axis));
+    model.add_constraint(AngularVelocity::constraint(effect, "drive", model.nodes(), 0, axis));
     auto batch = std::make_unique<AngularVelocity>(effect, model);
     const Prescribed velocity{1.5, model::Amplitude::of_time([](double t) { return t * t; })};
     batch->add(0, turn_axis(), velocity, effect);
@@ -115,7 +114,7 @@ TEST_P(AxisTurns, StaticsKnowsNoVelocity) {
   model::Batch* batch = kit::find_batch(model, effect);
   const Eigen::VectorXd r = dense.residual(state, Stencil::statics(), {batch});
   EXPECT_EQ(kit::largest(r.head<6>()), 0.0);
-  EXPECT_EQ(r[6], state.multipliers[0]);
+  EXPECT_EQ(r[6], state.own[0]);
   EXPECT_EQ(batch->step_work(state, Stencil::statics()).drives, 0.0);
 }
 
@@ -135,6 +134,36 @@ TEST_P(AxisTurns, AssembleAllocatesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Axis, AxisTurns, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Local" : "Space"; });
+
+// A drive that follows a signal with a rate.
+model::Amplitude follow_signal(model::Model& model) {
+  const int block =
+      model.add_own_block({"signal", {{"output", model::UnknownKind::first_order, 0.8}, {"rate"}}});
+  return model::Amplitude::of_signal(model.signal(block, 0));
+}
+
+TEST(AngularVelocity, FollowsASignalWithItsTangent) {
+  kit::expect_tangent_is_derivative(
+      [](model::Model& model) {
+        model.nodes().add(kit::random_node(10));
+        auto batch = std::make_unique<AngularVelocity>("tested", model);
+        batch->add(0, {axis, true}, {1.5, follow_signal(model)}, "tested");
+        model.add_load(std::move(batch));
+      },
+      "tested", 1e-3);
+}
+
+TEST(JointAngle, FollowsASignalWithItsTangent) {
+  kit::expect_tangent_is_derivative(
+      [](model::Model& model) {
+        for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
+        const MarkerPair pair(model.nodes(), 0, 1, Vec3(0.1, 0.2, 0.3));
+        model::Constraint joint = joint_angle(pair, axis, {1.3, follow_signal(model)});
+        joint.name = joint.type = "tested";
+        model.add_constraint(std::move(joint));
+      },
+      "tested", 1e-3);
+}
 
 // A turn of both nodes, and of the second one further by the angle.
 TEST(JointAngle, HoldsAfterTheExactRotation) {

@@ -118,7 +118,7 @@ TEST_F(Joints, AngularVelocitiesHaveOneMultiplierPerNode) {
   EXPECT_EQ(model.loads()[0]->size(), 3);
   EXPECT_EQ(model.loads()[0]->effect(), "Angular Velocity, clamp");
   EXPECT_THAT(model.freeze(model::Form::null_space), ElementsAre());
-  EXPECT_EQ(model.unknowns().num_multipliers(), 4);
+  EXPECT_EQ(model.unknowns().num_forces(), 4);
   const kit::DenseAssembly dense(model);
   EXPECT_EQ(dense.size(), 3 * 6 + 4);
 }

@@ -8,7 +8,7 @@ namespace {
 void add_type(model::BuilderRegistry& registry, const std::string& type, Schema schema, Frame frame,
               MakeLoad make) {
   registry.add(type, std::move(schema), [=](const Options& options, model::BuildContext& context) {
-    auto function = model::find_function(options, context);
+    auto function = model::find_function(options, context, "Function", model::Follows::signals);
     if (!function) return;
     const bool turns = frame == Frame::directors && options.flag("Turning");
     auto load =

@@ -29,7 +29,7 @@ void DamperLaw::add_work(double force, double prev, double next, model::StepWork
 
 LinkLaw::Answer DriveLaw::answer(double, double, const model::State& state,
                                  const Stencil& stencil) const {
-  return {-amount_ * function_.in_step(state, stencil), 0.0};
+  return {-amount_ * function_.in_step(state, stencil), 0.0, -amount_};
 }
 
 void DriveLaw::add_work(double force, double prev, double next, model::StepWork& work) const {

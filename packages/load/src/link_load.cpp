@@ -1,4 +1,5 @@
 #include <culm/load/link_load.hpp>
+#include <culm/model/signal_column.hpp>
 
 #include "link_forms.hpp"
 #include "measure.hpp"
@@ -24,6 +25,9 @@ std::vector<int> LinkLoad::blocks(int item, const model::UnknownTable& unknowns)
   std::vector<int> result;
   for (int node : items_[static_cast<std::size_t>(item)].link.nodes) {
     result.push_back(unknowns.node_block(node));
+  }
+  if (const model::Signal* signal = law_->signal()) {
+    result.push_back(unknowns.own_block(signal->block));
   }
   return result;
 }
@@ -59,10 +63,11 @@ LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
                                      const model::State& state, const Stencil& stencil) const {
   const MeasureStep step = measure_step(item.link.measure, item.prev.y, item.prev.z,
                                         values_of(item.link, next), stencil.theta);
-  const auto [force, derivative] =
+  const auto [force, derivative, by_signal] =
       law_->answer(item.prev.z - item.link.rest, step.next - item.link.rest, state, stencil);
   return {force * step.gradient,
-          force * step.derivative + derivative * step.gradient * step.slope.transpose(), force};
+          force * step.derivative + derivative * step.gradient * step.slope.transpose(),
+          by_signal * step.gradient, force};
 }
 
 Verdict LinkLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -116,7 +121,12 @@ void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& 
     return R;
   };
   for (int a = 0; a < n; ++a) {
-    const Eigen::Matrix<double, W, 2> RD = reduced(B_mid, motion.arms_mid, a) * response.tangent;
+    const Eigen::Matrix<double, W, 2> R = reduced(B_mid, motion.arms_mid, a);
+    const Eigen::Matrix<double, W, 2> RD = R * response.tangent;
+    if (const model::Signal* signal = law_->signal()) {
+      const Vec<W> derivative = R * response.by_signal;
+      model::add_signal_column(placement_.scatter, i, a, n, *signal, theta, derivative, target);
+    }
     for (int b = 0; b < n; ++b) {
       RowMat<W, W> block = RD * reduced(B_next, motion.arms_next, b).transpose();
       Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),

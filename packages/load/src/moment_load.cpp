@@ -1,5 +1,6 @@
 #include <culm/load/moment_load.hpp>
 #include <culm/math/rotation.hpp>
+#include <culm/model/signal_column.hpp>
 
 #include "slot_kernel.hpp"
 
@@ -24,13 +25,18 @@ Mat3 director_derivative(const Vec3& moment, const Vec3& d) {
 }  // namespace
 
 bool MomentLoad::has_tangent() const {
-  return frame_ == Frame::directors || form() == model::Form::multipliers ||
+  return amplitude_.signal() != nullptr || frame_ == Frame::directors ||
+         form() == model::Form::multipliers ||
          std::any_of(items_.begin(), items_.end(),
                      [this](const Item& item) { return on_shell(item); });
 }
 
 std::vector<int> MomentLoad::blocks(int item, const model::UnknownTable& unknowns) const {
-  return {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
+  std::vector<int> result = {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
+  if (const model::Signal* signal = amplitude_.signal()) {
+    result.push_back(unknowns.own_block(signal->block));
+  }
+  return result;
 }
 
 Verdict MomentLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -66,7 +72,8 @@ MomentLoad::Motion MomentLoad::motion(const Item& item, const model::State& stat
   motion.mid = (1.0 - theta) * model::NodeTable::slots(state.prev, item.node).rightCols<3>() +
                theta * motion.next;
   motion.components = factor * item.components;
-  motion.moment = frame_ == Frame::space ? motion.components : Vec3(motion.mid * motion.components);
+  motion.unit = frame_ == Frame::space ? item.components : Vec3(motion.mid * item.components);
+  motion.moment = factor * motion.unit;
   return motion;
 }
 
@@ -77,7 +84,13 @@ void MomentLoad::assemble_reduced(std::size_t i, const Motion& motion, double th
   residual << Vec3::Zero(), -motion.moment;
   target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
   placement().scatter.add_residual(i, 0, residual.data(), target);
-  if (!tangent || frame_ == Frame::space) return;
+  if (!tangent) return;
+  if (const model::Signal* signal = amplitude_.signal()) {
+    Vec6 derivative;
+    derivative << Vec3::Zero(), -motion.unit;
+    model::add_signal_column(placement().scatter, i, 0, 1, *signal, theta, derivative, target);
+  }
+  if (frame_ == Frame::space) return;
   RowMat<6, 6> block = RowMat<6, 6>::Zero();
   block.bottomRightCorner<3, 3>() = theta * skew(motion.next * motion.components);
   placement().scatter.add_tangent(i, 0, 0, block, target);
@@ -96,6 +109,12 @@ void MomentLoad::assemble_full(std::size_t i, const Motion& motion, double theta
   target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
   placement().scatter.add_residual(i, 0, residual.data(), target);
   if (!tangent) return;
+  if (const model::Signal* signal = amplitude_.signal()) {
+    const Vec3 unit = inverse * motion.unit;
+    Vec<12> derivative = Vec<12>::Zero();
+    for (int k = 0; k < 3; ++k) derivative.segment<3>(3 + 3 * k) = -skew(unit) * d.col(k);
+    model::add_signal_column(placement().scatter, i, 0, 1, *signal, theta, derivative, target);
+  }
   RowMat<12, 12> block = RowMat<12, 12>::Zero();
   for (int j = 0; j < 3; ++j) {
     const double follows = frame_ == Frame::directors ? motion.components[j] : 0.0;
@@ -127,6 +146,14 @@ Verdict MomentLoad::assemble_director(std::size_t i, const model::State& state,
   target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
   placement().scatter.add_residual(i, 0, residual.data(), target);
   if (!tangent) return Verdict::ok;
+  if (const model::Signal* signal = amplitude_.signal()) {
+    Vec<12> unit = Vec<12>::Zero();
+    unit.segment<3>(3) = director_force(-item.components, d);
+    Vec<W> derivative;
+    Space::reduce_rows(unit, motion.arms_mid[0], derivative);
+    model::add_signal_column(placement().scatter, i, 0, 1, *signal, stencil.theta, derivative,
+                             target);
+  }
   Mat<12, 12> K = Mat<12, 12>::Zero();
   K.block<3, 3>(3, 3) = stencil.theta * director_derivative(m, d);
   RowMat<W, W> block = RowMat<W, W>::Zero();

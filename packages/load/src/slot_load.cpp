@@ -1,6 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
+#include <culm/model/signal_column.hpp>
 
 #include "slot_kernel.hpp"
 
@@ -90,6 +91,9 @@ std::vector<int> SlotLoad::blocks(int item, const model::UnknownTable& unknowns)
   for (int node : items_[static_cast<std::size_t>(item)].nodes) {
     result.push_back(unknowns.node_block(node));
   }
+  if (const model::Signal* signal = amplitude_.signal()) {
+    result.push_back(unknowns.own_block(signal->block));
+  }
   return result;
 }
 
@@ -106,7 +110,8 @@ bool SlotLoad::turns(const Item& item) const {
 }
 
 bool SlotLoad::has_tangent() const {
-  return std::any_of(items_.begin(), items_.end(),
+  return amplitude_.signal() != nullptr ||
+         std::any_of(items_.begin(), items_.end(),
                      [this](const Item& item) { return item.follows || turns(item); });
 }
 
@@ -152,6 +157,17 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
     placement_.scatter.add_residual(i, a, residual.data(), target);
   }
   if (!tangent) return Verdict::ok;
+  if (const model::Signal* signal = amplitude_.signal()) {
+    ItemSlots unit = -item.constant;
+    if (item.follows) unit.noalias() -= mid.lazyProduct(item.linear.transpose());
+    for (int a = 0; a < n; ++a) {
+      const Eigen::Map<const Vec<12>> by_slot(unit.data() + 12 * a);
+      Vec<W> derivative;
+      Space::reduce_rows(by_slot, arms_mid[static_cast<std::size_t>(a)], derivative);
+      model::add_signal_column(placement_.scatter, i, a, n, *signal, stencil.theta, derivative,
+                               target);
+    }
+  }
 
   // P_theta^T (-a theta L x I3) P_next, and the turning of P_theta
   for (int a = 0; a < n; ++a) {

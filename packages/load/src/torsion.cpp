@@ -17,7 +17,7 @@ std::vector<Link> make(const Options& options, model::BuildContext& context) {
 }
 
 std::unique_ptr<LinkLaw> make_drive(const Options& options, model::BuildContext& context) {
-  auto function = model::find_function(options, context);
+  auto function = model::find_function(options, context, "Function", model::Follows::signals);
   if (!function) return nullptr;
   return std::make_unique<DriveLaw>(options.number("Moment"), *std::move(function));
 }

@@ -31,12 +31,19 @@ Amplitude Amplitude::constant(double value) {
   return amplitude;
 }
 
+Amplitude Amplitude::of_signal(const Signal& signal) {
+  Amplitude amplitude;
+  amplitude.signal_ = signal;
+  return amplitude;
+}
+
 Amplitude& Amplitude::with_corners(std::vector<double> times) {
   corners_ = std::move(times);
   return *this;
 }
 
 double Amplitude::in_step(const State& state, const Stencil& stencil) const {
+  if (signal_) return signal_->in_step(state, stencil.theta);
   if (of_step_) return of_step_(state.time_prev, state.time);
   return of_time_((1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time);
 }

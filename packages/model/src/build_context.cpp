@@ -128,18 +128,31 @@ Field function_field(std::string fallback, std::string name) {
 }
 
 std::optional<Amplitude> find_function(const Options& options, BuildContext& context,
-                                       const std::string& parameter) {
-  const std::string& name = options.text(parameter);
+                                       const std::string& parameter, Follows follows) {
+  return find_function(options.text(parameter), options.where(parameter), context, follows);
+}
+
+std::optional<Amplitude> find_function(const std::string& name, const Where& where,
+                                       BuildContext& context, Follows follows) {
   if (const auto found = context.functions.find(name); found != context.functions.end()) {
+    if (found->second.signal() != nullptr) {
+      if (follows == Follows::signals) return found->second;
+      context.issues.add(where,
+                         "'" + name +
+                             "' is a signal, which this cannot follow; allowed: functions of "
+                             "time");
+      return {};
+    }
     context.model.add_function(name, found->second);
     return found->second;
   }
   if (name == "Ramp") return Amplitude::ramp();
   if (name == "Constant") return Amplitude::constant();
   std::vector<std::string> names = {"Ramp", "Constant"};
-  for (const auto& [known, function] : context.functions) names.push_back(known);
-  context.issues.add(options.where(parameter),
-                     "unknown function '" + name + "'" + did_you_mean(name, names));
+  for (const auto& [known, function] : context.functions) {
+    if (function.signal() == nullptr || follows == Follows::signals) names.push_back(known);
+  }
+  context.issues.add(where, "unknown function '" + name + "'" + did_you_mean(name, names));
   return {};
 }
 

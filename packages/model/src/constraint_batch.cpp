@@ -2,6 +2,7 @@
 #include <culm/model/constraint_batch.hpp>
 #include <culm/model/item_motion.hpp>
 #include <culm/model/product_sum.hpp>
+#include <culm/model/signal_column.hpp>
 
 #include <Eigen/Geometry>
 
@@ -189,6 +190,7 @@ void ConstraintBatch::add(Constraint constraint, int number) {
   for (const ConstraintRow& row : constraint.rows) {
     item.measure.push_back(holds_positions(row) ? length_ : 1.0);
   }
+  if (constraint.follow) item.slopes_mid = item.slopes_next = constraint.rows;
   item.constraint = std::move(constraint);
   items_.push_back(std::move(item));
 }
@@ -198,12 +200,15 @@ std::vector<int> ConstraintBatch::blocks(int item, const UnknownTable& unknowns)
   std::vector<int> result;
   for (int node : it.constraint.nodes) result.push_back(unknowns.node_block(node));
   result.push_back(unknowns.constraint_block(it.number));
+  if (it.constraint.follow) {
+    result.push_back(unknowns.own_block(it.constraint.follow->signal.block));
+  }
   return result;
 }
 
 void ConstraintBatch::number(const UnknownTable& unknowns) {
   for (Item& item : items_) {
-    item.first_multiplier = unknowns.block(unknowns.constraint_block(item.number)).first_multiplier;
+    item.first_multiplier = unknowns.block(unknowns.constraint_block(item.number)).first_value;
   }
 }
 
@@ -221,8 +226,23 @@ void ConstraintBatch::prepare(const State& state, const Stencil& stencil) {
   }
 }
 
+void ConstraintBatch::follow_signals(const State& state, const Stencil& stencil) {
+  for (const int i : placement_.items) {
+    Item& item = items_[static_cast<std::size_t>(i)];
+    if (!item.constraint.follow) continue;
+    const Constraint::Follow& follow = *item.constraint.follow;
+    const double mid = follow.signal.in_step(state, stencil.theta);
+    const double next = follow.signal.in_step(state, 1.0);
+    follow.rows(mid, item.rows_mid);
+    follow.rows(next, item.rows_next);
+    follow.derivative(mid, item.slopes_mid);
+    follow.derivative(next, item.slopes_next);
+  }
+}
+
 Verdict ConstraintBatch::assemble(const State& state, const Stencil& stencil, Want want,
                                   Target& target) {
+  follow_signals(state, stencil);
   Verdict verdict = Verdict::ok;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (want == Want::mass) {
@@ -274,6 +294,7 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
                     ConstraintJacobian<Space>(item.rows_next, factors_next, n, motion.arms_next),
                     target);
   add_curvature<Space>(i, motion, forces, lambda, stencil.theta, target);
+  if (item.constraint.follow) add_signal<Space>(i, motion, lambda, stencil.theta, target);
   return Verdict::ok;
 }
 
@@ -317,6 +338,30 @@ void ConstraintBatch::add_curvature(std::size_t i, const Motion& motion, const F
   }
 }
 
+// How forces and rows change with the signal that is followed.
+template <class Space, class Motion>
+void ConstraintBatch::add_signal(std::size_t i, const Motion& motion, const double* lambda,
+                                 double theta, Target& target) const {
+  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Signal& signal = item.constraint.follow->signal;
+  const int n = static_cast<int>(item.constraint.nodes.size());
+  const ItemSlots forces =
+      slot_forces(item.slopes_mid, factors_of(item.slopes_mid, motion.mid), n, lambda);
+  for (int a = 0; a < n; ++a) {
+    const Vec<12> by_slot = forces.middleCols<4>(4 * a).reshaped();
+    Vec<Space::width> derivative;
+    Space::reduce_rows(by_slot, motion.arms_mid[static_cast<std::size_t>(a)], derivative);
+    add_signal_column(placement_.scatter, i, a, n + 1, signal, theta, derivative, target);
+  }
+  const ItemFactors factors = factors_of(item.slopes_next, motion.next);
+  Vec<12> derivative = Vec<12>::Zero();
+  for (std::size_t k = 0; k < item.slopes_next.size(); ++k) {
+    derivative[static_cast<int>(k)] =
+        target.multiplier_scale * factors[k].value(item.slopes_next[k]);
+  }
+  add_signal_column(placement_.scatter, i, n, n + 1, signal, 1.0, derivative, target);
+}
+
 // The Jacobian at the end of the step on both sides, as it borders a mass matrix.
 template <class Space>
 void ConstraintBatch::assemble_jacobian(std::size_t i, const State& state, Target& target) const {
@@ -332,7 +377,7 @@ StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) 
   StepWork work;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-    if (!placement_.owned[i] || !item.constraint.drive) continue;
+    if (!placement_.owned[i] || !item.constraint.is_driven()) continue;
     const std::vector<int>& nodes = item.constraint.nodes;
     const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
     ItemSlots moved = motion.next;

@@ -80,6 +80,34 @@ bool Model::eliminate(const Constraint& constraint) {
   return true;
 }
 
+int Model::add_own_block(OwnBlock block) {
+  internal_check(!block.unknowns.empty() && block.unknowns.size() <= 12,
+                 "a block of own unknowns is empty or too large");
+  if (!own_blocks_.empty()) {
+    block.first = own_blocks_.back().first + static_cast<int>(own_blocks_.back().unknowns.size());
+  }
+  own_blocks_.push_back(std::move(block));
+  return static_cast<int>(own_blocks_.size()) - 1;
+}
+
+Signal Model::signal(int block, int place) const {
+  const OwnBlock& own = own_blocks_[static_cast<std::size_t>(block)];
+  const OwnUnknown& unknown = own.unknowns[static_cast<std::size_t>(place)];
+  return {block, place, own.first + place, unknown.kind, unknown.scale};
+}
+
+bool Model::is_force(const Block& block, int i) const {
+  if (block.kind != BlockKind::own) return block.kind == BlockKind::multipliers;
+  const OwnBlock& own = own_blocks_[static_cast<std::size_t>(block.owner)];
+  return own.unknowns[static_cast<std::size_t>(i)].kind == UnknownKind::multiplier;
+}
+
+void Model::set_initial(const Signal& signal, double value) {
+  own_blocks_[static_cast<std::size_t>(signal.block)]
+      .unknowns[static_cast<std::size_t>(signal.place)]
+      .initial = value;
+}
+
 void Model::batch_equations(double length) {
   for (std::size_t number = 0; number < equations_.size(); ++number) {
     const Constraint& equation = equations_[number];
@@ -174,7 +202,7 @@ std::vector<std::string> Model::remove_redundant_equations(Form form) {
     for (int member : set.members) {
       const Constraint& c = equations_[static_cast<std::size_t>(member)];
       names.push_back(quoted_name(c));
-      if (c.drive || !c.velocity_rows.empty()) named = &c;
+      if (c.is_driven() || !c.velocity_rows.empty()) named = &c;
       for (int node : c.nodes) {
         const Structure* structure = structure_of(node);
         bodies.push_back(structure == nullptr ? node_name(node) : "'" + structure->name + "'");
@@ -245,6 +273,8 @@ std::vector<std::string> Model::freeze(Form form) {
     const std::vector<std::string> of_equations = remove_redundant_equations(form);
     notes.insert(notes.end(), of_equations.begin(), of_equations.end());
   }
+  // their batches write them
+  std::erase_if(equations_, [](const Constraint& c) { return !c.velocity_rows.empty(); });
   if (form == Form::multipliers) {
     for (int node = 0; node < nodes_.size(); ++node) {
       const bool has_triad = nodes_.kind(node) == NodeKind::node12;
@@ -256,7 +286,7 @@ std::vector<std::string> Model::freeze(Form form) {
   batch_equations(length());
   std::vector<int> multipliers;
   for (const Constraint& c : equations_) multipliers.push_back(static_cast<int>(c.rows.size()));
-  unknowns_ = UnknownTable(nodes_, multipliers, form);
+  unknowns_ = UnknownTable(nodes_, multipliers, own_blocks_, form);
   for (const auto& batch : constraint_batches_) batch->number(unknowns_);
   return notes;
 }
@@ -418,6 +448,10 @@ State Model::initial_state() const {
   state.velocity.assign(state.prev.size(), 0.0);
   state.multipliers.assign(static_cast<std::size_t>(unknowns_.num_multipliers()), 0.0);
   state.multipliers_prev = state.multipliers;
+  for (const OwnBlock& block : own_blocks_) {
+    for (const OwnUnknown& unknown : block.unknowns) state.own.push_back(unknown.initial);
+  }
+  state.own_prev = state.own;
   return state;
 }
 

@@ -17,8 +17,11 @@ BlockShape shape_without(int width, std::bitset<6> fixed) {
 
 }  // namespace
 
-UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers, Form form)
-    : first_constraint_(nodes.size()), form_(form) {
+UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers,
+                           const std::vector<OwnBlock>& own, Form form)
+    : first_constraint_(nodes.size()),
+      first_own_(nodes.size() + static_cast<int>(multipliers.size())),
+      form_(form) {
   for (int node = 0; node < nodes.size(); ++node) {
     Block block;
     block.owner = node;
@@ -36,8 +39,21 @@ UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multi
     block.kind = BlockKind::multipliers;
     block.owner = c;
     block.shape = shape_without(multipliers[static_cast<std::size_t>(c)], {});
-    block.first_multiplier = num_multipliers_;
+    block.first_value = num_multipliers_;
     num_multipliers_ += block.shape.width;
+    blocks_.push_back(block);
+  }
+  for (int b = 0; b < static_cast<int>(own.size()); ++b) {
+    const OwnBlock& one = own[static_cast<std::size_t>(b)];
+    Block block;
+    block.kind = BlockKind::own;
+    block.owner = b;
+    block.shape = shape_without(static_cast<int>(one.unknowns.size()), {});
+    block.first_value = one.first;
+    for (const OwnUnknown& unknown : one.unknowns) {
+      num_own_multipliers_ += unknown.kind == UnknownKind::multiplier;
+      ++num_own_;
+    }
     blocks_.push_back(block);
   }
   for (Block& block : blocks_) {

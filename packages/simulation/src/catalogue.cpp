@@ -7,6 +7,7 @@
 
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
+#include "sampled_signals.hpp"
 
 #include <map>
 #include <string>
@@ -24,10 +25,13 @@ Catalogue::Catalogue() {
   body::register_masses(masses);
   model::register_initial_motions(initial_conditions);
   model::register_amplitudes(functions);
+  control::register_signals(signals);
+  register_sampled_signal(signals);
   joint::register_joints(constraints);
   load::register_loads(loads);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
+  register_signal_quantity(quantities);
   register_link_quantities(quantities);
   register_element_quantities(quantities);
 }
@@ -190,6 +194,13 @@ Schema Catalogue::deck_schema() const {
             Schema("Functions", "Functions of time by name; 'Ramp' and 'Constant' are there.")
                 .entries_by_type(functions.variants())
                 .check(check_functions),
+            Presence::defaulted)
+      .list("Signals",
+            Schema(
+                "Signals",
+                "Measured quantities and blocks of controls by name, which loads, drives and other "
+                "signals follow as they follow functions.")
+                .entries_by_type(signals.variants()),
             Presence::defaulted)
       .list("Constraints",
             Schema("Constraints", "Supports and joints by name.")

@@ -102,6 +102,14 @@ void add_node_sets(const Options& list, model::BuildContext& context) {
   }
 }
 
+void build_signals(const control::SignalRegistry& registry, const Options& list,
+                   model::Model& model, std::map<std::string, model::Amplitude>& functions,
+                   InputIssues& issues) {
+  control::ControlContext context(model, functions, issues);
+  for (const Options& entry : list.entries()) build_one(registry, entry, context, issues);
+  context.finish();
+}
+
 std::vector<int> read_elements(const Options& options) {
   if (options.has("Elements")) return options.integers("Elements");
   std::vector<int> elements;
@@ -185,6 +193,7 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   add_node_sets(deck.list("Node Sets"), context);
   add_element_sets(deck.list("Element Sets"), context);
   build_all(catalogue.masses, deck.list("Masses"), context);
+  build_signals(catalogue.signals, deck.list("Signals"), model, functions, issues);
   build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
   build_all(catalogue.loads, deck.list("Loads"), context, setting.inactive);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);

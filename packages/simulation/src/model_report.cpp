@@ -121,11 +121,13 @@ std::string report_constraints(const model::Model& model) {
 
 std::string report_unknowns(const model::Model& model) {
   const model::UnknownTable& unknowns = model.unknowns();
-  const int multipliers = unknowns.num_multipliers();
-  const int of_nodes = unknowns.num_unknowns() - multipliers;
+  const int multipliers = unknowns.num_forces();
+  const int of_nodes = unknowns.num_unknowns() - multipliers - unknowns.num_signals();
   // what is left of the equations is independent
-  return fmt::format("unknowns: {} ({} multipliers)\ndegrees of freedom: {}\n",
-                     unknowns.num_unknowns(), multipliers, of_nodes - multipliers);
+  const std::string signals =
+      unknowns.num_signals() > 0 ? fmt::format(", {} of signals", unknowns.num_signals()) : "";
+  return fmt::format("unknowns: {} ({} multipliers{})\ndegrees of freedom: {}\n",
+                     unknowns.num_unknowns(), multipliers, signals, of_nodes - multipliers);
 }
 
 }  // namespace culm::simulation

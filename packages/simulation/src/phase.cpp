@@ -67,8 +67,17 @@ std::map<Occurrence, Range> multipliers_of(const model::Model& model) {
     const model::UnknownTable& unknowns = model.unknowns();
     const model::Block& block = unknowns.block(unknowns.constraint_block(static_cast<int>(i)));
     ranges[occurrences.next(model.equations()[i].name)] = {
-        static_cast<std::size_t>(block.first_multiplier),
-        static_cast<std::size_t>(block.shape.width)};
+        static_cast<std::size_t>(block.first_value), static_cast<std::size_t>(block.shape.width)};
+  }
+  return ranges;
+}
+
+std::map<Occurrence, Range> own_of(const model::Model& model) {
+  std::map<Occurrence, Range> ranges;
+  Occurrences occurrences;
+  for (const model::OwnBlock& block : model.own_blocks()) {
+    ranges[occurrences.next(block.name)] = {static_cast<std::size_t>(block.first),
+                                            block.unknowns.size()};
   }
   return ranges;
 }
@@ -177,6 +186,11 @@ void Phases::complete_columns() {
     }
   }
   issues.throw_if_any();
+  for (Phase& phase : phases_) {
+    phase.samples =
+        find_sampled_signals(deck_.list("Signals"), *phase.model, phase.watched, issues);
+  }
+  issues.throw_if_any();
 }
 
 Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& ledger) {
@@ -187,6 +201,11 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
     complete_columns();
   }
   phase.system = std::make_unique<assembly::System>(*phase.model, comm, ledger);
+  if (!phase.samples.empty()) {
+    phase.system->set_sampler([&phase](model::State& state) {
+      sample(phase.samples, phase.watched, *phase.system, state);
+    });
+  }
   phase.linear = solver::choose_linear_solver(deck_.list("Solver").text("Linear Solver"),
                                               phase.system->matrix(), comm);
   if (EarlierStates::wants_reference(deck_.list("Analyses"))) {
@@ -201,6 +220,8 @@ Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to) {
   moved.set("state/multipliers",
             move_ranges(saved.numbers("state/multipliers"), multipliers_of(*from.model),
                         multipliers_of(*to.model)));
+  moved.set("state/own",
+            move_ranges(saved.numbers("state/own"), own_of(*from.model), own_of(*to.model)));
   moved.set("system/batches", move_ranges(saved.numbers("system/batches"), memories_of(*from.model),
                                           memories_of(*to.model)));
   moved.set("system/carried", std::vector<double>{});

@@ -6,6 +6,7 @@
 #include <culm/simulation/result_files.hpp>
 
 #include "imperfections.hpp"
+#include "sampled_signals.hpp"
 
 #include <deque>
 #include <map>
@@ -33,6 +34,7 @@ struct Phase {
   std::set<std::string> bent_by;  ///< imperfections that analyses of this run find
   std::unique_ptr<model::Model> model;
   std::vector<WatchedQuantity> watched;
+  std::vector<SampledSignal> samples;        ///< from what is watched
   std::unique_ptr<assembly::System> system;  ///< made when it is first needed
   solver::ChosenSolver linear;
   Snapshot reference;  ///< its state at the beginning, if an analysis starts from there

@@ -28,7 +28,7 @@ struct Balance {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 3;
+  static constexpr int checkpoint_format = 4;
 
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints& checkpoints,
               const DeckSource& source, const EarlierStates& earlier,

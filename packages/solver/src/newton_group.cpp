@@ -36,6 +36,7 @@ NewtonGroup::NewtonGroup(const NewtonGroup& other, NOX::CopyType type)
 void NewtonGroup::start() {
   next_ = problem_->state->next;
   multipliers_ = problem_->state->multipliers;
+  own_ = problem_->state->own;
   level_ = problem_->state->time;
   level_increment_ = 0.0;
   forget_results();
@@ -44,12 +45,14 @@ void NewtonGroup::start() {
 void NewtonGroup::finish() {
   problem_->state->next = next_;
   problem_->state->multipliers = multipliers_;
+  problem_->state->own = own_;
   problem_->state->time = level_;
 }
 
 void NewtonGroup::swap_with_state() {
   problem_->state->next.swap(next_);
   problem_->state->multipliers.swap(multipliers_);
+  problem_->state->own.swap(own_);
   std::swap(problem_->state->time, level_);
 }
 
@@ -59,6 +62,7 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   if (this == &other) return *this;
   next_ = other.next_;
   multipliers_ = other.multipliers_;
+  own_ = other.own_;
   level_ = other.level_;
   level_increment_ = other.level_increment_;
   evaluation_ = other.evaluation_;
@@ -83,6 +87,7 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
   const auto& increment = NewtonVector::cast(direction);
   next_ = origin.next_;
   multipliers_ = origin.multipliers_;
+  own_ = origin.own_;
   level_ = origin.level_ + step * origin.level_increment_;
   x_.update(1.0, origin.x_, step, increment, 0.0);
   swap_with_state();
@@ -143,7 +148,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeJacobian() {
 
 assembly::RoundingCheck NewtonGroup::check_rounding(double limit) const {
   const NewtonProblem& p = *problem_;
-  return assembly::check_rounding(p.system, p.state->prev, next_, multipliers_, limit,
+  return assembly::check_rounding(p.system, {p.state->prev, next_, multipliers_, own_}, limit,
                                   evaluation_.force_scale);
 }
 

@@ -92,6 +92,7 @@ class NewtonGroup final : public NOX::Abstract::Group {
   std::shared_ptr<NewtonProblem> problem_;
   model::Coordinates next_;
   std::vector<double> multipliers_;
+  std::vector<double> own_;
   double level_ = 0.0;
   double level_increment_ = 0.0;  ///< belongs to newton_
   assembly::Evaluation evaluation_;

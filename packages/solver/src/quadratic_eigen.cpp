@@ -11,6 +11,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Share of inertia among the terms with a rate that is rounding.
+constexpr double no_inertia = 1e-12;
+
+// Share of the largest stiffness below which nothing resists a motion.
+constexpr double unresisted = 1e-9;
+
+double largest_entry(const assembly::CrsMatrix& matrix, const parallel::Comm& comm) {
+  const auto values = matrix.getLocalMatrixHost().values;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < values.extent(0); ++k) {
+    largest = std::max(largest, std::abs(values(k)));
+  }
+  return comm.max(largest);
+}
+
 // Residual that no pair has. Infinite values are defective: rounding makes large finite ones of
 // them, whose vectors solve nothing.
 constexpr double useless = 1e-6;
@@ -64,7 +79,10 @@ class Linearised {
     apply(part, result);
     finished.imag() = result.head(size());
     const double mass = finished.dot(product(inverse_, *pencil_.M, finished)).real();
-    return finished / std::sqrt(mass);
+    const double damping = std::abs(finished.dot(product(inverse_, *pencil_.C, finished)));
+    // what moves no mass has a rate only
+    const bool has_inertia = mass * std::max(std::abs(value), shift_) > no_inertia * damping;
+    return finished / std::sqrt(has_inertia ? mass : damping);
   }
 
  private:
@@ -76,7 +94,7 @@ class Linearised {
 
 // The pairs next to the shift that solve the equations, by the size of their values.
 void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSettings& settings,
-          const GeneralPairs& pairs, ComplexPairs& result) {
+          const parallel::Comm& comm, const GeneralPairs& pairs, ComplexPairs& result) {
   const int n = problem.size();
   std::vector<std::pair<Complex, Eigen::Index>> found;
   for (Eigen::Index i = 0; i < pairs.nu.size(); ++i) {
@@ -88,6 +106,7 @@ void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSetting
   });
 
   constexpr double eps = std::numeric_limits<double>::epsilon();
+  const double stiffness = largest_entry(*pencil.K, comm);
   result.values.clear();
   result.rounding.clear();
   result.worst_residual = 0.0;
@@ -96,11 +115,15 @@ void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSetting
     if (result.vectors.cols() == settings.count) break;
     const Eigen::VectorXcd x = problem.finish(pairs.vectors.col(column).head(n), value);
     const Eigen::VectorXcd inertia = value * value * product(problem.inverse(), *pencil.M, x);
-    const Eigen::VectorXcd rest = product(problem.inverse(), *pencil.K, x) +
-                                  value * product(problem.inverse(), *pencil.C, x) + inertia;
+    const Eigen::VectorXcd rates = value * product(problem.inverse(), *pencil.C, x);
+    const Eigen::VectorXcd rest = product(problem.inverse(), *pencil.K, x) + rates + inertia;
     const Eigen::VectorXd terms = problem.inverse().absolute(*pencil.K, x.cwiseAbs());
-    const double residual = rest.lpNorm<Eigen::Infinity>() /
-                            std::max(terms.maxCoeff(), inertia.lpNorm<Eigen::Infinity>());
+    double size = std::max(
+        {terms.maxCoeff(), rates.lpNorm<Eigen::Infinity>(), inertia.lpNorm<Eigen::Infinity>()});
+    // a motion that nothing resists has only rounding in its terms
+    const double stiff = stiffness * x.lpNorm<Eigen::Infinity>();
+    if (std::abs(value) <= settings.shift && size < unresisted * stiff) size = stiff;
+    const double residual = rest.lpNorm<Eigen::Infinity>() / size;
     if (!(residual <= useless)) continue;
     result.worst_residual = std::max(result.worst_residual, residual);
     result.values.push_back(value);
@@ -126,7 +149,7 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
         result.solver == "Dense"
             ? solve_dense(op)
             : solve_arnoldi_or_dense(op, std::min(asked, 2 * n - 2), result.solver, result.note);
-    take(problem, pencil, settings, pairs, result);
+    take(problem, pencil, settings, comm, pairs, result);
     result.are_all = result.solver == "Dense" || asked >= 2 * n - 2;
     if (static_cast<int>(result.values.size()) == settings.count || result.are_all) return result;
     if (asked > 16 * settings.count) throw_broken_down();

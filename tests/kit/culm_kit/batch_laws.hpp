@@ -74,7 +74,7 @@ inline void set_multipliers(const model::Model& model, const std::string& name,
         model.unknowns().block(model.unknowns().constraint_block(static_cast<int>(c)));
     Random random(17);
     for (int i = 0; i < block.shape.width; ++i) {
-      state.multipliers[static_cast<std::size_t>(block.first_multiplier + i)] = random.number();
+      state.multipliers[static_cast<std::size_t>(block.first_value + i)] = random.number();
     }
   }
 }
@@ -115,6 +115,8 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
     full_state.acceleration_offset = state.acceleration_offset;
     set_multipliers(reduced, effect, state);
     set_multipliers(full, effect, full_state);
+    full_state.own_prev = state.own_prev;
+    full_state.own = state.own;
     reduced_system.prepare(state, stencil);
     full_system.prepare(full_state, stencil);
     const Eigen::VectorXd r =

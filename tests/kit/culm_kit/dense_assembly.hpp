@@ -158,7 +158,14 @@ class DenseAssembly {
   void move_block(const model::Block& block, const Eigen::VectorXd& u, model::State& state) const {
     if (block.kind == model::BlockKind::multipliers) {
       for (int i = 0; i < u.size(); ++i) {
-        state.multipliers[static_cast<std::size_t>(block.first_multiplier + i)] += u[i];
+        state.multipliers[static_cast<std::size_t>(block.first_value + i)] += u[i];
+      }
+    } else if (block.kind == model::BlockKind::own) {
+      const auto& own = model_.own_blocks()[static_cast<std::size_t>(block.owner)].unknowns;
+      for (int i = 0; i < u.size(); ++i) {
+        const model::OwnUnknown& unknown = own[static_cast<std::size_t>(i)];
+        const double scale = unknown.kind == model::UnknownKind::multiplier ? 1.0 : unknown.scale;
+        state.own[static_cast<std::size_t>(block.first_value + i)] += scale * u[i];
       }
     } else if (model_.unknowns().form() == model::Form::multipliers) {
       Eigen::Map<Eigen::VectorXd>(model::NodeTable::slots(state.next, block.owner).data(),
@@ -191,6 +198,9 @@ inline model::State random_state(const model::Model& model, int seed) {
     follow_masters(model.nodes(), *q);
   }
   for (double& lambda : state.multipliers) lambda = random.number();
+  for (std::vector<double>* own : {&state.own_prev, &state.own}) {
+    for (double& value : *own) value = random.number();
+  }
   Random rates(seed + 100);  // the same in both forms, whatever the number of multipliers
   for (model::Coordinates* v : {&state.velocity, &state.acceleration_offset}) {
     v->resize(state.next.size());

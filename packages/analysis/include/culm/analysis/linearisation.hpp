@@ -6,11 +6,13 @@
 namespace culm::analysis {
 
 /// Tangent and mass about a state, in the unknowns of the system; rows and columns of constraints
-/// border the tangent and are zero in the mass.
+/// border the tangent and are zero in the mass. Those of signals are zero there, too, and in units
+/// of their scales.
 struct Linearisation {
   Teuchos::RCP<const assembly::CrsMatrix> stiffness;
   Teuchos::RCP<const assembly::CrsMatrix> mass;
-  /// Of dampers, viscous materials and rotating frames; null where there is none.
+  /// Of dampers, viscous materials and rotating frames, and of what follows signals or has a rate;
+  /// null where there is none.
   Teuchos::RCP<const assembly::CrsMatrix> damping;
   double asymmetry = 0.0;      ///< of the stiffness, as solver::asymmetry
   bool is_equilibrium = true;  ///< but for rounding
@@ -20,9 +22,17 @@ struct Linearisation {
 /// Below it a tangent counts as symmetric: what static analyses leave unbalanced is less.
 constexpr double largest_asymmetry = 1e-7;
 
-/// About state.next, at the loads of state.time, without inertia; warns where it is no equilibrium.
+/// About state.next, at the loads of state.time, without inertia, with signals that are free to
+/// change; warns where it is no equilibrium.
 /// Throws NonFiniteError. Collective.
-Linearisation linearise(Context& context, const model::State& state);
+/// @param stencil  that of statics where signals with a rate stand still
+Linearisation linearise(Context& context, const model::State& state,
+                        const Stencil& stencil = Stencil::linearisation());
+
+/// What of the damping belongs to the unknowns of signals, without which they have no motion; null
+/// where there is none. Collective.
+Teuchos::RCP<const assembly::CrsMatrix> rates_of_signals(
+    const assembly::System& system, const Teuchos::RCP<const assembly::CrsMatrix>& damping);
 
 /// Typical squared frequency of the displacement of single nodes, the geometric mean of K_ii / M_ii
 /// [1/s^2]: orders of magnitude above the first of a structure.

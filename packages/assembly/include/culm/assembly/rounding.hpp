@@ -5,6 +5,14 @@
 
 namespace culm::assembly {
 
+/// Where a system was evaluated: parts of a state.
+struct EvaluatedPoint {
+  const model::Coordinates& prev;
+  const model::Coordinates& next;
+  const std::vector<double>& multipliers;
+  const std::vector<double>& own;
+};
+
 /// Force rows out of balance by more than a limit, held against what rounding can leave in each.
 struct RoundingCheck {
   /// Largest residual over the bound of its row, exact up to 1000; 0 if no row is above the limit.
@@ -16,11 +24,9 @@ struct RoundingCheck {
 /// eps (c sum_j |J_ij| |q_j| + n_i f), with the last tangent J, the sizes q_j of the unknowns
 /// (1 for rotations), and n_i forces of size f. Each row is judged in its own unit; what is above
 /// its bound is no rounding. Collective. @source formulation 5.1
-/// @param next, multipliers  where the system was evaluated
 /// @param limit  smaller residuals are not asked about [N, N m]
 /// @param force_scale  Evaluation::force_scale
-RoundingCheck check_rounding(const System& system, const model::Coordinates& prev,
-                             const model::Coordinates& next, const std::vector<double>& multipliers,
-                             double limit, double force_scale);
+RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
+                             double force_scale);
 
 }  // namespace culm::assembly

@@ -54,6 +54,13 @@ class System {
   /// velocity of its end: makes the end of the step the start of the next one, also of what batches
   /// carry.
   void accept(model::State& state);
+  /// Asks for the values of an accepted state that batches follow in the next step; collective.
+  using Sampler = std::function<void(model::State&)>;
+  void set_sampler(Sampler sampler) { sampler_ = std::move(sampler); }
+  /// Has them taken; before the first step and after each one that was accepted.
+  void sample(model::State& state) const {
+    if (sampler_) sampler_(state);
+  }
   /// Instead: goes back to the start of the step.
   void discard(model::State& state) const;
   /// Tells loads and constraints of another end of the step, state.time; elements do not know it.
@@ -185,6 +192,7 @@ class System {
   std::vector<std::size_t> row_begin_;
   std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
+  Sampler sampler_;
   bool carries_residuals_ = false;
   std::optional<std::vector<double>> carried_;  ///< impulses by owned row [N s, N m s]
   model::Coordinates linear_increment_;

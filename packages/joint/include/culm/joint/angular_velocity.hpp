@@ -21,23 +21,20 @@ namespace culm::joint {
 /// @source formulation 2.4
 class AngularVelocity final : public model::MemorylessBatch, public model::ReactionSource {
  public:
-  /// @param model gives each item its multiplier, by the constraint that `add` puts there
-  AngularVelocity(std::string effect, const model::Model& model)
+  /// @param model gets an unknown for each item
+  AngularVelocity(std::string effect, model::Model& model)
       : MemorylessBatch(std::move(effect)), model_(model) {}
 
-  /// The constraint of one multiplier that an item lives on; its own row says nothing.
+  /// What an item says to those who ask the model for its constraints.
   /// @param axis in the reference, unit length
-  static model::Constraint placeholder(std::string name, const std::string& type,
-                                       const model::NodeTable& nodes, int node, const Vec3& axis);
-  /// @param constraint  name of the placeholder, which is added to the model
-  void add(int node, const TurnAxis& axis, const Prescribed& velocity, std::string constraint) {
-    items_.push_back({node, axis, velocity, std::move(constraint), 0});
-  }
+  static model::Constraint constraint(std::string name, const std::string& type,
+                                      const model::NodeTable& nodes, int node, const Vec3& axis);
+  /// @param constraint  name by which its moment is asked for
+  void add(int node, const TurnAxis& axis, const Prescribed& velocity, std::string constraint);
 
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
-  void place(model::Placement placement, model::Form form) override;
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
@@ -50,17 +47,16 @@ class AngularVelocity final : public model::MemorylessBatch, public model::React
     TurnAxis axis;
     Prescribed velocity;  ///< Omega [rad/s]
     std::string constraint;
-    std::size_t multiplier = 0;
+    model::Signal moment;  ///< lambda [N m]
   };
 
-  int equation_of(const Item& item) const;
   void assemble_rest(std::size_t i, const model::State& state, Want want,
                      model::Target& target) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
                         model::Target& target) const;
 
-  const model::Model& model_;
+  model::Model& model_;
   std::vector<Item> items_;
 };
 

@@ -13,7 +13,14 @@ struct Prescribed {
 
   /// Whether anything moves; a support that stands still may be eliminated.
   bool moves() const { return amount != 0.0; }
+  /// @pre no signal is followed
   double at(double time) const { return amount * function.at(time); }
+  /// The value that acts in the middle of a step.
+  double at_middle(const model::State& state) const {
+    if (const model::Signal* signal = function.signal())
+      return amount * signal->in_step(state, 0.5);
+    return at(0.5 * (state.time_prev + state.time));
+  }
 };
 
 /// A translation in space as a function of time.

@@ -17,10 +17,13 @@ class LinkLaw {
   struct Answer {
     double force = 0.0;
     double derivative = 0.0;  ///< by u at the end of the step
+    double by_signal = 0.0;   ///< by the value of signal()
   };
   /// The force of a step in which the link goes from u = `prev` to `next`.
   virtual Answer answer(double prev, double next, const model::State& state,
                         const Stencil& stencil) const = 0;
+  /// The signal that it follows; null if none.
+  virtual const model::Signal* signal() const { return nullptr; }
   /// [J]
   virtual double energy(double u) const = 0;
   /// Books the work F (next - prev) that the force took.
@@ -66,6 +69,7 @@ class DriveLaw final : public LinkLaw {
 
   Answer answer(double prev, double next, const model::State& state,
                 const Stencil& stencil) const override;
+  const model::Signal* signal() const override { return function_.signal(); }
   double energy(double) const override { return 0.0; }
   void add_work(double force, double prev, double next, model::StepWork& work) const override;
 

@@ -73,6 +73,7 @@ class LinkLoad final : public model::Batch {
   struct Response {
     Vec<2> stress;
     Mat<2, 2> tangent;
+    Vec<2> by_signal;  ///< derivative of the stress by the signal of the law
     double force = 0.0;
   };
 

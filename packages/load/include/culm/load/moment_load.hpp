@@ -54,6 +54,7 @@ class MomentLoad final : public model::MemorylessBatch {
   struct Motion {
     Mat3 mid, next;
     Vec3 components;  ///< times the amplitude
+    Vec3 unit;        ///< in space, at amplitude 1
     Vec3 moment;      ///< in space
   };
 

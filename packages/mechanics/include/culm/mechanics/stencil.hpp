@@ -14,8 +14,13 @@ struct Stencil {
   double theta_strain = 1.0;  ///< weight of the new strain in the stress [-]
   /// Derivative of the acceleration in the equations by q_next [1/s^2]; 0: no inertia.
   double inertia = 0.0;
+  /// Without a step: unknowns that have a rate obey their equations but for it, for linearisations,
+  /// instead of standing still.
+  bool frees_states = false;
 
   static constexpr Stencil statics() { return {}; }
+  /// Statics, about which all that moves in time is linearised.
+  static constexpr Stencil linearisation() { return {0.0, 1.0, 1.0, 0.0, true}; }
   /// Dq = step (v_prev + v_next) / 2, hence Dv / step = 2 Dq / step^2 - 2 v_prev / step.
   static constexpr Stencil midpoint(double step) { return {step, 0.5, 0.5, 2.0 / (step * step)}; }
 };

@@ -18,7 +18,7 @@ namespace culm::model {
 /// Where builders add to, and where they report mistakes of the deck.
 struct BuildContext {
   Model& model;                                       ///< with all structures, not frozen
-  const std::map<std::string, Amplitude>& functions;  ///< list "Functions" of the deck
+  const std::map<std::string, Amplitude>& functions;  ///< lists "Functions" and "Signals"
   InputIssues& issues;
 };
 
@@ -60,8 +60,15 @@ Vec3 vector(const Options& options, const std::string& parameter);
 /// Parameter "Function", or another of this kind; `fallback` is "Ramp" or "Constant", which exist
 /// in every deck.
 Field function_field(std::string fallback, std::string name = "Function");
-/// The function that a parameter names; nothing, and an issue, if there is none.
+/// Whether something can follow signals beside functions of time.
+enum class Follows { functions, signals };
+/// The function or signal that a parameter names; nothing, and an issue, if there is none of this
+/// kind.
 std::optional<Amplitude> find_function(const Options& options, BuildContext& context,
-                                       const std::string& parameter = "Function");
+                                       const std::string& parameter = "Function",
+                                       Follows follows = Follows::functions);
+/// The same for a name that stands at `where`.
+std::optional<Amplitude> find_function(const std::string& name, const Where& where,
+                                       BuildContext& context, Follows follows);
 
 }  // namespace culm::model

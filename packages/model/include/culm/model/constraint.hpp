@@ -4,6 +4,7 @@
 #include <culm/base/issue.hpp>
 #include <culm/math/types.hpp>
 #include <culm/model/node_table.hpp>
+#include <culm/model/own_unknowns.hpp>
 
 #include <bitset>
 #include <functional>
@@ -47,7 +48,8 @@ struct Constraint {
   Where where;  ///< in the deck; empty for what culm adds itself
   std::vector<int> nodes;
   std::vector<ConstraintRow> rows;
-  /// Rows with the gradients of equations on velocities, for which `rows` only holds the place.
+  /// Rows with the gradients of equations on velocities, which a batch with unknowns of its own
+  /// writes; `rows` is then of the same size and not looked at.
   std::vector<ConstraintRow> velocity_rows;
 
   struct Fix {
@@ -69,6 +71,16 @@ struct Constraint {
   bool is_structural = false;
   /// Moves the rows in time (inhomogeneous constraints); empty for fixed ones.
   std::function<void(double time, std::vector<ConstraintRow>& rows)> drive;
+  /// Moves them with a signal instead, which must have a rate: rows and their derivative by a value
+  /// of the signal, alpha, direction and constant.
+  struct Follow {
+    Signal signal;
+    std::function<void(double value, std::vector<ConstraintRow>& rows)> rows;
+    std::function<void(double value, std::vector<ConstraintRow>& rows)> derivative;
+  };
+  std::optional<Follow> follow;
+  /// Whether the rows move.
+  bool is_driven() const { return drive || follow; }
 };
 
 /// h of a row for the slots of the nodes side by side, shape (3, 4 n).

@@ -49,6 +49,8 @@ class ConstraintBatch final : public Batch {
     std::vector<ConstraintRow> rows_mid;   ///< as they act on forces
     std::vector<ConstraintRow> rows_next;  ///< as they must hold at the end of the step
     std::vector<double> measure;           ///< what |h| is judged against, per row
+    /// Derivatives of both by the signal that is followed; empty without one.
+    std::vector<ConstraintRow> slopes_mid, slopes_next;
   };
 
   template <class Space>
@@ -60,6 +62,10 @@ class ConstraintBatch final : public Batch {
   template <class Space, class Motion, class Jacobian>
   void add_curvature(std::size_t i, const Motion& motion, const Jacobian& H_mid,
                      const double* lambda, double theta, Target& target) const;
+  void follow_signals(const State& state, const Stencil& stencil);
+  template <class Space, class Motion>
+  void add_signal(std::size_t i, const Motion& motion, const double* lambda, double theta,
+                  Target& target) const;
   template <class Space>
   void assemble_jacobian(std::size_t i, const State& state, Target& target) const;
 

@@ -69,6 +69,10 @@ class Model {
   void add_element_set(std::string name, const Structure& structure,
                        const std::vector<int>& elements);
   void add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
+  /// Unknowns for a batch that writes their rows. @return number of the block
+  int add_own_block(OwnBlock block);
+  /// Gives an unknown of a batch its value at the start.
+  void set_initial(const Signal& signal, double value);
   /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
   void add_rigid_link(std::string name, int slave, int master);
   void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
@@ -110,6 +114,11 @@ class Model {
   /// Constraint numbers that are equations, by their number in the UnknownTable.
   const std::vector<Constraint>& equations() const { return equations_; }
   const UnknownTable& unknowns() const { return unknowns_; }
+  const std::vector<OwnBlock>& own_blocks() const { return own_blocks_; }
+  /// Whether unknown i of a block is the force of an equation: a multiplier.
+  bool is_force(const Block& block, int i) const;
+  /// One unknown of such a block, for those that follow it.
+  Signal signal(int block, int place) const;
   /// All batches: elements, constraints, loads.
   std::vector<Batch*> batches() const;
   const std::vector<std::unique_ptr<Batch>>& element_batches() const { return element_batches_; }
@@ -149,6 +158,7 @@ class Model {
   std::vector<std::unique_ptr<Batch>> element_batches_;
   std::vector<Constraint> constraints_;
   std::vector<Constraint> equations_;
+  std::vector<OwnBlock> own_blocks_;
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
   std::map<std::string, std::unique_ptr<NodalInput>> inputs_;

@@ -22,6 +22,8 @@ struct State {
   Coordinates acceleration_offset;
   std::vector<double> multipliers_prev;  ///< Lagrange multipliers of the last accepted step
   std::vector<double> multipliers;       ///< trial multipliers, by multiplier index
+  std::vector<double> own_prev;          ///< unknowns of batches in the last accepted step
+  std::vector<double> own;               ///< trial values, as OwnBlock::first places them
 };
 
 }  // namespace culm::model

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/model/node_table.hpp>
+#include <culm/model/own_unknowns.hpp>
 
 #include <array>
 #include <cstdint>
@@ -27,32 +28,40 @@ struct BlockShape {
 };
 
 /// Owner of a block.
-enum class BlockKind { node, multipliers };
+enum class BlockKind { node, multipliers, own };
 
-/// One run of unknowns that always occur together: those of a node, or the multipliers of a
-/// constraint.
+/// One run of unknowns that always occur together: those of a node, the multipliers of a
+/// constraint, or an OwnBlock.
 struct Block {
   BlockKind kind = BlockKind::node;
-  int owner = 0;  ///< node number, or constraint number
+  int owner = 0;  ///< number of the node, the constraint or the own block
   BlockShape shape;
-  int first = 0;             ///< global index of the first active unknown
-  int first_multiplier = 0;  ///< index into State::multipliers; multiplier blocks only
+  int first = 0;        ///< global index of the first active unknown
+  int first_value = 0;  ///< index into State::multipliers or State::own; not of nodes
 };
 
-/// All blocks: nodes first, in node order, then the multipliers of the constraints.
+/// All blocks: nodes first, in node order, then the multipliers of the constraints, then what
+/// batches own.
 class UnknownTable {
  public:
   UnknownTable() = default;
   /// @param multipliers number of equations of each constraint kept as equations
-  UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers, Form form);
+  UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers,
+               const std::vector<OwnBlock>& own, Form form);
 
   const std::vector<Block>& blocks() const { return blocks_; }
   const Block& block(int b) const { return blocks_[static_cast<std::size_t>(b)]; }
   /// Block that carries the unknowns of a node (that of its master in the null-space form).
   int node_block(int node) const { return node_block_[static_cast<std::size_t>(node)]; }
   int constraint_block(int constraint) const { return first_constraint_ + constraint; }
+  /// Block of an own block, by its number in the model.
+  int own_block(int number) const { return first_own_ + number; }
   int num_unknowns() const { return num_unknowns_; }
   int num_multipliers() const { return num_multipliers_; }
+  /// Unknowns that are forces of equations: of constraints and of batches.
+  int num_forces() const { return num_multipliers_ + num_own_multipliers_; }
+  /// Unknowns of batches that are none.
+  int num_signals() const { return num_own_ - num_own_multipliers_; }
   /// Unknowns that supports take away; each has a reaction.
   int num_reactions() const { return num_reactions_; }
   Form form() const { return form_; }
@@ -61,8 +70,11 @@ class UnknownTable {
   std::vector<Block> blocks_;
   std::vector<int> node_block_;
   int first_constraint_ = 0;
+  int first_own_ = 0;
   int num_unknowns_ = 0;
   int num_multipliers_ = 0;
+  int num_own_ = 0;
+  int num_own_multipliers_ = 0;
   int num_reactions_ = 0;
   Form form_ = Form::null_space;
 };

@@ -3,6 +3,7 @@
 
 #include <culm/analysis/register_analysis.hpp>
 #include <culm/beam/register_beam.hpp>
+#include <culm/control/register_control.hpp>
 #include <culm/hybrid/tube.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
@@ -25,6 +26,7 @@ struct Catalogue {
   model::BuilderRegistry masses;
   model::BuilderRegistry initial_conditions;
   Registry<model::Amplitude> functions;
+  control::SignalRegistry signals;
   model::BuilderRegistry constraints;
   model::BuilderRegistry loads;
   analysis::AnalysisRegistry analyses;

@@ -45,6 +45,8 @@ using QuantityRegistry = Registry<std::unique_ptr<Quantity>, model::BuildContext
 
 /// Position, Displacement, Rotation and Reaction of a node.
 void register_node_quantities(QuantityRegistry& registry);
+/// The value of a signal.
+void register_signal_quantity(QuantityRegistry& registry);
 /// Springs, dampers, drives and angles of joints.
 void register_link_quantities(QuantityRegistry& registry);
 /// Stress resultants of an element, and energies.

@@ -83,7 +83,7 @@ struct QuadraticPencil {
 /// axis. The same on all ranks.
 struct ComplexPairs {
   std::vector<std::complex<double>> values;
-  Eigen::MatrixXcd vectors;      ///< columns with x^H M x = 1
+  Eigen::MatrixXcd vectors;      ///< columns with x^H M x = 1, or |x^H C x| = 1 without mass
   std::vector<double> rounding;  ///< what rounding of K may do to lambda^2: eps |x|^T |K| |x|
   double worst_residual = 0.0;   ///< largest residual over the largest | |K| |x| |
   std::string solver;

@@ -1,0 +1,155 @@
+#include <culm/base/error.hpp>
+#include <culm/control/block_batch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace culm::control {
+namespace {
+
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                             Block::max_unknowns, Block::max_unknowns>;
+
+Block::Inputs values_of(const std::vector<model::Amplitude>& inputs, const model::State& state,
+                        double theta) {
+  Stencil at;
+  at.theta = theta;
+  Block::Inputs u(static_cast<Eigen::Index>(inputs.size()));
+  for (Eigen::Index k = 0; k < u.size(); ++k) {
+    u[k] = inputs[static_cast<std::size_t>(k)].in_step(state, at);
+  }
+  return u;
+}
+
+}  // namespace
+
+model::Signal BlockBatch::add(const std::string& name, std::unique_ptr<Block> block) {
+  Item item;
+  const int number = model_.add_own_block({name, block->unknowns()});
+  const auto count = static_cast<int>(block->unknowns().size());
+  internal_check(count <= Block::max_unknowns, "a block has too many unknowns");
+  for (int i = 0; i < count; ++i) item.unknowns.push_back(model_.signal(number, i));
+  item.block = std::move(block);
+  items_.push_back(std::move(item));
+  return items_.back().unknowns.front();
+}
+
+void BlockBatch::connect(const model::Signal& output, std::vector<model::Amplitude> inputs,
+                         std::optional<double> initial) {
+  internal_check(inputs.size() <= Block::max_inputs, "a block has too many inputs");
+  const auto item = std::ranges::find_if(
+      items_, [&](const Item& one) { return one.unknowns.front().index == output.index; });
+  internal_check(item != items_.end(), "inputs of a block that is not there");
+  item->inputs = std::move(inputs);
+  const double start =
+      initial ? *initial : item->block->start(values_of(item->inputs, model_.initial_state(), 1.0));
+  model_.set_initial(item->unknowns[static_cast<std::size_t>(item->block->state())], start);
+}
+
+std::vector<int> BlockBatch::blocks(int item, const model::UnknownTable& unknowns) const {
+  const Item& it = items_[static_cast<std::size_t>(item)];
+  std::vector<int> result = {unknowns.own_block(it.unknowns.front().block)};
+  for (const model::Amplitude& input : it.inputs) {
+    if (input.signal() != nullptr) result.push_back(unknowns.own_block(input.signal()->block));
+  }
+  return result;
+}
+
+void BlockBatch::evaluate(const Item& item, const model::State& state, const Stencil& stencil,
+                          Block::Values& values) {
+  const double theta = place(stencil);
+  const auto count = static_cast<Eigen::Index>(item.unknowns.size());
+  Block::Unknowns x(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    x[k] = item.unknowns[static_cast<std::size_t>(k)].in_step(state, theta);
+  }
+  const Block::Inputs u = values_of(item.inputs, state, theta);
+  values.f.setZero(count);
+  values.by_unknown.setZero(count, count);
+  values.by_input.setZero(count, u.size());
+  item.block->evaluate(x, u, values);
+}
+
+Verdict BlockBatch::assemble(const model::State& state, const Stencil& stencil, Want want,
+                             model::Target& target) {
+  Verdict verdict = Verdict::ok;
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (want == Want::mass) {  // no part in inertia
+      const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
+      const auto count = static_cast<Eigen::Index>(item.unknowns.size());
+      placement().scatter.add_tangent(i, 0, 0, Square(Square::Identity(count, count)), target);
+      continue;
+    }
+    verdict = worse(verdict,
+                    assemble_item(i, state, stencil, want == Want::residual_and_tangent, target));
+  }
+  return verdict;
+}
+
+// Rows over the scales of their unknowns; what an equation with a rate is out of balance by makes
+// an error of h times as much in its unknown.
+Verdict BlockBatch::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                                  bool tangent, model::Target& target) const {
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
+  const auto count = static_cast<Eigen::Index>(item.unknowns.size());
+  const double theta = place(stencil);
+  const double h = stencil.step;
+  Block::Values values;
+  evaluate(item, state, stencil, values);
+  if (!std::isfinite(values.f.sum())) return Verdict::not_finite;
+  Block::Unknowns residual(count);
+  Square K = Square::Zero(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const model::Signal& x = item.unknowns[static_cast<std::size_t>(k)];
+    const double next = x.in_step(state, 1.0);
+    double error = 0.0;
+    if (x.kind != model::UnknownKind::first_order) {
+      residual[k] = next - values.f[k];
+      K(k, k) = x.scale;
+      error = residual[k];
+    } else if (h > 0.0) {
+      residual[k] = (next - x.in_step(state, 0.0)) / h - values.f[k];
+      K(k, k) = x.scale / h;
+      error = h * residual[k];
+    } else if (stencil.frees_states) {
+      residual[k] = -values.f[k];
+    } else {
+      residual[k] = next - x.in_step(state, 0.0);
+      K(k, k) = x.scale;
+      values.by_unknown.row(k).setZero();
+      values.by_input.row(k).setZero();
+      error = residual[k];
+    }
+    const double size = std::max(x.scale, std::abs(next));
+    target.constraint_violation = std::max(target.constraint_violation, std::abs(error) / size);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      K(k, j) -= values.by_unknown(k, j) * item.unknowns[static_cast<std::size_t>(j)].weight(theta);
+    }
+    residual[k] /= x.scale;
+    K.row(k) /= x.scale;
+    values.by_input.row(k) /= x.scale;
+  }
+  placement().scatter.add_residual(i, 0, residual.data(), target);
+  if (!tangent) return Verdict::ok;
+  placement().scatter.add_tangent(i, 0, 0, K, target);
+  add_inputs(i, values, theta, target);
+  return Verdict::ok;
+}
+
+void BlockBatch::add_inputs(std::size_t i, const Block::Values& values, double theta,
+                            model::Target& target) const {
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
+  int block = 0;
+  for (std::size_t k = 0; k < item.inputs.size(); ++k) {
+    const model::Signal* signal = item.inputs[k].signal();
+    if (signal == nullptr) continue;
+    Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::ColMajor, Block::max_unknowns, 12> columns;
+    columns.setZero(values.f.size(), 12);
+    columns.col(signal->place) =
+        -signal->weight(theta) * values.by_input.col(static_cast<Eigen::Index>(k));
+    placement().scatter.add_tangent(i, 0, ++block, columns, target);
+  }
+}
+
+}  // namespace culm::control

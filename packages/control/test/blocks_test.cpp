@@ -1,0 +1,180 @@
+#include <culm/control/actuator.hpp>
+#include <culm/control/block_batch.hpp>
+#include <culm/control/integral.hpp>
+#include <culm/control/lag.hpp>
+#include <culm/control/pi_controller.hpp>
+#include <culm/control/weighted_sum.hpp>
+
+#include <culm_kit/batch_laws.hpp>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace culm::control {
+namespace {
+
+constexpr const char* effect = "tested";
+
+struct Subject {
+  std::string name;
+  std::function<std::unique_ptr<Block>()> make;
+  int inputs = 1;
+};
+
+const Limits wide{-10.0, 10.0};
+const Limits narrow{-0.01, 0.02};
+
+// The block follows a signal of another block that it is followed by in turn, and functions.
+void fill(const Subject& subject, model::Model& model) {
+  auto batch = std::make_unique<BlockBatch>(effect, model);
+  const model::Signal tested = batch->add("tested", subject.make());
+  const model::Signal other = batch->add("other", std::make_unique<Lag>(0.3, wide, wide, 1.4));
+  std::vector<model::Amplitude> inputs = {model::Amplitude::of_signal(other)};
+  while (static_cast<int>(inputs.size()) < subject.inputs) {
+    inputs.push_back(model::Amplitude::of_time([](double t) { return 0.3 + t * t; }));
+  }
+  batch->connect(tested, std::move(inputs), 0.1);
+  batch->connect(other, {model::Amplitude::of_signal(tested)}, -0.2);
+  model.add_load(std::move(batch));
+}
+
+class Blocks : public testing::TestWithParam<Subject> {};
+
+TEST_P(Blocks, TangentIsDerivativeOfResidual) {
+  kit::expect_tangent_is_derivative([](model::Model& model) { fill(GetParam(), model); }, effect,
+                                    1e-3);
+}
+
+TEST_P(Blocks, LinearisationIsDerivativeOfResidual) {
+  model::Model model;
+  fill(GetParam(), model);
+  model.freeze(model::Form::null_space);
+  kit::DenseAssembly dense(model);
+  const model::State state = kit::random_state(model, 3);
+  const Stencil stencil = Stencil::linearisation();
+  const Eigen::MatrixXd expected = dense.difference_tangent(state, stencil, {}, 1e-3);
+  EXPECT_LT(kit::largest(dense.tangent(state, stencil) - expected),
+            1e-11 * (1.0 + kit::largest(expected)));
+}
+
+TEST_P(Blocks, AssembleAllocatesNothing) {
+  kit::expect_no_allocation([](model::Model& model) { fill(GetParam(), model); }, effect);
+}
+
+TEST_P(Blocks, StatesStandStillInStatics) {
+  model::Model model;
+  fill(GetParam(), model);
+  model.freeze(model::Form::null_space);
+  kit::DenseAssembly dense(model);
+  model::State state = kit::random_state(model, 3);
+  const auto& unknowns = model.own_blocks().front().unknowns;
+  for (int i = 0; i < static_cast<int>(unknowns.size()); ++i) {
+    if (unknowns[static_cast<std::size_t>(i)].kind != model::UnknownKind::first_order) continue;
+    const auto at = static_cast<std::size_t>(model.signal(0, i).index);
+    state.own[at] = state.own_prev[at];
+    EXPECT_EQ(dense.residual(state, Stencil::statics())[i], 0.0);
+  }
+}
+
+std::unique_ptr<Block> make_pi(const Limits& limits) {
+  return std::make_unique<PiController>(0.7, 1.3, 0.9, 1.4, limits, 2.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Blocks,
+    testing::Values(
+        Subject{"Lag", [] { return std::make_unique<Lag>(0.4, wide, wide, 0.7); }},
+        Subject{"LagAtItsRate", [] { return std::make_unique<Lag>(0.4, narrow, wide, 0.7); }},
+        Subject{"LagAtItsLimit", [] { return std::make_unique<Lag>(0.4, wide, narrow, 0.7); }},
+        Subject{"Actuator", [] { return std::make_unique<Actuator>(2.0, 0.7, wide, wide, 0.5); }},
+        Subject{"ActuatorAtItsRate",
+                [] { return std::make_unique<Actuator>(2.0, 0.7, narrow, wide, 0.5); }},
+        Subject{"Pi", [] { return make_pi(wide); }, 2},
+        Subject{"PiAtItsLimit", [] { return make_pi(narrow); }, 2},
+        Subject{"Integral", [] { return std::make_unique<Integral>(1.8, 3.0); }},
+        Subject{"Sum",
+                [] {
+                  return std::make_unique<WeightedSum>(0.3, Eigen::Vector3d(1.1, -0.6, 0.9), wide,
+                                                       2.0);
+                },
+                3}),
+    [](const auto& tested) { return tested.param.name; });
+
+// The response of a block to an input of 1, step by step, as Newton's method finds it.
+class Response {
+ public:
+  explicit Response(std::unique_ptr<Block> block, double initial = 0.0)
+      : system_([&] {
+          auto batch = std::make_unique<BlockBatch>(effect, model_);
+          output_ = batch->add("block", std::move(block));
+          batch->connect(output_, {model::Amplitude::constant(), model::Amplitude::constant(0.0)},
+                         initial);
+          model_.add_load(std::move(batch));
+          model_.freeze(model::Form::null_space);
+          return kit::DenseAssembly(model_);
+        }()),
+        state_(model_.initial_state()) {}
+
+  void step(double h) {
+    const Stencil stencil = Stencil::midpoint(h);
+    state_.time += h;
+    for (int iteration = 0; iteration < 3; ++iteration) {
+      const Eigen::VectorXd r = system_.residual(state_, stencil);
+      system_.move(state_, -system_.tangent(state_, stencil).partialPivLu().solve(r));
+    }
+    state_.time_prev = state_.time;
+    state_.own_prev = state_.own;
+  }
+  double output() const { return value(0); }
+  double value(int place) const { return state_.own[static_cast<std::size_t>(place)]; }
+
+ private:
+  model::Model model_;
+  model::Signal output_;
+  kit::DenseAssembly system_;
+  model::State state_;
+};
+
+// Factor of a step of the mid-point rule (1 - h / 2T) / (1 + h / 2T).
+TEST(Lag, GoesToItsCommandByTheMidPointRule) {
+  Response lag(std::make_unique<Lag>(0.5, Limits(), Limits(), 1.0));
+  for (int step = 0; step < 20; ++step) lag.step(0.1);
+  EXPECT_NEAR(lag.output(), 1.0 - std::pow(0.9 / 1.1, 20), 1e-14);
+}
+
+TEST(Lag, KeepsItsLimits) {
+  Response rate(std::make_unique<Lag>(0.01, Limits::symmetric(0.2), Limits(), 1.0));
+  for (int step = 0; step < 10; ++step) rate.step(0.1);
+  EXPECT_NEAR(rate.output(), 0.2, 1e-14);
+  Response limit(std::make_unique<Lag>(0.1, Limits(), Limits{0.0, 0.3}, 1.0));
+  for (int step = 0; step < 100; ++step) {
+    limit.step(0.1);
+    EXPECT_LE(limit.output(), 0.3 + 1e-14);
+  }
+  EXPECT_NEAR(limit.output(), 0.3, 1e-14);
+}
+
+TEST(Actuator, ItsRateStaysWithinItsLimits) {
+  Response actuator(std::make_unique<Actuator>(10.0, 0.7, Limits::symmetric(0.5), Limits(), 1.0));
+  for (int step = 0; step < 100; ++step) {
+    actuator.step(0.01);
+    EXPECT_LE(actuator.value(1), 0.5 + 1e-14);
+  }
+  // the rate is 1 / (2 zeta omega) behind
+  EXPECT_NEAR(actuator.output(), 0.5 * (1.0 - 1.0 / 14.0), 1e-3);
+}
+
+// Without the tracking the integral would be -1000 after as many seconds beyond the limit.
+TEST(PiController, DoesNotWindUp) {
+  Response controller(
+      std::make_unique<PiController>(0.0, 2.0, 1.0, 2.0, Limits::symmetric(0.25), 1.0));
+  for (int step = 0; step < 1000; ++step) controller.step(1.0);
+  EXPECT_EQ(controller.output(), -0.25);
+  EXPECT_GT(controller.value(1), -5.0);
+}
+
+}  // namespace
+}  // namespace culm::control

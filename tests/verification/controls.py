@@ -1,0 +1,184 @@
+#!/usr/bin/python3
+"""Signals, controllers and actuators. Page: doc/verification/controls.md."""
+
+import math
+
+import numpy as np
+from verify import figure, main, save
+
+ROTOR, PITCH = "control/speed_control.xml", "control/pitch_actuator.xml"
+TURBINE = "turbine/nrel5mw/turbine_control.xml"
+J, T, P, I, SET_POINT = 2.0, 0.2, 3.0, 4.0, 1.5
+RATED = 12.1 * 2.0 * math.pi / 60.0
+
+
+def poles():
+    return np.roots([J * T, J, P, I])
+
+
+def rotor_at(times):
+    """Speed and moment of the motor, exactly: a linear system with the torque sin(t)^2."""
+    # angular velocity, moment, integral; then 1, cos(2t), sin(2t), whose sum is the torque
+    A = np.zeros((6, 6))
+    A[0, 1], A[0, 3], A[0, 4] = 1 / J, 0.5 / J, -0.5 / J
+    A[1, 0], A[1, 1], A[1, 2], A[1, 3] = -P / T, -1 / T, 1 / T, P * SET_POINT / T
+    A[2, 0], A[2, 3] = -I, I * SET_POINT
+    A[4, 5], A[5, 4] = -2.0, 2.0
+    values, vectors = np.linalg.eig(A)
+    start = np.linalg.solve(vectors, np.array([0, 0, 0, 1, 1, 0], dtype=complex))
+    states = [(vectors @ (np.exp(values * t) * start)).real for t in times]
+    return np.array([s[0] for s in states]), np.array([s[1] for s in states])
+
+
+def rotor_error(culm, step):
+    history = culm.history(ROTOR, [f"Analyses/motion/Step={step}", "Output/Every=1"])
+    times = np.array(history.levels)
+    moment = np.array(history.column("motor [1]"))
+    return np.abs(moment - rotor_at(times)[1]).max()
+
+
+def verify_rotor(culm, report):
+    report.title("Rotor with a PI controller and a lag")
+    table = culm.table("modes/modes", ROTOR)
+    found = [complex(table.at(row, "eigenvalue real [1/s]"), table.at(row, "eigenvalue imaginary [1/s]"))
+             for row in (2, 3)]
+    wanted = sorted((p for p in poles() if p.imag >= 0.0), key=abs)
+    for one, other in zip(found, wanted):
+        report.relative(f"pole {other:.4f}, real part", one.real, other.real, 1e-9)
+        report.check("imaginary part", one.imag, other.imag, 1e-9)
+    errors = [rotor_error(culm, step) for step in (0.02, 0.01, 0.005)]
+    report.note(f"largest error of the motor's moment at 0.02, 0.01, 0.005 s: {errors}")
+    for coarse, fine in zip(errors, errors[1:]):
+        report.check("order of the step", math.log2(coarse / fine), 2.0, 0.02)
+    run = culm.run(ROTOR, quiet=False)
+    report.holds("energy balance", run.drift("energy balance"), 1e-11)
+
+
+def actuator_at(times, step=1e-4):
+    """The actuator of the deck by Runge and Kutta's method, with steps that meet its switches."""
+    omega, zeta, rate = 2.0 * math.pi * 1.5, 0.7, 0.6
+
+    def derivative(t, y):
+        command = 0.0 if t < 0.2 else 0.3 if t < 3.0 else 1.0
+        wanted = max(-rate, min(rate, omega / (2 * zeta) * (command - y[0])))
+        return np.array([y[1], 2 * zeta * omega * (wanted - y[1])])
+
+    y, values, now = np.zeros(2), [], 0
+    for time in times:
+        while now < round(time / step):
+            t = (now + 1e-9) * step  # behind a switch
+            k1 = derivative(t, y)
+            k2 = derivative(t + step / 2, y + step / 2 * k1)
+            k3 = derivative(t + step / 2, y + step / 2 * k2)
+            k4 = derivative(t + (1 - 2e-9) * step, y + step * k3)
+            y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            now += 1
+        values.append(y[0])
+    return np.array(values)
+
+
+def verify_actuator(culm, report):
+    report.title("Blade on a pitch actuator")
+    errors = []
+    for step in (0.01, 0.005):
+        run = culm.run(PITCH, [f"Analyses/motion/Step={step}", "Output/Every=10"], quiet=False)
+        times = np.array(run.history.levels)
+        pitch = np.array(run.history.column("pitch [1]"))
+        angle = np.array(run.history.column("angle [rad]"))
+        report.holds(f"joint angle against the actuator, step {step}", np.abs(angle - pitch).max(), 1e-12)
+        report.holds("energy less work of the drive", run.drift("energy balance"), 1e-11)
+        rates = np.abs(np.diff(pitch)) / np.diff(times)
+        report.holds("rate beyond its limit of 0.6 rad/s", max(rates) - 0.6, 1e-9)
+        errors.append(np.abs(pitch - actuator_at(times)).max())
+    report.note(f"largest error of the angle at 0.01, 0.005 s: {errors}")
+    report.holds("error of the angle at 0.005 s [rad]", errors[1], 1e-4)
+    table = culm.table("modes/modes", PITCH)
+    rows = range(1, 5)
+    damped = [row for row in rows if table.at(row, "damping ratio") > 0.5]
+    report.check("actuator among the modes", len(damped), 1, 0)
+    size = abs(complex(table.at(damped[0], "eigenvalue real [1/s]"),
+                       table.at(damped[0], "eigenvalue imaginary [1/s]")))
+    report.relative("its undamped frequency [Hz]", size / (2 * math.pi), 1.5, 1e-9)
+    report.check("its damping ratio", table.at(damped[0], "damping ratio"), 0.7, 1e-9)
+
+
+def verify_delay(culm, report):
+    report.title("Feedback within the step and one step late")
+    run = culm.run("control/delay.xml", ["Output/Every=1"], quiet=False)
+    times = np.array(run.history.levels)
+    omega = math.sqrt(150.0)
+    late = np.array(run.history.column("late uz [m]"))
+    swings = [np.abs(late[(times >= begin) & (times < begin + 0.6)]).max() for begin in (0.0, 4.4)]
+    report.relative("growth one step late [1/s]", math.log(swings[1] / swings[0]) / 4.4, 50 * 0.01 / 4, 0.01)
+    errors = []
+    for step in (0.01, 0.005):
+        history = culm.history("control/delay.xml", ["Output/Every=1", f"h={step}"])
+        times = np.array(history.levels)
+        errors.append(np.abs(np.array(history.column("prompt uz [m]")) - np.sin(omega * times) / omega).max())
+    report.check("order within the step", math.log2(errors[0] / errors[1]), 2.0, 0.02)
+    report.holds("energy balance", run.drift("energy balance"), 1e-11)
+
+
+def verify_turbine(culm, report):
+    report.title("NREL 5 MW with speed and pitch control, 60 s")
+    run = culm.run(TURBINE, quiet=False)
+    history = run.history
+    times = np.array(history.levels)
+    speed = np.array(history.column("speed [1]"))
+    held = speed[times > 25.0]
+    report.note(f"speed from 25 s on: {held.min() / RATED:.4f} to {held.max() / RATED:.4f} of the rated one")
+    report.holds("speed off the rated one", np.abs(held / RATED - 1.0).max(), 0.03)
+    # amplitude of the answer of the loop, as a rigid rotor has it, to the torque that changes
+    inertia, w = 4.38e7, 0.6
+    s = 0.5j
+    answer = abs(s / (inertia * s * s + (1.4 * w * inertia * s + w * w * inertia) / (0.1 * s + 1.0)))
+    late = speed[times > 45.0]
+    report.relative("amplitude of the speed under the changing torque",
+                    (late.max() - late.min()) / 2.0, 0.2 * 4.18e6 * answer, 0.05)
+    pitch = np.array(history.column("pitch 1 [1]"))
+    angle = np.array(history.column("blade 1 [rad]"))
+    report.holds("blade against its actuator [rad]", np.abs(angle + pitch).max(), 1e-11)
+    report.holds("energy balance", run.drift("energy balance"), 1e-11)
+    report.check("steps cut back", run.cut_back(), 0, 0)
+    table = culm.table("modes/modes", TURBINE, ["end=0.02"])
+    real = [table.at(row, "eigenvalue real [1/s]") for row in range(1, 21)]
+    imaginary = [table.at(row, "eigenvalue imaginary [1/s]") for row in range(1, 21)]
+    omega = 2 * math.pi * 1.6
+    wanted = complex(-0.8 * omega, 0.6 * omega)
+    count = sum(abs(complex(a, b) - wanted) < 1e-6 * omega for a, b in zip(real, imaginary))
+    report.check("pitch actuators among the modes", count, 3, 0)
+    report.check("lag of the generator among the modes", sum(abs(a + 10.0) < 1e-5 for a in real), 1, 0)
+
+
+def verify(culm, report):
+    verify_rotor(culm, report)
+    verify_actuator(culm, report)
+    verify_delay(culm, report)
+    verify_turbine(culm, report)
+
+
+def plot(culm, path):
+    fig, axes = figure(3)
+    history = culm.history(ROTOR, ["Output/Every=1"])
+    axes[0].plot(history.levels, history.column("speed [1]"), label="speed [rad/s]")
+    axes[0].plot(history.levels, history.column("motor [1]"), label="motor [N m]")
+    times = np.linspace(0.0, 10.0, 41)
+    for values in rotor_at(times):
+        axes[0].plot(times, values, "k.", markersize=3)
+    axes[0].set(title="rotor, PI controller and lag", xlabel="t [s]")
+    history = culm.history(PITCH)
+    axes[1].plot(history.levels, history.column("pitch [1]"), label="actuator [rad]")
+    axes[1].plot(history.levels, history.column("tip uz [m]"), label="tip uz [m]")
+    axes[1].set(title="blade on a pitch actuator", xlabel="t [s]")
+    history = culm.history(TURBINE)
+    axes[2].plot(history.levels, np.array(history.column("speed [1]")) / RATED, label="speed / rated")
+    axes[2].plot(history.levels, np.array(history.column("generator torque [1]")) / 4.18e6,
+                 label="generator torque / rated")
+    axes[2].plot(history.levels, np.array(history.column("pitch 1 [1]")) * 10, label="pitch [0.1 rad]")
+    axes[2].set(title="NREL 5 MW", xlabel="t [s]")
+    for ax in axes:
+        ax.legend()
+    save(fig, path)
+
+
+main(verify, plot)
