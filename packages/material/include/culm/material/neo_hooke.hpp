@@ -12,7 +12,7 @@ struct Material;
 
 /// W = μ/2 (tr C - 3 - 2 ln J) + λ/2 (ln J)^2 with C = 1 + 2 E, J^2 = det C. Voigt order 11, 22,
 /// 33, 23, 13, 12 with engineering shears. Energy and stress keep their relative accuracy at small
-/// strains. @source formulation 1.20
+/// strains. @source formulation 1.4, (1.20)
 class NeoHooke {
  public:
   /// Lamé constants [N/m^2]; mu > 0, 3 lambda + 2 mu > 0

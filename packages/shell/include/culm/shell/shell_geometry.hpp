@@ -9,7 +9,7 @@
 
 namespace culm::shell {
 
-/// Enhanced strains: how many parameters; 0 for none. @source formulation 1.17
+/// Enhanced strains: how many parameters; 0 for none. @source formulation 1.4, (1.17)
 struct Enhancement {
   int membrane = 4;   ///< 0; 4: linear; 7: with the products ξη as well
   int thickness = 4;  ///< 0; 1: linear through the thickness; 4: and bilinear in the plane

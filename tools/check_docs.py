@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Checks that the documentation has not drifted from the code.
+
+- Links between pages, and paths in `code`, lead somewhere.
+- The table of packages in doc/developer/architecture.md says what their CMakeLists.txt say.
+- Every section that a comment cites, as in `@source formulation 4.1`, has a page in doc/theory/README.md.
+"""
+
+import pathlib
+import re
+import sys
+
+from check_layers import PACKAGES, ROOT, close, read_dependencies
+
+DOC = ROOT / "doc"
+THEORY = DOC / "theory/README.md"
+ARCHITECTURE = DOC / "developer/architecture.md"
+ROOTS = ("packages/", "tests/", "tools/", "inputs/", "cmake/", "src/", "doc/")
+
+
+def pages():
+    yield ROOT / "README.md"
+    yield from sorted(DOC.rglob("*.md"))
+    yield from sorted(PACKAGES.glob("*/README.md"))
+    yield from sorted((ROOT / "tests").rglob("README.md"))
+
+
+def exists(base, name):
+    return (base / name).exists() or any(base.glob(name))
+
+
+def check_page(page):
+    place = page.relative_to(ROOT)
+    text = page.read_text()
+    for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
+        if "://" not in link and not (page.parent / link).exists():
+            yield f"{place}: the link '{link}' leads nowhere"
+    for name in re.findall(r"`([^`\s{}<>…]+)`", text):
+        name = re.sub(r":\d+$", "", name)
+        if not name.startswith(ROOTS) or "NAME" in name or name.startswith("src/"):
+            continue
+        if not exists(ROOT, name.rstrip("/.,")):
+            yield f"{place}: there is no '{name}'"
+
+
+def check_packages():
+    direct = {folder.name: read_dependencies(folder) for folder in sorted(PACKAGES.iterdir())
+              if (folder / "CMakeLists.txt").exists()}
+    reached = close(direct)
+    told = {}
+    section = ARCHITECTURE.read_text().split("## Packages\n")[1].split("\n## ")[0]
+    for names, below in re.findall(r"^\| ((?:`\w+`(?:, )?)+) \| ([^|]*) \|", section, re.M):
+        for name in re.findall(r"\w+", names):
+            told[name] = set(re.findall(r"\w+", below))
+    place = ARCHITECTURE.relative_to(ROOT)
+    for name in direct:
+        if name not in told:
+            yield f"{place}: package '{name}' is not in the table"
+        elif set(direct[name]) != told[name]:
+            yield f"{place}: '{name}' depends on {sorted(direct[name])}, the table says {sorted(told[name])}"
+    for name in told.keys() - reached.keys():
+        yield f"{place}: there is no package '{name}'"
+
+
+def key(section):
+    return tuple(int(part) for part in section.split("."))
+
+
+def cited_sections():
+    """Section and place of all citations."""
+    for path in sorted(PACKAGES.rglob("*.[ch]pp")) + sorted((ROOT / "tests").rglob("*.hpp")):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            cited = re.search(r"formulation ((?:\d+(?:\.\d+)*[a-z]?(?:, )?)+)", line)
+            if not cited:
+                continue
+            for section in re.findall(r"\d+(?:\.\d+)*", cited.group(1)):
+                yield section, f"{path.relative_to(ROOT)}:{number}"
+
+
+def check_sources():
+    known = []  # first and last of each range
+    table = THEORY.read_text().split("## Section numbers in comments")[1].split("\n## ")[0]
+    for row in re.findall(r"^\| ([0-9.,– ]+) \|", table, re.M):
+        for entry in row.split(", "):
+            ends = entry.split("–")
+            known.append((key(ends[0].strip()), key(ends[-1].strip())))
+    for section, place in cited_sections():
+        cited = key(section)
+        if not any(first <= cited <= last or cited[: len(last)] == last or first[: len(cited)] == cited
+                   for first, last in known):
+            yield f"{place}: section {section} of the formulation is not in {THEORY.relative_to(ROOT)}"
+
+
+def main():
+    errors = []
+    count = 0
+    for page in pages():
+        count += 1
+        errors += check_page(page)
+    errors += check_packages()
+    errors += check_sources()
+    for error in errors:
+        print(error)
+    print(f"docs: {count} pages, {len(errors)} errors")
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
