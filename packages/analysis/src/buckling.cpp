@@ -48,7 +48,7 @@ Vector linear_step(Context& context, model::State at, double level) {
                     level, present));
   }
   Vector step(load.getMap());
-  if (!context.linear.factor() || context.linear.solve(load, step) > 1e-8) {
+  if (!context.linear.factor() || !context.linear.solve(load, step).is_sound()) {
     throw NumericalError(
         "The tangent at the present state is singular, so there is no linear response to the "
         "reference load.\nTry: supports that hold the structure, or a state before the limit "

@@ -95,7 +95,7 @@ namespace {
 
 assembly::System::Solve mass_solver(Context& context, const model::State& state) {
   return [&](const assembly::Vector& b, assembly::Vector& x) {
-    if (!context.linear.factor() || context.linear.solve(b, x) > 1e-8) {
+    if (!context.linear.factor() || !context.linear.solve(b, x).is_sound()) {
       PostMortem::refuse_massless(context, state);
     }
   };
@@ -174,7 +174,7 @@ void Dynamics::measure_hidden_constraints() {
   bool sound = true;  // a closed loop may just pass a singular position
   const assembly::VelocityFit fit = system().project_velocity(
       copy, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
-        sound = linear.factor() && linear.solve(b, x) <= 1e-8;
+        sound = linear.factor() && linear.solve(b, x).is_sound();
         if (!sound) x.putScalar(0.0);
       });
   if (sound) certificate_.finish(fit.change, system().comm().max(largest(copy.velocity)));

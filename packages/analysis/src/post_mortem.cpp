@@ -106,7 +106,7 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
   is_factored_ = context_.linear.factor();
   if (!is_factored_) return infinite;
   Vector response(load.getMap());
-  if (context_.linear.solve(load, response) > 1e-8) return infinite;
+  if (!context_.linear.solve(load, response).is_sound()) return infinite;
   return load.dot(response);
 }
 
@@ -122,7 +122,7 @@ void PostMortem::refuse_singular(const model::State& state) {
         fmt::format("The stiffness is not finite at {} {:.6g}, before the first step.\n{}",
                     time_word(), state.time, beyond_range));
   }
-  const bool solves = is_factored_ && context_.linear.solve(probe, response) < 1e-8;
+  const bool solves = is_factored_ && context_.linear.solve(probe, response).is_sound();
   if (solves && response.normInf() * size < 1e13 * probe.normInf()) return;
   Vector direction(system.layout().row_map());
   const double ratio = context_.linear.weakest_direction(direction);

@@ -169,6 +169,11 @@ std::optional<Prescribed> read_motion(const Options& options, const std::string&
                                       model::Follows follows) {
   auto found = read_function(options, function, context, follows);
   if (!found) return {};
+  if (found->signal() != nullptr && options.number(amount) == 0.0) {
+    context.issues.add(options.where(), "follows a signal by no amount; '" + amount +
+                                            "' is what the signal is times");
+    return {};
+  }
   return Prescribed{options.number(amount), *std::move(found)};
 }
 

@@ -18,7 +18,7 @@ class NothingToSolve final : public LinearSolver {
  public:
   std::string name() const override { return "none"; }
   bool factor() override { return true; }
-  double solve(const Vector&, Vector&) override { return 0.0; }
+  LinearResidual solve(const Vector&, Vector&) override { return {}; }
   Determinant determinant() override { return {1, 0.0}; }
   double weakest_direction(Vector&) override { return 0.0; }
 };

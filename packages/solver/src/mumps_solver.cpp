@@ -45,7 +45,7 @@ class MumpsSolver final : public LinearSolver {
     return mumps_->factor(*matrix_);
   }
 
-  double solve(const Vector& b, Vector& x) override {
+  LinearResidual solve(const Vector& b, Vector& x) override {
     apply_inverse(*mumps_, b, x);
     double achieved = check(b, x);
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
@@ -59,7 +59,7 @@ class MumpsSolver final : public LinearSolver {
       }
       achieved = refined;
     }
-    return achieved;
+    return {achieved};
   }
 
   Determinant determinant() override { return mumps_ ? mumps_->determinant() : Determinant{}; }

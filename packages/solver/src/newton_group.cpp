@@ -166,10 +166,10 @@ bool NewtonGroup::solve_linear() {
     if (is_start && p.stencil.inertia == 0.0) p.first_determinant = p.linear.determinant();
   }
   const Ledger::Scope scope(p.ledger, p.solve_effect);
-  const double residual = p.linear.solve(f_.get(), newton_.get());
-  p.not_finite = !std::isfinite(residual);
+  const LinearResidual residual = p.linear.solve(f_.get(), newton_.get());
+  p.not_finite = !std::isfinite(residual.size);
   // old factors solve another system; Newton's own residual tells whether they serve
-  p.singular = has_tangent_ && residual > 1e-8;
+  p.singular = has_tangent_ && !residual.is_sound();
   return !p.singular;
 }
 

@@ -36,7 +36,7 @@ class RootedKlu2 final : public LinearSolver {
     return comm_.max(sound ? 0 : 1) == 0;
   }
 
-  double solve(const Vector& b, Vector& x) override {
+  LinearResidual solve(const Vector& b, Vector& x) override {
     rooted_.gather_rhs(b);
     double relative = 0.0;
     if (comm_.is_root()) {
@@ -49,7 +49,7 @@ class RootedKlu2 final : public LinearSolver {
       is_proven_ = true;
     }
     rooted_.scatter_solution(x);
-    return comm_.max(relative);
+    return {comm_.max(relative)};
   }
 
   Determinant determinant() override {

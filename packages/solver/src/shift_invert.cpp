@@ -10,8 +10,6 @@ using assembly::CrsMatrix;
 
 namespace {
 
-constexpr double useless = 1e-8;  // residual of a solution, as LinearSolver measures it
-
 [[noreturn]] void refuse() {
   throw NumericalError(
       "The eigenproblem cannot be solved: its matrix is singular at the shift.\n"
@@ -52,8 +50,7 @@ void ShiftInvert::multiply(const CrsMatrix& matrix, const ConstColumn& x, Column
 }
 
 void ShiftInvert::solve(const Vector& x, Vector& y) {
-  const double residual = linear_->solve(x, y);
-  if (!(residual <= useless)) refuse();
+  if (!linear_->solve(x, y).is_sound()) refuse();
 }
 
 void ShiftInvert::solve(const ConstColumn& x, Column y) {

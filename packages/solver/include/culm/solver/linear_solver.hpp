@@ -22,6 +22,14 @@ struct Determinant {
   double log_size = 0.0;  ///< natural logarithm of the absolute value
 };
 
+/// What is left of a linear system that was solved.
+struct LinearResidual {
+  /// |b - A x| over the largest sum of terms of a row, in the maximum norm; the same on all ranks
+  double size = 0.0;
+  /// Whether the factors were of any use.
+  bool is_sound() const { return size <= 1e-8; }
+};
+
 /// Solves with one matrix whose pattern never changes and whose values do.
 class LinearSolver {
  public:
@@ -29,9 +37,8 @@ class LinearSolver {
   virtual std::string name() const = 0;
   /// Factors the present values. @return false if the matrix is singular to working precision
   virtual bool factor() = 0;
-  /// x = A^-1 b with the last factors. @return |b - A x| over the largest sum of terms of a row, in
-  /// the maximum norm, the same on all ranks; above 1e-8 the factors are useless
-  virtual double solve(const Vector& b, Vector& x) = 0;
+  /// x = A^-1 b with the last factors.
+  virtual LinearResidual solve(const Vector& b, Vector& x) = 0;
   /// Of the matrix that was factored last, from its pivots; the same on all ranks.
   virtual Determinant determinant() = 0;
   /// Approximates the direction in which A is weakest by inverse iteration on a slightly shifted
