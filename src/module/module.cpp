@@ -219,6 +219,12 @@ PYBIND11_MODULE(_culm, module) {
       .def("set_load", &set_load, py::arg("name"), py::arg("values"),
            "Sets a load of type 'External': force [N] and moment [N m] of each node.")
       .def(
+          "set_signal",
+          [](Live& live, const std::string& name, double value) {
+            live.simulation().set_signal(name, value);
+          },
+          py::arg("name"), py::arg("value"), "Sets a signal of type 'External'.")
+      .def(
           "nodes",
           [](Live& live, const std::string& name) { return live.simulation().nodes(name); },
           py::arg("name"), "Numbers of the nodes of a name.")

@@ -1,4 +1,5 @@
 #include <culm/control/actuator.hpp>
+#include <culm/control/external_signal.hpp>
 #include <culm/control/integral.hpp>
 #include <culm/control/lag.hpp>
 #include <culm/control/pi_controller.hpp>
@@ -64,6 +65,7 @@ void ControlContext::finish() {
 
 void register_signals(SignalRegistry& registry) {
   register_actuator(registry);
+  register_external_signal(registry);
   register_integral(registry);
   register_lag(registry);
   register_pi_controller(registry);

@@ -73,6 +73,23 @@ void Simulation::set_load(const std::string& name, const std::vector<double>& va
   }
 }
 
+void Simulation::set_signal(const std::string& name, double value) {
+  const auto& settings = model().settings();
+  const auto found = settings.find(name);
+  if (found == settings.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, signal] : settings) names.push_back(known);
+    throw UsageError("there is no signal '" + name + "' of type 'External'" +
+                     did_you_mean(name, names));
+  }
+  if (!std::isfinite(value)) {
+    throw NonFiniteError(fmt::format("signal '{}' got {}", name, value));
+  }
+  if (parts_->stepper == nullptr) throw UsageError("there is no state yet: 'begin' comes first");
+  const auto at = static_cast<std::size_t>(found->second.index);
+  parts_->state.own[at] = parts_->state.own_prev[at] = value;
+}
+
 std::vector<int> Simulation::nodes(const std::string& name) const {
   const auto input = model().inputs().find(name);
   if (input != model().inputs().end()) return input->second->nodes();

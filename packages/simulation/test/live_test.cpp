@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -97,6 +98,42 @@ TEST(LiveSimulation, ALoadThatIsSetActsAsThatOfADeck) {
     const std::vector<double> watched = set.simulation.quantities();
     ASSERT_EQ(watched.size(), set.simulation.quantity_columns().size());
     EXPECT_NEAR(watched[1], moved[1], 1e-15);
+  }
+}
+
+// A signal of the caller's own controller scales a load as a number in the deck does.
+TEST(LiveSimulation, ASignalThatIsSetActsAsANumberOfTheDeck) {
+  const auto load = [](const std::string& components, const std::string& function) {
+    return R"(<ParameterList name="force">
+      <Parameter name="Type" value="Force"/> <Parameter name="Node" value="beam/last"/>
+      <Parameter name="Force" value=")" +
+           components + R"("/> <Parameter name="Function" value=")" + function +
+           R"("/></ParameterList>)";
+  };
+  Live set(
+      cantilever(load("{0, 1, -0.4}", "command") +
+                 R"(</ParameterList><ParameterList name="Signals"><ParameterList name="command">
+                         <Parameter name="Type" value="External"/></ParameterList>)"));
+  Live written(cantilever(load("{0, 0.5, -0.2}", "Constant")));
+  EXPECT_THROW(set.simulation.set_signal("command", 0.5), UsageError);
+  for (const char* name : {"bending", "motion"}) {
+    analysis::Stepper& one = set.simulation.begin(name);
+    analysis::Stepper& two = written.simulation.begin(name);
+    EXPECT_THROW(set.simulation.set_signal("comand", 0.5), UsageError);
+    EXPECT_THROW(set.simulation.set_signal("command", std::nan("")), NonFiniteError);
+    while (!two.is_at_end()) {
+      set.simulation.set_signal("command", 3.0);
+      ASSERT_TRUE(one.attempt(one.proposal()).accepted);
+      one.discard();
+      set.simulation.set_signal("command", 0.5);
+      for (analysis::Stepper* stepper : {&one, &two}) {
+        ASSERT_TRUE(stepper->attempt(stepper->proposal()).accepted);
+        stepper->accept();
+      }
+    }
+    const int end = set.simulation.nodes("beam/last").front();
+    EXPECT_GT(set.simulation.position(end)[1], 0.01);
+    EXPECT_LT((set.simulation.position(end) - written.simulation.position(end)).norm(), 1e-12);
   }
 }
 

@@ -80,6 +80,10 @@ class Model {
   void add_input(const std::string& name, std::unique_ptr<NodalInput> input) {
     inputs_.emplace(name, std::move(input));
   }
+  /// A signal that a program sets, by its name in the deck.
+  void add_setting(const std::string& name, const Signal& signal) {
+    settings_.emplace(name, signal);
+  }
   /// Notes a function of the deck that a load or a constraint follows.
   void add_function(const std::string& name, const Amplitude& function) {
     functions_.emplace(name, function);
@@ -126,6 +130,8 @@ class Model {
   const std::vector<std::unique_ptr<Batch>>& loads() const { return loads_; }
   /// Loads that a program sets, by name.
   const std::map<std::string, std::unique_ptr<NodalInput>>& inputs() const { return inputs_; }
+  /// Signals that a program sets, by name.
+  const std::map<std::string, Signal>& settings() const { return settings_; }
   /// Functions of the deck that are followed, by name.
   const std::map<std::string, Amplitude>& functions() const { return functions_; }
   const std::vector<std::unique_ptr<ConstraintBatch>>& constraint_batches() const {
@@ -162,6 +168,7 @@ class Model {
   std::vector<std::unique_ptr<ConstraintBatch>> constraint_batches_;
   std::vector<std::unique_ptr<Batch>> loads_;
   std::map<std::string, std::unique_ptr<NodalInput>> inputs_;
+  std::map<std::string, Signal> settings_;
   std::map<std::string, Amplitude> functions_;
   std::vector<InitialVelocity> initial_velocities_;
   std::vector<InitialDisplacement> initial_displacements_;

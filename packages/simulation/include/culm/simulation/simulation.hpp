@@ -69,6 +69,10 @@ class Simulation {
   /// for a value that is no number.
   /// @param values  by node, as `nodes` names them: force [N] and moment about the node [N m]
   void set_load(const std::string& name, const std::vector<double>& values);
+  /// Sets the signal of type 'External' of this name for all attempts from now on, between steps. A
+  /// snapshot that is restored brings back the value of its time. Call it on all ranks alike.
+  /// Throws UsageError for an unknown name, NonFiniteError for a value that is no number.
+  void set_signal(const std::string& name, double value);
   /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by
   /// number.
   std::vector<int> nodes(const std::string& name) const;
