@@ -48,6 +48,11 @@ def stiffness(**entries):
     return parameters("bar", ("Type", "Stiffness Matrix"), ("@@Stiffness", "{" + numbers + "}"))
 
 
+def line_load(*pairs):
+    """In place of the force at the tip, a load along the beam."""
+    return parameters("wind", ("Type", "Line Load"), ("Structure", "beam"), *pairs)
+
+
 def two_nodes(first, second, positions="{0, 0, 0, L, 0, 0}"):
     """The axis by its two end nodes with these triads."""
     triads = "{" + first + ", " + second + "}"
@@ -65,10 +70,12 @@ TIP_FORCE = 'value="Force"/>\n      <Parameter name="Node" value="beam/last"/>'
 INNER_FORCE = TIP_FORCE.replace("last", "2")
 ANALYSIS = list_of("bend")
 WATCH = 'value="Position"/>\n        <Parameter name="Node" value="beam/last"/>'
+TIP = '<ParameterList name="tip">\n        <Parameter name="Type" '
 WATCH_ELEMENT = (
     'value="Stress Resultants"/>\n        <Parameter name="%s" value="%s"/>'
     '\n        <Parameter name="%s" value="%s"/>'
 )
+TIP_LOAD = list_of("tip force")
 INCLUDE = '<xi:include href="loads.xml"/>'
 LOADS = list_of("Loads")
 
@@ -273,6 +280,34 @@ NAMES = [
         WATCH,
         WATCH_ELEMENT % ("Structure", "beam", "@@Element", 4),
         "Output / History / tip / Element: structure 'beam' has elements 0 to 3, got 4",
+    ),
+    wrong(
+        "position of a load beyond its line",
+        TIP_LOAD,
+        line_load(("@@Positions", "{0, 3}"), ("Forces", "{0, 0, 1, 0, 0, 1}")),
+        "Loads / wind / Positions: positions must lie between 0 and 1, as fractions of the length of "
+        "the line, got 3; 'Position Measure' Metres takes lengths",
+        ranks=True,
+    ),
+    wrong(
+        "load by table without values",
+        TIP_LOAD,
+        line_load(("Positions", "{0, 1}")),
+        "Loads / wind: 'Positions' needs 'Forces' or 'Moments', or both",
+    ),
+    Case(
+        "file of a load that descends",
+        3,
+        change=[(TIP_LOAD, line_load(("File Name", "wind.csv")))],
+        files={"wind.csv": "# r, F\n0, 0, 0, 1\n0.6, 0, 0, 1\n0.5, 0, 0, 1\n"},
+        errors=["wind.csv:4: positions must not descend, got 0.5 after 0.6"],
+    ),
+    wrong(
+        "stress at no point",
+        TIP + WATCH,
+        "@@" + TIP + 'value="Section Stress"/>\n        <Parameter name="Structure" value="beam"/>'
+        '\n        <Parameter name="Element" value="0"/>',
+        "Output / History / tip: needs 'Position', 'Normal', 'Shear 1' or 'Shear 2'",
     ),
     wrong(
         "layer of a beam",
@@ -752,6 +787,17 @@ MECHANICS = [
         stiffness(e45=5e3, e54=5e3),
         "Sections / bar / Stiffness: the stiffness is not positive semidefinite: its smallest "
         "eigenvalue, with the diagonal scaled to one, is -0.443",
+    ),
+    wrong(
+        "6x6 mass of no plane section",
+        BAR,
+        stiffness().replace(
+            "\n    </",
+            '\n      @@<Parameter name="Mass" value="{3, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 0, 0, 0.1, 0, '
+            '0, 0.2, 0, 0.5}"/>\n    </',
+        ).replace("@@Stiffness", "Stiffness"),
+        "Sections / bar / Mass: the mass is not that of a plane section, which moves with the "
+        "directors of its plane: entry (6, 6) is 0.5, by the others it must be 0.3",
     ),
     wrong(
         "6x6 stiffness not symmetric",

@@ -19,23 +19,25 @@ void add_type(model::BuilderRegistry& registry, const std::string& type, Schema 
 
 }  // namespace
 
-Vec3 LoadRequest::components(const std::string& parameter, const model::Marker& point) const {
-  if (turns || frame == Frame::space) return vector(parameter);
+Vec3 LoadRequest::components(const Vec3& vector, const model::Marker& point) const {
+  if (turns || frame == Frame::space) return vector;
   Mat3 directors = Mat3::Zero();
   for (std::size_t a = 0; a < point.nodes.size(); ++a) {
     directors += point.weights[a] *
                  model::NodeTable::slots(nodes().reference(), point.nodes[a]).rightCols<3>();
   }
-  return directors * vector(parameter);
+  return directors * vector;
 }
 
 void register_both_frames(model::BuilderRegistry& registry, const LoadType& type,
                           const Schema& fields, MakeLoad make) {
   const auto schema = [&](const std::string& name, const char* frame_doc, const char* components) {
-    return Schema(name, type.doc + frame_doc)
-        .add_all(fields)
-        .add(model::vector_field(type.quantity, type.unit, components))
-        .add(model::function_field("Ramp"));
+    Schema result(name, type.doc + frame_doc);
+    result.add_all(fields);
+    if (!type.quantity.empty()) {
+      result.add(model::vector_field(type.quantity, type.unit, components));
+    }
+    return result.add(model::function_field("Ramp"));
   };
   add_type(registry, type.name,
            schema(type.name, ", fixed in space.", "Components in space at function value 1."),
@@ -53,13 +55,17 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
 
 void check_components(const std::string& parameter, const std::vector<int>& nodes,
                       const Options& options, model::BuildContext& context) {
-  if (model::vector(options, parameter).tail<2>().isZero(0.0)) return;
+  check_components(model::vector(options, parameter), options.where(parameter), nodes, context);
+}
+
+void check_components(const Vec3& vector, const Where& where, const std::vector<int>& nodes,
+                      model::BuildContext& context) {
+  if (vector.tail<2>().isZero(0.0)) return;
   for (int node : nodes) {
     if (context.model.nodes().kind(node) != NodeKind::node6) continue;
-    context.issues.add(options.where(parameter),
-                       "node '" + context.model.node_name(node) +
-                           "' of a shell has one director: only the first component may differ "
-                           "from zero");
+    context.issues.add(where, "node '" + context.model.node_name(node) +
+                                  "' of a shell has one director: only the first component may "
+                                  "differ from zero");
     return;
   }
 }

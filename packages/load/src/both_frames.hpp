@@ -22,8 +22,11 @@ struct LoadRequest {
   Vec3 vector(const std::string& parameter) const { return model::vector(options, parameter); }
   /// Frame in which the load keeps its components.
   Frame kept_in() const { return turns ? Frame::directors : Frame::space; }
-  /// Components of a vector in that frame, at a point.
-  Vec3 components(const std::string& parameter, const model::Marker& point) const;
+  /// Components in that frame, at a point, of a vector of the deck.
+  Vec3 components(const Vec3& vector, const model::Marker& point) const;
+  Vec3 components(const std::string& parameter, const model::Marker& point) const {
+    return components(vector(parameter), point);
+  }
   const model::NodeTable& nodes() const { return context.model.nodes(); }
 };
 
@@ -33,7 +36,7 @@ using MakeLoad = std::unique_ptr<model::Batch> (*)(const LoadRequest& request);
 struct LoadType {
   std::string name;      ///< in the deck; that of the follower has "Follower " before it
   std::string doc;       ///< what it is, without the end of the sentence
-  std::string quantity;  ///< name of the vector parameter
+  std::string quantity;  ///< name of the vector parameter; none if empty
   std::string unit;
 };
 
@@ -45,6 +48,9 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
 /// has another component than the first. @param parameter  the vector
 void check_components(const std::string& parameter, const std::vector<int>& nodes,
                       const Options& options, model::BuildContext& context);
+/// The same of a vector that stands at `where`.
+void check_components(const Vec3& vector, const Where& where, const std::vector<int>& nodes,
+                      model::BuildContext& context);
 
 /// Adds an issue if a moment shall follow a node of a shell, whose one director does not tell the
 /// axes of the moment.

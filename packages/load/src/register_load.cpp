@@ -9,6 +9,7 @@ void register_loads(model::BuilderRegistry& registry) {
   register_moment(registry);
   register_line_force(registry);
   register_line_moment(registry);
+  register_line_load(registry);
   register_pressure(registry);
   register_surface_force(registry);
   register_director_force(registry);

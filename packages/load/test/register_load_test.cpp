@@ -146,11 +146,12 @@ TEST_F(Loads, TheTypes) {
       registry.names(),
       ElementsAre("Damper", "Directed Damper", "Directed Ground Damper", "Directed Ground Spring",
                   "Directed Spring", "Director Force", "External", "Follower Force",
-                  "Follower Line Force", "Follower Line Moment", "Follower Moment", "Force",
-                  "Gravity", "Ground Damper", "Ground Spring", "Line Force", "Line Moment",
-                  "Moment", "Plane Ground Damper", "Plane Ground Spring", "Pressure",
-                  "Rotating Frame", "Rotation Damper", "Rotation Damper Local", "Spring",
-                  "Surface Force", "Torsion Damper", "Torsion Drive", "Torsion Spring"));
+                  "Follower Line Force", "Follower Line Load", "Follower Line Moment",
+                  "Follower Moment", "Force", "Gravity", "Ground Damper", "Ground Spring",
+                  "Line Force", "Line Load", "Line Moment", "Moment", "Plane Ground Damper",
+                  "Plane Ground Spring", "Pressure", "Rotating Frame", "Rotation Damper",
+                  "Rotation Damper Local", "Spring", "Surface Force", "Torsion Damper",
+                  "Torsion Drive", "Torsion Spring"));
 }
 
 TEST_F(Loads, VirtualWorkOfALineForceIsThatOfItsPoints) {

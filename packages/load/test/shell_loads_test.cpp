@@ -128,6 +128,14 @@ TEST_F(ShellLoads, LineLoadsActOnEdges) {
   EXPECT_LT((total(f, 0) - 3.0 * Vec3(1.0, 2.0, -3.0)).norm(), round_off);
 }
 
+TEST_F(ShellLoads, TablesActOnEdges) {
+  build("Line Load", {{"Structure", std::string("box/rim")},
+                      {"Position Measure", std::string("Metres")},
+                      {"Positions", Numbers{1.0, 3.0}},
+                      {"Forces", Numbers{1.0, 2.0, -3.0, 3.0, 0.0, 1.0}}});
+  EXPECT_LT((total(forces(), 0) - 2.0 * Vec3(2.0, 1.0, -1.0)).norm(), 1e-13);
+}
+
 // m x d / (d . d) with d = -e1, all over the length of the edge
 TEST_F(ShellLoads, LineMomentsActOnEdges) {
   build("Line Moment",

@@ -73,6 +73,26 @@ Mat3 mass_matrix(const MassValues& v) {
   return m;
 }
 
+Mat6 full_mass(const Mat3& mass) {
+  const Vec3 first(mass(0, 1), mass(0, 2), 0.0);  // m c
+  Mat6 M = Mat6::Zero();
+  M.topLeftCorner<3, 3>().diagonal().setConstant(mass(0, 0));
+  M.bottomLeftCorner<3, 3>() = skew(first);
+  M.topRightCorner<3, 3>() = -skew(first);
+  M.bottomRightCorner<3, 3>().diagonal() << mass(2, 2), mass(1, 1), mass(1, 1) + mass(2, 2);
+  M(3, 4) = M(4, 3) = -mass(1, 2);
+  return M;
+}
+
+Mat3 plane_mass(const Mat6& mass) {
+  return mass_matrix({.rhoA = mass(0, 0),
+                      .rhoI1 = mass(3, 3),
+                      .rhoI2 = mass(4, 4),
+                      .rhoS1 = mass(2, 3),
+                      .rhoS2 = -mass(2, 4),
+                      .rhoI12 = -mass(3, 4)});
+}
+
 // m3 = m (1, c) (1, c)^T + J of the centre c; without mass there is nothing but J
 Mat3 with_rotary_inertia(const Mat3& mass, double factor) {
   const double m = mass(0, 0);
@@ -125,6 +145,23 @@ std::vector<std::string> stiffness_mistakes(const Mat6& stiffness) {
 
 std::vector<std::string> mass_mistakes(const Mat3& mass) {
   return form_mistakes<3>(mass, "the mass");
+}
+
+std::vector<std::string> full_mass_mistakes(const Mat6& mass) {
+  const auto mistakes = form_mistakes<6>(mass, "the mass");
+  if (!mistakes.empty()) return mistakes;
+  constexpr double slip = 1e-3;
+  const Mat6 plane = full_mass(plane_mass(mass));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) {
+      if (std::abs(mass(i, j) - plane(i, j)) <= slip * std::sqrt(mass(i, i) * mass(j, j))) continue;
+      return {
+          fmt::format("the mass is not that of a plane section, which moves with the directors "
+                      "of its plane: entry ({}, {}) is {:.6g}, by the others it must be {:.6g}",
+                      i + 1, j + 1, mass(i, j), plane(i, j))};
+    }
+  }
+  return mass_mistakes(plane_mass(mass));
 }
 
 }  // namespace culm::material

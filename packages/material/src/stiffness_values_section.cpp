@@ -1,3 +1,4 @@
+#include <culm/material/outline.hpp>
 #include <culm/material/placement.hpp>
 #include <culm/material/stiffness_values_section.hpp>
 
@@ -67,6 +68,7 @@ Schema StiffnessValuesSection::schema() {
       .add(number("EI12", "N m^2", "Integral of E xi1 xi2.").optional(0.0))
       .add_all(mass_values_schema())
       .add_all(placement_schema())
+      .add_all(outline_schema())
       .check(check_stiffness)
       .check(check_mass_values);
   return schema;
@@ -76,6 +78,7 @@ Section StiffnessValuesSection::make(const Options& options) {
   Section section;
   section.stiffness = stiffness_matrix(read_stiffness_values(options));
   section.mass = mass_matrix(read_mass_values(options));
+  section.outline = read_outline(options);
   return place(section, options);
 }
 

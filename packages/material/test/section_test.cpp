@@ -77,6 +77,50 @@ TEST(Shifted, IsTheIntegralOverTheShiftedRectangle) {
   EXPECT_LT((section.outline[2] - Vec<2>(0.9, 0.25)).norm(), 1e-15);
 }
 
+// 1/2 int rho |v + w x xi|^2 dA over the points.
+TEST(FullMass, IsTheKineticEnergyOfTheOffsetRectangle) {
+  const double b = 0.4, t = 0.9, angle = 0.3, rho = Integrated::rho;
+  const Vec<2> centre(0.7, -0.2);
+  const Vec6 motion = kit::Random(3).matrix<6, 1>();
+  double energy = 0.0;
+  for (const auto& [u, wu] : gauss_legendre(2)) {
+    for (const auto& [v, wv] : gauss_legendre(2)) {
+      const double x = 0.5 * b * u;
+      const double y = 0.5 * t * v;
+      const Vec3 xi(centre[0] + std::cos(angle) * x - std::sin(angle) * y,
+                    centre[1] + std::sin(angle) * x + std::cos(angle) * y, 0.0);
+      const Vec3 velocity = motion.head<3>() + motion.tail<3>().cross(xi);
+      energy += 0.5 * rho * 0.25 * b * t * wu * wv * velocity.squaredNorm();
+    }
+  }
+  const Mat3 mass = Integrated(b, t, angle, centre).mass;
+  EXPECT_NEAR(0.5 * motion.dot(full_mass(mass) * motion), energy, 1e-14);
+  EXPECT_LT((plane_mass(full_mass(mass)) - mass).norm(), 1e-15);
+  EXPECT_TRUE(full_mass_mistakes(full_mass(mass)).empty());
+}
+
+TEST(FullMass, RefusesWhatIsNoPlaneSection) {
+  const Mat6 mass = full_mass(Integrated(0.4, 0.9, 0.3, {0.7, -0.2}).mass);
+  const auto refused = [&](int i, int j, double by) {
+    Mat6 other = mass;
+    other(i, j) += by;
+    if (i != j) other(j, i) += by;
+    const auto found = full_mass_mistakes(other);
+    return found.empty() ? std::string() : found.front();
+  };
+  const std::string plane = "the mass is not that of a plane section";
+  EXPECT_NE(refused(5, 5, -0.01)
+                .find(plane + ", which moves with the directors of its plane: "
+                              "entry (6, 6) is"),
+            std::string::npos);
+  EXPECT_NE(refused(0, 4, 0.02).find("entry (1, 5) is 0.02, by the others it must be 0"),
+            std::string::npos);
+  EXPECT_NE(refused(3, 5, 0.02).find(plane), std::string::npos);
+  EXPECT_NE(refused(1, 1, 0.02).find("entry (2, 2)"), std::string::npos);
+  EXPECT_EQ(refused(5, 5, 1e-6), "");  // digits of a file
+  EXPECT_NE(refused(3, 3, -mass(3, 3)).find("not positive semidefinite"), std::string::npos);
+}
+
 TEST(Rotated, IsTheIntegralOverTheRotatedRectangle) {
   const Integrated turned(0.4, 0.9, 0.6, {0.0, 0.0});
   const Section section = rotated(centred_rectangle(0.4, 0.9), 0.6);

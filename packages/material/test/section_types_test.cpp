@@ -140,6 +140,44 @@ TEST(StiffnessMatrixType, RefusesWhatIsNoStiffness) {
                      "diagonal scaled to one, is -1"});
 }
 
+TEST(StiffnessMatrixType, TakesItsMassAsAMatrixToo) {
+  const Mat3 mass = mass_matrix(
+      {.rhoA = 3.0, .rhoI1 = 0.5, .rhoI2 = 0.7, .rhoS1 = 0.3, .rhoS2 = -0.2, .rhoI12 = 0.1});
+  const Schema schema = StiffnessMatrixSection::schema();
+  const GivenValues stiffness{{"Stiffness", rows(Mat6::Identity())}};
+  GivenValues given = stiffness;
+  given.emplace_back("Mass", rows(full_mass(mass)));
+  EXPECT_TRUE(mistakes(schema, given).empty());
+  EXPECT_LT((StiffnessMatrixSection::make(deck_list(schema, given)).mass - mass).norm(), 1e-15);
+  given = stiffness;
+  given.emplace_back("Mass", std::vector<double>(22, 1.0));
+  EXPECT_EQ(mistakes(schema, given),
+            Messages{"must have 36 values (rows) or 21 values (upper triangle by rows), got 22"});
+  given = stiffness;
+  given.insert(given.end(), {{"Mass", rows(full_mass(mass))}, {"rhoI2", 0.7}});
+  EXPECT_EQ(mistakes(schema, given), Messages{"the mass is given by 'Mass' already"});
+}
+
+TEST(StiffnessMatrixType, HasTheOutlineOfTheDeckWhereItIsPlaced) {
+  const Schema schema = StiffnessMatrixSection::schema();
+  const GivenValues stiffness{{"Stiffness", rows(Mat6::Identity())}};
+  for (const std::vector<double>& corners :
+       {std::vector{0.0, 0.0, 2.0, 0.0, 0.0, 1.0}, std::vector{0.0, 1.0, 2.0, 0.0, 0.0, 0.0}}) {
+    GivenValues given = stiffness;
+    given.insert(given.end(), {{"Outline", corners}, {"Offset", std::vector{0.5, 0.0}}});
+    EXPECT_TRUE(mistakes(schema, given).empty());
+    const auto outline = StiffnessMatrixSection::make(deck_list(schema, given)).outline;
+    ASSERT_EQ(outline.size(), 3U);
+    const Vec<2> one = outline[1] - outline[0];
+    const Vec<2> other = outline[2] - outline[0];
+    EXPECT_EQ(one[0] * other[1] - one[1] * other[0], 2.0);  // counter-clockwise
+    EXPECT_EQ((outline[0] + outline[1] + outline[2])[0], 3.5);
+  }
+  GivenValues flat = stiffness;
+  flat.emplace_back("Outline", std::vector{0.0, 0.0, 1.0, 1.0, 2.0, 2.0});
+  EXPECT_EQ(mistakes(schema, flat), Messages{"encloses no area"});
+}
+
 TEST(StiffnessValuesType, PutsEachValueInItsPlace) {
   const Schema schema = StiffnessValuesSection::schema();
   const auto options = deck_list(schema, {{"EA", 10.0},

@@ -1,42 +1,12 @@
 #include "time_table.hpp"
 
-#include <culm/base/error.hpp>
-#include <culm/base/read_file.hpp>
+#include <culm/base/number_file.hpp>
 #include <culm/base/text.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <optional>
-#include <sstream>
-#include <string_view>
 
 namespace culm::model {
-namespace {
-
-std::optional<double> find_number(std::string_view text) {
-  text = trim(text);
-  double value = 0.0;
-  const char* last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, value);
-  if (error != std::errc() || end != last || !std::isfinite(value)) return {};
-  return value;
-}
-
-// Adds the point of a line to the table; false if it holds none.
-bool read_point(std::string_view line, TimeTable& table) {
-  const auto comma = line.find(',');
-  if (comma == std::string_view::npos) return false;
-  const auto time = find_number(line.substr(0, comma));
-  const auto value = find_number(line.substr(comma + 1));
-  if (!time || !value) return false;
-  table.times.push_back(*time);
-  table.values.push_back(*value);
-  return true;
-}
-
-}  // namespace
 
 double TimeTable::value(double time) const {
   const auto after = std::upper_bound(times.begin(), times.end(), time);
@@ -59,24 +29,21 @@ std::string TimeTable::mistake(const std::vector<double>& times,
 }
 
 TimeTable read_time_table(const std::string& name, const Where& where) {
-  const std::string path = (std::filesystem::path(where.file).parent_path() / name).string();
-  std::istringstream file(read_file(path, where));
   TimeTable table;
   InputIssues issues;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const std::string_view text = trim(std::string_view(line).substr(0, line.find('#')));
-    if (text.empty()) continue;
-    const double last = table.times.empty() ? -INFINITY : table.times.back();
-    const Where here{path, number, {}};
-    if (!read_point(text, table)) {
-      issues.add(here, "must be 'time, value', got '" + shortened(text, 60) + "'");
-    } else if (table.times.back() <= last) {
-      issues.add(here, "times must increase, got " + format_number(table.times.back()) + " after " +
-                           format_number(last));
+  const std::string path = read_number_lines(name, where, [&](const NumberLine& line) {
+    if (line.numbers.size() != 2) {
+      issues.add(line.where, "must be 'time, value', got '" + shortened(line.text, 60) + "'");
+      return;
     }
-  }
+    const double last = table.times.empty() ? -INFINITY : table.times.back();
+    table.times.push_back(line.numbers[0]);
+    table.values.push_back(line.numbers[1]);
+    if (table.times.back() <= last) {
+      issues.add(line.where, "times must increase, got " + format_number(table.times.back()) +
+                                 " after " + format_number(last));
+    }
+  });
   if (table.times.empty() && issues.empty()) issues.add({path, 0, {}}, "holds no points");
   issues.throw_if_any();
   return table;

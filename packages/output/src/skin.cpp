@@ -1,4 +1,3 @@
-#include <culm/base/error.hpp>
 #include <culm/output/skin.hpp>
 
 #include <algorithm>
@@ -49,9 +48,10 @@ Skin::Skin(const StructureMesh& mesh)
 }
 
 bool Skin::has_outlines(const Cell& line) const {
-  return line.type == CellType::line &&
+  const std::size_t corners = outlines_[index(line.nodes.front())].size();
+  return line.type == CellType::line && corners >= 3 &&
          std::all_of(line.nodes.begin(), line.nodes.end(),
-                     [this](int node) { return outlines_[index(node)].size() >= 3; });
+                     [&](int node) { return outlines_[index(node)].size() == corners; });
 }
 
 void Skin::add_sides(const Cell& line, int cell) {
@@ -59,8 +59,6 @@ void Skin::add_sides(const Cell& line, int cell) {
     const std::size_t here = index(line.nodes[k]);
     const std::size_t there = index(line.nodes[k + 1]);
     const int count = static_cast<int>(outlines_[here].size());
-    internal_check(outlines_[there].size() == outlines_[here].size(),
-                   "outlines of joined nodes have the same number of points");
     const int a = first_point_[here];
     const int b = first_point_[there];
     for (int j = 0; j < count; ++j) {

@@ -1,4 +1,3 @@
-#include <culm/base/error.hpp>
 #include <culm/output/skin.hpp>
 
 #include "sample_model.hpp"
@@ -70,6 +69,13 @@ TEST(Skin, RingsHaveNoCaps) {
   EXPECT_EQ(Skin(mesh).faces().size(), 5U * tube_corners);
 }
 
+// As where a section ends and another one with an outline of its own begins.
+TEST(Skin, LeavesOutLinesBetweenOutlinesOfDifferentNumbersOfCorners) {
+  StructureMesh mesh = tube_mesh(3);
+  mesh.outlines[2] = mesh.outlines[3] = regular_polygon(6, tube_radius);
+  EXPECT_EQ(Skin(mesh).faces().size(), tube_corners + 6U + 2U);  // two of three lines, two ends
+}
+
 TEST(Skin, StructuresWithoutOutlinesHaveNone) {
   EXPECT_TRUE(Skin(patch_mesh()).empty());
   EXPECT_TRUE(Skin(body_mesh()).empty());
@@ -78,12 +84,6 @@ TEST(Skin, StructuresWithoutOutlinesHaveNone) {
   const Skin skin(mesh);
   EXPECT_EQ(skin.faces().size(), 2U * tube_corners + 1U);  // two lines, one end
   EXPECT_EQ(skin.points(mesh.positions, mesh.triads).size(), 3U * tube_corners);
-}
-
-TEST(Skin, OutlinesThatDoNotMatchAreABug) {
-  StructureMesh mesh = tube_mesh(2);
-  mesh.outlines[1].pop_back();
-  EXPECT_THROW(Skin{mesh}, InternalError);
 }
 
 }  // namespace

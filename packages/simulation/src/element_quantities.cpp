@@ -1,10 +1,28 @@
 #include <culm/model/layer_source.hpp>
 #include <culm/simulation/quantity.hpp>
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 
 namespace culm::simulation {
 namespace {
+
+// Mean over the cells that an element of the deck was divided into.
+std::vector<double> mean_resultants(const std::vector<model::Cell>& cells,
+                                    const model::Coordinates& q) {
+  std::vector<double> mean;
+  for (const model::Cell& cell : cells) {
+    std::vector<double> one;
+    cell.source->resultants(cell.item, q, one);
+    mean.resize(one.size(), 0.0);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      mean[i] += one[i] / static_cast<double>(cells.size());
+    }
+  }
+  return mean;
+}
 
 class StressResultants final : public Quantity {
  public:
@@ -23,20 +41,41 @@ class StressResultants final : public Quantity {
   }
   void evaluate(const assembly::System&, const model::State& state,
                 std::vector<double>& numbers) const override {
-    const std::size_t first = numbers.size();
-    for (const model::Cell& cell : cells_) {
-      std::vector<double> one;
-      cell.source->resultants(cell.item, state.next, one);
-      numbers.resize(first + one.size(), 0.0);
-      for (std::size_t i = 0; i < one.size(); ++i) {
-        numbers[first + i] += one[i] / static_cast<double>(cells_.size());
-      }
-    }
+    const std::vector<double> mean = mean_resultants(cells_, state.next);
+    numbers.insert(numbers.end(), mean.begin(), mean.end());
   }
 
  private:
   std::vector<model::Cell> cells_;
   bool per_length_;
+};
+
+// Stresses at a point of a cross-section, linear in its six resultants.
+class SectionStress final : public Quantity {
+ public:
+  struct Component {
+    const char* name;
+    Vec6 factors;  // of N1, N2, N3, M1, M2, M3 [1/m^2, 1/m^3]
+  };
+  SectionStress(std::vector<model::Cell> cells, std::vector<Component> components)
+      : cells_(std::move(cells)), components_(std::move(components)) {}
+
+  std::vector<output::HistoryColumn> columns() const override {
+    std::vector<output::HistoryColumn> columns;
+    for (const Component& component : components_) columns.push_back({component.name, "N/m^2"});
+    return columns;
+  }
+  void evaluate(const assembly::System&, const model::State& state,
+                std::vector<double>& numbers) const override {
+    const Vec6 resultants(mean_resultants(cells_, state.next).data());
+    for (const Component& component : components_) {
+      numbers.push_back(component.factors.dot(resultants));
+    }
+  }
+
+ private:
+  std::vector<model::Cell> cells_;
+  std::vector<Component> components_;
 };
 
 // Stress or strain at a height of a layer of an element of a shell.
@@ -97,20 +136,113 @@ const model::Structure* select_element(const Options& options, model::BuildConte
   return nullptr;
 }
 
+// The cells of an element that has stress resultants; none, and an issue, if it has not.
+std::vector<model::Cell> select_cells(const model::Structure& structure, const Options& options,
+                                      model::BuildContext& context) {
+  std::vector<model::Cell> cells;
+  for (int cell : structure.cells_of(options.integer("Element"))) {
+    cells.push_back(structure.cells[static_cast<std::size_t>(cell)]);
+  }
+  if (cells.front().source != nullptr) return cells;
+  context.issues.add(options.where("Structure"),
+                     "structure '" + structure.name + "' is rigid and has no stress resultants");
+  return {};
+}
+
 std::unique_ptr<Quantity> make_stress_resultants(const Options& options,
                                                  model::BuildContext& context) {
   const model::Structure* structure = select_element(options, context);
   if (structure == nullptr) return nullptr;
-  std::vector<model::Cell> cells;
-  for (int cell : structure->cells_of(options.integer("Element"))) {
-    cells.push_back(structure->cells[static_cast<std::size_t>(cell)]);
-  }
-  if (cells.front().source == nullptr) {
+  std::vector<model::Cell> cells = select_cells(*structure, options, context);
+  if (cells.empty()) return nullptr;
+  return std::make_unique<StressResultants>(std::move(cells), structure->layers != nullptr);
+}
+
+// S33 = N3 / A + K1 xi2 - K2 xi1 with (M1, M2) = (I1, -I12; -I12, I2) (K1, K2)
+Vec6 bending_factors(const Options& options) {
+  const double I1 = options.number("I1");
+  const double I2 = options.number("I2");
+  const double I12 = options.number("I12");
+  const double xi1 = options.numbers("Position")[0];
+  const double xi2 = options.numbers("Position")[1];
+  const double D = I1 * I2 - I12 * I12;
+  Vec6 factors;
+  factors << 0.0, 0.0, 1.0 / options.number("Area"), (I2 * xi2 - I12 * xi1) / D,
+      (I12 * xi2 - I1 * xi1) / D, 0.0;
+  return factors;
+}
+
+std::unique_ptr<Quantity> make_section_stress(const Options& options,
+                                              model::BuildContext& context) {
+  const model::Structure* structure = select_element(options, context);
+  if (structure == nullptr) return nullptr;
+  std::vector<model::Cell> cells = select_cells(*structure, options, context);
+  if (cells.empty()) return nullptr;
+  if (cells.front().source->resultant_names().size() != 6) {
     context.issues.add(options.where("Structure"),
-                       "structure '" + structure->name + "' is rigid and has no stress resultants");
+                       "structure '" + structure->name +
+                           "' does not have the six stress resultants of a beam of 'Fidelity' Full "
+                           "or Linear, with torsion");
     return nullptr;
   }
-  return std::make_unique<StressResultants>(std::move(cells), structure->layers != nullptr);
+  std::vector<SectionStress::Component> components;
+  if (options.has("Position")) components.push_back({"S33", bending_factors(options)});
+  for (const auto& [parameter, name] :
+       {std::pair{"Normal", "S33"}, {"Shear 1", "S13"}, {"Shear 2", "S23"}}) {
+    if (!options.has(parameter)) continue;
+    components.push_back({name, Vec6(options.numbers(parameter).data())});
+  }
+  return std::make_unique<SectionStress>(std::move(cells), std::move(components));
+}
+
+void check_section_stress(const Options& options, InputIssues& issues) {
+  const bool is_shape = options.has("Position");
+  for (const char* needed : {"Area", "I1", "I2"}) {
+    if (options.has(needed) == is_shape) continue;
+    issues.add(options.where(), std::string("'Position' and '") + needed + "' need each other");
+    return;
+  }
+  if (is_shape && options.has("Normal")) {
+    issues.add(options.where("Normal"), "the normal stress is given by 'Position' already");
+  } else if (is_shape) {
+    const double largest = std::sqrt(options.number("I1") * options.number("I2"));
+    if (std::abs(options.number("I12")) >= largest) {
+      issues.add(options.where("I12"),
+                 fmt::format("must lie between -{0:g} and {0:g} m^4, the root "
+                             "of 'I1' times 'I2', got {1:g}",
+                             largest, options.number("I12")));
+    }
+  } else if (!options.has("Normal") && !options.has("Shear 1") && !options.has("Shear 2")) {
+    issues.add(options.where(), "needs 'Position', 'Normal', 'Shear 1' or 'Shear 2'");
+  }
+}
+
+Field factors_field(const char* name, const char* stress) {
+  return numbers(name, "",
+                 std::string(stress) + " by N1, N2, N3, M1, M2, M3: six factors, 1/m^2 and 1/m^3.")
+      .size(6)
+      .optional();
+}
+
+Schema section_stress_schema() {
+  return Schema("Section Stress",
+                "Stresses at a point of the cross-section of a beam, from the stress resultants of "
+                "an element, mean over its points.")
+      .add(model::structure_field())
+      .add(element_field())
+      .add(numbers("Position", "m",
+                   "Place of the point along d1 and d2, for the normal stress by area and second "
+                   "moments of a section whose centroid lies on the axis.")
+               .size(2)
+               .optional())
+      .add(number("Area", "m^2", "Area of the section.").positive().optional())
+      .add(number("I1", "m^4", "Integral of xi2^2, bending about d1.").positive().optional())
+      .add(number("I2", "m^4", "Integral of xi1^2, bending about d2.").positive().optional())
+      .add(number("I12", "m^4", "Integral of xi1 xi2.").optional(0.0))
+      .add(factors_field("Normal", "Or the normal stress S33 of any section"))
+      .add(factors_field("Shear 1", "Shear stress S13 along d1"))
+      .add(factors_field("Shear 2", "Shear stress S23 along d2"))
+      .check(check_section_stress);
 }
 
 std::unique_ptr<Quantity> make_layer_quantity(LayerQuantity::Kind kind, const Options& options,
@@ -186,6 +318,7 @@ void register_element_quantities(QuantityRegistry& registry) {
           .add(model::structure_field())
           .add(element_field()),
       make_stress_resultants);
+  registry.add("Section Stress", section_stress_schema(), make_section_stress);
   register_layer_quantity(registry, "Layer Stress",
                           "Second Piola-Kirchhoff stress in a layer of a shell, at the centre of "
                           "an element, in the axes of the layer.",

@@ -15,8 +15,7 @@ class Skin {
     int cell;                 ///< the cell of the mesh that it belongs to
   };
 
-  /// Lines whose nodes lack an outline get no skin. Throws InternalError if the outlines of two
-  /// joined nodes have different numbers of points.
+  /// Lines whose nodes lack an outline, or have outlines of different numbers of points, get none.
   explicit Skin(const StructureMesh& mesh);
 
   bool empty() const { return faces_.empty(); }

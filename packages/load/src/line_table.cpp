@@ -1,0 +1,76 @@
+#include "line_table.hpp"
+
+#include <culm/math/quadrature.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace culm::load {
+namespace {
+
+// l_k(xi) on the points of a rule
+double lagrange(std::span<const QuadraturePoint> rule, std::size_t k, double xi) {
+  double value = 1.0;
+  for (std::size_t j = 0; j < rule.size(); ++j) {
+    if (j != k) value *= (xi - rule[j].xi) / (rule[k].xi - rule[j].xi);
+  }
+  return value;
+}
+
+// A piece of the line, from `begin` to `end` [m].
+struct Interval {
+  double begin, end;
+  double length() const { return end - begin; }
+};
+
+// Adds what the table between positions i and i + 1 gives to the points of an element.
+void add_segment(const LineTable& table, std::size_t i, const Interval& element,
+                 std::span<Vec6> intensities) {
+  const Interval segment{table.positions[i], table.positions[i + 1]};
+  const Interval piece{std::max(segment.begin, element.begin), std::min(segment.end, element.end)};
+  if (piece.length() <= 0.0) return;
+  const auto rule = gauss_legendre(static_cast<int>(intensities.size()));
+  for (const auto& [eta, weight] : rule) {
+    const double s = piece.begin + 0.5 * (1.0 + eta) * piece.length();
+    const double t = (s - segment.begin) / segment.length();
+    const Vec6 f = (1.0 - t) * table.values[i] + t * table.values[i + 1];
+    const double xi = 2.0 * (s - element.begin) / element.length() - 1.0;
+    const double share = weight * piece.length() / element.length();
+    for (std::size_t k = 0; k < rule.size(); ++k) {
+      intensities[k] += share / rule[k].weight * lagrange(rule, k, xi) * f;
+    }
+  }
+}
+
+// A set may list an element twice: its first point comes again then.
+bool is_same_element(const model::Marker& first, const model::Marker& later) {
+  return later.nodes == first.nodes && later.weights != first.weights;
+}
+
+}  // namespace
+
+double length_of(const std::vector<model::LinePoint>& line) {
+  return std::accumulate(line.begin(), line.end(), 0.0,
+                         [](double sum, const auto& point) { return sum + point.length; });
+}
+
+std::vector<Vec6> intensities(const LineTable& table, const std::vector<model::LinePoint>& line) {
+  std::vector<Vec6> result(line.size(), Vec6::Zero());
+  double begin = 0.0;
+  for (std::size_t first = 0; first < line.size();) {
+    std::size_t last = first;
+    double end = begin;
+    do {
+      end += line[last++].length;
+    } while (last < line.size() && is_same_element(line[first].marker, line[last].marker));
+    for (std::size_t i = 0; i + 1 < table.positions.size(); ++i) {
+      add_segment(table, i, {begin, end}, std::span(result).subspan(first, last - first));
+    }
+    first = last;
+    begin = end;
+  }
+  return result;
+}
+
+}  // namespace culm::load
