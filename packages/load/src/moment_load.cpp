@@ -1,7 +1,6 @@
 #include <culm/load/moment_load.hpp>
+#include <culm/load/slot_kernel.hpp>
 #include <culm/math/rotation.hpp>
-
-#include "slot_kernel.hpp"
 
 #include <Eigen/LU>
 

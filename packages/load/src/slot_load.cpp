@@ -1,8 +1,7 @@
 #include <culm/base/error.hpp>
+#include <culm/load/slot_kernel.hpp>
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
-
-#include "slot_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,29 @@
+/// Shape functions of the cells of structures.
+#pragma once
+
+#include <culm/math/types.hpp>
+
+#include <Eigen/Core>
+
+namespace culm::port {
+
+/// What a cell is: it decides its natural coordinates and what an offset from it is made of.
+enum class Shape {
+  node,     ///< one node: none; offsets in its triad
+  line,     ///< two to four nodes along a line: xi; offsets in d1, d2
+  surface,  ///< four nodes around a face: xi, eta; offsets along the director
+};
+
+/// Weights of the nodes of a cell and their derivatives by the natural coordinates, up to four
+/// rows.
+struct Interpolation {
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1>;
+  Column N, N_xi, N_eta;
+};
+
+/// @param nodes    how many the cell has
+/// @param natural  xi, eta, within the cell from -1 to 1; a surface has its nodes at (-1, -1), (1,
+///                 -1), (1, 1), (-1, 1)
+Interpolation interpolate(Shape shape, std::size_t nodes, const Eigen::Vector2d& natural);
+
+}  // namespace culm::port
