@@ -3,6 +3,8 @@
 #include <culm/base/error.hpp>
 #include <culm/math/lagrange.hpp>
 
+#include <utility>
+
 namespace culm::port {
 namespace {
 
@@ -21,7 +23,46 @@ Interpolation on_surface(const Eigen::Vector2d& natural) {
   return {around(N, M), around(dN, M), around(N, dM)};
 }
 
+using NodeWeights = Vec<4>;  // of the node before, both nodes of the segment, and the node after
+
+// Slopes at both nodes, times the length of the segment.
+std::pair<NodeWeights, NodeWeights> slopes(const Spacing& s) {
+  const NodeWeights chord(0.0, -1.0, 1.0, 0.0);
+  NodeWeights first = chord, last = chord;
+  if (s.before > 0.0) {
+    first = (s.within / s.before * s.within * NodeWeights(-1.0, 1.0, 0.0, 0.0) + s.before * chord) /
+            (s.before + s.within);
+  }
+  if (s.after > 0.0) {
+    last = (s.within / s.after * s.within * NodeWeights(0.0, 0.0, -1.0, 1.0) + s.after * chord) /
+           (s.after + s.within);
+  }
+  if (s.before == 0.0) first = 2.0 * chord - last;
+  if (s.after == 0.0) last = 2.0 * chord - first;
+  return {first, last};
+}
+
+// The weights of the nodes that are there.
+Interpolation::Column of_nodes(const Spacing& s, const NodeWeights& w) {
+  const int first = s.before > 0.0 ? 0 : 1, last = s.after > 0.0 ? 3 : 2;
+  return w.segment(first, last - first + 1);
+}
+
 }  // namespace
+
+// Hermite's cubics in t = (1 + xi) / 2
+Interpolation interpolate(const Spacing& spacing, double xi) {
+  const double t = 0.5 * (1.0 + xi);
+  const auto [first, last] = slopes(spacing);
+  const NodeWeights at_first = NodeWeights::Unit(1), at_last = NodeWeights::Unit(2);
+  const NodeWeights N = (1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t) * at_first +
+                        t * (1.0 - t) * (1.0 - t) * first + t * t * (3.0 - 2.0 * t) * at_last -
+                        t * t * (1.0 - t) * last;
+  const NodeWeights dN = 6.0 * t * (1.0 - t) * (at_last - at_first) +
+                         (1.0 - t) * (1.0 - 3.0 * t) * first + t * (3.0 * t - 2.0) * last;
+  const Interpolation::Column slope = of_nodes(spacing, 0.5 * dN);
+  return {of_nodes(spacing, N), slope, Interpolation::Column::Zero(slope.size())};
+}
 
 Interpolation interpolate(Shape shape, std::size_t nodes, const Eigen::Vector2d& natural) {
   if (shape == Shape::node) return {Vec<1>::Ones(), Vec<1>::Zero(), Vec<1>::Zero()};

@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace culm::port {
 namespace {
@@ -23,40 +26,114 @@ constexpr double clearly = 1.2;
 constexpr double prolonged = 0.5;
 constexpr double round_off = 1e-9;
 
-// A cell in the reference, with a ball around its nodes.
+// A cell, or a segment of one, in the reference, with a ball around its nodes.
 struct Patch {
-  int structure, cell;
-  Shape shape;
-  const std::vector<int>* nodes;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 16> slots;
-  Vec3 centre;
-  double radius;
+  int structure = -1, cell = -1;
+  Shape shape = Shape::node;
+  std::vector<int> nodes;
+  Spacing spacing = {};     // of a segment
+  int first = 0, last = 0;  // of a line or segment: its ends among the nodes
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 16> slots = {};
+  Vec3 centre = Vec3::Zero();
+  double radius = 0.0;
 
-  std::size_t size() const { return nodes->size(); }
+  bool is_line() const { return shape == Shape::line || shape == Shape::segment; }
+  Interpolation at(const Eigen::Vector2d& natural) const {
+    return shape == Shape::segment ? interpolate(spacing, natural[0])
+                                   : interpolate(shape, nodes.size(), natural);
+  }
 };
 
-Patch make_patch(const model::Model& model, int structure, int number) {
-  const model::Cell& cell = model.structures()[static_cast<std::size_t>(structure)]
-                                .cells[static_cast<std::size_t>(number)];
-  const bool is_surface = model.nodes().kind(cell.nodes.front()) == NodeKind::node6;
-  Patch patch{structure,
-              number,
-              cell.nodes.size() == 1 ? Shape::node : (is_surface ? Shape::surface : Shape::line),
-              &cell.nodes,
-              {},
-              Vec3::Zero(),
-              0.0};
-  const auto count = static_cast<int>(cell.nodes.size());
+// Fills in what follows from shape and nodes.
+Patch complete(Patch patch, const model::Model& model) {
+  const auto count = static_cast<int>(patch.nodes.size());
   patch.slots.resize(3, 4 * count);
   for (int a = 0; a < count; ++a) {
-    patch.slots.middleCols<4>(4 * a) =
-        model::NodeTable::slots(model.nodes().reference(), cell.nodes[static_cast<std::size_t>(a)]);
-    patch.centre += patch.slots.col(4 * a) / count;
+    patch.slots.middleCols<4>(4 * a) = model::NodeTable::slots(
+        model.nodes().reference(), patch.nodes[static_cast<std::size_t>(a)]);
   }
-  for (int a = 0; a < count; ++a) {
+  for (int a = patch.first; a <= patch.last; ++a) {
+    patch.centre += patch.slots.col(4 * a) / (patch.last - patch.first + 1);
+  }
+  for (int a = patch.first; a <= patch.last; ++a) {
     patch.radius = std::max(patch.radius, (patch.slots.col(4 * a) - patch.centre).norm());
   }
   return patch;
+}
+
+Patch make_patch(const model::Model& model, int structure, int number) {
+  Patch patch;
+  patch.structure = structure;
+  patch.cell = number;
+  patch.nodes = model.structures()[static_cast<std::size_t>(structure)]
+                    .cells[static_cast<std::size_t>(number)]
+                    .nodes;
+  if (patch.nodes.size() > 1) {
+    const bool is_surface = model.nodes().kind(patch.nodes.front()) == NodeKind::node6;
+    patch.shape = is_surface ? Shape::surface : Shape::line;
+  }
+  patch.last = static_cast<int>(patch.nodes.size()) - 1;
+  return complete(std::move(patch), model);
+}
+
+// The neighbours of the nodes of a line; at a fork the last one that was seen.
+struct Neighbours {
+  explicit Neighbours(const model::Structure& structure) {
+    for (const model::Cell& cell : structure.cells) {
+      for (std::size_t a = 0; a + 1 < cell.nodes.size(); ++a) {
+        after[cell.nodes[a]] = cell.nodes[a + 1];
+        before[cell.nodes[a + 1]] = cell.nodes[a];
+      }
+    }
+  }
+  std::map<int, int> before, after;
+};
+
+// The parts of a cell between neighbouring nodes, with the nodes beside them.
+void add_segments(const model::Model& model, const Patch& cell, const Neighbours& neighbours,
+                  std::vector<Patch>& patches) {
+  const auto distance = [&](int a, int b) {
+    const model::Coordinates& q = model.nodes().reference();
+    return (model::NodeTable::slots(q, b).col(0) - model::NodeTable::slots(q, a).col(0)).norm();
+  };
+  for (std::size_t a = 0; a + 1 < cell.nodes.size(); ++a) {
+    const int from = cell.nodes[a], to = cell.nodes[a + 1];
+    Patch patch;
+    patch.structure = cell.structure;
+    patch.cell = cell.cell;
+    patch.shape = Shape::segment;
+    patch.nodes = {from, to};
+    patch.spacing.within = distance(from, to);
+    if (const auto found = neighbours.before.find(from); found != neighbours.before.end()) {
+      patch.nodes.insert(patch.nodes.begin(), found->second);
+      patch.spacing.before = distance(found->second, from);
+      patch.first = 1;
+    }
+    patch.last = patch.first + 1;
+    if (const auto found = neighbours.after.find(to); found != neighbours.after.end()) {
+      patch.nodes.push_back(found->second);
+      patch.spacing.after = distance(to, found->second);
+    }
+    patches.push_back(complete(std::move(patch), model));
+  }
+}
+
+std::vector<Patch> make_patches(const model::Model& model, const std::vector<int>& structures,
+                                Weights weights) {
+  std::vector<Patch> patches;
+  for (const int number : structures) {
+    const model::Structure& structure = model.structures()[static_cast<std::size_t>(number)];
+    const Neighbours neighbours(structure);
+    for (std::size_t cell = 0; cell < structure.cells.size(); ++cell) {
+      Patch patch = make_patch(model, number, static_cast<int>(cell));
+      if (patch.shape == Shape::line && weights == Weights::smooth) {
+        add_segments(model, patch, neighbours, patches);
+      } else {
+        patches.push_back(std::move(patch));
+      }
+    }
+  }
+  return patches;
 }
 
 // sum_a w_a q_s,a for each slot s
@@ -67,7 +144,7 @@ model::NodeSlots weighted(const Patch& patch, const Interpolation::Column& weigh
 }
 
 Vec3 axis_point(const Patch& patch, const Eigen::Vector2d& natural) {
-  return weighted(patch, interpolate(patch.shape, patch.size(), natural).N).col(0);
+  return weighted(patch, patch.at(natural).N).col(0);
 }
 
 // x + theta_k d_k
@@ -95,25 +172,26 @@ std::optional<Candidate> solve(const Patch& patch, const Vec3& p) {
   constexpr int most = 20;
   Candidate found;
   found.patch = &patch;
-  if (patch.shape == Shape::line) {
-    const Vec3 first = patch.slots.col(0), chord = patch.slots.rightCols<4>().col(0) - first;
+  if (patch.is_line()) {
+    const Vec3 first = patch.slots.col(4 * patch.first);
+    const Vec3 chord = patch.slots.col(4 * patch.last) - first;
     const double along = (p - first).dot(chord) / chord.squaredNorm();
     found.natural[0] = std::clamp(2.0 * along - 1.0, -1.0, 1.0);
   }
   const double small = 1e-14 * (p.norm() + patch.centre.norm() + patch.radius);
   for (int i = 0; i < most; ++i) {
-    const Interpolation at = interpolate(patch.shape, patch.size(), found.natural);
+    const Interpolation at = patch.at(found.natural);
     const model::NodeSlots slots = weighted(patch, at.N);
     const Vec3 miss = p - at_offset(slots, found.offset);
     Mat3 J;
     J.col(0) = at_offset(weighted(patch, at.N_xi), found.offset);
-    J.col(1) = patch.shape == Shape::line ? Vec3(slots.col(1))
-                                          : at_offset(weighted(patch, at.N_eta), found.offset);
-    J.col(2) = slots.col(patch.shape == Shape::line ? 2 : 1);
+    J.col(1) =
+        patch.is_line() ? Vec3(slots.col(1)) : at_offset(weighted(patch, at.N_eta), found.offset);
+    J.col(2) = slots.col(patch.is_line() ? 2 : 1);
     if (miss.norm() <= small) {
       const Vec3 tangent = weighted(patch, at.N_xi).col(0);
       const Vec3 across =
-          patch.shape == Shape::line ? Vec3(slots.col(1)) : Vec3(weighted(patch, at.N_eta).col(0));
+          patch.is_line() ? Vec3(slots.col(1)) : Vec3(weighted(patch, at.N_eta).col(0));
       found.fibre = J.determinant() / tangent.dot(across.cross(J.col(2)));
       found.foot = slots.col(0);
       found.distance = (p - found.foot).norm();
@@ -122,7 +200,7 @@ std::optional<Candidate> solve(const Patch& patch, const Vec3& p) {
     const Vec3 step = J.partialPivLu().solve(miss);
     if (!step.allFinite() || std::abs(step[0]) > 10.0) return {};
     found.natural[0] += step[0];
-    if (patch.shape == Shape::line) {
+    if (patch.is_line()) {
       found.offset.head<2>() += step.tail<2>();
     } else {
       found.natural[1] += step[1];
@@ -149,8 +227,7 @@ std::optional<Candidate> on_line(const Patch& patch, const Vec3& p) {
       inside && std::abs(inside->natural[0]) <= 1.0 + round_off && inside->fibre > 0.0) {
     return inside;
   }
-  const int last = static_cast<int>(patch.size()) - 1;
-  Candidate first = on_node(patch, 0, p), end = on_node(patch, last, p);
+  Candidate first = on_node(patch, patch.first, p), end = on_node(patch, patch.last, p);
   first.natural[0] = -1.0;
   end.natural[0] = 1.0;
   Candidate nearer = first.distance <= end.distance ? first : end;
@@ -174,7 +251,7 @@ std::optional<Candidate> on_surface(const Patch& patch, const Vec3& p) {
 
 std::optional<Candidate> find_in(const Patch& patch, const Vec3& p) {
   if (patch.shape == Shape::node) return on_node(patch, 0, p);
-  return patch.shape == Shape::line ? on_line(patch, p) : on_surface(patch, p);
+  return patch.is_line() ? on_line(patch, p) : on_surface(patch, p);
 }
 
 // Whether two candidates are two different places, so that choosing one means something.
@@ -183,18 +260,29 @@ bool differ(const Candidate& a, const Candidate& b, double tolerance) {
          (a.foot - b.foot).norm() > std::max(a.distance, b.distance) + tolerance;
 }
 
-Place make_place(const model::Model& model, const Candidate& candidate) {
+Place make_place(const Patch& patch, const Eigen::Vector2d& natural, const Vec3& offset) {
+  const Interpolation at = patch.at(natural);
+  Place place;
+  place.marker.nodes = patch.nodes;
+  place.marker.weights.assign(at.N.begin(), at.N.end());
+  place.marker.offset = patch.shape == Shape::surface ? Vec3(offset[0], 0.0, 0.0) : offset;
+  place.structure = patch.structure;
+  place.cell = patch.cell;
+  place.natural = natural;
+  place.distance = (weighted(patch, at.N).rightCols<3>() * place.marker.offset).norm();
+  return place;
+}
+
+Place make_place(const Candidate& candidate) {
   const Patch& patch = *candidate.patch;
-  if (candidate.node >= 0) {
-    Place place;
-    place.marker = model::marker_at((*patch.nodes)[static_cast<std::size_t>(candidate.node)]);
-    place.marker.offset = candidate.offset;
-    place.structure = patch.structure;
-    place.cell = patch.cell;
-    place.natural = candidate.natural;
-    return place;
-  }
-  return place_in_cell(model, patch.structure, patch.cell, candidate.natural, candidate.offset);
+  if (candidate.node < 0) return make_place(patch, candidate.natural, candidate.offset);
+  Place place;
+  place.marker = model::marker_at(patch.nodes[static_cast<std::size_t>(candidate.node)]);
+  place.marker.offset = candidate.offset;
+  place.structure = patch.structure;
+  place.cell = patch.cell;
+  place.natural = candidate.natural;
+  return place;
 }
 
 // Patches in the order of what they may at best have for a point.
@@ -229,28 +317,12 @@ class Nearest {
 
 Place place_in_cell(const model::Model& model, int structure, int cell,
                     const Eigen::Vector2d& natural, const Vec3& offset) {
-  const Patch patch = make_patch(model, structure, cell);
-  const Interpolation at = interpolate(patch.shape, patch.size(), natural);
-  Place place;
-  place.marker.nodes = *patch.nodes;
-  place.marker.weights.assign(at.N.begin(), at.N.end());
-  place.marker.offset = patch.shape == Shape::surface ? Vec3(offset[0], 0.0, 0.0) : offset;
-  place.structure = structure;
-  place.cell = cell;
-  place.natural = natural;
-  place.distance = (weighted(patch, at.N).rightCols<3>() * place.marker.offset).norm();
-  return place;
+  return make_place(make_patch(model, structure, cell), natural, offset);
 }
 
 Projection project(const model::Model& model, std::span<const double> cloud,
-                   const std::vector<int>& structures) {
-  std::vector<Patch> patches;
-  for (const int structure : structures) {
-    const auto cells = model.structures()[static_cast<std::size_t>(structure)].cells.size();
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      patches.push_back(make_patch(model, structure, static_cast<int>(cell)));
-    }
-  }
+                   const std::vector<int>& structures, Weights weights) {
+  const std::vector<Patch> patches = make_patches(model, structures, weights);
   Nearest nearest(patches);
   const double tolerance = round_off * model.length();
   Projection projection;
@@ -273,7 +345,7 @@ Projection project(const model::Model& model, std::span<const double> cloud,
       projection.places.emplace_back();
       continue;
     }
-    Place place = make_place(model, best);
+    Place place = make_place(best);
     internal_check((position(place.marker, model.nodes().reference()) - p).norm() <=
                        1e-10 * model.length() + 1e-12 * p.norm(),
                    "a point of a port was attached elsewhere");

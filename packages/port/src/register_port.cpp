@@ -1,6 +1,5 @@
 #include <culm/model/find_point.hpp>
 #include <culm/port/point_motion.hpp>
-#include <culm/port/projection.hpp>
 #include <culm/port/register_port.hpp>
 
 #include <fmt/format.h>
@@ -173,10 +172,16 @@ void register_cloud(PortRegistry& registry) {
                       "How far a point may be from axis, mid-surface or node; any distance if "
                       "absent.")
                    .positive()
-                   .optional()),
+                   .optional())
+          .add(choice("Weights", {"Elements", "Smooth"},
+                      "How points between the nodes of lines move with them: by the functions of "
+                      "the elements, or by cubics through neighbouring nodes, which keep a surface "
+                      "smooth.")
+                   .optional("Elements")),
       [](const Options& options, model::BuildContext& context) {
         Cloud cloud{options.numbers("Points"), options.texts("Structures")};
         if (options.has("Reach")) cloud.reach = options.number("Reach");
+        if (options.text("Weights") == "Smooth") cloud.weights = Weights::smooth;
         std::string issue;
         auto places = attach(cloud, context.model, issue);
         if (!issue.empty()) context.issues.add(options.where(), issue);
@@ -202,7 +207,7 @@ std::vector<Place> attach(const Cloud& cloud, const model::Model& model, std::st
     }
     structures.push_back(number_of(structure, model));
   }
-  Projection found = project(model, cloud.points, structures);
+  Projection found = project(model, cloud.points, structures, cloud.weights);
   std::vector<std::size_t> lost = found.lost;
   for (std::size_t p = 0; p < found.places.size(); ++p) {
     if (found.places[p].distance > cloud.reach) lost.push_back(p);

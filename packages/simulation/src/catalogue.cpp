@@ -26,6 +26,7 @@ Catalogue::Catalogue() {
   model::register_amplitudes(functions);
   joint::register_joints(constraints);
   load::register_loads(loads);
+  port::register_ports(ports);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
   register_link_quantities(quantities);
@@ -196,6 +197,12 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(constraints.variants()),
             Presence::defaulted)
       .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(loads.variants()),
+            Presence::defaulted)
+      .list("Ports",
+            Schema("Ports",
+                   "Points by name at which another program sees motion and sets forces and "
+                   "moments from step to step.")
+                .entries_by_type(ports.variants()),
             Presence::defaulted)
       .list("Initial Conditions",
             Schema("Initial Conditions", "How the model moves at the start, by name.")

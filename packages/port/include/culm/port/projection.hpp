@@ -9,6 +9,12 @@
 
 namespace culm::port {
 
+/// Weights of nodes for the points of lines.
+enum class Weights {
+  elements,  ///< those of the elements: surfaces have kinks at the ends of elements
+  smooth,  ///< cubic through neighbouring nodes: surfaces are smooth, third order in their distance
+};
+
 /// A cloud of points of a partner and where they belong.
 struct Projection {
   std::vector<Place> places;      ///< of all points, in their order
@@ -22,8 +28,9 @@ struct Projection {
 /// belongs to the face prolonged by up to half of its size.
 /// @param cloud       3 numbers per point [m]
 /// @param structures  numbers of structures in the model
+/// @param weights     how points between the nodes of lines move with them
 Projection project(const model::Model& model, std::span<const double> cloud,
-                   const std::vector<int>& structures);
+                   const std::vector<int>& structures, Weights weights);
 
 /// A point of a cell at natural coordinates, with an offset in the directors there. Of a surface
 /// only the first component of the offset counts.

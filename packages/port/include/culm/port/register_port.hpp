@@ -4,6 +4,7 @@
 #include <culm/base/registry.hpp>
 #include <culm/model/build_context.hpp>
 #include <culm/port/port.hpp>
+#include <culm/port/projection.hpp>
 
 #include <limits>
 #include <memory>
@@ -23,6 +24,7 @@ struct Cloud {
   std::vector<double> points;           ///< 3 numbers per point, in the reference [m]
   std::vector<std::string> structures;  ///< on which they may lie; all if empty
   double reach = std::numeric_limits<double>::infinity();  ///< how far they may be from them [m]
+  Weights weights = Weights::elements;
 };
 
 /// The places of a cloud. @param issue  says why a point or a structure has none; empty if all have
