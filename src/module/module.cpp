@@ -10,8 +10,10 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -23,6 +25,7 @@ namespace {
 
 using culm::Snapshot;
 using culm::analysis::Stepper;
+using culm::port::Quantity;
 using culm::simulation::Simulation;
 
 // MPI and Trilinos, from the import of the module to the end of Python.
@@ -115,6 +118,68 @@ void set_load(Live& live, const std::string& name, const Values& values) {
   live.simulation().set_load(name, {values.data(), values.data() + values.size()});
 }
 
+// A port of a simulation; found by name, for the model changes from analysis to analysis.
+class PortHandle {
+ public:
+  PortHandle(Live& live, std::string name) : live_(live), name_(std::move(name)) { get(); }
+
+  const culm::port::Port& get() const { return live_.simulation().port(name_); }
+  Simulation& simulation() const { return live_.simulation(); }
+  const std::string& name() const { return name_; }
+
+ private:
+  Live& live_;
+  std::string name_;
+};
+
+// Numbers of points as an array of one row per point.
+py::array rows_of(const std::vector<double>& values, int points) {
+  const auto rows = static_cast<py::ssize_t>(points);
+  const auto columns = static_cast<py::ssize_t>(values.size()) / rows;
+  if (columns == 9)
+    return py::array_t<double>({rows, py::ssize_t{3}, py::ssize_t{3}}, values.data());
+  return py::array_t<double>({rows, columns}, values.data());
+}
+
+py::array read(const PortHandle& port, Quantity quantity) {
+  std::vector<double> values;
+  {
+    const py::gil_scoped_release free;  // other ranks and threads may have to come
+    values = port.simulation().read_port(port.name(), quantity);
+  }
+  return rows_of(values, port.get().size());
+}
+
+// The numbers of an array with three columns: any stride, order and number type.
+std::span<const double> three_columns(const Values& values, const std::string& what) {
+  if (values.ndim() != 2 || values.shape(1) != 3) {
+    throw culm::UsageError(what + " must have the shape (points, 3)");
+  }
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+void set_port(const PortHandle& port, const Values& force, const std::optional<Values>& moment) {
+  port.simulation().set_port(port.name(), three_columns(force, "force"),
+                             moment ? three_columns(*moment, "moment") : std::span<const double>());
+}
+
+void add_port(Live& live, const std::string& name, const Values& points,
+              const std::vector<std::string>& structures, double reach, bool smooth) {
+  const std::span<const double> numbers = three_columns(points, "points");
+  const auto weights = smooth ? culm::port::Weights::smooth : culm::port::Weights::elements;
+  live.simulation().add_port(name, {{numbers.begin(), numbers.end()}, structures, reach, weights});
+}
+
+py::dict exchange(const PortHandle& port) {
+  const culm::port::Exchange sum = port.simulation().exchange(port.name());
+  py::dict numbers;
+  numbers["work"] = sum.work;
+  numbers["force"] = py::array_t<double>(3, sum.force.data());
+  numbers["moment"] = py::array_t<double>(3, sum.moment.data());
+  numbers["not_carried"] = sum.not_carried;
+  return numbers;
+}
+
 py::dict quantities(Live& live) {
   py::dict all;
   const std::vector<double> numbers = live.simulation().quantities();
@@ -204,6 +269,43 @@ PYBIND11_MODULE(_culm, module) {
       .def_property_readonly("is_exhausted",
                              [](const Handle& stepper) { return stepper->is_exhausted(); });
 
+  const auto column = [](Quantity quantity) {
+    return [quantity](const PortHandle& port) { return read(port, quantity); };
+  };
+  py::class_<PortHandle>(module, "Port",
+                         "Points of structures at which a program sees motion and sets loads. "
+                         "Arrays are copies with one row per point.")
+      .def_property_readonly("name", &PortHandle::name)
+      .def("__len__", [](const PortHandle& port) { return port.get().size(); })
+      .def_property_readonly(
+          "reference",
+          [](const PortHandle& port) { return rows_of(port.get().reference(), port.get().size()); },
+          "Positions in the reference, shape (points, 3) [m].")
+      .def_property_readonly("position", column(Quantity::position),
+                             "Positions, shape (points, 3) [m].")
+      .def_property_readonly("rotation", column(Quantity::rotation),
+                             "Rotations against the reference, shape (points, 3, 3).")
+      .def_property_readonly("velocity", column(Quantity::velocity),
+                             "Velocities and angular velocities, shape (points, 6) [m/s, rad/s].")
+      .def_property_readonly("acceleration", column(Quantity::acceleration),
+                             "Their mean accelerations in the open step, shape (points, 6) "
+                             "[m/s^2, rad/s^2].")
+      .def_property_readonly("motion", column(Quantity::motion),
+                             "Motion in the open step and rotation vector 2 tan(angle / 2), what "
+                             "loads work on, shape (points, 6) [m, rad].")
+      .def("set", &set_port, py::arg("force"), py::arg("moment") = py::none(),
+           "Sets forces [N] and moments [N m] of all attempts from now on, shape (points, 3), in "
+           "space: in dynamics means over the step. Without moments these are zero.")
+      .def("exchange", &exchange,
+           "What the loads do in the open step: work [J], resultant force [N], moment about the "
+           "origin [N m] and what of moments no director of a shell takes [N m].")
+      .def(
+          "write",
+          [](const PortHandle& port, const std::string& path) {
+            port.simulation().write_port(port.name(), path);
+          },
+          py::arg("path"), "Draws the points in the reference, as a VTU file.");
+
   py::class_<Live>(module, "Simulation", "A deck whose steps the caller makes.")
       .def(py::init<const std::string&, std::vector<std::string>>(), py::arg("deck"),
            py::arg("overrides") = std::vector<std::string>{},
@@ -214,10 +316,21 @@ PYBIND11_MODULE(_culm, module) {
             live.begin(analysis);
             return Handle(live);
           },
-          py::arg("analysis") = "", py::keep_alive<0, 1>(),
+          py::arg("analysis") = "", py::keep_alive<0, 1>(), Free(),
           "Takes up an analysis that makes steps, the first one if no name is given.")
       .def("set_load", &set_load, py::arg("name"), py::arg("values"),
            "Sets a load of type 'External': force [N] and moment [N m] of each node.")
+      .def("add_port", &add_port, py::arg("name"), py::arg("points"),
+           py::arg("structures") = std::vector<std::string>{},
+           py::arg("reach") = std::numeric_limits<double>::infinity(), py::arg("smooth") = false,
+           "Attaches points, shape (points, 3) [m] in the reference, to the nearest of some "
+           "structures, all if none are named; before the first begin.")
+      .def(
+          "port", [](Live& live, const std::string& name) { return PortHandle(live, name); },
+          py::arg("name"), py::keep_alive<0, 1>(), "A port of the deck, or one that was added.")
+      .def_property_readonly(
+          "ports", [](Live& live) { return live.simulation().port_names(); },
+          "The names of all ports.")
       .def(
           "set_signal",
           [](Live& live, const std::string& name, double value) {

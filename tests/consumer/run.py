@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Installs culm and builds and runs the programs of doc/guide/library.md against what was installed.
+"""Installs culm and builds and runs the programs of the guide against what was installed.
 
 usage: run.py --build FOLDER --cmake PROGRAM
 """
@@ -13,13 +13,16 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "doc/guide/library.md"
-DECK = ROOT / "inputs/turbine/nrel5mw/turbine_operation.xml"
+HERE = pathlib.Path(__file__).resolve().parent
+LIBRARY = ROOT / "doc/guide/library.md"
+COUPLING = ROOT / "doc/guide/coupling.md"
+TURBINE = ROOT / "inputs/turbine/nrel5mw/turbine_operation.xml"
+C = ["cc", "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
 
 
-def block(language):
-    """The first block of the page in a language."""
-    return re.search(rf"```{language}\n(.*?)```\n", PAGE.read_text(), re.DOTALL).group(1)
+def block(page, language):
+    """The first block of a page in a language."""
+    return re.search(rf"```{language}\n(.*?)```\n", page.read_text(), re.DOTALL).group(1)
 
 
 def run(*command, **options):
@@ -30,30 +33,77 @@ def run(*command, **options):
     return done.stdout
 
 
+class Installed:
+    """culm in a folder of its own, and programs that use it."""
+
+    def __init__(self, folder, build, cmake):
+        self.folder, self.cmake = folder, cmake
+        self.prefix = folder / "installed"
+        run(cmake, "--install", build, "--prefix", self.prefix)
+        self.library = next(self.prefix.glob("lib*/**/libculm.so")).parent
+
+    def build_cpp(self, page):
+        source = self.folder / f"cpp_{page.stem}"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(block(LIBRARY, "cmake"))
+        (source / "driver.cpp").write_text(block(page, "cpp"))
+        run(self.cmake, "-S", source, "-B", source / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run(self.cmake, "--build", source / "build")
+        return source / "build/driver"
+
+    def build_c(self, text, name):
+        (self.folder / f"{name}.c").write_text(text)
+        run(*C, self.folder / f"{name}.c", f"-I{self.prefix}/include", f"-L{self.library}",
+            f"-Wl,-rpath,{self.library}", "-lculm", "-lm", "-o", self.folder / name)
+        return self.folder / name
+
+    def run_python(self, text, name, *arguments):
+        (self.folder / f"{name}.py").write_text(text)
+        environment = {**os.environ, "PYTHONPATH": str(self.prefix / "share/culm/python"),
+                       "PYTHONDONTWRITEBYTECODE": "1"}
+        return run(sys.executable, self.folder / f"{name}.py", *arguments, env=environment)
+
+    def check_symbols(self):
+        """The library shows the functions of its header and nothing else."""
+        declared = set(re.findall(r"CULM_API .*?(culm_\w+)\(", (self.prefix / "include/culm.h").read_text()))
+        shown = {line.split()[-1] for line in
+                 run("nm", "-D", "--defined-only", self.library / "libculm.so").splitlines()}
+        if declared != shown:
+            sys.exit(f"culm.h and libculm.so differ in {sorted(declared ^ shown)[:20]}")
+
+
+def check_library(culm):
+    from_cpp = run(culm.build_cpp(LIBRARY), TURBINE)
+    from_python = culm.run_python(block(LIBRARY, "python"), "library", TURBINE)
+    print(f"C++: {from_cpp}Python: {from_python}", end="")
+    without_wind = -0.016  # [m]
+    if from_cpp != from_python or float(from_cpp) < without_wind + 0.1:
+        sys.exit("the programs do not agree, or the wind did not push the nacelle")
+
+
+def check_coupling(culm):
+    deck = culm.folder / "mast.xml"
+    deck.write_text(block(COUPLING, "xml"))
+    texts = [run(culm.build_cpp(COUPLING), deck), run(culm.build_c(block(COUPLING, "c"), "driver"), deck),
+             culm.run_python(block(COUPLING, "python"), "coupling", deck)]
+    print(*texts, sep="", end="")
+    top, work = (float(word) for word in re.findall(r"([-.\d]+) [mJ]", texts[0]))
+    if len(set(texts)) > 1 or top < 0.1 or work < 1.0:
+        sys.exit("the programs do not agree, or the wind did not push the mast")
+    print(run(culm.build_c((HERE / "errors.c").read_text(), "errors"), deck), end="")
+    print(culm.run_python((HERE / "arrays.py").read_text(), "arrays", deck), end="")
+    culm.check_symbols()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", required=True, type=pathlib.Path)
     parser.add_argument("--cmake", required=True)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="culm-consumer-") as path:
-        folder = pathlib.Path(path)
-        run(options.cmake, "--install", options.build, "--prefix", folder / "installed")
-        source = folder / "source"
-        source.mkdir()
-        (source / "CMakeLists.txt").write_text(block("cmake"))
-        (source / "driver.cpp").write_text(block("cpp"))
-        (source / "driver.py").write_text(block("python"))
-        run(options.cmake, "-S", source, "-B", folder / "build", "-G", "Ninja",
-            f"-DCMAKE_PREFIX_PATH={folder / 'installed'}")
-        run(options.cmake, "--build", folder / "build")
-        from_cpp = run(folder / "build/driver", DECK)
-        python = {**os.environ, "PYTHONPATH": str(folder / "installed/share/culm/python"),
-                  "PYTHONDONTWRITEBYTECODE": "1"}
-        from_python = run(sys.executable, source / "driver.py", DECK, env=python)
-        print(f"C++: {from_cpp}Python: {from_python}", end="")
-        without_wind = -0.016  # [m]
-        if from_cpp != from_python or float(from_cpp) < without_wind + 0.1:
-            sys.exit("the programs do not agree, or the wind did not push the nacelle")
+        culm = Installed(pathlib.Path(path), options.build, options.cmake)
+        check_library(culm)
+        check_coupling(culm)
 
 
 if __name__ == "__main__":

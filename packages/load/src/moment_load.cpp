@@ -1,8 +1,7 @@
 #include <culm/load/moment_load.hpp>
+#include <culm/load/slot_kernel.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/model/signal_column.hpp>
-
-#include "slot_kernel.hpp"
 
 #include <Eigen/LU>
 

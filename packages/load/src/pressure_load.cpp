@@ -1,9 +1,9 @@
 #include <culm/load/pressure_load.hpp>
+#include <culm/load/slot_kernel.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/model/item_motion.hpp>
 
 #include "face_points.hpp"
-#include "slot_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>

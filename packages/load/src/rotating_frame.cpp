@@ -1,9 +1,9 @@
 #include <culm/base/error.hpp>
 #include <culm/load/rotating_frame.hpp>
+#include <culm/load/slot_kernel.hpp>
 #include <culm/model/item_motion.hpp>
 
 #include "both_frames.hpp"
-#include "slot_kernel.hpp"
 #include "types.hpp"
 
 #include <fmt/format.h>

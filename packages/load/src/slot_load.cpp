@@ -1,9 +1,8 @@
 #include <culm/base/error.hpp>
+#include <culm/load/slot_kernel.hpp>
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
 #include <culm/model/signal_column.hpp>
-
-#include "slot_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include <culm/base/nearest.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/model/find_point.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -65,14 +66,17 @@ Field point_field(std::string name, std::string doc) {
 
 std::optional<Marker> select_point(const Options& options, const std::string& parameter,
                                    BuildContext& context) {
-  const std::string& name = options.text(parameter);
+  return find_point(options.text(parameter), options.where(parameter), context);
+}
+
+std::optional<Marker> find_point(const std::string& name, const Where& where,
+                                 BuildContext& context) {
   const auto at = name.find('@');
   if (at == std::string::npos) {
-    const std::vector<int> nodes = select_nodes(options, parameter, context);
+    const std::vector<int> nodes = find_nodes(name, where, context);
     if (nodes.size() == 1) return marker_at(nodes.front());
     if (nodes.size() > 1) {
-      context.issues.add(options.where(parameter),
-                         "must name one node, got " + std::to_string(nodes.size()));
+      context.issues.add(where, "must name one node, got " + std::to_string(nodes.size()));
     }
     return {};
   }
@@ -85,14 +89,12 @@ std::optional<Marker> select_point(const Options& options, const std::string& pa
   if (structure == nullptr) {
     std::vector<std::string> names;
     for (const Structure& one : context.model.structures()) names.push_back(one.name);
-    context.issues.add(options.where(parameter), "unknown structure in '" + name + "'" +
-                                                     did_you_mean(name.substr(0, at), names));
+    context.issues.add(
+        where, "unknown structure in '" + name + "'" + did_you_mean(name.substr(0, at), names));
   } else if (!is_number || !(fraction >= 0.0 && fraction <= 1.0)) {
-    context.issues.add(options.where(parameter),
-                       "needs a fraction between 0 and 1 behind '@', got '" + name + "'");
+    context.issues.add(where, "needs a fraction between 0 and 1 behind '@', got '" + name + "'");
   } else if (marker = marker_at_fraction(*structure, fraction); !marker) {
-    context.issues.add(options.where(parameter),
-                       "structure '" + structure->name + "' is no line, got '" + name + "'");
+    context.issues.add(where, "structure '" + structure->name + "' is no line, got '" + name + "'");
   }
   return marker;
 }

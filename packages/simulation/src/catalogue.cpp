@@ -29,6 +29,7 @@ Catalogue::Catalogue() {
   register_sampled_signal(signals);
   joint::register_joints(constraints);
   load::register_loads(loads);
+  port::register_ports(ports);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
   register_signal_quantity(quantities);
@@ -207,6 +208,12 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(constraints.variants()),
             Presence::defaulted)
       .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(loads.variants()),
+            Presence::defaulted)
+      .list("Ports",
+            Schema("Ports",
+                   "Points by name at which another program sees motion and sets forces and "
+                   "moments from step to step.")
+                .entries_by_type(ports.variants()),
             Presence::defaulted)
       .list("Initial Conditions",
             Schema("Initial Conditions", "How the model moves at the start, by name.")

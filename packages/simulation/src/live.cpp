@@ -35,8 +35,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     keep_state(entries[p.present].name(), p.state);
   }
   p.phases.enter(p.present, p.comm, p.ledger);
+  const Phase& before = p.phases.of(p.present);
   start_analysis(number, p.state);
   Phase& phase = p.phases.enter(number, p.comm, p.ledger);
+  hand_over_loads(before, phase);
   p.findings.begin(entries[number].name());
   p.context.emplace(
       analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});

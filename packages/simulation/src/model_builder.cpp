@@ -170,11 +170,22 @@ std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const O
   return watched;
 }
 
+std::vector<std::unique_ptr<port::Port>> make_ports(const Catalogue& catalogue, const Options& list,
+                                                    model::BuildContext& context) {
+  std::vector<std::unique_ptr<port::Port>> ports;
+  for (const Options& entry : list.entries()) {
+    auto places = catalogue.ports.make(entry.text("Type"), entry, context);
+    if (places.empty()) continue;
+    ports.push_back(port::add_port(entry.name(), std::move(places), context.model));
+  }
+  return ports;
+}
+
 }  // namespace
 
-std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
-                                         const Imperfections& imperfections, const Setting& setting,
-                                         const Log& log, double memory, model::Model& model) {
+BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
+                      const Imperfections& imperfections, const Setting& setting, const Log& log,
+                      double memory, model::Model& model) {
   InputIssues issues;
   model::SizeBudget budget(memory);
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
@@ -196,6 +207,7 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
   build_signals(catalogue.signals, deck.list("Signals"), model, functions, issues);
   build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
   build_all(catalogue.loads, deck.list("Loads"), context, setting.inactive);
+  auto ports = make_ports(catalogue, deck.list("Ports"), context);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
   auto watched =
       make_quantities(catalogue, deck.list("Output").list("History"), setting.inactive, context);
@@ -211,7 +223,7 @@ std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Optio
     if (!objection.empty()) issues.add(history.entries()[i].where("Node"), objection);
   }
   issues.throw_if_any();
-  return watched;
+  return {std::move(watched), std::move(ports)};
 }
 
 }  // namespace culm::simulation

@@ -2,20 +2,29 @@
 #pragma once
 
 #include <culm/base/log.hpp>
+#include <culm/port/port.hpp>
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
 
 #include "imperfections.hpp"
 #include "phase.hpp"
 
+#include <memory>
+#include <vector>
+
 namespace culm::simulation {
+
+/// What belongs to a model beside it.
+struct BuiltWith {
+  std::vector<WatchedQuantity> watched;            ///< by the history
+  std::vector<std::unique_ptr<port::Port>> ports;  ///< of the deck
+};
 
 /// Fills the model with all that the deck lists but what does not act, and freezes it. Throws
 /// InputError with all mistakes.
 /// @param memory  what the model may need [B]
-/// @return the quantities that the history watches
-std::vector<WatchedQuantity> build_model(const Catalogue& catalogue, const Options& deck,
-                                         const Imperfections& imperfections, const Setting& setting,
-                                         const Log& log, double memory, model::Model& model);
+BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
+                      const Imperfections& imperfections, const Setting& setting, const Log& log,
+                      double memory, model::Model& model);
 
 }  // namespace culm::simulation

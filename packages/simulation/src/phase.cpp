@@ -1,5 +1,6 @@
 #include "phase.hpp"
 
+#include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
 
 #include "earlier_states.hpp"
@@ -146,9 +147,28 @@ Phase& Phases::find_or_build(const Setting& setting) {
 
 void Phases::build(Phase& phase) const {
   phase.watched.clear();
+  phase.ports.clear();
   phase.model = std::make_unique<model::Model>();
-  phase.watched =
+  BuiltWith built =
       build_model(catalogue_, deck_, imperfections_, phase.setting, log_, memory_, *phase.model);
+  phase.watched = std::move(built.watched);
+  phase.ports = std::move(built.ports);
+  for (const auto& [name, cloud] : clouds_) attach(name, cloud, phase);
+}
+
+void Phases::attach(const std::string& name, const port::Cloud& cloud, Phase& phase) {
+  std::string issue;
+  auto places = port::attach(cloud, *phase.model, issue);
+  if (!issue.empty()) throw UsageError("port '" + name + "': " + issue);
+  phase.ports.push_back(port::add_port(name, std::move(places), *phase.model));
+}
+
+void Phases::add_port(const std::string& name, port::Cloud cloud) {
+  for (Phase& phase : phases_) {
+    attach(name, cloud, phase);
+    phase.system.reset();  // its graph and its batches are others now
+  }
+  clouds_.emplace_back(name, std::move(cloud));
 }
 
 // A state of one geometry would be under stress in another.
@@ -213,6 +233,12 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
     phase.system->save(state, phase.reference);
   }
   return phase;
+}
+
+// All phases have the same ports in the same order.
+void hand_over_loads(const Phase& from, Phase& to) {
+  if (&from == &to) return;
+  for (std::size_t i = 0; i < to.ports.size(); ++i) to.ports[i]->take_loads(*from.ports[i]);
 }
 
 Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to) {

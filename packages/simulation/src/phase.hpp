@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/analysis.hpp>
+#include <culm/port/register_port.hpp>
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
 
@@ -13,6 +14,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::simulation {
@@ -34,7 +36,8 @@ struct Phase {
   std::set<std::string> bent_by;  ///< imperfections that analyses of this run find
   std::unique_ptr<model::Model> model;
   std::vector<WatchedQuantity> watched;
-  std::vector<SampledSignal> samples;        ///< from what is watched
+  std::vector<SampledSignal> samples;  ///< from what is watched
+  std::vector<std::unique_ptr<port::Port>> ports;
   std::unique_ptr<assembly::System> system;  ///< made when it is first needed
   solver::ChosenSolver linear;
   Snapshot reference;  ///< its state at the beginning, if an analysis starts from there
@@ -55,10 +58,14 @@ class Phases {
   /// found.
   Phase& enter(std::size_t analysis, const parallel::Comm& comm, Ledger& ledger);
   const Phase& of(std::size_t analysis) const { return *by_analysis_[analysis]; }
+  /// Adds a port to all models, beside those of the deck; before any analysis begins. Throws
+  /// UsageError where a point has no place.
+  void add_port(const std::string& name, port::Cloud cloud);
 
  private:
   Phase& find_or_build(const Setting& setting);
   void build(Phase& phase) const;
+  static void attach(const std::string& name, const port::Cloud& cloud, Phase& phase);
   void refuse_jumps() const;
   void complete_columns();
 
@@ -66,10 +73,14 @@ class Phases {
   const Options& deck_;
   const Imperfections& imperfections_;
   const Log& log_;
-  double memory_;  ///< that each model may need [B]
+  double memory_;                                            ///< that each model may need [B]
+  std::vector<std::pair<std::string, port::Cloud>> clouds_;  ///< of ports that a program added
   std::deque<Phase> phases_;
   std::vector<Phase*> by_analysis_;
 };
+
+/// Loads of ports go on in the next phase.
+void hand_over_loads(const Phase& from, Phase& to);
 
 /// A state of one phase as another one understands it: nodes as they are, multipliers by the names
 /// of their constraints, memories of batches by their effects; what is new begins at zero.

@@ -2,6 +2,7 @@
 #include <culm/base/version.hpp>
 #include <culm/deck/resolved.hpp>
 #include <culm/output/folder_lock.hpp>
+#include <culm/port/report.hpp>
 #include <culm/simulation/identity.hpp>
 #include <culm/simulation/input_files.hpp>
 #include <culm/simulation/resume.hpp>
@@ -10,6 +11,7 @@
 
 #include "model_report.hpp"
 #include "on_root.hpp"
+#include "port_picture.hpp"
 #include "run_observer.hpp"
 #include "simulation_parts.hpp"
 
@@ -73,6 +75,12 @@ void Simulation::Parts::warn_of_reference() {
   findings.warn("turned element", to_string(where) + ": " + reference_turn.warning(), 0.0);
 }
 
+void Simulation::Parts::tell_of(const port::Port& port) {
+  const model::Model& model = *phases.of(0).model;
+  log.info(port::describe(port, model));
+  for (const std::string& doubt : port::doubts(port, model)) findings.warn("port", doubt, 0.0);
+}
+
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log, double memory)
     : Simulation(std::unique_ptr<Parts>(
@@ -81,6 +89,7 @@ Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, c
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
   parts_->phases.enter(0, parts_->comm, parts_->ledger);
   parts_->warn_of_reference();
+  for (const auto& port : parts_->phases.of(0).ports) parts_->tell_of(*port);
 }
 
 Simulation Simulation::open(const std::string& path, std::vector<std::string> overrides,
@@ -122,6 +131,13 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     p.findings.warn("external load",
                     "load '" + name + "' is zero: only a program that makes the steps can set it",
                     0.0);
+  }
+  for (const auto& port : phase.ports) {
+    p.findings.warn("port",
+                    "port '" + port->name() +
+                        "' has no loads: only a program that makes the steps can set them",
+                    0.0);
+    write_port(port->name(), settings.folder / port_picture(port->name()));
   }
   model::State state = phase.model->initial_state();
   try {

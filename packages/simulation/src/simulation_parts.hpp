@@ -37,6 +37,7 @@ struct Simulation::Parts {
   std::unique_ptr<analysis::Stepper> stepper = {};
 
   void warn_of_reference();
+  void tell_of(const port::Port& port);
 };
 
 }  // namespace culm::simulation

@@ -1,57 +1,16 @@
 #include <culm/base/error.hpp>
-#include <culm/simulation/simulation.hpp>
+
+#include "live_deck.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
-#include <utility>
+#include <vector>
 
 namespace culm::simulation {
 namespace {
-
-// A cantilever whose end is pushed: by a load of a deck, or by one that a program sets.
-std::string cantilever(const std::string& load) {
-  return R"(<ParameterList name="culm">
-  <ParameterList name="Sections"><ParameterList name="bar">
-    <Parameter name="Type" value="Stiffness Values"/>
-    <Parameter name="EA" value="100"/> <Parameter name="GA1" value="50"/>
-    <Parameter name="GA2" value="50"/> <Parameter name="EI1" value="2"/>
-    <Parameter name="EI2" value="2"/> <Parameter name="GIp" value="1"/>
-    <Parameter name="rhoA" value="1"/> <Parameter name="rhoI1" value="0.01"/>
-    <Parameter name="rhoI2" value="0.01"/>
-  </ParameterList></ParameterList>
-  <ParameterList name="Structures"><ParameterList name="beam">
-    <Parameter name="Type" value="Beam"/> <Parameter name="Section" value="bar"/>
-    <ParameterList name="Curve">
-      <Parameter name="Type" value="Line"/> <Parameter name="From" value="{0, 0, 0}"/>
-      <Parameter name="To" value="{1, 0, 0}"/> <Parameter name="Elements" value="3"/>
-    </ParameterList>
-  </ParameterList></ParameterList>
-  <ParameterList name="Constraints"><ParameterList name="clamp">
-    <Parameter name="Type" value="Rigid Support"/> <Parameter name="Node" value="beam/first"/>
-  </ParameterList></ParameterList>
-  <ParameterList name="Loads">)" +
-         load + R"(</ParameterList>
-  <ParameterList name="Analyses">
-    <ParameterList name="bending">
-      <Parameter name="Type" value="Static"/> <Parameter name="Steps" value="2"/>
-    </ParameterList>
-    <ParameterList name="modes">
-      <Parameter name="Type" value="Modal"/> <Parameter name="Modes" value="1"/>
-    </ParameterList>
-    <ParameterList name="motion">
-      <Parameter name="Type" value="Dynamic"/> <Parameter name="Start Time" value="0"/>
-      <Parameter name="End Time" value="0.5"/> <Parameter name="Step" value="0.05"/>
-    </ParameterList>
-  </ParameterList>
-  <ParameterList name="Output"><ParameterList name="History"><ParameterList name="end">
-    <Parameter name="Type" value="Displacement"/> <Parameter name="Node" value="beam/last"/>
-  </ParameterList></ParameterList></ParameterList>
-</ParameterList>)";
-}
 
 const std::string external = R"(<ParameterList name="push">
   <Parameter name="Type" value="External"/> <Parameter name="Node" value="beam/last"/>
@@ -64,18 +23,6 @@ const std::string constant = R"(<ParameterList name="force">
   <Parameter name="Type" value="Moment"/> <Parameter name="Node" value="beam/last"/>
   <Parameter name="Moment" value="{0.3, 0, 0.1}"/> <Parameter name="Function" value="Constant"/>
 </ParameterList>)";
-
-struct Live {
-  explicit Live(const std::string& text)
-      : source{{{"deck.xml", text}}, {}},
-        simulation(parallel::Comm(), catalogue, read_deck(catalogue, source), source,
-                   Log(said, LogLevel::info)) {}
-
-  Catalogue catalogue;
-  DeckSource source;
-  std::ostringstream said;
-  Simulation simulation;
-};
 
 const std::vector<double> push = {0.1, 0.5, -0.2, 0.3, 0.0, 0.1};
 

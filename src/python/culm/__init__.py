@@ -1,6 +1,6 @@
 """culm from Python: simulations step by step, results as tables, and the verbs written in Python."""
 
-_LIBRARY = ("Simulation", "Stepper", "Snapshot", "Error", "UsageError", "InputError", "NumericalError",
+_LIBRARY = ("Simulation", "Stepper", "Snapshot", "Port", "Error", "UsageError", "InputError", "NumericalError",
             "NonFiniteError", "FileError")
 
 

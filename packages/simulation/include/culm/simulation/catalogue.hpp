@@ -7,6 +7,7 @@
 #include <culm/hybrid/tube.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/port/register_port.hpp>
 #include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/quantity.hpp>
 
@@ -29,6 +30,7 @@ struct Catalogue {
   control::SignalRegistry signals;
   model::BuilderRegistry constraints;
   model::BuilderRegistry loads;
+  port::PortRegistry ports;
   analysis::AnalysisRegistry analyses;
   QuantityRegistry quantities;
 

@@ -6,6 +6,7 @@
 #include <culm/base/log.hpp>
 #include <culm/base/options.hpp>
 #include <culm/parallel/comm.hpp>
+#include <culm/port/register_port.hpp>
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/memory.hpp>
 #include <culm/simulation/read_deck.hpp>
@@ -13,6 +14,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,6 +75,23 @@ class Simulation {
   /// snapshot that is restored brings back the value of its time. Call it on all ranks alike.
   /// Throws UsageError for an unknown name, NonFiniteError for a value that is no number.
   void set_signal(const std::string& name, double value);
+  /// Adds a port at the points of a partner, beside those of the deck; before the first begin().
+  /// Throws UsageError where the name is taken, where points belong to no structure, or later.
+  void add_port(const std::string& name, port::Cloud cloud);
+  std::vector<std::string> port_names() const;
+  /// Of the analysis that was taken up, or of the first one. Throws UsageError for an unknown name.
+  const port::Port& port(const std::string& name) const;
+  /// A quantity of all points of a port at state(), point after point; collective.
+  std::vector<double> read_port(const std::string& name, port::Quantity quantity);
+  /// Sets forces and moments at all points of a port for all attempts from now on, also of other
+  /// analyses. Call it on all ranks alike. Throws what Port::set_loads throws.
+  void set_port(const std::string& name, std::span<const double> forces,
+                std::span<const double> moments = {});
+  /// What the loads of a port did in the open step; collective.
+  port::Exchange exchange(const std::string& name);
+  /// Writes the points of a port in the reference for ParaView: a VTU file with the structure, the
+  /// lever from it, and what is doubtful. Collective; throws FileError.
+  void write_port(const std::string& name, const std::filesystem::path& path) const;
   /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by
   /// number.
   std::vector<int> nodes(const std::string& name) const;
@@ -106,6 +125,8 @@ class Simulation {
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void keep_state(const std::string& name, model::State& state);
+  /// state(), with the start of the step as well up to date on all ranks; collective.
+  const model::State& both_ends();
   void write_last_checkpoint(RunObserver& observer) const;
 
   struct Parts;

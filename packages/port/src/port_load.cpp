@@ -1,0 +1,165 @@
+#include <culm/base/error.hpp>
+#include <culm/load/couple.hpp>
+#include <culm/load/slot_kernel.hpp>
+#include <culm/port/point_motion.hpp>
+#include <culm/port/port_load.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace culm::port {
+namespace {
+
+using Slots = model::BoundedSlots<PortLoad::max_nodes>;
+constexpr int max_coordinates = 12 * PortLoad::max_nodes;
+using SlotTangent = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                                  max_coordinates, max_coordinates>;
+
+// sum_a N_a d_k,a at the slots of an item
+Mat3 directors_at(const model::Marker& point, const Slots& slots) {
+  Mat3 d = Mat3::Zero();
+  for (std::size_t a = 0; a < point.weights.size(); ++a) {
+    d += point.weights[a] * slots.middleCols<3>(4 * static_cast<int>(a) + 1);
+  }
+  return d;
+}
+
+// K -= theta N_a N_b df/dd for the pairs of nodes (a, b)
+void add_couple_tangent(const model::Marker& point, const Mat<9, 9>& derivative, double theta,
+                        SlotTangent& K) {
+  for (std::size_t a = 0; a < point.weights.size(); ++a) {
+    for (std::size_t b = 0; b < point.weights.size(); ++b) {
+      K.block<9, 9>(12 * static_cast<int>(a) + 3, 12 * static_cast<int>(b) + 3) -=
+          theta * point.weights[a] * point.weights[b] * derivative;
+    }
+  }
+}
+
+}  // namespace
+
+PortLoad::PortLoad(std::string effect, const model::NodeTable& nodes,
+                   std::vector<model::Marker> points)
+    : MemorylessBatch(std::move(effect)),
+      nodes_(nodes),
+      points_(std::move(points)),
+      moments_(points_.size(), Vec3::Zero()) {
+  std::map<std::vector<int>, std::size_t> places;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const std::vector<int>& on = points_[p].nodes;
+    internal_check(on.size() <= max_nodes,
+                   "a point lies between more nodes than ports provide for");
+    const auto [place, is_new] = places.emplace(on, items_.size());
+    if (is_new) {
+      Item& item = items_.emplace_back();
+      item.nodes = on;
+      item.kind = kind_of(points_[p], nodes);
+      item.forces.setZero(3, 4 * static_cast<int>(on.size()));
+    }
+    items_[place->second].points.push_back(p);
+  }
+}
+
+void PortLoad::set(std::span<const Vec3> forces, std::span<const Vec3> moments) {
+  internal_check(forces.size() == points_.size() && moments.size() == points_.size(),
+                 "a port got loads for another number of points");
+  std::copy(moments.begin(), moments.end(), moments_.begin());
+  for (Item& item : items_) {
+    item.forces.setZero();
+    item.has_moments = false;
+    for (const std::size_t p : item.points) {
+      const model::Marker& point = points_[p];
+      for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+        const Vec<4> T =
+            point.weights[a] * Vec<4>(1.0, point.offset[0], point.offset[1], point.offset[2]);
+        item.forces.middleCols<4>(4 * static_cast<int>(a)) += forces[p] * T.transpose();
+      }
+      item.has_moments |= !moments_[p].isZero(0.0);
+    }
+    item.is_loaded = item.has_moments || !item.forces.isZero(0.0);
+  }
+}
+
+std::vector<int> PortLoad::blocks(int item, const model::UnknownTable& unknowns) const {
+  return blocks_of(items_[static_cast<std::size_t>(item)].nodes, unknowns);
+}
+
+PortLoad::SlotForces PortLoad::slot_forces(const Item& item, const Motion& motion) const {
+  SlotForces f = item.forces;
+  if (!item.has_moments) return f;
+  for (const std::size_t p : item.points) {
+    if (moments_[p].isZero(0.0)) continue;
+    const model::Marker& point = points_[p];
+    const Mat3 couple =
+        load::Couple(directors_at(point, motion.mid), item.kind).forces(moments_[p]);
+    for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+      f.middleCols<3>(4 * static_cast<int>(a) + 1) += point.weights[a] * couple;
+    }
+  }
+  return f;
+}
+
+Verdict PortLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
+                           model::Target& target) {
+  if (want == Want::mass) return Verdict::ok;
+  const bool tangent = want == Want::residual_and_tangent;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, tangent, target);
+  });
+}
+
+template <class Space>
+Verdict PortLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                                bool tangent, model::Target& target) const {
+  constexpr int W = Space::width;
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
+  if (!item.is_loaded) return Verdict::ok;
+  const int n = static_cast<int>(item.nodes.size());
+  const Motion motion(nodes_, item.nodes, state, stencil.theta);
+  const SlotForces r = -slot_forces(item, motion);
+  if (!std::isfinite(r.sum())) return Verdict::not_finite;
+  for (int a = 0; a < n; ++a) {
+    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
+    Vec<W> residual;
+    Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    placement().scatter.add_residual(i, a, residual.data(), target);
+  }
+  if (!tangent) return Verdict::ok;
+
+  // P_theta^T K P_next of the moments, and the turning of P_theta
+  SlotTangent K = SlotTangent::Zero(12 * n, 12 * n);
+  for (const std::size_t p : item.points) {
+    if (moments_[p].isZero(0.0)) continue;
+    const load::Couple couple(directors_at(points_[p], motion.mid), item.kind);
+    add_couple_tangent(points_[p], couple.derivative(moments_[p]), stencil.theta, K);
+  }
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      const model::Arms<4>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
+      if (item.has_moments) {
+        load::add_slot_tangent<Space>(K.block<12, 12>(12 * a, 12 * b),
+                                      motion.arms_mid[static_cast<std::size_t>(a)], arms_next,
+                                      block);
+      }
+      if (a == b) Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
+      placement().scatter.add_tangent(i, a, b, block, target);
+    }
+  }
+  return Verdict::ok;
+}
+
+model::StepWork PortLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
+    if (!placement().owned[i] || !item.is_loaded) continue;
+    const Motion motion(nodes_, item.nodes, state, stencil.theta);
+    load::add_item_work(slot_forces(item, motion), motion, item.nodes, state, true, work);
+  }
+  return work;
+}
+
+}  // namespace culm::port

@@ -1,0 +1,92 @@
+"""Arrays of any kind at ports, and threads beside a simulation that solves."""
+
+import sys
+import threading
+import time
+
+import culm
+import numpy as np
+
+
+def refused(error, words, call, *arguments):
+    try:
+        call(*arguments)
+    except error as found:
+        assert words in str(found), found
+        return
+    raise AssertionError(f"{arguments} were not refused")
+
+
+deck = sys.argv[1]
+points = np.array([[0.2, 0.0, 3.0], [0.0, -0.1, 7.0], [0.1, 0.1, 9.9]])
+
+
+def make():
+    mast = culm.Simulation(deck)
+    mast.add_port("net", points.astype(np.float32)[::-1][::-1], ["mast"], 1.0)
+    return mast
+
+
+mast = make()
+assert mast.ports == ["skin", "net"]
+net = mast.port("net")
+assert len(net) == 3 and net.reference.shape == (3, 3)
+refused(culm.UsageError, "did you mean 'net'?", mast.port, "nett")
+refused(culm.UsageError, "shape (points, 3)", mast.add_port, "other", points.T[:, :2])
+stepper = mast.begin()
+
+# one load in every layout: each attempt gives the same bits
+force = np.array([[1.0, 2.0, -4.0], [0.5, 0.25, 8.0], [2.0, 0.0, 1.5]])
+wide = np.zeros((6, 7))
+wide[::2, 1::2] = force
+ways = [force, np.asfortranarray(force), wide[::2, 1::2], force.astype(np.float32), force[::-1][::-1], force.tolist()]
+seen = []
+for way in ways:
+    net.set(way, way)
+    assert stepper.attempt()
+    seen.append((net.position, net.rotation, net.velocity, net.acceleration, net.motion))
+for other in seen[1:]:
+    assert all(np.array_equal(a, b) for a, b in zip(seen[0], other))
+assert [a.shape for a in seen[0]] == [(3, 3), (3, 3, 3), (3, 6), (3, 6), (3, 6)]
+assert np.abs(seen[0][4]).max() > 1e-6
+
+refused(culm.UsageError, "shape (points, 3)", net.set, force[:2].T)
+refused(culm.UsageError, "takes 9 values of force, got 6", net.set, force[:2])
+refused(culm.UsageError, "shape (points, 3)", net.set, force.ravel())
+broken = force.copy()
+broken[1, 2] = np.nan
+refused(culm.NonFiniteError, "point 1", net.set, broken)
+
+# what it works on is what it books
+work = np.sum(force * net.motion[:, :3]) + np.sum(force * net.motion[:, 3:])
+sums = net.exchange()
+assert abs(work - sums["work"]) <= 1e-14 * abs(work), (work, sums)
+assert np.allclose(sums["force"], force.sum(axis=0), rtol=1e-15)
+
+# copies are their own, and a port keeps its simulation alive
+position = net.position
+stepper.discard()
+assert not np.array_equal(position, net.position)
+del mast, stepper
+assert net.position.shape == (3, 3)
+
+# the interpreter goes on while culm solves: another thread looks at the clock, which with the lock
+# held it could do at most as the run begins and ends
+times, over = [], threading.Event()
+
+
+def watch():
+    while not over.wait(1e-3):
+        times.append(time.perf_counter())
+
+
+solver = culm.Simulation(deck, ["Analyses/gust/Step=0.0005"]).begin()
+thread = threading.Thread(target=watch)
+thread.start()
+begin = time.perf_counter()
+solver.run()
+end = time.perf_counter()
+over.set()
+thread.join()
+assert sum(begin < now < end for now in times) > 5, (begin, end, times)
+print("Python: arrays of any layout")
