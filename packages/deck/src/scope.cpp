@@ -23,6 +23,16 @@ std::string leading_identifier(std::string_view text) {
   return {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
 }
 
+/// Whether a word is one of a list with commas.
+bool is_among(std::string_view list, std::string_view word) {
+  while (!list.empty()) {
+    const auto comma = list.find(',');
+    if (trim(list.substr(0, comma)) == word) return true;
+    list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 1);
+  }
+  return false;
+}
+
 /// "0.05 s" is a number and a unit.
 std::string unit_hint(std::string_view text) {
   const auto end = text.find_last_of("0123456789.");
@@ -126,7 +136,7 @@ std::string Scope::substitute(std::string_view formula, std::string_view own) co
   while (!formula.empty()) {
     const std::string word = next_word(formula);
     const double* value = find(word);
-    const bool stays = word == own || value == nullptr || is_called(formula, 0);
+    const bool stays = is_among(own, word) || value == nullptr || is_called(formula, 0);
     result += stays ? word : "(" + format_number(*value) + ")";
   }
   return result;

@@ -42,7 +42,7 @@ class Scope {
   /// Evaluates a number or an expression.
   Evaluation evaluate(const std::string& text) const;
 
-  /// A formula in which all variables stand as numbers, except its own.
+  /// A formula in which all variables stand as numbers, except its own, one or several with commas.
   std::string substitute(std::string_view formula, std::string_view own) const;
 
  private:

@@ -10,6 +10,7 @@ void register_loads(model::BuilderRegistry& registry) {
   register_line_force(registry);
   register_line_moment(registry);
   register_line_load(registry);
+  register_field_force(registry);
   register_pressure(registry);
   register_surface_force(registry);
   register_director_force(registry);

@@ -10,6 +10,7 @@ void register_moment(model::BuilderRegistry& registry);         // Moment, Follo
 void register_line_force(model::BuilderRegistry& registry);     // Line Force, Follower Line Force
 void register_line_moment(model::BuilderRegistry& registry);    // Line Moment, Follower Line Moment
 void register_line_load(model::BuilderRegistry& registry);      // Line Load, Follower Line Load
+void register_field_force(model::BuilderRegistry& registry);    // Field Force
 void register_pressure(model::BuilderRegistry& registry);       // Pressure
 void register_surface_force(model::BuilderRegistry& registry);  // Surface Force
 void register_director_force(model::BuilderRegistry& registry);  // Director Force

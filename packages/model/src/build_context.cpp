@@ -158,4 +158,16 @@ std::optional<Amplitude> find_function(const std::string& name, const Where& whe
   return {};
 }
 
+SharedField find_field(const Options& options, BuildContext& context) {
+  const std::string& name = options.text("Field");
+  if (const auto found = context.fields.find(name); found != context.fields.end()) {
+    return found->second;
+  }
+  std::vector<std::string> names;
+  for (const auto& [known, field] : context.fields) names.push_back(known);
+  context.issues.add(options.where("Field"),
+                     "unknown field '" + name + "'" + did_you_mean(name, names));
+  return nullptr;
+}
+
 }  // namespace culm::model

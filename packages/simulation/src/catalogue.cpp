@@ -25,6 +25,7 @@ Catalogue::Catalogue() {
   body::register_masses(masses);
   model::register_initial_motions(initial_conditions);
   model::register_amplitudes(functions);
+  model::register_vector_fields(fields);
   control::register_signals(signals);
   register_sampled_signal(signals);
   joint::register_joints(constraints);
@@ -196,6 +197,10 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(functions.variants())
                 .check(check_functions),
             Presence::defaulted)
+      .list(
+          "Fields",
+          Schema("Fields", "Vectors in space and time by name.").entries_by_type(fields.variants()),
+          Presence::defaulted)
       .list("Signals",
             Schema(
                 "Signals",

@@ -196,7 +196,8 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   const model::Imperfection imperfection = imperfections.sum(setting.inactive);
   beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection, &budget};
   shell::ShellContext shells{model, materials, log, refinement, &imperfection, &budget};
-  model::BuildContext context{model, functions, issues};
+  model::BuildContext context{model, functions, issues,
+                              make_all(catalogue.fields, deck.list("Fields"), issues)};
   build_structures(catalogue, deck.list("Structures"), beams, shells, context);
   refuse_equal_names(deck.list("Structures"), context);
   // what follows refers to structures; without them every reference would be a mistake

@@ -7,6 +7,7 @@
 #include <culm/math/types.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/model.hpp>
+#include <culm/model/vector_field.hpp>
 
 #include <map>
 #include <optional>
@@ -20,6 +21,7 @@ struct BuildContext {
   Model& model;                                       ///< with all structures, not frozen
   const std::map<std::string, Amplitude>& functions;  ///< lists "Functions" and "Signals"
   InputIssues& issues;
+  std::map<std::string, SharedField> fields = {};  ///< list "Fields"
 };
 
 /// Types that add something to the model. @see Registry
@@ -67,7 +69,9 @@ enum class Follows { functions, signals };
 std::optional<Amplitude> find_function(const Options& options, BuildContext& context,
                                        const std::string& parameter = "Function",
                                        Follows follows = Follows::functions);
-/// The same for a name that stands at `where`.
+/// The field that parameter "Field" names; null, and an issue, if there is none.
+SharedField find_field(const Options& options, BuildContext& context);
+/// The function of a name that stands at `where`, likewise.
 std::optional<Amplitude> find_function(const std::string& name, const Where& where,
                                        BuildContext& context, Follows follows);
 

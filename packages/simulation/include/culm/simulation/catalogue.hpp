@@ -27,6 +27,7 @@ struct Catalogue {
   model::BuilderRegistry masses;
   model::BuilderRegistry initial_conditions;
   Registry<model::Amplitude> functions;
+  model::FieldRegistry fields;
   control::SignalRegistry signals;
   model::BuilderRegistry constraints;
   model::BuilderRegistry loads;

@@ -1,0 +1,42 @@
+#include <culm/load/field_load.hpp>
+
+#include "both_frames.hpp"
+#include "line.hpp"
+#include "types.hpp"
+
+#include <memory>
+
+namespace culm::load {
+namespace {
+
+void build(const Options& options, model::BuildContext& context) {
+  const auto function = model::find_function(options, context);
+  const auto field = model::find_field(options, context);
+  const auto points = line_points(options, context);
+  if (!function || !field || points.empty()) return;
+  check_components("Offset", points.front().marker.nodes, options, context);
+  auto load = std::make_unique<FieldLoad>(effect_name("Field Force", options),
+                                          context.model.nodes(), *function, field);
+  for (model::LinePoint point : points) {
+    point.marker.offset += model::vector(options, "Offset");
+    load->add(point.marker, options.number("Factor") * point.length);
+  }
+  context.model.add_load(std::move(load));
+}
+
+}  // namespace
+
+void register_field_force(model::BuilderRegistry& registry) {
+  registry.add("Field Force",
+               Schema("Field Force",
+                      "Force per reference length of a line by a field, at the places where the "
+                      "line is.")
+                   .add(line_field())
+                   .add(offset_field())
+                   .add(text("Field", "Name of an entry of the list Fields, in N/m."))
+                   .add(number("Factor", "1", "Factor on the field.").optional(1.0))
+                   .add(model::function_field("Ramp")),
+               build);
+}
+
+}  // namespace culm::load
