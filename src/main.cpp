@@ -27,6 +27,7 @@ constexpr int deck_error = 3;
 constexpr int file_error = 6;
 
 using culm::app::CheckArguments;
+using culm::app::CoupleArguments;
 using culm::app::DeckArguments;
 using culm::app::ImportArguments;
 using culm::app::ResumeArguments;
@@ -36,6 +37,7 @@ using culm::app::RunArguments;
 struct Arguments {
   RunArguments run;
   CheckArguments check;
+  CoupleArguments couple;
   ResumeArguments resume;
   ImportArguments import;
   std::string name;  // for the reference
@@ -55,6 +57,27 @@ void add_common_options(CLI::App& verb, VerbArguments& arguments) {
 void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
   verb.add_option("deck", arguments.deck, "Input deck, XML")->required();
   add_common_options(verb, arguments);
+}
+
+void add_partner_options(CLI::App& verb, CoupleArguments& arguments) {
+  verb.add_option("--partner", arguments.partner,
+                  "added-mass, dashpot or oscillator, at each point")
+      ->required();
+  verb.add_option("--mass", arguments.numbers.mass, "Of a partner [kg]")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--damping", arguments.numbers.damping, "Of a partner [N s/m]")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--stiffness", arguments.numbers.stiffness, "Of a partner [N/m]")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--port", arguments.port, "Its port; the only one of the deck if not given");
+  verb.add_option("--analysis", arguments.analysis,
+                  "Dynamic analysis to make; the first one that makes steps if not given");
+  verb.add_option("--scheme", arguments.scheme, "explicit, constant, aitken or quasi-newton");
+  verb.add_option("--relaxation", arguments.relaxation, "The first one, or the constant one")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--tolerance", arguments.tolerance, "Of the forces, relative")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--most", arguments.most, "Attempts per step")->check(CLI::PositiveNumber);
 }
 
 void add_walltime(CLI::App& verb, std::string& walltime) {
@@ -105,6 +128,12 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                     "includes, with all defaults");
   check->callback(
       [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.check); }; });
+  CLI::App* couple = app.add_subcommand(
+      "couple", "Make the steps of a deck together with a simple partner at one of its ports");
+  add_deck_options(*couple, arguments.couple);
+  add_partner_options(*couple, arguments.couple);
+  couple->callback(
+      [&] { action = [&](const Comm& comm) { culm::app::couple(comm, arguments.couple); }; });
   CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");
   import->require_subcommand(1);
   CLI::App* openfast =

@@ -92,7 +92,20 @@ def check_coupling(culm):
         sys.exit("the programs do not agree, or the wind did not push the mast")
     print(run(culm.build_c((HERE / "errors.c").read_text(), "errors"), deck), end="")
     print(culm.run_python((HERE / "arrays.py").read_text(), "arrays", deck), end="")
+    check_couple(culm, deck)
     culm.check_symbols()
+
+
+def check_couple(culm, deck):
+    """The verb, with a mast that is pushed: what the structure loses the partner gains."""
+    push = [word for name, value in (("Type", "Line Force"), ("Structure", "mast"), ("Force", "{57, 10, 0}"),
+                                     ("Function", "Constant")) for word in ("--set", f"Loads/push/{name}={value}")]
+    text = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "added-mass", "--mass", "5", *push)
+    print(text, end="")
+    work, share = (float(re.search(words + r"\s+([-+.\de]+)", text).group(1))
+                   for words in ("work on the structure", "gap .* J,"))
+    if not work < -1.0 or not abs(share) < 1e-8:
+        sys.exit("the partner got nothing, or what it got is not what the structure lost")
 
 
 def main():

@@ -1,0 +1,91 @@
+#include <culm/coupling/scheme.hpp>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace culm::coupling {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// H(x) = b - A x: a partner that answers motion against the force, `ratio` times as heavy as the
+// structure in its heaviest direction.
+struct Answer {
+  explicit Answer(double ratio, int size = 5)
+      : A(VectorXd::LinSpaced(size, 0.1 * ratio, ratio).asDiagonal()), b(VectorXd::Ones(size)) {
+    // not in the axes of the unknowns
+    const MatrixXd full = MatrixXd::NullaryExpr(size, size, [](auto i, auto j) {
+      return std::sin(static_cast<double>(1 + 3 * i + 7 * j));
+    });
+    const MatrixXd Q = Eigen::HouseholderQR<MatrixXd>(full).householderQ();
+    A = (Q * A * Q.transpose()).eval();
+  }
+  VectorXd operator()(const VectorXd& x) const { return b - A * x; }
+  MatrixXd A;
+  VectorXd b;
+};
+
+// Attempts until the residual is small; 200 if it never is.
+int attempts(Scheme& scheme, const Answer& answer, VectorXd x) {
+  int tried = 1;
+  for (; tried < 200; ++tried) {
+    const VectorXd y = answer(x);
+    if (!((y - x).norm() > 1e-10)) break;
+    x = scheme.next(x, y);
+  }
+  scheme.end_window();
+  return tried;
+}
+
+int attempts(const std::string& scheme, double relaxation, double ratio) {
+  const auto made = find_scheme(scheme, relaxation);
+  return attempts(*made, Answer(ratio), VectorXd::Zero(5));
+}
+
+// Without relaxation loads grow as soon as the partner is the heavier one.
+TEST(Schemes, ConstantRelaxationEndsAtItsLimit) {
+  EXPECT_LT(attempts("constant", 1.0, 0.5), 50);
+  EXPECT_EQ(attempts("constant", 1.0, 1.1), 200);
+  EXPECT_LT(attempts("constant", 0.3, 3.0), 100);
+  EXPECT_EQ(attempts("constant", 0.3, 6.0), 200);  // 2 / 0.3 = 6.7 = 1 + 5.7
+}
+
+TEST(Schemes, AitkenFindsItsRelaxation) {
+  EXPECT_LT(attempts("aitken", 0.1, 0.5), 20);
+  EXPECT_LT(attempts("aitken", 0.1, 5.0), 100);
+}
+
+// A linear problem of n unknowns is solved by n + 2 attempts, however heavy the partner is, and
+// from what earlier windows have taught at once.
+TEST(Schemes, QuasiNewtonSolvesALinearProblemInSoManyAttemptsAsUnknowns) {
+  for (const double ratio : {0.5, 5.0, 100.0}) {
+    QuasiNewton scheme(0.1, 8, 1e-8);
+    const Answer answer(ratio);
+    EXPECT_LE(attempts(scheme, answer, VectorXd::Zero(5)), 8) << ratio;
+    EXPECT_LE(attempts(scheme, answer, VectorXd::LinSpaced(5, -1.0, 2.0)), 3) << ratio;
+  }
+}
+
+// Equal loads teach nothing and do no harm.
+TEST(Schemes, QuasiNewtonLeavesOutEmptyDifferences) {
+  QuasiNewton scheme(0.1, 8, 1e-2);
+  const Answer answer(2.0);
+  const VectorXd x = VectorXd::Ones(5);
+  scheme.next(x, answer(x));
+  const VectorXd next = scheme.next(x, answer(x));
+  EXPECT_TRUE(next.allFinite());
+  EXPECT_EQ(next, x + 0.1 * (answer(x) - x));
+}
+
+TEST(Schemes, AreFoundByName) {
+  for (const std::string& name : scheme_names()) EXPECT_NE(find_scheme(name, 0.1), nullptr);
+  EXPECT_EQ(find_scheme("newton", 0.1), nullptr);
+}
+
+}  // namespace
+}  // namespace culm::coupling
