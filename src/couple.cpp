@@ -12,6 +12,13 @@
 namespace culm::app {
 namespace {
 
+// Share of what was exchanged that the interface may make or lose.
+constexpr double notable_gap = 1e-3;
+
+double relative_gap(const simulation::CouplingReport& report) {
+  return report.exchanged > 0.0 ? std::abs(report.gap()) / report.exchanged : 0.0;
+}
+
 std::string words(const std::string& port, const simulation::CouplingReport& report) {
   return fmt::format(
       "{} steps, {:.1f} attempts per step, at most {}\n"
@@ -22,7 +29,16 @@ std::string words(const std::string& port, const simulation::CouplingReport& rep
       "  gap                               {:>20.2g} J, {:.1e} of all that was exchanged",
       report.windows, static_cast<double>(report.attempts) / std::max(report.windows, 1),
       report.most_attempts, port, report.windows, report.work, report.energy, report.dissipated,
-      report.gap(), report.exchanged > 0.0 ? std::abs(report.gap()) / report.exchanged : 0.0);
+      report.gap(), relative_gap(report));
+}
+
+void warn_of_gap(const simulation::CouplingReport& report, const Log& log) {
+  const double gap = relative_gap(report);
+  if (gap <= notable_gap) return;
+  log.warning(fmt::format(
+      "the interface {} {:.2g} % of the energy that is exchanged: results are those of a coupling "
+      "that is too loose; take another --scheme than explicit, or a smaller --tolerance",
+      report.gap() < 0.0 ? "loses" : "makes", 100.0 * gap));
 }
 
 }  // namespace
@@ -46,8 +62,10 @@ void couple(const parallel::Comm& comm, const CoupleArguments& arguments) {
                                ? simulation.port_names().front()
                                : arguments.port;
   analysis::Stepper& stepper = simulation.begin(arguments.analysis);
-  log.info(words(port, simulation::couple(simulation, stepper, port, *partner, *scheme,
-                                          {arguments.tolerance, arguments.most})));
+  const simulation::CouplingReport report = simulation::couple(
+      simulation, stepper, port, *partner, *scheme, {arguments.tolerance, arguments.most});
+  log.info(words(port, report));
+  warn_of_gap(report, log);
   stepper.finish();
 }
 

@@ -106,6 +106,10 @@ def check_couple(culm, deck):
                    for words in ("work on the structure", "gap .* J,"))
     if not work < -1.0 or not abs(share) < 1e-8:
         sys.exit("the partner got nothing, or what it got is not what the structure lost")
+    loose = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "added-mass", "--mass", "0.2", "--scheme",
+                "explicit", *push)
+    if "too loose" not in loose:
+        sys.exit("a loose coupling makes energy, and nobody says so")
 
 
 def main():

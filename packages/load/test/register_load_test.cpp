@@ -145,7 +145,7 @@ TEST_F(Loads, TheTypes) {
   EXPECT_THAT(
       registry.names(),
       ElementsAre("Damper", "Directed Damper", "Directed Ground Damper", "Directed Ground Spring",
-                  "Directed Spring", "Director Force", "External", "Follower Force",
+                  "Directed Spring", "Director Force", "External", "Field Force", "Follower Force",
                   "Follower Line Force", "Follower Line Load", "Follower Line Moment",
                   "Follower Moment", "Force", "Gravity", "Ground Damper", "Ground Spring",
                   "Line Force", "Line Load", "Line Moment", "Moment", "Plane Ground Damper",
