@@ -64,9 +64,9 @@ TEST(FieldLoad, ActsInTheMiddleOfAStep) {
   const model::State state = kit::random_state(model, 3);
   const Stencil stencil = Stencil::midpoint(state.time - state.time_prev);
   model::Batch* batch = kit::find_batch(model, effect);
-  const Eigen::VectorXd r = dense.residual(state, stencil, {batch});
-  const Eigen::Map<const Eigen::VectorXd> prev(state.prev.data(), r.size());
-  const Eigen::Map<const Eigen::VectorXd> next(state.next.data(), r.size());
+  const Vec<24> r = dense.residual(state, stencil, {batch}).head<24>();  // then come multipliers
+  const Eigen::Map<const Vec<24>> prev(state.prev.data());
+  const Eigen::Map<const Vec<24>> next(state.next.data());
   const model::StepWork work = batch->step_work(state, stencil);
   EXPECT_NEAR(work.external, -r.dot(next - prev), 1e-13);
 
