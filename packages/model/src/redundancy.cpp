@@ -195,7 +195,10 @@ class Factors {
     qr_.setPivotThreshold(1e-10);
     qr_.compute(some);
     rank_ = static_cast<int>(qr_.rank());
-    independent_ = Sparse(qr_.matrixR()).topLeftCorner(rank_, rank_);
+    // Eigen leaves the entries of R unsorted, which neither blocks nor triangular solves expect; a
+    // copy by rows sorts them
+    R_ = Eigen::SparseMatrix<double, Eigen::RowMajor, int>(qr_.matrixR());
+    independent_ = R_.topLeftCorner(rank_, rank_);
     for (int place = 0; place < cols(); ++place) {
       const int k = qr_.colsPermutation().indices()[place];
       columns_[static_cast<std::size_t>(place)] = columns[static_cast<std::size_t>(k)];
@@ -210,7 +213,7 @@ class Factors {
   // A dependent column as a combination of the independent ones, by place.
   Eigen::VectorXd combination(int place) const {
     if (rank_ == 0) return {};
-    Eigen::VectorXd x = Sparse(qr_.matrixR()).col(place).head(rank_);
+    Eigen::VectorXd x = Eigen::VectorXd(R_.col(place)).head(rank_);
     independent_.triangularView<Eigen::Upper>().solveInPlace(x);
     return x;
   }
@@ -231,6 +234,7 @@ class Factors {
   int rank_ = 0;
   std::vector<int> columns_;  // by place
   Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr_;
+  Sparse R_;            // with sorted entries
   Sparse independent_;  // the square part of R
 };
 
