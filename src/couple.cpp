@@ -41,6 +41,17 @@ void warn_of_gap(const simulation::CouplingReport& report, const Log& log) {
       report.gap() < 0.0 ? "loses" : "makes", 100.0 * gap));
 }
 
+// The port that is asked for, or the only one.
+std::string find_port(const simulation::Simulation& simulation, const std::string& asked) {
+  if (!asked.empty()) return asked;
+  const std::vector<std::string> names = simulation.port_names();
+  if (names.size() == 1) return names.front();
+  throw UsageError(names.empty()
+                       ? "the deck has no port"
+                       : "the deck has " + std::to_string(names.size()) +
+                             " ports; --port says which, such as '" + names.front() + "'");
+}
+
 }  // namespace
 
 void couple(const parallel::Comm& comm, const CoupleArguments& arguments) {
@@ -58,9 +69,7 @@ void couple(const parallel::Comm& comm, const CoupleArguments& arguments) {
   }
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   auto simulation = simulation::Simulation::open(arguments.deck, arguments.overrides, log, comm);
-  const std::string port = arguments.port.empty() && simulation.port_names().size() == 1
-                               ? simulation.port_names().front()
-                               : arguments.port;
+  const std::string port = find_port(simulation, arguments.port);
   analysis::Stepper& stepper = simulation.begin(arguments.analysis);
   const simulation::CouplingReport report = simulation::couple(
       simulation, stepper, port, *partner, *scheme, {arguments.tolerance, arguments.most});

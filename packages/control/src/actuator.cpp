@@ -32,7 +32,7 @@ void register_actuator(SignalRegistry& registry) {
                 std::make_unique<Actuator>(2.0 * std::numbers::pi * options.number("Frequency"),
                                            options.number("Damping Ratio"), read_rate(options),
                                            read_limits(options), options.number("Scale")),
-                {"Signal"});
+                {"Signal"}, read_start(options));
   });
 }
 

@@ -5,6 +5,8 @@
 #include <culm/base/schema.hpp>
 #include <culm/control/block.hpp>
 
+#include <optional>
+
 namespace culm::control {
 
 inline Field input_field() { return text("Signal", "The signal or function that it follows."); }
@@ -20,6 +22,11 @@ inline void add_start(Schema& schema) {
   schema.add(
       number("Initial", "1", "Value at the start; at rest with its input if absent.").optional());
   add_scale(schema);
+}
+
+inline std::optional<double> read_start(const Options& options) {
+  if (!options.has("Initial")) return {};
+  return options.number("Initial");
 }
 
 inline void add_limits(Schema& schema) {

@@ -13,7 +13,7 @@ void register_integral(SignalRegistry& registry) {
   registry.add("Integral", schema, [](const Options& options, ControlContext& context) {
     context.add(options,
                 std::make_unique<Integral>(options.number("Gain"), options.number("Scale")),
-                {"Signal"});
+                {"Signal"}, read_start(options));
   });
 }
 

@@ -22,7 +22,7 @@ void register_lag(SignalRegistry& registry) {
     context.add(options,
                 std::make_unique<Lag>(options.number("Time Constant"), read_rate(options),
                                       read_limits(options), options.number("Scale")),
-                {"Signal"});
+                {"Signal"}, read_start(options));
   });
 }
 

@@ -50,7 +50,7 @@ void register_pi_controller(SignalRegistry& registry) {
     context.add(options,
                 std::make_unique<PiController>(options.number("Set Point"), P, I, tracking,
                                                read_limits(options), options.number("Scale")),
-                {"Signal", "Set Point Function"});
+                {"Signal", "Set Point Function"}, read_start(options));
   });
 }
 

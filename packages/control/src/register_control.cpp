@@ -23,11 +23,11 @@ ControlContext::ControlContext(model::Model& model,
 ControlContext::~ControlContext() = default;
 
 void ControlContext::add(const Options& options, std::unique_ptr<Block> block,
-                         std::vector<std::string> inputs) {
+                         std::vector<std::string> inputs, std::optional<double> initial) {
   const model::Signal output =
       blocks_->add(options.text("Type") + " '" + options.name() + "'", std::move(block));
   publish(options, output);
-  pending_.push_back({&options, output, std::move(inputs)});
+  pending_.push_back({&options, output, std::move(inputs), initial});
 }
 
 void ControlContext::publish(const Options& options, const model::Signal& signal) {
@@ -53,9 +53,7 @@ void ControlContext::finish() {
       }
     }
     if (!is_complete) continue;
-    std::optional<double> initial;
-    if (options.has("Initial")) initial = options.number("Initial");
-    blocks_->connect(one.output, std::move(inputs), initial);
+    blocks_->connect(one.output, std::move(inputs), one.initial);
   }
   model::Model& model = build_.model;
   if (samples_->size() > 0) model.add_load(std::move(samples_));

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,10 @@ class ControlContext {
                  InputIssues& issues);
   ~ControlContext();
 
-  /// Adds a block. @param inputs  parameters that name signals or functions, in the block's order
-  void add(const Options& options, std::unique_ptr<Block> block, std::vector<std::string> inputs);
+  /// Adds a block. @param inputs   parameters that name signals or functions, in the block's order
+  /// @param initial  how it starts; nothing: at rest with its inputs
+  void add(const Options& options, std::unique_ptr<Block> block, std::vector<std::string> inputs,
+           std::optional<double> initial = {});
   /// The sensors of the model.
   SensorBatch& sensors() { return *sensors_; }
   /// Signals that keep a value for a step.
@@ -41,6 +44,7 @@ class ControlContext {
     const Options* options;
     model::Signal output;
     std::vector<std::string> inputs;
+    std::optional<double> initial;
   };
 
   std::map<std::string, model::Amplitude>& functions_;
