@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/base/findings.hpp>
 #include <culm/base/nearest.hpp>
 #include <culm/simulation/couple.hpp>
 
@@ -32,13 +33,14 @@ std::string words(const std::string& port, const simulation::CouplingReport& rep
       report.gap(), relative_gap(report));
 }
 
-void warn_of_gap(const simulation::CouplingReport& report, const Log& log) {
+// Why the energy at the interface cannot be trusted; empty if it can.
+std::string describe_gap(const simulation::CouplingReport& report) {
   const double gap = relative_gap(report);
-  if (gap <= notable_gap) return;
-  log.warning(fmt::format(
+  if (gap <= notable_gap) return {};
+  return fmt::format(
       "the interface {} {:.2g} % of the energy that is exchanged: results are those of a coupling "
       "that is too loose; take another --scheme than explicit, or a smaller --tolerance",
-      report.gap() < 0.0 ? "loses" : "makes", 100.0 * gap));
+      report.gap() < 0.0 ? "loses" : "makes", 100.0 * gap);
 }
 
 // The port that is asked for, or the only one.
@@ -74,8 +76,12 @@ void couple(const parallel::Comm& comm, const CoupleArguments& arguments) {
   const simulation::CouplingReport report = simulation::couple(
       simulation, stepper, port, *partner, *scheme, {arguments.tolerance, arguments.most});
   log.info(words(port, report));
-  warn_of_gap(report, log);
   stepper.finish();
+  std::string broken = simulation.broken_promises();
+  if (const std::string gap = describe_gap(report); !gap.empty()) {
+    broken += (broken.empty() ? "" : "\n") + gap;
+  }
+  if (!broken.empty()) throw PromiseBroken(broken);
 }
 
 }  // namespace culm::app

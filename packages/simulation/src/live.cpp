@@ -92,6 +92,8 @@ void Simulation::set_signal(const std::string& name, double value) {
   parts_->state.own[at] = parts_->state.own_prev[at] = value;
 }
 
+std::string Simulation::broken_promises() const { return parts_->findings.verdict(false); }
+
 std::vector<int> Simulation::nodes(const std::string& name) const {
   const auto input = model().inputs().find(name);
   if (input != model().inputs().end()) return input->second->nodes();

@@ -92,6 +92,8 @@ class Simulation {
   /// Writes the points of a port in the reference for ParaView: a VTU file with the structure, the
   /// lever from it, and what is doubtful. Collective; throws FileError.
   void write_port(const std::string& name, const std::filesystem::path& path) const;
+  /// Names the promises that did not hold in the analyses so far, in one line; empty if all do.
+  std::string broken_promises() const;
   /// The nodes of a name such as 'beam/last' or 'beam', or of a load that set_load knows, by
   /// number.
   std::vector<int> nodes(const std::string& name) const;
