@@ -55,7 +55,9 @@ class StudyTest(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def records(self):
-        return {p.parent.name: json.loads(p.read_text()) for p in self.folder.glob("runs/*/record.json")}
+        """Those of runs that came to their end; folders of unfinished ones may vanish at any time."""
+        folders = [one for one in self.folder.glob("runs/*") if not one.suffix]
+        return {one.name: json.loads((one / "record.json").read_text()) for one in folders}
 
 
 class Findings(StudyTest):

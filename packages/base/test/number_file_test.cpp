@@ -1,22 +1,20 @@
 #include <culm/base/number_file.hpp>
 
+#include <culm_kit/temporary_folder.hpp>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
 namespace culm {
 namespace {
 
 TEST(NumberLines, HoldNumbersOrNothing) {
-  const auto folder = std::filesystem::temp_directory_path() / "culm_number_lines";
-  std::filesystem::create_directories(folder);
+  const kit::TemporaryFolder folder;
   std::ofstream(folder / "table.csv") << "# r, F\n0, 1.5e3\r\n\n -2 # last\n1, \n1; 2\nnan\n";
   std::vector<NumberLine> lines;
   const std::string path =
       read_number_lines("table.csv", {(folder / "deck.xml").string(), 3, "File Name"},
                         [&](const NumberLine& line) { lines.push_back(line); });
-  std::filesystem::remove_all(folder);
   EXPECT_EQ(path, (folder / "table.csv").string());
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0].numbers, (std::vector{0.0, 1500.0}));

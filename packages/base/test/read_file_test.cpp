@@ -1,9 +1,9 @@
 #include <culm/base/error.hpp>
 #include <culm/base/read_file.hpp>
 
+#include <culm_kit/temporary_folder.hpp>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,15 +13,9 @@ namespace {
 
 class ReadFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("culm_read_file_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  std::filesystem::path folder_;
+  kit::TemporaryFolder folder_;
 };
 
 TEST_F(ReadFile, GivesWhatIsThere) {
@@ -33,7 +27,7 @@ TEST_F(ReadFile, GivesWhatIsThere) {
 
 TEST_F(ReadFile, ObjectsToWhatIsNoFile) {
   EXPECT_EQ(find_text(path("none")).objection, "there is no such file");
-  EXPECT_EQ(find_text(folder_.string()).objection, "is a folder");
+  EXPECT_EQ(find_text(folder_.path().string()).objection, "is a folder");
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   EXPECT_EQ(find_text(path("pipe")).objection, "is a pipe, not a file");
   EXPECT_EQ(find_text("/dev/zero").objection, "is a device, not a file");

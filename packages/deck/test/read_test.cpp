@@ -1,5 +1,6 @@
 #include "deck_fixture.hpp"
 
+#include <culm_kit/temporary_folder.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,14 +16,7 @@ using testing::StartsWith;
 /// A folder of files for one test.
 class Files : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("culm_deck_") + test->test_suite_name() + "_" + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_ / "parts");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { std::filesystem::create_directories(folder_ / "parts"); }
 
   std::string write(const std::string& name, const std::string& text) {
     const std::string path = (folder_ / name).string();
@@ -39,15 +33,15 @@ class Files : public testing::Test {
     } catch (const InputError& error) {
       // The folder is another one on each machine.
       std::string text = error.what();
-      for (auto at = text.find(folder_.string()); at != std::string::npos;
-           at = text.find(folder_.string())) {
-        text.erase(at, folder_.string().size() + 1);
+      for (auto at = text.find(folder_.path().string()); at != std::string::npos;
+           at = text.find(folder_.path().string())) {
+        text.erase(at, folder_.path().string().size() + 1);
       }
       return text;
     }
   }
 
-  std::filesystem::path folder_;
+  kit::TemporaryFolder folder_;
 };
 
 TEST(Read, TruncatedFilesGiveOneMessageWithItsLine) {
@@ -174,7 +168,7 @@ TEST(Read, MistakesOfFormAndOfContentComeTogether) {
 
 TEST_F(Files, AMissingFileIsAFileError) {
   EXPECT_THROW(Deck::parse_file(path("none.xml")), FileError);
-  EXPECT_THROW(Deck::parse_file(folder_.string()), FileError);
+  EXPECT_THROW(Deck::parse_file(folder_.path().string()), FileError);
   EXPECT_THROW(Deck::parse_file(write("empty.xml", "")), FileError);
   EXPECT_THROW(Deck::parse_file(write("blank.xml", " \n")), FileError);
   try {
@@ -273,7 +267,7 @@ TEST_F(Files, AllRanksCanParseWhatOneHasRead) {
   const std::string expected = complaint(Deck::parse_file(path));
   EXPECT_THAT(expected, HasSubstr("must be true or false, got 'no'"));
   EXPECT_THAT(expected, HasSubstr("cannot read the included file"));
-  std::filesystem::remove_all(folder_);
+  std::filesystem::remove_all(folder_.path());
   EXPECT_EQ(complaint(Deck::parse_texts(texts)), expected);
 }
 

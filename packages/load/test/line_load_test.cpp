@@ -6,11 +6,11 @@
 
 #include <culm_kit/deck_list.hpp>
 #include <culm_kit/load_contract.hpp>
+#include <culm_kit/temporary_folder.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -331,10 +331,7 @@ TEST_F(LineLoads, FollowersOnAShellPullAlongItsDirector) {
 
 class LineFile : public LineLoads {
  protected:
-  std::filesystem::path folder = std::filesystem::temp_directory_path() / "culm_line_load" /
-                                 testing::UnitTest::GetInstance()->current_test_info()->name();
-  LineFile() { std::filesystem::create_directories(folder); }
-  ~LineFile() override { std::filesystem::remove_all(folder); }
+  kit::TemporaryFolder folder;
 
   std::string write(const std::string& text) const {
     const std::string path = (folder / "wind.csv").string();

@@ -2,11 +2,11 @@
 #include <culm/model/vector_field.hpp>
 
 #include <culm_kit/deck_list.hpp>
+#include <culm_kit/temporary_folder.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -19,11 +19,7 @@ using testing::HasSubstr;
 
 class Fields : public testing::Test {
  protected:
-  Fields() : folder_(std::filesystem::temp_directory_path() / "culm_vector_fields") {
-    register_vector_fields(registry_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Fields() override { std::filesystem::remove_all(folder_); }
+  Fields() { register_vector_fields(registry_); }
 
   SharedField make(const std::string& type, const kit::GivenValues& values) const {
     const Schema schema = registry_.variants().at(type);
@@ -47,7 +43,7 @@ class Fields : public testing::Test {
 
  private:
   Registry<SharedField> registry_;
-  std::filesystem::path folder_;
+  kit::TemporaryFolder folder_;
 };
 
 TEST_F(Fields, UniformIsTheSameEverywhere) {

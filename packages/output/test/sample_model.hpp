@@ -3,35 +3,16 @@
 
 #include <culm/output/picture_mesh.hpp>
 
-#include <unistd.h>
+#include <culm_kit/temporary_folder.hpp>
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
 
 namespace culm::output {
 
-/// A folder of its own for one test, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "culm_output_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using kit::TemporaryFolder;
 
 /// A regular polygon with `corners` points on a circle.
 inline std::vector<Eigen::Vector2d> regular_polygon(int corners, double radius) {
