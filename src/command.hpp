@@ -1,7 +1,6 @@
 /// The verbs of the application, one file each.
 #pragma once
 
-#include <culm/coupling/partner.hpp>
 #include <culm/openfast/import.hpp>
 #include <culm/parallel/comm.hpp>
 
@@ -52,26 +51,33 @@ struct ImportArguments {
   bool quiet = false;
 };
 
-/// A deck, and a partner at one of its ports.
-struct CoupleArguments : DeckArguments {
-  std::string partner;               ///< name, as coupling::find_partner knows it
-  coupling::PartnerNumbers numbers;  ///< of it
-  std::string port;                  ///< the only one if empty
-  std::string analysis;              ///< the first one that makes steps if empty
-  std::string scheme = "quasi-newton";
-  double relaxation = 0.1;  ///< the first one, or the constant one
-  double tolerance = 1e-8;  ///< of the forces
-  int most = 100;           ///< attempts per step
+/// A deck to run with a partner at one of its ports, in the words of the command line; what is
+/// empty is as the deck has it.
+struct CoupleArguments : RunArguments {
+  std::string partner;  ///< its type
+  std::string mass, damping, stiffness, address;
+  std::string port;
+  std::string scheme, window, tolerance;
+  bool record = false;
+};
+
+/// A record of a coupling, and the deck that takes its loads again.
+struct ReplayArguments : RunArguments {
+  std::filesystem::path record;
 };
 
 /// Runs a deck.
-void run(const parallel::Comm& comm, RunArguments& arguments);
+/// @param replay  a record whose loads act in place of those of the partner; empty for none
+void run(const parallel::Comm& comm, RunArguments& arguments,
+         const std::filesystem::path& replay = {});
 /// Goes on with a run from its last checkpoint.
 void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
 void check(const parallel::Comm& comm, const CheckArguments& arguments);
-/// Makes the steps of an analysis together with a partner, and prints what crossed the interface.
-void couple(const parallel::Comm& comm, const CoupleArguments& arguments);
+/// Runs a deck together with a partner.
+void couple(const parallel::Comm& comm, CoupleArguments& arguments);
+/// Runs a deck with the loads of a record, and compares how it moves.
+void replay(const parallel::Comm& comm, ReplayArguments& arguments);
 /// Makes a deck from files of OpenFAST, and a report beside it; replaces nothing.
 void import_openfast(const parallel::Comm& comm, const ImportArguments& arguments);
 /// Prints the input reference, or the part of it that has a name.

@@ -30,6 +30,7 @@ using culm::app::CheckArguments;
 using culm::app::CoupleArguments;
 using culm::app::DeckArguments;
 using culm::app::ImportArguments;
+using culm::app::ReplayArguments;
 using culm::app::ResumeArguments;
 using culm::app::RunArguments;
 
@@ -38,6 +39,14 @@ struct Arguments {
   RunArguments run;
   CheckArguments check;
   CoupleArguments couple;
+  ReplayArguments replay;
+
+  /// The run that was asked for, with or without a partner.
+  const RunArguments& any_run() const {
+    if (!couple.deck.empty()) return couple;
+    return replay.deck.empty() ? run : replay;
+  }
+
   ResumeArguments resume;
   ImportArguments import;
   std::string name;  // for the reference
@@ -61,23 +70,20 @@ void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
 
 void add_partner_options(CLI::App& verb, CoupleArguments& arguments) {
   verb.add_option("--partner", arguments.partner,
-                  "added-mass, dashpot or oscillator, at each point")
+                  "Type of the partner: added-mass, dashpot, oscillator, random, socket")
       ->required();
-  verb.add_option("--mass", arguments.numbers.mass, "Of a partner [kg]")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--damping", arguments.numbers.damping, "Of a partner [N s/m]")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--stiffness", arguments.numbers.stiffness, "Of a partner [N/m]")
-      ->check(CLI::PositiveNumber);
+  verb.add_option("--mass", arguments.mass, "Of a partner [kg]");
+  verb.add_option("--damping", arguments.damping, "Of a partner [N s/m]");
+  verb.add_option("--stiffness", arguments.stiffness, "Of a partner [N/m]");
+  verb.add_option("--address", arguments.address,
+                  "Where another program comes to: unix:PATH or tcp:PORT");
   verb.add_option("--port", arguments.port, "Its port; the only one of the deck if not given");
-  verb.add_option("--analysis", arguments.analysis,
-                  "Dynamic analysis to make; the first one that makes steps if not given");
-  verb.add_option("--scheme", arguments.scheme, "explicit, constant, aitken or quasi-newton");
-  verb.add_option("--relaxation", arguments.relaxation, "The first one, or the constant one")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--tolerance", arguments.tolerance, "Of the forces, relative")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--most", arguments.most, "Attempts per step")->check(CLI::PositiveNumber);
+  verb.add_option("--scheme", arguments.scheme,
+                  "quasi-newton, aitken, constant, explicit or one-way");
+  verb.add_option("--window", arguments.window,
+                  "From exchange to exchange [s]; a step if not given");
+  verb.add_option("--tolerance", arguments.tolerance, "Of the loads, relative");
+  verb.add_flag("--record", arguments.record, "Write all that is said beside the results");
 }
 
 void add_walltime(CLI::App& verb, std::string& walltime) {
@@ -93,7 +99,16 @@ void add_ending(CLI::App& verb, bool& strict) {
       "Exit codes: 0 done; 1 a bug in culm; 2 command line; 3 deck; 4 did not solve; 5 not "
       "finite;\n"
       "6 files; 7 stopped on request; 8 done, all results are written, but a promise is broken:\n"
-      "warnings on standard error and run.h5, /report/findings, say which.");
+      "warnings on standard error and run.h5, /report/findings, say which; 9 a partner failed.");
+}
+
+void add_run_options(CLI::App& verb, RunArguments& arguments) {
+  add_deck_options(verb, arguments);
+  add_walltime(verb, arguments.walltime);
+  verb.add_option("--output", arguments.folder,
+                  "Folder for results; results/<name of the deck> if not given");
+  add_ending(verb, arguments.strict);
+  verb.add_flag("--report", arguments.report, "Write report.html beside the results");
 }
 
 // Declares all verbs; the chosen one becomes `action`.
@@ -103,12 +118,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   app.set_version_flag("--version", std::string(culm::version));
   app.require_subcommand(1);
   CLI::App* run = app.add_subcommand("run", "Run a deck");
-  add_deck_options(*run, arguments.run);
-  add_walltime(*run, arguments.run.walltime);
-  run->add_option("--output", arguments.run.folder,
-                  "Folder for results; results/<name of the deck> if not given");
-  add_ending(*run, arguments.run.strict);
-  run->add_flag("--report", arguments.run.report, "Write report.html beside the results");
+  add_run_options(*run, arguments.run);
   run->callback([&] { action = [&](const Comm& comm) { culm::app::run(comm, arguments.run); }; });
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
   resume
@@ -128,12 +138,18 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                     "includes, with all defaults");
   check->callback(
       [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.check); }; });
-  CLI::App* couple = app.add_subcommand(
-      "couple", "Make the steps of a deck together with a simple partner at one of its ports");
-  add_deck_options(*couple, arguments.couple);
+  CLI::App* couple =
+      app.add_subcommand("couple", "Run a deck together with a partner at one of its ports");
+  add_run_options(*couple, arguments.couple);
   add_partner_options(*couple, arguments.couple);
   couple->callback(
       [&] { action = [&](const Comm& comm) { culm::app::couple(comm, arguments.couple); }; });
+  CLI::App* replay = app.add_subcommand(
+      "replay", "Run a deck with the loads of a recorded coupling, and compare how it moves");
+  replay->add_option("record", arguments.replay.record, "What a coupling wrote")->required();
+  add_run_options(*replay, arguments.replay);
+  replay->callback(
+      [&] { action = [&](const Comm& comm) { culm::app::replay(comm, arguments.replay); }; });
   CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");
   import->require_subcommand(1);
   CLI::App* openfast =
@@ -254,13 +270,14 @@ int main(int argc, char** argv) {
   Arguments arguments;
   bool is_root = false;
   const int code = run_verb(argc, argv, arguments, is_root);
-  const std::filesystem::path& folder = arguments.run.started;
+  const RunArguments& run = arguments.any_run();
+  const std::filesystem::path& folder = run.started;
   // the folder may be that of another run, which this one has left alone
-  if (!arguments.run.report || folder.empty() || code == file_error) return code;
+  if (!run.report || folder.empty() || code == file_error) return code;
   // mpiexec ends all processes when one returns an error, and the root has a page to draw before
   if (!is_root) return 0;
   std::vector<std::string> drawn = {"report", folder.string()};
-  if (arguments.run.quiet) drawn.emplace_back("--quiet");
+  if (run.quiet) drawn.emplace_back("--quiet");
   culm::app::call_python(drawn);
   return code;
 }

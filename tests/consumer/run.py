@@ -100,14 +100,15 @@ def check_couple(culm, deck):
     """The verb, with a mast that is pushed: what the structure loses the partner gains."""
     push = [word for name, value in (("Type", "Line Force"), ("Structure", "mast"), ("Force", "{57, 10, 0}"),
                                      ("Function", "Constant")) for word in ("--set", f"Loads/push/{name}={value}")]
-    text = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "added-mass", "--mass", "5", *push)
+    text = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "added-mass", "--mass", "5", *push,
+               "--output", culm.folder / "pushed")
     print(text, end="")
     work, share = (float(re.search(words + r"\s+([-+.\de]+)", text).group(1))
                    for words in ("work on the structure", "gap .* J,"))
     if not work < -1.0 or not abs(share) < 1e-8:
         sys.exit("the partner got nothing, or what it got is not what the structure lost")
     command = [culm.prefix / "bin/culm", "couple", HERE.parents[1] / "inputs/coupling/ports.xml", "--port", "strips",
-               "--partner", "added-mass", "--mass", "10", "--scheme", "explicit"]
+               "--partner", "added-mass", "--mass", "10", "--scheme", "explicit", "--output", culm.folder / "loose"]
     loose = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     if loose.returncode != 8 or "too loose" not in loose.stderr:
         sys.exit("a loose coupling loses energy, and nobody says so")

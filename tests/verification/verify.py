@@ -12,7 +12,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "kit"))
-from culm_runs import Culm  # noqa: E402
+from culm_runs import INPUTS, Culm  # noqa: E402, F401
 
 
 class Report:

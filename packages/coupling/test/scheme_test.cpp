@@ -1,6 +1,7 @@
 #include <culm/coupling/scheme.hpp>
 
 #include <Eigen/Dense>
+#include <culm_kit/deck_list.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,22 +43,29 @@ int attempts(Scheme& scheme, const Answer& answer, VectorXd x) {
   return tried;
 }
 
+std::unique_ptr<Scheme> make(const std::string& name, double relaxation) {
+  Schema schema("Coupling", "");
+  add_scheme_fields(schema);
+  return make_scheme(
+      kit::deck_list(schema, {{"Scheme", name}, {"Relaxation", relaxation}}, "coupling"));
+}
+
 int attempts(const std::string& scheme, double relaxation, double ratio) {
-  const auto made = find_scheme(scheme, relaxation);
+  const auto made = make(scheme, relaxation);
   return attempts(*made, Answer(ratio), VectorXd::Zero(5));
 }
 
 // Without relaxation loads grow as soon as the partner is the heavier one.
 TEST(Schemes, ConstantRelaxationEndsAtItsLimit) {
-  EXPECT_LT(attempts("constant", 1.0, 0.5), 50);
-  EXPECT_EQ(attempts("constant", 1.0, 1.1), 200);
-  EXPECT_LT(attempts("constant", 0.3, 3.0), 100);
-  EXPECT_EQ(attempts("constant", 0.3, 6.0), 200);  // 2 / 0.3 = 6.7 = 1 + 5.7
+  EXPECT_LT(attempts("Constant", 1.0, 0.5), 50);
+  EXPECT_EQ(attempts("Constant", 1.0, 1.1), 200);
+  EXPECT_LT(attempts("Constant", 0.3, 3.0), 100);
+  EXPECT_EQ(attempts("Constant", 0.3, 6.0), 200);  // 2 / 0.3 = 6.7 = 1 + 5.7
 }
 
 TEST(Schemes, AitkenFindsItsRelaxation) {
-  EXPECT_LT(attempts("aitken", 0.1, 0.5), 20);
-  EXPECT_LT(attempts("aitken", 0.1, 5.0), 100);
+  EXPECT_LT(attempts("Aitken", 0.1, 0.5), 20);
+  EXPECT_LT(attempts("Aitken", 0.1, 5.0), 100);
 }
 
 // A linear problem of n unknowns is solved by n + 2 attempts, however heavy the partner is, and
@@ -82,9 +90,23 @@ TEST(Schemes, QuasiNewtonLeavesOutEmptyDifferences) {
   EXPECT_EQ(next, x + 0.1 * (answer(x) - x));
 }
 
-TEST(Schemes, AreFoundByName) {
-  for (const std::string& name : scheme_names()) EXPECT_NE(find_scheme(name, 0.1), nullptr);
-  EXPECT_EQ(find_scheme("newton", 0.1), nullptr);
+// What a scheme has learnt goes on after it was saved.
+TEST(Schemes, GoOnFromWhatTheyHaveLearnt) {
+  for (const char* name : {"Quasi Newton", "Aitken"}) {
+    const auto first = make(name, 0.1);
+    const Answer answer(3.0);
+    attempts(*first, answer, VectorXd::Zero(5));
+    Snapshot snapshot;
+    first->save(snapshot);
+    const auto second = make(name, 0.1);
+    second->restore(snapshot);
+    VectorXd x = VectorXd::LinSpaced(5, -1.0, 2.0);
+    for (int i = 0; i < 4; ++i) {
+      const VectorXd next = first->next(x, answer(x));
+      EXPECT_EQ(second->next(x, answer(x)), next) << name;
+      x = next;
+    }
+  }
 }
 
 }  // namespace

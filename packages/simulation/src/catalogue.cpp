@@ -31,6 +31,7 @@ Catalogue::Catalogue() {
   joint::register_joints(constraints);
   load::register_loads(loads);
   port::register_ports(ports);
+  coupling::register_partners(partners);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
   register_signal_quantity(quantities);
@@ -220,6 +221,7 @@ Schema Catalogue::deck_schema() const {
                    "moments from step to step.")
                 .entries_by_type(ports.variants()),
             Presence::defaulted)
+      .list("Coupling", coupling::coupling_schema(partners), Presence::optional)
       .list("Initial Conditions",
             Schema("Initial Conditions", "How the model moves at the start, by name.")
                 .entries_by_type(initial_conditions.variants()),

@@ -34,6 +34,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     p.stepper.reset();
     keep_state(entries[p.present].name(), p.state);
   }
+  if (p.deck.has_list("Coupling")) {
+    p.findings.warn("coupling", "the partners of the deck do not act: a program makes the steps",
+                    0.0);
+  }
   p.phases.enter(p.present, p.comm, p.ledger);
   const Phase& before = p.phases.of(p.present);
   start_analysis(number, p.state);

@@ -1,7 +1,8 @@
-/// Work with files, which rank 0 does for all.
+/// Work with files and with other programs, which rank 0 does for all.
 #pragma once
 
 #include <culm/base/error.hpp>
+#include <culm/coupling/partner_error.hpp>
 #include <culm/parallel/comm.hpp>
 
 #include <filesystem>
@@ -9,7 +10,8 @@
 
 namespace culm::simulation {
 
-/// Runs `work` on rank 0; an error with files or a NonFiniteError there is thrown on all ranks.
+/// Runs `work` on rank 0; an error that it has there with files, partners, numbers or usage is
+/// thrown on all ranks.
 template <class Work>
 void on_root(const parallel::Comm& comm, Work work) {
   std::string error;  // after its kind
@@ -20,14 +22,21 @@ void on_root(const parallel::Comm& comm, Work work) {
       error = std::string("f") + e.what();
     } catch (const std::filesystem::filesystem_error& e) {
       error = std::string("f") + e.what();
+    } catch (const PartnerError& e) {
+      error = std::string("p") + e.what();
+    } catch (const UsageError& e) {
+      error = std::string("u") + e.what();
     } catch (const NonFiniteError& e) {
       error = std::string("n") + e.what();
     }
   }
   if (comm.size() > 1) error = comm.broadcast(error);
   if (error.empty()) return;
-  if (error.front() == 'f') throw FileError(error.substr(1));
-  throw NonFiniteError(error.substr(1));
+  const std::string text = error.substr(1);
+  if (error.front() == 'f') throw FileError(text);
+  if (error.front() == 'p') throw PartnerError(text);
+  if (error.front() == 'u') throw UsageError(text);
+  throw NonFiniteError(text);
 }
 
 }  // namespace culm::simulation

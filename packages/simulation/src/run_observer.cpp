@@ -5,6 +5,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 
+#include "coupled_run.hpp"
 #include "finite.hpp"
 
 #include <fmt/format.h>
@@ -173,6 +174,7 @@ void RunObserver::write_checkpoint() {
   Snapshot snapshot;
   save(snapshot);
   stepper_->save(snapshot);
+  if (coupled_ != nullptr) coupled_->save(snapshot);
   files_.save(snapshot);
   checkpoints_.write(snapshot);
 }

@@ -16,6 +16,8 @@
 
 namespace culm::simulation {
 
+class CoupledRun;
+
 /// How well the steps of an analysis are in balance, beside the largest force of any of them: the
 /// first steps may be all but unloaded.
 struct Balance {
@@ -46,7 +48,11 @@ class RunObserver final : public analysis::Observer {
   void begin(const Options& entry, std::size_t number, bool is_last, analysis::Context& context,
              const std::string& linear_solver);
   /// What makes the steps from now on, and what its checkpoints hold; none: nothing does.
-  void follow(analysis::Stepper* stepper) { stepper_ = stepper; }
+  /// @param coupled  what else they hold; null if nothing does
+  void follow(analysis::Stepper* stepper, CoupledRun* coupled) {
+    stepper_ = stepper;
+    coupled_ = coupled;
+  }
   /// Goes on within an analysis that has begun before.
   void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
@@ -87,6 +93,7 @@ class RunObserver final : public analysis::Observer {
   Ledger::Id states_effect_;
   Ledger::Id checkpoint_effect_ = 0;
   analysis::Stepper* stepper_ = nullptr;
+  CoupledRun* coupled_ = nullptr;
   analysis::Context* context_ = nullptr;  // of the analysis
   std::string name_;                      // of the analysis
   std::size_t number_ = 0;

@@ -1,3 +1,4 @@
+#include <culm/analysis/dynamics.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 #include <culm/deck/resolved.hpp>
@@ -81,6 +82,15 @@ void Simulation::Parts::tell_of(const port::Port& port) {
   for (const std::string& doubt : port::doubts(port, model)) findings.warn("port", doubt, 0.0);
 }
 
+std::unique_ptr<CoupledRun> Simulation::Parts::make_coupling(CoupledFiles files) {
+  if (!deck.has_list("Coupling")) {
+    if (files.replay.empty()) return nullptr;
+    throw UsageError("a replay needs a deck with a list 'Coupling'");
+  }
+  return std::make_unique<CoupledRun>(deck, catalogue.partners, std::move(files),
+                                      phases.of(present).ports, comm, findings);
+}
+
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log, double memory)
     : Simulation(std::unique_ptr<Parts>(
@@ -118,6 +128,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);
   const LayerSettings layers = read_layer_settings(output.list("Shell"), *phase.model);
   const output::RunInfo info = describe_run(p.deck, *p.phases.of(0).model, p.comm, from);
+  const std::unique_ptr<CoupledRun> coupled = p.make_coupling({settings.folder, settings.replay});
   // from here on there is something on the disk
   const auto lock = take_folder(p.comm, settings.folder, p.log);
   ResultFiles files(
@@ -133,10 +144,14 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                     0.0);
   }
   for (const auto& port : phase.ports) {
+    if (coupled != nullptr && coupled->serves(port->name())) continue;
     p.findings.warn("port",
                     "port '" + port->name() +
-                        "' has no loads: only a program that makes the steps can set them",
+                        "' has no loads: only partners, and programs that make the steps, set "
+                        "them",
                     0.0);
+  }
+  for (const auto& port : phase.ports) {
     write_port(port->name(), settings.folder / port_picture(port->name()));
   }
   model::State state = phase.model->initial_state();
@@ -145,9 +160,12 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
       p.findings.restore(*from);
       observer.restore(*from);
       p.earlier.restore(*from);
+      if (coupled != nullptr) coupled->restore(*from);
     }
-    run_analyses(state, observer, files, from);
+    run_analyses(state, observer, files, coupled.get(), from);
+    if (coupled != nullptr) coupled->end("");
   } catch (const Error& error) {
+    if (coupled != nullptr) coupled->end(error.what());
     try {
       observer.end(state, error.what());
     } catch (const Error& second) {
@@ -163,7 +181,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
 }
 
 void Simulation::run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
-                              const Snapshot* from) {
+                              CoupledRun* coupled, const Snapshot* from) {
   Parts& p = *parts_;
   const std::vector<Options>& entries = p.deck.list("Analyses").entries();
   const std::size_t first = p.present;
@@ -176,7 +194,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear.reason);
     if (resumes) observer.resume(*from);
     const auto report =
-        run_analysis(entries[i], context, state, observer, resumes ? from : nullptr);
+        run_analysis(entries[i], context, state, observer, coupled, resumes ? from : nullptr);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
     keep_state(entries[i].name(), state);
   }
@@ -184,7 +202,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
 
 analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis::Context& context,
                                                   model::State& state, RunObserver& observer,
-                                                  const Snapshot* from) {
+                                                  CoupledRun* coupled, const Snapshot* from) {
   const analysis::AnalysisRegistry& known = parts_->catalogue.analyses;
   const std::string& type = entry.text("Type");
   if (known.inspections.contains(type)) {
@@ -196,7 +214,9 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     return report;
   }
   const auto stepper = known.steppers.make(type, entry, context, state);
-  observer.follow(stepper.get());
+  const bool is_coupled =
+      coupled != nullptr && dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
+  observer.follow(stepper.get(), coupled);
   if (from != nullptr) {
     stepper->resume(*from);
   } else {
@@ -205,7 +225,10 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     stepper->begin();
   }
   try {
-    const analysis::AnalysisReport report = analysis::run(*stepper, observer);
+    const analysis::AnalysisReport report =
+        is_coupled ? coupled->run(*stepper, context.system,
+                                  parts_->phases.of(parts_->present).ports, observer)
+                   : analysis::run(*stepper, observer);
     observer.finish_analysis(report, state);
     return report;
   } catch (const Error& error) {
@@ -278,6 +301,7 @@ void Simulation::write_last_checkpoint(RunObserver& observer) const {
 
 void Simulation::examine() {
   Parts& p = *parts_;
+  p.make_coupling({});
   const std::vector<Options>& entries = p.deck.list("Analyses").entries();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const bool from_reference =

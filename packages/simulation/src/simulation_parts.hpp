@@ -5,6 +5,7 @@
 #include <culm/analysis/stepper.hpp>
 #include <culm/simulation/simulation.hpp>
 
+#include "coupled_run.hpp"
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
 #include "phase.hpp"
@@ -38,6 +39,8 @@ struct Simulation::Parts {
 
   void warn_of_reference();
   void tell_of(const port::Port& port);
+  /// With its partners; null if the deck has none. @param files  for a run
+  std::unique_ptr<CoupledRun> make_coupling(CoupledFiles files);
 };
 
 }  // namespace culm::simulation

@@ -1,49 +1,43 @@
-/// Partners of known behaviour, to see what a coupling does.
+/// Who answers the motion of a port with loads.
 #pragma once
 
-#include <Eigen/Core>
+#include <culm/base/snapshot.hpp>
+#include <culm/coupling/window.hpp>
 
-#include <memory>
+#include <limits>
 #include <string>
-#include <vector>
 
 namespace culm::coupling {
 
-/// Answers the motion of points with forces, in windows: as often as wanted from the same start,
-/// then accepted once. All points alike, three coordinates each.
+/// The other side of a port. In windows: asked for loads as often as wanted, each time from the
+/// start of the window, then accepted once.
 class Partner {
  public:
   virtual ~Partner() = default;
-  /// Before the first window: velocities at its start [m/s].
-  virtual void begin(const Eigen::VectorXd& velocity) = 0;
-  /// Mean forces of a window. @param moved  in the window [m]  @param h  its length [s]
-  virtual Eigen::VectorXd forces(const Eigen::VectorXd& moved, double h) const = 0;
-  /// The window is over with this motion.
-  virtual void accept(const Eigen::VectorXd& moved, double h) = 0;
-  /// What it holds and what it has turned into heat since the beginning [J].
-  virtual double energy() const = 0;
-  virtual double dissipated() const { return 0.0; }
-  /// How much its forces change with the motion in a window [N/m]: what rounding of motions makes
-  /// of them.
-  virtual double stiffness(double h) const = 0;
+  /// Once, before the first window. Throws PartnerError where they do not fit together.
+  virtual void begin(const Beginning& beginning) = 0;
+  /// What it must know of each window; known after begin.
+  virtual Quantities wanted() const { return bit(port::Quantity::motion); }
+  /// Where a window must end at the latest that begins here [s]; known after begin.
+  virtual double latest_end(double start) const {
+    (void)start;
+    return std::numeric_limits<double>::infinity();
+  }
+  /// Mean loads of the window: three forces and three moments for each point [N, N m]. What the
+  /// partner knows is afterwards what it knew before.
+  virtual Eigen::VectorXd loads(const Window& window) = 0;
+  /// The window is over, with this motion.
+  virtual void accept(const Window& window) = 0;
+  /// Of all windows that were accepted.
+  virtual Books books() const = 0;
+  /// What it needs to go on, under names that begin with `prefix`; between windows.
+  virtual void save(const std::string& prefix, Snapshot& snapshot) = 0;
+  /// After begin.
+  virtual void restore(const std::string& prefix, const Snapshot& snapshot) = 0;
+  /// The run is over. @param why  it failed; empty if it did not
+  virtual void end(const std::string& why) { (void)why; }
+  /// What does not hold that it has promised, in a sentence; empty if all does.
+  virtual std::string complaint() const { return {}; }
 };
-
-/// A mass m at each point, f = -m Dv / h with v_next = 2 Dx / h - v, as culm's own scheme has it.
-std::unique_ptr<Partner> make_added_mass(double mass);
-/// A dashpot c from each point to the ground, f = -c Dx / h.
-std::unique_ptr<Partner> make_dashpot(double damping);
-/// A mass m that hangs on each point by a spring k of length zero in each direction, by the
-/// mid-point rule.
-std::unique_ptr<Partner> make_oscillator(double mass, double stiffness);
-
-/// Numbers of partners; those that one does not have are of no use to it.
-struct PartnerNumbers {
-  double mass = 1.0;       ///< [kg]
-  double damping = 1.0;    ///< [N s/m]
-  double stiffness = 1.0;  ///< [N/m]
-};
-/// By its name in the command line: added-mass, dashpot, oscillator; null if there is none.
-std::unique_ptr<Partner> find_partner(const std::string& name, const PartnerNumbers& numbers);
-std::vector<std::string> partner_names();
 
 }  // namespace culm::coupling

@@ -1,9 +1,14 @@
 /// How the loads of a step are found that a partner answers with themselves.
 #pragma once
 
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
+#include <culm/base/snapshot.hpp>
+
 #include <Eigen/Core>
 
 #include <deque>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +26,9 @@ class Scheme {
   virtual Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& answer) = 0;
   /// The window is over: the next call belongs to another one.
   virtual void end_window() {}
+  /// What it has learnt, between windows; under names that begin with "coupling/scheme".
+  virtual void save(Snapshot&) const {}
+  virtual void restore(const Snapshot&) {}
 };
 
 /// The answer acts in the next window, with no second try.
@@ -52,6 +60,8 @@ class Aitken final : public Scheme {
   explicit Aitken(double first) : factor_(first) {}
   Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& answer) override;
   void end_window() override { before_.resize(0); }
+  void save(Snapshot& snapshot) const override;
+  void restore(const Snapshot& snapshot) override;
 
  private:
   double factor_;
@@ -61,7 +71,8 @@ class Aitken final : public Scheme {
 /// Interface quasi-Newton with an inverse from least squares: of the differences V of residuals and
 /// W of answers, newest first, x <- H(x) + W c with c = argmin |V c + r|. Differences of earlier
 /// windows go on serving; a column of V that the newer ones span but for a share `filter` is left
-/// out, and with it what rounding would make of it.
+/// out, and with it what rounding would make of it. Where residuals stop falling, the oldest window
+/// is forgotten and one relaxed step is made.
 /// @source Degroote, Bathe, Vierendeels, Comput. Struct. 87 (2009) 793-801
 class QuasiNewton final : public Scheme {
  public:
@@ -71,8 +82,11 @@ class QuasiNewton final : public Scheme {
       : first_(first), reuse_(reuse), filter_(filter) {}
   Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& answer) override;
   void end_window() override;
+  void save(Snapshot& snapshot) const override;
+  void restore(const Snapshot& snapshot) override;
 
  private:
+  bool has_stalled(double residual);
   struct Difference {
     Eigen::VectorXd residual, answer;
   };
@@ -81,13 +95,15 @@ class QuasiNewton final : public Scheme {
   double first_;
   int reuse_;
   double filter_;
-  std::deque<Window> windows_ = {Window()};  // the present one last
-  Eigen::VectorXd residual_, answer_;        // of the last call in this window
+  std::deque<Window> windows_ = {Window()};                // the present one last
+  Eigen::VectorXd residual_, answer_;                      // of the last call in this window
+  double best_ = std::numeric_limits<double>::infinity();  // residual in this window
+  int since_best_ = 0;                                     // attempts without a notable gain
 };
 
-/// By its name in the command line: explicit, constant, aitken, quasi-newton; null if there is
-/// none.
-std::unique_ptr<Scheme> find_scheme(const std::string& name, double relaxation);
-std::vector<std::string> scheme_names();
+/// Fields of the deck that say which scheme it is and how it works.
+void add_scheme_fields(Schema& schema);
+/// The scheme that they ask for.
+std::unique_ptr<Scheme> make_scheme(const Options& options);
 
 }  // namespace culm::coupling

@@ -4,6 +4,7 @@
 #include <culm/analysis/register_analysis.hpp>
 #include <culm/beam/register_beam.hpp>
 #include <culm/control/register_control.hpp>
+#include <culm/coupling/register_coupling.hpp>
 #include <culm/hybrid/tube.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
@@ -32,6 +33,7 @@ struct Catalogue {
   model::BuilderRegistry constraints;
   model::BuilderRegistry loads;
   port::PortRegistry ports;
+  coupling::PartnerRegistry partners;
   analysis::AnalysisRegistry analyses;
   QuantityRegistry quantities;
 

@@ -21,6 +21,7 @@
 namespace culm::simulation {
 
 struct Phase;
+class CoupledRun;
 class ResultFiles;
 class RunObserver;
 
@@ -28,8 +29,9 @@ class RunObserver;
 struct RunSettings {
   std::filesystem::path folder;  ///< for results
   bool quiet = false;
-  bool terminal = false;  ///< standard output is a terminal
-  bool strict = false;    ///< warnings count as broken promises
+  bool terminal = false;              ///< standard output is a terminal
+  bool strict = false;                ///< warnings count as broken promises
+  std::filesystem::path replay = {};  ///< record of a coupling, whose loads act instead
 };
 
 /// Builds the model of a deck and runs its analyses. The same on all ranks.
@@ -119,11 +121,11 @@ class Simulation {
 
  private:
   void run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
-                    const Snapshot* from);
+                    CoupledRun* coupled, const Snapshot* from);
   /// @param from  checkpoint to go on with, within this analysis
   analysis::AnalysisReport run_analysis(const Options& entry, analysis::Context& context,
                                         model::State& state, RunObserver& observer,
-                                        const Snapshot* from);
+                                        CoupledRun* coupled, const Snapshot* from);
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void keep_state(const std::string& name, model::State& state);

@@ -1,0 +1,48 @@
+/// Another program as a partner.
+#pragma once
+
+#include <culm/coupling/conversation.hpp>
+#include <culm/coupling/messages.hpp>
+#include <culm/coupling/partner.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace culm::coupling {
+
+/// Speaks the wire format over a channel that is opened when the coupling begins.
+class RemotePartner final : public Partner {
+ public:
+  using Open = std::function<std::unique_ptr<Channel>()>;
+  /// @param patience  for each of its words [s]
+  RemotePartner(Open open, double patience) : open_(std::move(open)), patience_(patience) {}
+  ~RemotePartner() override;
+
+  void begin(const Beginning& beginning) override;
+  Quantities wanted() const override { return partner_.wanted | bit(port::Quantity::motion); }
+  double latest_end(double start) const override { return start + partner_.longest_window; }
+  Eigen::VectorXd loads(const Window& window) override;
+  void accept(const Window& window) override;
+  Books books() const override { return books_; }
+  void save(const std::string& prefix, Snapshot& snapshot) override;
+  void restore(const std::string& prefix, const Snapshot& snapshot) override;
+  void end(const std::string& why) override;
+
+ private:
+  /// Speaks; what goes wrong is said with the name of the partner and what it was asked.
+  template <class Talk>
+  auto speak(const Window& window, Talk talk);
+
+  Open open_;
+  double patience_;
+  std::optional<Conversation> conversation_;
+  std::string port_;
+  Introduction partner_;
+  Books books_;
+  Window last_;  ///< that was accepted
+};
+
+}  // namespace culm::coupling

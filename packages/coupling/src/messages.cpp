@@ -1,0 +1,149 @@
+#include <culm/coupling/messages.hpp>
+#include <culm/coupling/partner_error.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <span>
+
+namespace culm::coupling {
+namespace {
+
+Frame about(FrameKind kind, const Window& window) {
+  return {kind, static_cast<std::uint32_t>(window.number),
+          static_cast<std::uint32_t>(window.attempt), window.start, window.end};
+}
+
+void expect_end(const Reader& reader, const Frame& frame) {
+  if (!reader.is_at_end()) {
+    throw PartnerError(fmt::format("'{}' holds more than it should", name_of(frame.kind)));
+  }
+}
+
+}  // namespace
+
+Frame hello(const Beginning& beginning) {
+  Writer writer;
+  writer.add(static_cast<std::uint32_t>(beginning.points()));
+  writer.add(std::span(beginning.reference));
+  writer.add(std::span(beginning.velocity));
+  writer.add_text(beginning.port);
+  return {FrameKind::hello,
+          static_cast<std::uint32_t>(beginning.window),
+          0,
+          beginning.time,
+          beginning.time,
+          writer.take()};
+}
+
+Beginning read_hello(const Frame& frame) {
+  Reader reader(frame.payload);
+  Beginning beginning;
+  const std::size_t points = reader.count();
+  beginning.reference = reader.numbers(3 * points);
+  beginning.velocity = reader.numbers(6 * points);
+  beginning.port = reader.text();
+  beginning.time = frame.start;
+  beginning.window = static_cast<int>(frame.window);
+  return beginning;
+}
+
+Frame introduction(const Introduction& partner) {
+  Writer writer;
+  writer.add(static_cast<std::uint32_t>(partner.points));
+  writer.add(partner.wanted);
+  writer.add(partner.longest_window);
+  writer.add_text(partner.name);
+  return {FrameKind::hello, 0, 0, 0.0, 0.0, writer.take()};
+}
+
+Introduction read_introduction(const Frame& frame) {
+  Reader reader(frame.payload);
+  Introduction partner;
+  partner.points = static_cast<int>(reader.count());
+  partner.wanted = reader.count();
+  partner.longest_window = reader.number();
+  partner.name = reader.text();
+  if (!(partner.longest_window > 0.0)) {
+    throw PartnerError(fmt::format("its longest window is {} s", partner.longest_window));
+  }
+  if (components(partner.wanted) == 0 || partner.wanted >= 1U << all_quantities.size()) {
+    throw PartnerError(fmt::format("it wants quantities {:#x} of 0x1f", partner.wanted));
+  }
+  return partner;
+}
+
+Frame motion(FrameKind kind, const Window& window, Quantities wanted) {
+  Frame frame = about(kind, window);
+  Writer writer;
+  for (const port::Quantity q : all_quantities) {
+    if ((wanted & bit(q)) != 0) writer.add(std::span(window.of(q)));
+  }
+  if (kind == FrameKind::accept) writer.add(std::span(window.loads));
+  frame.payload = writer.take();
+  return frame;
+}
+
+Window read_motion(const Frame& frame, Quantities wanted, int points) {
+  Window window{static_cast<int>(frame.window),
+                static_cast<int>(frame.attempt),
+                frame.start,
+                frame.end,
+                {},
+                {}};
+  Reader reader(frame.payload);
+  for (const port::Quantity q : all_quantities) {
+    if ((wanted & bit(q)) == 0) continue;
+    window.of(q) = reader.numbers(static_cast<std::size_t>(port::components(q) * points));
+  }
+  if (frame.kind == FrameKind::accept) {
+    window.loads = reader.numbers(6 * static_cast<std::size_t>(points));
+  }
+  expect_end(reader, frame);
+  return window;
+}
+
+Frame answer(const Window& window, const Eigen::VectorXd& loads) {
+  Frame frame = about(FrameKind::answer, window);
+  Writer writer;
+  writer.add(std::span(loads.data(), static_cast<std::size_t>(loads.size())));
+  frame.payload = writer.take();
+  return frame;
+}
+
+Eigen::VectorXd read_answer(const Frame& frame, int points) {
+  const std::size_t count = 6 * static_cast<std::size_t>(points);
+  if (frame.payload.size() != count * sizeof(double)) {
+    throw PartnerError(
+        fmt::format("its answer has {} bytes; six numbers for each of {} points are "
+                    "{}",
+                    frame.payload.size(), points, count * sizeof(double)));
+  }
+  const std::vector<double> values = Reader(frame.payload).numbers(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw PartnerError(
+        fmt::format("it answered {} for component {} at point {}", values[i], i % 6, i / 6));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(count));
+}
+
+Frame accepted(const Window& window, const Books& books) {
+  Frame frame = about(FrameKind::accepted, window);
+  Writer writer;
+  writer.add(books.energy);
+  writer.add(books.dissipated);
+  frame.payload = writer.take();
+  return frame;
+}
+
+Books read_accepted(const Frame& frame) {
+  Reader reader(frame.payload);
+  Books books;
+  books.energy = reader.number();
+  books.dissipated = reader.number();
+  expect_end(reader, frame);
+  return books;
+}
+
+}  // namespace culm::coupling

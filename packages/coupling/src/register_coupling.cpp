@@ -1,0 +1,115 @@
+#include <culm/coupling/point_partner.hpp>
+#include <culm/coupling/register_coupling.hpp>
+#include <culm/coupling/remote_partner.hpp>
+#include <culm/coupling/scheme.hpp>
+#include <culm/coupling/test_partners.hpp>
+
+#include <functional>
+#include <utility>
+
+namespace culm::coupling {
+namespace {
+
+Schema partner(std::string type, std::string doc) {
+  return Schema(std::move(type), std::move(doc))
+      .add(text("Port", "Where it acts; the only port of the deck if absent.").optional());
+}
+
+// A model that may make steps of its own.
+void add_stepping_partner(PartnerRegistry& registry, const std::string& type, Schema schema,
+                          const std::function<std::unique_ptr<PointModel>(const Options&)>& make) {
+  schema
+      .add(integer("Steps", "Steps that it makes in each window, its points moving straight.")
+               .at_least(1)
+               .optional(1))
+      .add(choice("Window Load", {"Mean", "Last"},
+                  "What it answers: the mean of its steps, which keeps the energy, or the forces "
+                  "of the last one, which do not.")
+               .optional("Mean"));
+  registry.add(type, std::move(schema), [make](const Options& options) {
+    const auto load = options.text("Window Load") == "Mean" ? WindowLoad::mean : WindowLoad::last;
+    return std::make_unique<PointPartner>(make(options), options.integer("Steps"), load);
+  });
+}
+
+Field mass_field() { return number("Mass", "kg", "At each point.").positive(); }
+
+}  // namespace
+
+void register_partners(PartnerRegistry& registry) {
+  // steps of its own would see no acceleration where points move straight
+  registry.add(
+      "Added Mass",
+      partner("Added Mass", "A mass at each point: water round a mast acts so.").add(mass_field()),
+      [](const Options& o) {
+        return std::make_unique<PointPartner>(make_added_mass(o.number("Mass")), 1,
+                                              WindowLoad::mean);
+      });
+  add_stepping_partner(registry, "Dashpot",
+                       partner("Dashpot", "A dashpot from each point to the ground.")
+                           .add(number("Damping", "N s/m", "Of each.").positive()),
+                       [](const Options& o) { return make_dashpot(o.number("Damping")); });
+  add_stepping_partner(
+      registry, "Oscillator",
+      partner("Oscillator", "A mass that hangs on each point by a spring.")
+          .add(mass_field())
+          .add(number("Stiffness", "N/m", "Of each spring.").positive()),
+      [](const Options& o) { return make_oscillator(o.number("Mass"), o.number("Stiffness")); });
+  registry.add(
+      "Random",
+      partner("Random", "Forces at random, others in each window, to see what a model endures.")
+          .add(number("Force", "N", "The largest in each direction, at each point.").positive())
+          .add(integer("Seed", "Another one, other forces.").at_least(0).optional(0)),
+      [](const Options& o) {
+        return std::make_unique<RandomPartner>(o.number("Force"),
+                                               static_cast<std::uint64_t>(o.integer("Seed")));
+      });
+  registry.add("Faulty",
+               partner("Faulty", "Fails, to see what becomes of a run then.")
+                   .add(choice("Fault", {"Death", "No Number"}, "How.").optional("Death"))
+                   .add(integer("Window", "From which window on, the first one 0.").at_least(0)),
+               [](const Options& o) {
+                 return std::make_unique<FaultyPartner>(
+                     o.text("Fault") == "Death" ? Fault::death : Fault::no_number,
+                     o.integer("Window"));
+               });
+  registry.add(
+      "Socket",
+      partner("Socket", "Another program, which comes to an address and speaks the wire format.")
+          .add(text("Address",
+                    "'unix:PATH', 'tcp:PORT' for programs on this machine, or 'tcp:ADDRESS:PORT'."))
+          .add(number("Patience", "s",
+                      "How long it may be silent, and how long it may take to come.")
+                   .positive()
+                   .optional(600.0)),
+      [](const Options& o) {
+        const double patience = o.number("Patience");
+        return std::make_unique<RemotePartner>(
+            [address = o.text("Address"), patience] { return listen(address, patience); },
+            patience);
+      });
+}
+
+Schema coupling_schema(const PartnerRegistry& partners) {
+  Schema schema("Coupling",
+                "Partners that answer the motion of ports with loads, in all analyses of type "
+                "'Dynamic'.");
+  add_scheme_fields(schema);
+  return schema
+      .add(number("Tolerance", "1",
+                  "Difference of loads and answer, over the answer, at which a window is repeated "
+                  "no more.")
+               .positive()
+               .optional(1e-8))
+      .add(integer("Most Attempts", "Per window.").at_least(1).optional(100))
+      .add(number("Window", "s",
+                  "From exchange to exchange: the structure makes steps of its own in it, under "
+                  "constant loads. Each step is a window if absent.")
+               .positive()
+               .optional())
+      .add(flag("Record", "Write all that is said into 'coupling_NAME.record'.").optional(false))
+      .list("Partners",
+            Schema("Partners", "Who answers, by name.").entries_by_type(partners.variants()));
+}
+
+}  // namespace culm::coupling

@@ -1,0 +1,235 @@
+"""Be the partner of culm from another program: the wire format over sockets, in one file without culm.
+
+    import culm_partner
+
+    class Wind(culm_partner.Partner):
+        def loads(self, window):
+            loads = numpy.zeros((self.points, 6))
+            loads[:, 0] = 12.0 - window.motion[:, 0] / window.length
+            return loads
+
+    culm_partner.run("unix:/tmp/wind", Wind())
+
+culm listens (partner of type 'Socket') and leads: for each window of time it sends how the points of a port move, as
+often as it takes, and then says that the window is over. doc/developer/wire_format.md describes the bytes.
+"""
+
+import math
+import os
+import socket
+import struct
+import threading
+import time
+import zlib
+
+import numpy
+
+QUANTITIES = (("position", 3), ("rotation", 9), ("velocity", 6), ("acceleration", 6), ("motion", 6))
+HELLO, ATTEMPT, ANSWER, ACCEPT, ACCEPTED, SAVE, SAVED, ALIVE, BYE, ERROR = range(1, 11)
+HEADER = struct.Struct("<4sHHIIddQI20x")  # magic, version, kind, window, attempt, start, end, payload, checksum
+CHECKED = 40  # bytes of the header that the checksum covers
+VERSION = 1
+
+
+class PartnerError(Exception):
+    """culm is gone, was silent for too long, or says what makes no sense."""
+
+
+class Window:
+    """A window of time [s] and how the points move in it: arrays with a row for each point.
+
+    number, attempt  from 0
+    start, end       [s]
+    motion           displacement and rotation vector in the window [m, rad], what loads work on
+    position         at the end [m]; rotation: 3x3 matrices against the reference; velocity, acceleration
+    loads            that acted, once the window is over: mean force and moment [N, N m]
+    """
+
+    def __init__(self, number, attempt, start, end):
+        self.number, self.attempt, self.start, self.end = number, attempt, start, end
+        self.loads = None
+
+    @property
+    def length(self):
+        return self.end - self.start
+
+
+class Partner:
+    """What culm asks; override what the program can answer."""
+
+    name = "partner"
+    wants = ("position", "motion")  # names of QUANTITIES
+    longest_window = math.inf  # [s]
+
+    def begin(self, port, reference, velocity, start, window):
+        """Before the first window. reference: (points, 3) [m]; velocity: (points, 6); window: above 0 where a run goes
+        on, from what was saved under this number."""
+        self.points = len(reference)
+
+    def loads(self, window):
+        """Mean force and moment of each point in this window, (points, 6) [N, N m]. The next call may be the same
+        window once more, with another motion: as if this call had not been."""
+        raise NotImplementedError
+
+    def accept(self, window):
+        """The window is over with this motion. Returns the energy that the partner holds more than at the start and
+        what it has turned into heat since [J], or nothing if it keeps no books."""
+
+    def save(self, window):
+        """Keep what you are under this number: a run may go on from here."""
+
+    def end(self, why):
+        """culm says good-bye. why: it failed; empty if it did not."""
+
+
+class Connection:
+    """Frames over a socket. Another thread says every second that this program is alive while it computes."""
+
+    def __init__(self, address, patience):
+        self.patience = patience
+        self.socket = _connect(address, patience)
+        self.sending = threading.Lock()
+        self.listens = True
+        self.ended = threading.Event()
+        threading.Thread(target=self._beat, daemon=True).start()
+
+    def close(self):
+        self.ended.set()
+        self.socket.close()
+
+    def send(self, kind, window=0, attempt=0, start=0.0, end=0.0, payload=b""):
+        with self.sending:
+            self.socket.sendall(encode(kind, window, attempt, start, end, payload))
+
+    def receive(self):
+        """(kind, window, attempt, start, end, payload) of the next frame that is more than a sign of life."""
+        while True:
+            self.listens = True
+            self.socket.settimeout(self.patience)
+            header = self._read(HEADER.size)
+            payload = self._read(HEADER.unpack(header)[7])
+            self.listens = False
+            frame = decode(header, payload)
+            if frame[0] != ALIVE:
+                return frame
+
+    def _read(self, size):
+        data = bytearray()
+        while len(data) < size:
+            try:
+                piece = self.socket.recv(min(size - len(data), 1 << 24))
+            except socket.timeout:
+                raise PartnerError(f"culm said nothing for {self.patience:g} s") from None
+            except OSError as error:
+                raise PartnerError(f"culm is gone ({error.strerror})") from None
+            if not piece:
+                raise PartnerError("culm is gone without a word")
+            data += piece
+        return bytes(data)
+
+    def _beat(self):
+        while not self.ended.wait(1.0):
+            if self.listens:
+                continue
+            try:
+                self.send(ALIVE)
+            except OSError:
+                return
+
+
+def encode(kind, window, attempt, start, end, payload):
+    def header(checksum):
+        return HEADER.pack(b"CULM", VERSION, kind, window, attempt, start, end, len(payload), checksum)
+
+    return header(zlib.crc32(payload, zlib.crc32(header(0)[:CHECKED]))) + payload
+
+
+def decode(header, payload):
+    magic, version, kind, window, attempt, start, end, _, checksum = HEADER.unpack(header)
+    if magic != b"CULM" or version != VERSION:
+        raise PartnerError(f"what came is no frame of culm in version {VERSION}")
+    if zlib.crc32(payload, zlib.crc32(header[:CHECKED])) != checksum:
+        raise PartnerError("a frame is damaged")
+    return kind, window, attempt, start, end, payload
+
+
+def run(address, partner, patience=600.0):
+    """Serves culm until it says good-bye. address: 'unix:PATH' or 'tcp:[HOST:]PORT', where culm listens; culm may take
+    so long to begin, and be silent for so long [s]. An exception of the partner is told to culm and goes on."""
+    connection = Connection(address, patience)
+    try:
+        _serve(connection, partner)
+    except PartnerError:
+        raise
+    except BaseException as error:
+        connection.send(ERROR, payload=f"{type(error).__name__}: {error}".encode())
+        raise
+    finally:
+        connection.close()
+
+
+def _serve(connection, partner):
+    kind, window, _, start, _, payload = connection.receive()
+    if kind != HELLO:
+        raise PartnerError(f"culm began with a frame of kind {kind}")
+    points = struct.unpack_from("<I", payload)[0]
+    numbers = numpy.frombuffer(payload, "<f8", 9 * points, 4)
+    reference, velocity = numbers[: 3 * points].reshape(-1, 3), numbers[3 * points :].reshape(-1, 6)
+    partner.begin(payload[4 + 72 * points :].decode(), reference, velocity, start, window)
+    wanted = sum(1 << i for i, (name, _) in enumerate(QUANTITIES) if name in partner.wants)
+    hello = struct.pack("<IId", points, wanted, partner.longest_window) + partner.name.encode()
+    connection.send(HELLO, payload=hello)
+    while True:
+        kind, number, attempt, start, end, payload = connection.receive()
+        about = (number, attempt, start, end)
+        if kind == ATTEMPT:
+            loads = numpy.asarray(partner.loads(_window(about, payload, points, wanted)), "<f8")
+            if loads.shape != (points, 6):
+                raise ValueError(f"loads have the shape {loads.shape} instead of {(points, 6)}")
+            connection.send(ANSWER, *about, payload=loads.tobytes())
+        elif kind == ACCEPT:
+            books = partner.accept(_window(about, payload, points, wanted)) or (math.nan, math.nan)
+            connection.send(ACCEPTED, *about, payload=struct.pack("<dd", *books))
+        elif kind == SAVE:
+            partner.save(number)
+            connection.send(SAVED, *about)
+        elif kind in (BYE, ERROR):
+            partner.end(payload.decode())
+            return
+        else:
+            raise PartnerError(f"culm sent a frame of kind {kind}")
+
+
+def _window(about, payload, points, wanted):
+    window = Window(*about)
+    at = 0
+    for i, (name, width) in enumerate(QUANTITIES):
+        if not wanted >> i & 1:
+            continue
+        values = numpy.frombuffer(payload, "<f8", width * points, at)
+        setattr(window, name, values.reshape(-1, 3, 3) if name == "rotation" else values.reshape(-1, width))
+        at += 8 * width * points
+    if at < len(payload):
+        window.loads = numpy.frombuffer(payload, "<f8", 6 * points, at).reshape(-1, 6)
+    return window
+
+
+def _connect(address, patience):
+    kind, _, place = address.partition(":")
+    end = time.monotonic() + patience
+    while True:
+        try:
+            if kind == "unix":
+                channel = socket.socket(socket.AF_UNIX)
+                channel.connect(place)
+            elif kind == "tcp":
+                host, _, port = place.rpartition(":")
+                channel = socket.create_connection((host or "127.0.0.1", int(port)))
+                channel.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            else:
+                raise ValueError(f"'{address}' is no address: 'unix:PATH' or 'tcp:[HOST:]PORT'")
+            return channel
+        except OSError as error:
+            if time.monotonic() > end:
+                raise PartnerError(f"nobody listens at '{address}' ({os.strerror(error.errno or 0)})") from None
+            time.sleep(0.01)

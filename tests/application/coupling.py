@@ -1,0 +1,330 @@
+#!/usr/bin/env python3
+"""Couplings with another program over a socket: equal to one in the same process bit by bit, killed and resumed,
+recorded and replayed, and with partners that die in all ways.
+
+usage: coupling.py --culm PROGRAM [--mpiexec PROGRAM --ranks N]
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/kit"))
+sys.path.insert(0, str(ROOT / "src/client"))
+import culm_partner  # noqa: E402
+from culm_runs import INPUTS, MPI_ENVIRONMENT  # noqa: E402
+
+DECK = INPUTS / "coupling/partners.xml"
+MASS = 20.0  # of the deck, at each point
+TIME_LIMIT = 120  # s
+FAILED_PARTNER = 9
+OPTIONS = None
+
+
+class Water(culm_partner.Partner):
+    """The added mass of the deck; operation by operation as culm has it, for equal bits."""
+
+    name = "water"
+    wants = ("motion",)
+    folder = None
+
+    def begin(self, port, reference, velocity, start, window):
+        super().begin(port, reference, velocity, start, window)
+        self.velocity = velocity[:, :3].copy()
+        self.start = self.kinetic()
+        if window > 0:
+            self.velocity, self.start = numpy.load(self.folder / f"water{window}.npy", allow_pickle=True)
+
+    def kinetic(self):
+        return 0.5 * MASS * float((self.velocity**2).sum())
+
+    def loads(self, window):
+        loads = numpy.zeros((self.points, 6))
+        loads[:, :3] = -2.0 * MASS / window.length * (window.motion[:, :3] / window.length - self.velocity)
+        return loads
+
+    def accept(self, window):
+        self.velocity = 2.0 / window.length * window.motion[:, :3] - self.velocity
+        return self.kinetic() - self.start, 0.0
+
+    def save(self, window):
+        numpy.save(self.folder / f"water{window}.npy", numpy.array([self.velocity, self.start], dtype=object))
+
+
+class Dying(Water):
+    """Fails in the second attempt of the sixth window."""
+
+    way = None
+
+    def loads(self, window):
+        if (window.number, window.attempt) == (5, 1):
+            self.connection.last = (ANSWER, 5, 1, window.start, window.end)
+            return WAYS[self.way](self, super().loads(window))
+        return super().loads(window)
+
+
+ANSWER = culm_partner.ANSWER
+
+
+def kill(partner, loads):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def leave(partner, loads):
+    os._exit(0)
+
+
+def raise_error(partner, loads):
+    raise RuntimeError("negative volume in cell 7")
+
+
+def send_half(partner, loads):
+    frame = culm_partner.encode(*partner.connection.last, loads.tobytes())
+    partner.connection.socket.sendall(frame[:100])
+    os._exit(0)
+
+
+def send_damaged(partner, loads):
+    frame = bytearray(culm_partner.encode(*partner.connection.last, loads.tobytes()))
+    frame[80] ^= 1
+    partner.connection.socket.sendall(frame)
+    time.sleep(TIME_LIMIT)
+
+
+def answer_before(partner, loads):
+    partner.connection.send(ANSWER, 5, 0, *partner.connection.last[3:], payload=loads.tobytes())
+    time.sleep(TIME_LIMIT)
+
+
+def answer_too_little(partner, loads):
+    partner.connection.send(*partner.connection.last, payload=loads[:2].tobytes())
+    time.sleep(TIME_LIMIT)
+
+
+def answer_no_number(partner, loads):
+    loads[3, 1] = numpy.nan
+    return loads
+
+
+def fall_silent(partner, loads):
+    partner.connection.ended.set()  # its heart, too
+    time.sleep(TIME_LIMIT)
+
+
+# how a partner dies, and what culm says
+WAYS = {
+    "kill": kill,
+    "leave": leave,
+    "raise": raise_error,
+    "half": send_half,
+    "damaged": send_damaged,
+    "before": answer_before,
+    "little": answer_too_little,
+    "nan": answer_no_number,
+    "silence": fall_silent,
+}
+SAID = {
+    "kill": "it is gone without a word",
+    "leave": "it is gone without a word",
+    "raise": "it says: RuntimeError: negative volume in cell 7",
+    "half": "it is gone in the middle of a frame",
+    "damaged": "a frame is damaged",
+    "before": "it answered for window 5, attempt 0, and was asked for window 5, attempt 1",
+    "little": "its answer has 96 bytes; six numbers for each of 5 points are 240",
+    "nan": "it answered nan for component 1 at point 3",
+    "silence": "it said nothing for 1 s",
+}
+
+
+def be_partner(address, folder, way):
+    """What this program does when it is started as a partner."""
+    partner = Dying() if way else Water()
+    partner.folder, partner.way = pathlib.Path(folder), way
+    connect = culm_partner.Connection
+
+    class Watched(connect):
+        def __init__(self, *arguments):
+            super().__init__(*arguments)
+            partner.connection = self
+
+    culm_partner.Connection = Watched
+    culm_partner.run(address, partner, 20.0)
+
+
+class CouplingTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="culm")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.address = f"unix:{self.folder}/socket"
+        text = DECK.read_text()
+        text = re.sub(r'<ParameterList name="damper">.*?</ParameterList>\s*', "", text, flags=re.S)
+        self.deck = self.write("water.xml", text)
+        self.remote = self.write("socket.xml", text.replace("Added Mass", "Socket").replace(
+            '<Parameter name="Mass" value="20"/>',
+            f'<Parameter name="Address" value="{self.address}"/><Parameter name="Patience" value="1"/>'))
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def start(self, *words):
+        ranks = [OPTIONS.mpiexec, "-n", str(OPTIONS.ranks)] if OPTIONS.ranks > 1 else []
+        return subprocess.Popen(
+            [*ranks, os.path.abspath(OPTIONS.culm), *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True, env={**os.environ, **MPI_ENVIRONMENT}, cwd=self.folder,
+        )
+
+    def start_partner(self, way=""):
+        process = subprocess.Popen(
+            [sys.executable, __file__, "--partner", self.address, str(self.folder), way], stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def finish(self, process, code=0):
+        output, errors = process.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(process.returncode, code, output + errors)
+        return errors
+
+    def culm(self, *words, code=0):
+        return self.finish(self.start(*words), code)
+
+    def same(self, one, other, name="history.csv"):
+        self.assertEqual((self.folder / one / name).read_bytes(), (self.folder / other / name).read_bytes(),
+                         f"{name} of {one} and {other}")
+
+    def rows(self, run):
+        return len((self.folder / run / "history.csv").read_text().splitlines()) - 2  # but titles and the start
+
+
+class Programs(CouplingTest):
+    def test_over_a_socket_as_in_the_same_process(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet")
+        partner = self.start_partner()
+        self.culm("run", self.remote, "--output", "there", "--quiet")
+        self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
+        self.same("here", "there")
+
+    def test_replay_of_a_record(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
+        record = self.folder / "here/coupling_water.record"
+        self.culm("replay", record, self.remote, "--output", "again", "--quiet")
+        self.same("here", "again")
+        errors = self.culm("replay", record, self.deck, "--output", "other", "--quiet", "--set",
+                           "Sections/pole/Density=2701", code=8)
+        self.assertIn("the structure moves differently, in window", errors)
+        short = self.write("short.record", "")
+        short.write_bytes(record.read_bytes()[:5000])
+        errors = self.culm("replay", short, self.deck, "--output", "cut", "--quiet", code=FAILED_PARTNER)
+        self.assertIn("short.record: the record ends at", errors)
+        errors = self.culm("replay", self.deck, self.deck, "--output", "none", "--quiet", code=6)
+        self.assertIn("is no record of a coupling: what came is no frame of culm", errors)
+
+    def test_goes_on_from_a_checkpoint(self):
+        settings = ["--quiet", "--set", "Output/Checkpoint Interval=0", "--set", "Coupling/Record=true"]
+        self.start_partner()
+        self.culm("run", self.remote, "--output", "whole", *settings)
+        self.start_partner()
+        self.culm("run", self.remote, "--output", "parts", *settings, "--set", "Analyses/motion/End Time=0.2")
+        self.start_partner()
+        self.culm("resume", "parts", "--set", "Analyses/motion/End Time=0.5", "--quiet")
+        self.same("whole", "parts")
+        self.same("whole", "parts", "coupling_water.record")
+
+
+class Partners(CouplingTest):
+    def test_that_die(self):
+        for way in SAID if OPTIONS.ranks == 1 else ("kill", "nan"):
+            said = SAID[way]
+            with self.subTest(way=way):
+                partner = self.start_partner(way)
+                errors = self.culm("run", self.remote, "--output", way, "--quiet", code=FAILED_PARTNER)
+                text = re.sub(r"\s+", " ", errors)
+                self.assertIn("the partner 'water' at port 'wet' failed in window 5, attempt 1, from 0.1 s to 0.12 s: "
+                              + said, text)
+                self.assertEqual(self.rows(way), 5)
+                partner.kill()
+
+    def test_that_never_come(self):
+        errors = self.culm("run", self.remote, "--output", "alone", "--quiet", code=FAILED_PARTNER)
+        self.assertIn("nobody came to", errors)
+
+    def test_that_die_and_are_resumed(self):
+        settings = ["--quiet", "--set", "Output/Checkpoint Interval=0"]
+        self.start_partner()
+        self.culm("run", self.remote, "--output", "whole", *settings)
+        self.start_partner("kill")
+        self.culm("run", self.remote, "--output", "killed", *settings, code=FAILED_PARTNER)
+        self.start_partner()
+        self.culm("resume", "killed", "--quiet")
+        self.same("whole", "killed")
+
+    def test_with_other_points(self):
+        partner = subprocess.Popen([sys.executable, "-c", f"""
+import struct, sys
+sys.path.insert(0, {str(ROOT / 'src/client')!r})
+import culm_partner as c
+connection = c.Connection({self.address!r}, 20.0)
+connection.receive()
+connection.send(c.HELLO, payload=struct.pack("<IId", 4, 16, 1.0) + b"other")
+connection.receive()
+"""])
+        errors = self.culm("run", self.remote, "--output", "other", "--quiet", code=FAILED_PARTNER)
+        self.assertIn("it has 4 points, the port has 5", errors)
+        partner.wait(TIME_LIMIT)
+
+
+@unittest.skipIf("--ranks" in sys.argv, "one rank reads the deck for all")
+class Decks(CouplingTest):
+    def says(self, text, deck, *settings, code=3):
+        words = [word for setting in settings for word in ("--set", setting)]
+        for verb in ("check", "run"):
+            errors = self.culm(verb, deck, *words, *(["--output", "out"] if verb == "run" else []), code=code)
+            self.assertIn(text, errors)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_that_are_wrong(self):
+        partner = "Coupling/Partners/water/"
+        self.says("there is no port 'wett' – did you mean 'wet'?", self.deck, partner + "Port=wett")
+        self.says("did you mean 'Quasi Newton'", self.deck, "Coupling/Scheme=Quasi-Newtn")
+        self.says("needs 'Port': the deck has 2", self.deck, "Coupling/Partners/more/Type=Dashpot",
+                  "Coupling/Partners/more/Damping=1")
+        self.says("port 'wet' has a partner already", self.deck, "Coupling/Partners/more/Type=Dashpot",
+                  "Coupling/Partners/more/Damping=1", "Coupling/Partners/more/Port=wet")
+
+    def test_with_partners_that_fail(self):
+        fault = ["--set", "Coupling/Partners/fault/Type=Faulty", "--set", "Coupling/Partners/fault/Port=top",
+                 "--set", "Coupling/Partners/fault/Window=3", "--quiet"]
+        errors = self.culm("run", self.deck, "--output", "dead", *fault, code=FAILED_PARTNER)
+        self.assertIn("the partner at port 'top' failed in window 3", errors)
+        self.assertEqual(self.rows("dead"), 3)
+        errors = self.culm("run", self.deck, "--output", "nan", *fault, "--set",
+                           "Coupling/Partners/fault/Fault=No Number", code=5)
+        self.assertIn("partner 'fault' answered nan for component 0 at point 0 of port 'top', in window 3", errors)
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--partner":
+        be_partner(*sys.argv[2:])
+        sys.exit()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True)
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--ranks", type=int, default=1)
+    OPTIONS, rest = parser.parse_known_args()
+    unittest.main(argv=[sys.argv[0], *rest])

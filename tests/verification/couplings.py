@@ -1,0 +1,174 @@
+#!/usr/bin/python3
+"""Structures and partners, each with steps of its own. Page: doc/verification/couplings.md."""
+
+import math
+import pathlib
+import re
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+from verify import INPUTS, main
+
+WINDOWS = (0.008, 0.004, 0.002)  # s
+TIMES = (0.04, 0.08, 0.12, 0.16)  # s, at which errors of the order are taken
+MAST = INPUTS / "coupling/partners.xml"
+
+
+def parameter(parent, name, value):
+    for one in parent.findall("Parameter"):
+        if one.get("name") == name:
+            one.set("value", str(value))
+            return
+    parent.insert(0, ElementTree.Element("Parameter", name=name, value=str(value)))
+
+
+def child(parent, name):
+    for one in parent.findall("ParameterList"):
+        if one.get("name") == name:
+            return one
+    return ElementTree.SubElement(parent, "ParameterList", name=name)
+
+
+def part(parent, name, values):
+    made = child(parent, name)
+    for key, value in values.items():
+        parameter(made, key, value)
+
+
+class Mast:
+    """The mast of the deck with other partners."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.count = 0
+
+    def deck(self, partners=None, masses=(), **coupling):
+        """partners: fields by name. masses: of point masses at the top, in the model. coupling: fields of the list."""
+        root = ElementTree.parse(MAST).getroot()
+        root.remove(child(root, "Coupling"))
+        parameter(child(child(root, "Ports"), "top"), "Offset", "{0.3, 0.1, 0}")
+        for i, mass in enumerate(masses):
+            part(child(root, "Masses"), f"mass {i}", {"Type": "Point Mass", "Node": "mast/last", "Mass": mass,
+                                                       "Offset": "{0.3, 0.1, 0}"})
+        if partners:
+            made = child(root, "Coupling")
+            for name, value in coupling.items():
+                parameter(made, name.replace("_", " "), value)
+            for name, fields in partners.items():
+                part(child(made, "Partners"), name, fields)
+        self.count += 1
+        path = self.folder / f"mast{self.count}.xml"
+        ElementTree.ElementTree(root).write(path)
+        return path
+
+
+def number(run, pattern):
+    return float(re.search(pattern, run.output).group(1))
+
+
+def gap(run):
+    return number(run, r"gap .* J, ([-+.\de]+)")
+
+
+def attempts(run):
+    return number(run, r"([.\d]+) attempts per window")
+
+
+def largest_difference(one, other):
+    return max(abs(a - b) for name in ("top ux [m]", "top uy [m]", "top uz [m]")
+               for a, b in zip(one.column(name), other.column(name), strict=True))
+
+
+def water(mass, port="top"):
+    return {"water": {"Type": "Added Mass", "Port": port, "Mass": mass}}
+
+
+def swing(steps=1, **more):
+    return {"swing": {"Type": "Oscillator", "Port": "top", "Mass": 20, "Stiffness": 20000, "Steps": steps, **more}}
+
+
+def verify_identity(culm, mast, report):
+    report.title("A mass behind a port is a mass in the model")
+    for mass in (4.5, 45.0, 4500.0):
+        together = culm.history(mast.deck(masses=[mass]))
+        run = culm.run(mast.deck(water(mass), Tolerance=1e-11), quiet=False)
+        report.holds(f"{mass:g} kg, {attempts(run):.1f} attempts per window: top, m",
+                     largest_difference(run.history, together), 1e-10)
+        report.holds("gap of the interface", abs(gap(run)), 1e-8)
+        report.holds("energy balance", run.drift("energy balance"), 1e-11)
+
+
+def verify_sub_cycling(culm, mast, report):
+    report.title("Steps of the structure and of the partner in a window: energy is kept")
+    for own, other in ((1, 1), (1, 8), (8, 1), (8, 8)):
+        run = culm.run(mast.deck(swing(other), Tolerance=1e-12, Window=0.02), [f"Analyses/motion/Step={0.02 / own}"],
+                       quiet=False)
+        report.holds(f"{own}:{other}, gap over what was exchanged", abs(gap(run)), 1e-11)
+        report.holds("energy balance of the structure", run.drift("energy balance"), 1e-11)
+    last = {"Window Load": "Last"}
+    run = culm.run(mast.deck(swing(8, **last), Window=0.02), ["Analyses/motion/Step=0.02"], quiet=False)
+    report.note(f"with the load of the last step in place of the mean the gap is {gap(run):.2g} of what was exchanged")
+    report.holds("its inverse", 1.0 / abs(gap(run)), 100.0)
+    report.check("exit code of a broken promise", run.exit, 8, 0)
+
+
+def verify_order(culm, mast, report):
+    report.title("Order of the window, four steps of the structure and two of the partner in each")
+
+    def top(window):
+        deck = mast.deck(swing(2), Tolerance=1e-10, Window=window)
+        settings = [f"Analyses/motion/Step={window / 4}", "Analyses/motion/End Time=0.16", "Functions/pulse/Type=Expression",
+                    "Functions/pulse/Expression=sin(t*pi/0.16)^2", "Loads/push/Function=pulse"]
+        history = culm.history(deck, settings)
+        return [history.column("top ux [m]")[history.row(time)] for time in TIMES]
+
+    limit = top(WINDOWS[0] / 16)
+    errors = [math.dist(top(window), limit) for window in WINDOWS]
+    report.note(f"errors at {WINDOWS} s: {errors}")
+    for coarse, fine in zip(errors, errors[1:]):
+        report.check("order", math.log2(coarse / fine), 2.0, 0.1)
+
+
+def verify_schemes(culm, mast, report):
+    report.title("Attempts per window, water at five points of the lower half")
+    for mass in (2.0, 20.0, 200.0):
+        found = {}
+        for scheme in ("Aitken", "Quasi Newton"):
+            run = culm.run(mast.deck(water(mass, "wet"), Scheme=scheme, **{"Most Attempts": 400}), quiet=False)
+            found[scheme] = attempts(run) if run.exit == 0 else math.inf
+        report.note(f"{mass:g} kg per point: Aitken {found['Aitken']:.1f}, quasi-Newton {found['Quasi Newton']:.1f}")
+        report.holds("quasi-Newton over Aitken", found["Quasi Newton"] / found["Aitken"], 1.0 if mass < 10 else 0.6)
+
+
+def verify_loose(culm, mast, report):
+    report.title("Loads that are exchanged once per window")
+    for mass, dies in ((0.1, False), (1.0, True), (200.0, True)):
+        run = culm.run(mast.deck(water(mass), Scheme="Explicit"), quiet=False)
+        warned = "times that of the structure" in run.errors
+        report.check(f"{mass:g} kg: warned of", warned, dies, 0)
+        report.check("exit code: did not solve, or broken promise", run.exit, 4 if dies else 8, 0)
+        for line in run.errors.splitlines():
+            if "times that of the structure" in line:
+                report.note(line)
+    one_way = culm.run(mast.deck(water(200.0), Scheme="One Way"), quiet=False)
+    report.check("one way: exit code", one_way.exit, 0, 0)
+
+
+def verify_noise(culm, mast, report):
+    report.title("Forces at random")
+    noise = {"noise": {"Type": "Random", "Port": "wet", "Force": 500}}
+    run = culm.run(mast.deck(noise), quiet=False)
+    report.holds("energy balance", run.drift("energy balance"), 1e-11)
+    report.holds("gap", abs(gap(run)), 1e-12)
+    report.check("attempts per window", attempts(run), 2.0, 0.1)
+
+
+def verify(culm, report):
+    with tempfile.TemporaryDirectory(prefix="culm") as folder:
+        mast = Mast(folder)
+        for part_of_it in (verify_identity, verify_sub_cycling, verify_order, verify_schemes, verify_loose,
+                           verify_noise):
+            part_of_it(culm, mast, report)
+
+
+main(verify)
