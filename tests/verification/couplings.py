@@ -154,6 +154,13 @@ def verify_loose(culm, mast, report):
     report.check("one way: exit code", one_way.exit, 0, 0)
 
 
+def verify_last_window(culm, mast, report):
+    report.title("A last window that is shorter than the others")
+    for scheme in ("Quasi Newton", "Explicit", "One Way"):
+        run = culm.run(mast.deck(water(0.1), Scheme=scheme, Window=0.13), quiet=False)
+        report.check(f"{scheme}: end", run.history.levels[-1], 0.5, 0.0)
+
+
 def verify_noise(culm, mast, report):
     report.title("Forces at random")
     noise = {"noise": {"Type": "Random", "Port": "wet", "Force": 500}}
@@ -167,7 +174,7 @@ def verify(culm, report):
     with tempfile.TemporaryDirectory(prefix="culm") as folder:
         mast = Mast(folder)
         for part_of_it in (verify_identity, verify_sub_cycling, verify_order, verify_schemes, verify_loose,
-                           verify_noise):
+                           verify_last_window, verify_noise):
             part_of_it(culm, mast, report)
 
 

@@ -175,7 +175,7 @@ class CoupledRun::Window {
 
  private:
   double proposal() const {
-    const double wanted = length_ ? start_ + *length_ : stepper_.proposal();
+    const double wanted = length_ ? std::min(start_ + *length_, final_time_) : stepper_.proposal();
     return latest_ < wanted - same_end * (wanted - start_) ? latest_ : wanted;
   }
 
@@ -196,8 +196,9 @@ class CoupledRun::Window {
       const double step = stepper_.proposal();
       const double target = step > end + tolerance ? end : step;
       report_ = stepper_.attempt(target);
+      final_time_ = report_.final_time;
       if (report_.accepted) {
-        read(target >= end - tolerance);
+        read(target >= std::min(end, final_time_) - tolerance);
         stepper_.accept();
         report_.is_last = stepper_.is_at_end();
       } else {
@@ -244,6 +245,7 @@ class CoupledRun::Window {
   double start_ = 0.0;
   double end_ = 0.0;
   double latest_ = 0.0;
+  double final_time_ = std::numeric_limits<double>::infinity();  // known after an attempt
   analysis::StepReport report_;
   std::vector<coupling::Window> motions_;
 };

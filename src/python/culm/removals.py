@@ -124,6 +124,13 @@ def dissipation(deck):
                 yield Removal(key.lower(), where, [f"{path}={none}" for path in paths])
 
 
+def two_way_coupling(deck):
+    """What the motion of the structure does to the loads of its partners."""
+    if deck.parameters.get("Coupling/Scheme", "One Way") != "One Way":
+        names = ", ".join(deck.names_in("Coupling/Partners"))
+        yield Removal("two-way coupling", names, ["Coupling/Scheme=One Way"])
+
+
 def prestress(deck):
     """Modes and buckling about a loaded state, where nothing follows that would need it."""
     names = deck.names_in("Analyses")
@@ -145,6 +152,7 @@ FINDERS = [
     following,
     masses,
     dissipation,
+    two_way_coupling,
     prestress,
 ]
 

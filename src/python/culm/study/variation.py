@@ -30,16 +30,21 @@ SHORT_NAMES = {
     "tolerance": ["Analyses/*/Newton/Force Tolerance"],
     "solver": ["Solver/Linear Solver"],
     "form": ["Solver/Form"],
+    "window": ["Coupling/Window"],
+    "agreement": ["Coupling/Tolerance"],
+    "coupling": ["Coupling/Scheme"],
+    "substeps": ["Coupling/Partners/*/Steps"],
 }
-SHRINKING = {"step", "tolerance", "Step", "Force Tolerance"}  # smaller is finer
+SHRINKING = {"step", "tolerance", "window", "agreement", "Step", "Force Tolerance", "Window", "Tolerance"}  # smaller is finer
 GROWING = {"mesh", "Refinement", "Elements"}  # larger is finer
-REFINED = {"step", "mesh", "Step", "Elements", "Refinement"}
+REFINED = {"step", "mesh", "window", "Step", "Elements", "Refinement", "Window"}
 
 # Values of these are ways to the same solution; all others are models of their own.
 SAME_SOLUTION = {
     *("element", "order", "membrane", "thickness", "integrator", "scheme", "increments"),
     *("tolerance", "solver", "form", "Element", "Order", "Enhanced Membrane", "Scheme"),
     *("Enhanced Thickness", "Steps", "Force Tolerance", "Linear Solver", "Form"),
+    *("agreement", "substeps", "Tolerance"),
 }
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
