@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/text.hpp>
 #include <culm/base/version.hpp>
+#include <culm/parallel/first_ranks.hpp>
 #include <culm/simulation/session.hpp>
 
 #include "command.hpp"
@@ -108,6 +109,8 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
   verb.add_option("--output", arguments.folder,
                   "Folder for results; results/<name of the deck> if not given");
   add_ending(verb, arguments.strict);
+  verb.add_option("--ranks", arguments.ranks,
+                  "culm is the first so many processes of the launcher, others are partners");
   verb.add_flag("--report", arguments.report, "Write report.html beside the results");
 }
 
@@ -241,7 +244,8 @@ int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
   declare_verbs(app, arguments, action);
   try {
     app.parse(argc, argv);
-    action(comm);
+    const int ranks = arguments.any_run().ranks;
+    action(ranks > 0 ? culm::parallel::first_ranks(ranks) : comm);
   } catch (const CLI::ParseError& error) {
     return report(error, app, comm);
   } catch (const culm::Error& error) {

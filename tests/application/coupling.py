@@ -2,7 +2,7 @@
 """Couplings with another program over a socket: equal to one in the same process bit by bit, killed and resumed,
 recorded and replayed, and with partners that die in all ways.
 
-usage: coupling.py --culm PROGRAM [--mpiexec PROGRAM --ranks N]
+usage: coupling.py --culm PROGRAM [--mpiexec PROGRAM --ranks N --socket-partner PROGRAM --mpi-partner PROGRAM]
 """
 
 import argparse
@@ -220,6 +220,28 @@ class Programs(CouplingTest):
         self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
         self.same("here", "there")
 
+    def test_with_a_partner_in_c(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet")
+        partner = subprocess.Popen([OPTIONS.socket_partner, self.address])
+        self.culm("run", self.remote, "--output", "there", "--quiet")
+        self.assertEqual(partner.wait(TIME_LIMIT), 0)
+        self.same("here", "there")
+
+    def test_over_mpi(self):
+        """Both in one mpiexec, culm on the first ranks."""
+        self.culm("run", self.deck, "--output", "here", "--quiet")
+        ranks = OPTIONS.ranks
+        deck = self.write("mpi.xml", self.deck.read_text().replace("Added Mass", "MPI").replace(
+            '<Parameter name="Mass" value="20"/>', f'<Parameter name="Rank" value="{ranks}"/>'))
+        process = subprocess.Popen(
+            [OPTIONS.mpiexec, "-n", str(ranks), os.path.abspath(OPTIONS.culm), "run", deck, "--ranks", str(ranks),
+             "--output", "there", "--quiet", ":", "-n", "1", OPTIONS.mpi_partner, "mpi"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, **MPI_ENVIRONMENT},
+            cwd=self.folder,
+        )
+        self.finish(process)
+        self.same("here", "there")
+
     def test_replay_of_a_record(self):
         self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
         record = self.folder / "here/coupling_water.record"
@@ -326,5 +348,7 @@ if __name__ == "__main__":
     parser.add_argument("--culm", required=True)
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--socket-partner")
+    parser.add_argument("--mpi-partner")
     OPTIONS, rest = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest])

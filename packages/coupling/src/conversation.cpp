@@ -9,7 +9,9 @@
 namespace culm::coupling {
 
 Conversation::Conversation(std::unique_ptr<Channel> channel, double patience)
-    : channel_(std::move(channel)), patience_(patience), heart_([this] { beat(); }) {}
+    : channel_(std::move(channel)), patience_(patience) {
+  if (channel_->wants_signs_of_life()) heart_ = std::thread([this] { beat(); });
+}
 
 Conversation::~Conversation() {
   {
@@ -17,7 +19,7 @@ Conversation::~Conversation() {
     ends_ = true;
   }
   ended_.notify_all();
-  heart_.join();
+  if (heart_.joinable()) heart_.join();
 }
 
 void Conversation::beat() {

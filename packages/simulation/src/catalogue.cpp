@@ -7,6 +7,7 @@
 
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
+#include "mpi_partner.hpp"
 #include "sampled_signals.hpp"
 
 #include <map>
@@ -32,6 +33,7 @@ Catalogue::Catalogue() {
   load::register_loads(loads);
   port::register_ports(ports);
   coupling::register_partners(partners);
+  register_mpi_partner(partners);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
   register_signal_quantity(quantities);

@@ -14,6 +14,8 @@ class Channel {
   virtual void send(const std::string& frame) = 0;
   /// Throws PartnerError where nothing comes for so long [s].
   virtual std::string receive(double patience) = 0;
+  /// Whether signs of life may be sent beside, from a thread of their own.
+  virtual bool wants_signs_of_life() const { return true; }
 };
 
 /// Waits at an address until another program comes. Throws PartnerError if none comes for so long

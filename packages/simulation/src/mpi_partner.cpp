@@ -1,0 +1,91 @@
+#include "mpi_partner.hpp"
+
+#include <culm/base/error.hpp>
+#include <culm/coupling/partner_error.hpp>
+#include <culm/coupling/remote_partner.hpp>
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <thread>
+
+namespace culm::simulation {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// One message for each frame, to a rank of all that were started together.
+class MpiChannel final : public coupling::Channel {
+ public:
+  explicit MpiChannel(int rank) : rank_(rank) {
+    int size = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    if (rank < size) return;
+    throw UsageError(fmt::format(
+        "the partner is rank {}, and {} processes were started; start both together: mpiexec -n 1 "
+        "culm run DECK --ranks 1 : -n 1 PARTNER",
+        rank, size));
+  }
+
+  void send(const std::string& frame) override {
+    if (frame.size() > std::numeric_limits<int>::max()) {
+      throw PartnerError("a frame is too long for a message of MPI");
+    }
+    MPI_Send(frame.data(), static_cast<int>(frame.size()), MPI_BYTE, rank_, 0, MPI_COMM_WORLD);
+  }
+
+  // Looks often at first, and not so often that the partner would miss the processor.
+  std::string receive(double patience) override {
+    constexpr auto busy = std::chrono::milliseconds(1);
+    constexpr auto pause = std::chrono::microseconds(50);
+    const auto start = Clock::now();
+    MPI_Status status;
+    for (;;) {
+      int is_there = 0;
+      MPI_Iprobe(rank_, 0, MPI_COMM_WORLD, &is_there, &status);
+      if (is_there != 0) break;
+      const auto waited = Clock::now() - start;
+      if (std::chrono::duration<double>(waited).count() > patience) {
+        throw PartnerError(fmt::format("it said nothing for {:g} s", patience));
+      }
+      if (waited > busy) {
+        std::this_thread::sleep_for(pause);
+      } else {
+        std::this_thread::yield();
+      }
+    }
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    std::string frame(static_cast<std::size_t>(std::max(size, 0)), '\0');
+    MPI_Recv(frame.data(), size, MPI_BYTE, rank_, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return frame;
+  }
+
+  // MPI is not told of threads, and its launcher ends all programs when one dies
+  bool wants_signs_of_life() const override { return false; }
+
+ private:
+  int rank_;
+};
+
+}  // namespace
+
+void register_mpi_partner(coupling::PartnerRegistry& registry) {
+  registry.add(
+      "MPI",
+      Schema("MPI", "Another program in the same mpiexec, which speaks the wire format.")
+          .add(text("Port", "Where it acts; the only port of the deck if absent.").optional())
+          .add(integer("Rank", "Of the partner among all processes; those of culm come first.")
+                   .at_least(1))
+          .add(number("Patience", "s", "How long it may be silent.").positive().optional(600.0)),
+      [](const Options& o) {
+        return std::make_unique<coupling::RemotePartner>(
+            [rank = o.integer("Rank")] { return std::make_unique<MpiChannel>(rank); },
+            o.number("Patience"));
+      });
+}
+
+}  // namespace culm::simulation
