@@ -301,6 +301,21 @@ int culm_port_set(culm_simulation* simulation, const char* port, const double* f
   });
 }
 
+int culm_port_set_pressure(culm_simulation* simulation, const char* port, const int* corners,
+                           int faces, const double* pressure, const double* traction) {
+  return with(simulation, [&](culm_simulation& s) {
+    require(corners != nullptr && faces >= 0, "there are no faces: the array is NULL");
+    std::vector<culm::port::Face> all(static_cast<std::size_t>(faces));
+    for (auto& face : all) {
+      for (int& corner : face) corner = *corners++;
+    }
+    const auto numbers = [&](const double* given, int each) {
+      return given == nullptr ? std::span<const double>() : values(given, each * faces, "");
+    };
+    s.simulation.set_port_pressure(port, all, numbers(pressure, 1), numbers(traction, 3));
+  });
+}
+
 int culm_port_exchange(culm_simulation* simulation, const char* port, double* work, double force[3],
                        double moment[3]) {
   return with(simulation, [&](culm_simulation& s) {

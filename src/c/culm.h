@@ -20,7 +20,7 @@ extern "C" {
 #endif
 
 /* What this header describes: major * 1000 + minor. culm_open compares it with the library. */
-#define CULM_API_VERSION 1000
+#define CULM_API_VERSION 1001
 
 /* The communicator of all ranks, for culm_open. */
 #define CULM_WORLD (-1)
@@ -120,6 +120,13 @@ CULM_API int culm_port_read(culm_simulation* simulation, const char* port, int q
  *   forces, moments  3 numbers per point, on `points` points; moments may be NULL: zero */
 CULM_API int culm_port_set(culm_simulation* simulation, const char* port, const double* forces,
                            const double* moments, int points);
+/* Sets the forces to those of pressure and traction on faces between the points, mean over the step that is open.
+ *   corners   four points of each of `faces` faces, by number, anticlockwise seen from outside; -1 last: a triangle
+ *   pressure  one number per face [Pa], pushes inwards; NULL: zero
+ *   traction  three numbers per face, in space [Pa]; NULL: zero */
+CULM_API int culm_port_set_pressure(culm_simulation* simulation, const char* port,
+                                    const int* corners, int faces, const double* pressure,
+                                    const double* traction);
 /* What the loads do in the open step: work, resultant, moment about the origin. Each may be NULL. */
 CULM_API int culm_port_exchange(culm_simulation* simulation, const char* port, double* work,
                                 double force[3], double moment[3]);

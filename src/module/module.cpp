@@ -163,6 +163,32 @@ void set_port(const PortHandle& port, const Values& force, const std::optional<V
                              moment ? three_columns(*moment, "moment") : std::span<const double>());
 }
 
+// Faces of three or four points, an array of integers with as many columns.
+std::vector<culm::port::Face> faces_of(
+    const py::array_t<int, py::array::c_style | py::array::forcecast>& corners) {
+  if (corners.ndim() != 2 || (corners.shape(1) != 3 && corners.shape(1) != 4)) {
+    throw culm::UsageError("faces must have the shape (faces, 3) or (faces, 4)");
+  }
+  std::vector<culm::port::Face> faces;
+  for (py::ssize_t i = 0; i < corners.shape(0); ++i) {
+    culm::port::Face& face = faces.emplace_back();
+    face[3] = -1;
+    for (py::ssize_t a = 0; a < corners.shape(1); ++a) {
+      face[static_cast<std::size_t>(a)] = corners.at(i, a);
+    }
+  }
+  return faces;
+}
+
+void set_pressure(const PortHandle& port,
+                  const py::array_t<int, py::array::c_style | py::array::forcecast>& faces,
+                  const Values& pressure, const std::optional<Values>& traction) {
+  if (pressure.ndim() != 1) throw culm::UsageError("pressure must have the shape (faces,)");
+  port.simulation().set_port_pressure(
+      port.name(), faces_of(faces), {pressure.data(), static_cast<std::size_t>(pressure.size())},
+      traction ? three_columns(*traction, "traction") : std::span<const double>());
+}
+
 void add_port(Live& live, const std::string& name, const Values& points,
               const std::vector<std::string>& structures, double reach, bool smooth) {
   const std::span<const double> numbers = three_columns(points, "points");
@@ -296,6 +322,12 @@ PYBIND11_MODULE(_culm, module) {
       .def("set", &set_port, py::arg("force"), py::arg("moment") = py::none(),
            "Sets forces [N] and moments [N m] of all attempts from now on, shape (points, 3), in "
            "space: in dynamics means over the step. Without moments these are zero.")
+      .def(
+          "set_pressure", &set_pressure, py::arg("faces"), py::arg("pressure"),
+          py::arg("traction") = py::none(),
+          "Sets forces from pressure [Pa], shape (faces,), and traction [Pa], shape (faces, 3), on "
+          "faces between the points, shape (faces, 3) or (faces, 4), anticlockwise seen from "
+          "outside; mean over the step that is open.")
       .def("exchange", &exchange,
            "What the loads do in the open step: work [J], resultant force [N], moment about the "
            "origin [N m] and what of moments no director of a shell takes [N m].")

@@ -60,6 +60,13 @@ int main(int argc, char **argv) {
   EXPECT(culm_port_read(mast, "net", CULM_MOTION, first, 12), CULM_OK, "");
   EXPECT(culm_port_exchange(mast, "net", &work, resultant, about), CULM_OK, "");
   if (!converged || work <= 0.0 || resultant[0] != 30.0 || resultant[1] != 20.0) return 6;
+  {
+    const int corners[8] = {0, 1, 0, -1, 0, 1, 2, -1};
+    EXPECT(culm_port_set_pressure(mast, "net", corners, 1, NULL, NULL), CULM_USAGE, "face 0 names a point twice");
+    EXPECT(culm_port_set_pressure(mast, "net", corners + 4, 1, NULL, NULL), CULM_USAGE, "face 0 names point 2");
+    EXPECT(culm_port_set_pressure(mast, "net", corners, 0, NULL, NULL), CULM_OK, "");
+    EXPECT(culm_port_set(mast, "net", force, moment, 2), CULM_OK, "");
+  }
   EXPECT(culm_discard(mast), CULM_OK, "");
   EXPECT(culm_attempt(mast, 0.5 * end, &converged), CULM_OK, "");
   EXPECT(culm_accept(mast), CULM_OK, "");

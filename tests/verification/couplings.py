@@ -154,6 +154,46 @@ def verify_loose(culm, mast, report):
     report.check("one way: exit code", one_way.exit, 0, 0)
 
 
+def closed_tube(rings=7, sides=8, radius=0.1):
+    """Points and triangles of a closed tube round the mast."""
+    points, faces = [], []
+    for ring in range(rings):
+        for side in range(sides):
+            angle = 2.0 * math.pi * side / sides
+            points += [radius * math.cos(angle), radius * math.sin(angle), 1.0 + 4.0 * ring / (rings - 1)]
+    points += [0.0, 0.0, 1.0, 0.0, 0.0, 5.0]
+    bottom, top = rings * sides, rings * sides + 1
+    for side in range(sides):
+        after = (side + 1) % sides
+        faces += [bottom, after, side, top, (rings - 1) * sides + side, (rings - 1) * sides + after]
+        for ring in range(rings - 1):
+            a, b, c, d = ring * sides + side, ring * sides + after, (ring + 1) * sides + after, (ring + 1) * sides + side
+            faces += [a, b, c, a, c, d]
+    return points, faces
+
+
+def array(values):
+    return "{" + ", ".join(map(repr, values)) + "}"
+
+
+def verify_pressure(culm, mast, report):
+    report.title("Constant pressure on a closed surface of 58 points and 112 triangles round the mast")
+    points, faces = closed_tube()
+    gas = {"gas": {"Type": "Pressure", "Port": "skin", "Pressure": 1e5, "Triangles": array(faces)}}
+    tree = ElementTree.parse(mast.deck(gas, Tolerance=1e-11))
+    part(child(tree.getroot(), "Ports"), "skin", {"Type": "Cloud", "Points": array(points)})
+    deck = mast.folder / "skin.xml"
+    tree.write(deck)
+    run = culm.run(deck, quiet=False)
+    report.holds("gap, against the change of the volume", abs(gap(run)), 1e-9)
+    still = culm.history(mast.deck())
+    report.holds("top, against the mast without pressure, over its displacement",
+                 largest_difference(run.history, still) / max(still.column("top ux [m]")), 1e-3)
+    open_deck = mast.folder / "open.xml"
+    open_deck.write_text(deck.read_text().replace(array(faces), array(faces[3:])))
+    report.check("an open surface keeps no books", "keeps no books" in culm.run(open_deck, quiet=False).output, True, 0)
+
+
 def verify_last_window(culm, mast, report):
     report.title("A last window that is shorter than the others")
     for scheme in ("Quasi Newton", "Explicit", "One Way"):
@@ -174,7 +214,7 @@ def verify(culm, report):
     with tempfile.TemporaryDirectory(prefix="culm") as folder:
         mast = Mast(folder)
         for part_of_it in (verify_identity, verify_sub_cycling, verify_order, verify_schemes, verify_loose,
-                           verify_last_window, verify_noise):
+                           verify_pressure, verify_last_window, verify_noise):
             part_of_it(culm, mast, report)
 
 

@@ -1,4 +1,5 @@
 #include <culm/coupling/point_partner.hpp>
+#include <culm/coupling/pressure_partner.hpp>
 #include <culm/coupling/register_coupling.hpp>
 #include <culm/coupling/remote_partner.hpp>
 #include <culm/coupling/scheme.hpp>
@@ -32,6 +33,19 @@ void add_stepping_partner(PartnerRegistry& registry, const std::string& type, Sc
   });
 }
 
+std::vector<port::Face> read_faces(const std::vector<int>& triangles,
+                                   const std::vector<int>& quadrilaterals) {
+  std::vector<port::Face> faces;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    faces.push_back({triangles[i], triangles[i + 1], triangles[i + 2], -1});
+  }
+  for (std::size_t i = 0; i + 3 < quadrilaterals.size(); i += 4) {
+    faces.push_back(
+        {quadrilaterals[i], quadrilaterals[i + 1], quadrilaterals[i + 2], quadrilaterals[i + 3]});
+  }
+  return faces;
+}
+
 Field mass_field() { return number("Mass", "kg", "At each point.").positive(); }
 
 }  // namespace
@@ -63,6 +77,25 @@ void register_partners(PartnerRegistry& registry) {
       [](const Options& o) {
         return std::make_unique<RandomPartner>(o.number("Force"),
                                                static_cast<std::uint64_t>(o.integer("Seed")));
+      });
+  registry.add(
+      "Pressure",
+      partner("Pressure", "A constant pressure on a surface between the points of its port.")
+          .add(number("Pressure", "Pa", "On the outside; below zero: it pushes outwards."))
+          .add(integers("Triangles",
+                        "Numbers of points in the port, three for each face, anticlockwise seen "
+                        "from outside.")
+                   .at_least(0)
+                   .size_multiple_of(3)
+                   .optional(std::vector<int>{}))
+          .add(integers("Quadrilaterals", "The same for faces of four points.")
+                   .at_least(0)
+                   .size_multiple_of(4)
+                   .optional(std::vector<int>{})),
+      [](const Options& o) {
+        return std::make_unique<PressurePartner>(
+            o.number("Pressure"),
+            read_faces(o.integers("Triangles"), o.integers("Quadrilaterals")));
       });
   registry.add("Faulty",
                partner("Faulty", "Fails, to see what becomes of a run then.")

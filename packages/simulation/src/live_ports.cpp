@@ -8,6 +8,8 @@
 #include "port_picture.hpp"
 #include "simulation_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -68,6 +70,28 @@ std::vector<double> Simulation::read_port(const std::string& name, port::Quantit
 void Simulation::set_port(const std::string& name, std::span<const double> forces,
                           std::span<const double> moments) {
   find_port(parts_->phases.of(parts_->present), name).set_loads(forces, moments);
+}
+
+void Simulation::set_port_pressure(const std::string& name, std::span<const port::Face> faces,
+                                   std::span<const double> pressure,
+                                   std::span<const double> traction) {
+  const port::Port& port = this->port(name);
+  const std::string objection = port::objection_to(faces, port.size());
+  if (!objection.empty()) throw UsageError("port '" + name + "': " + objection);
+  const auto require_size = [&](std::span<const double> values, std::size_t each,
+                                const char* what) {
+    if (values.empty() || values.size() == each * faces.size()) return;
+    throw UsageError(fmt::format("port '{}' takes {} values of {} for {} faces, got {}", name,
+                                 each * faces.size(), what, faces.size(), values.size()));
+  };
+  require_size(pressure, 1, "pressure");
+  require_size(traction, 3, "traction");
+  const model::State& state = both_ends();
+  const std::vector<double> end = port.read(port::Quantity::position, state);
+  const std::vector<double> moved = port.read(port::Quantity::motion, state);
+  std::vector<double> start = end;
+  for (std::size_t i = 0; i < start.size(); ++i) start[i] -= moved[6 * (i / 3) + i % 3];
+  set_port(name, port::face_forces(faces, start, end, pressure, traction));
 }
 
 port::Exchange Simulation::exchange(const std::string& name) {

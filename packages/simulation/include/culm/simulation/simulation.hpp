@@ -6,6 +6,7 @@
 #include <culm/base/log.hpp>
 #include <culm/base/options.hpp>
 #include <culm/parallel/comm.hpp>
+#include <culm/port/faces.hpp>
 #include <culm/port/register_port.hpp>
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/memory.hpp>
@@ -89,6 +90,12 @@ class Simulation {
   /// analyses. Call it on all ranks alike. Throws what Port::set_loads throws.
   void set_port(const std::string& name, std::span<const double> forces,
                 std::span<const double> moments = {});
+  /// Sets the forces at a port to those of pressure and traction on faces between its points, mean
+  /// over the open step as it was last attempted; where none is open, as the points are. Throws
+  /// UsageError for faces that do not belong to the port or other numbers of values, NonFiniteError
+  /// for no number. @see port::face_forces
+  void set_port_pressure(const std::string& name, std::span<const port::Face> faces,
+                         std::span<const double> pressure, std::span<const double> traction = {});
   /// What the loads of a port did in the open step; collective.
   port::Exchange exchange(const std::string& name);
   /// Writes the points of a port in the reference for ParaView: a VTU file with the structure, the
