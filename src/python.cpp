@@ -41,6 +41,7 @@ const std::vector<PythonVerb>& python_verbs() {
       {"effects", "Tell what the effects of a scene cost, and what changes without each"},
       {"report", "Draw the page of a run: report.html in its folder"},
       {"study", "Measure what accuracy costs: vary a deck, compare with a reference, advise"},
+      {"view", "Write a page that shows a run in space and time: view.html in its folder"},
   };
   return verbs;
 }

@@ -60,6 +60,22 @@ CellTable cell_table(const std::vector<Cell>& cells) {
   return table;
 }
 
+OutlineTable outline_table(const std::vector<std::vector<Eigen::Vector2d>>& outlines) {
+  OutlineTable table;
+  const std::vector<Eigen::Vector2d>* last = nullptr;
+  for (const std::vector<Eigen::Vector2d>& outline : outlines) {
+    if (!outline.empty() && (last == nullptr || *last != outline)) {
+      for (const Eigen::Vector2d& xi : outline) {
+        table.points.insert(table.points.end(), {xi.x(), xi.y()});
+      }
+      table.ends.push_back(static_cast<int>(table.points.size() / 2));
+      last = &outline;
+    }
+    table.of_node.push_back(outline.empty() ? -1 : static_cast<int>(table.ends.size()) - 1);
+  }
+  return table;
+}
+
 std::vector<int> xdmf_topology(const std::vector<Cell>& cells) {
   constexpr int polyvertex = 1, polyline = 2, quadrilateral = 5;
   std::vector<int> numbers;

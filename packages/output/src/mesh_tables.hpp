@@ -30,6 +30,15 @@ struct CellTable {
 
 CellTable cell_table(const std::vector<Cell>& cells);
 
+/// Outlines without repetition: those of neighbours along a beam are mostly alike.
+struct OutlineTable {
+  std::vector<int> of_node;    ///< number of its outline; -1 for none
+  std::vector<int> ends;       ///< end of each outline in `points`
+  std::vector<double> points;  ///< shape (points, 2) [m]
+};
+
+OutlineTable outline_table(const std::vector<std::vector<Eigen::Vector2d>>& outlines);
+
 /// Cells as a mixed topology of XDMF: per cell its type, for lines the count, then the nodes.
 std::vector<int> xdmf_topology(const std::vector<Cell>& cells);
 

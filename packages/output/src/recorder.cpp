@@ -58,6 +58,28 @@ void write_cell_array_names(Hdf5File& file, hid_t group, const std::vector<CellA
   file.set_attribute(group, "cell_array_columns", columns);
 }
 
+void write_outlines(Hdf5File& file, hid_t group,
+                    const std::vector<std::vector<Eigen::Vector2d>>& outlines) {
+  const OutlineTable table = outline_table(outlines);
+  if (table.points.empty()) return;
+  file.write(group, "outline_of_node", table.of_node);
+  file.write(group, "outline_ends", table.ends);
+  file.write(group, "outline_points", table.points, {table.points.size() / 2, 2});
+}
+
+void write_held(Hdf5File& file, hid_t mesh, const std::vector<HeldNodes>& held) {
+  if (held.empty()) return;
+  const Handle group = file.make_group(mesh, "constraints");
+  int number = 0;
+  for (const HeldNodes& one : held) {
+    const std::string name = step_name(number++);
+    file.write(group.id(), name, one.nodes);
+    const Handle dataset = open_dataset(file, group.id(), name);
+    file.set_attribute(dataset.id(), "name", one.name);
+    file.set_attribute(dataset.id(), "type", one.type);
+  }
+}
+
 void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int number) {
   const Handle group = file.make_group(parent, link_name(mesh.name));
   file.set_attribute(group.id(), "name", mesh.name);
@@ -74,6 +96,8 @@ void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int num
   file.write(group.id(), "cell_offsets", cells.offsets);
   file.write(group.id(), "connectivity", cells.connectivity);
   file.write(group.id(), "topology", xdmf_topology(mesh.cells));
+  write_outlines(file, group.id(), mesh.outlines);
+  write_held(file, group.id(), mesh.held);
 }
 
 Handle make_history(Hdf5File& file, const std::vector<HistoryColumn>& columns) {
@@ -212,6 +236,7 @@ class Recorder::File {
     file_.remove_if_present(all.id(), name);
     file_.take_sum();
     const Handle group = file_.make_group(all.id(), name);
+    file_.set_attribute(group.id(), "state", results.state);
     for (const NamedTable& table : results.tables) write_table(group.id(), table);
     if (!results.shapes.empty()) write_shapes(group.id(), results);
     for (const SparseMatrix& matrix : results.matrices) {

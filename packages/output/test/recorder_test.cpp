@@ -108,6 +108,34 @@ TEST(Recorder, MeshReadsBack) {
   EXPECT_THAT(read("hub%2Fleft/topology"), ElementsAre(1, 1, 0));
 }
 
+TEST(Recorder, OutlinesThatRepeatStandOnce) {
+  const TemporaryFolder folder;
+  std::vector<StructureMesh> meshes = {tube_mesh(4)};
+  meshes[0].outlines[2].clear();
+  meshes[0].outlines[4] = regular_polygon(tube_corners, 2.0 * tube_radius);
+  const Recorder recorder(folder / "run.h5", info, meshes, {});
+  const auto read = [&](const std::string& name) {
+    return read_dataset(folder / "run.h5", "/mesh/main tube/" + name);
+  };
+  EXPECT_THAT(read("outline_of_node"), ElementsAre(0, 0, -1, 0, 1));
+  EXPECT_THAT(read("outline_ends"), ElementsAre(tube_corners, 2 * tube_corners));
+  const std::vector<double> points = read("outline_points");
+  ASSERT_EQ(points.size(), 4U * tube_corners);
+  EXPECT_EQ(points[0], tube_radius);
+  EXPECT_EQ(points[2 * tube_corners], 2.0 * tube_radius);
+}
+
+TEST(Recorder, HeldNodesStandBesideTheMesh) {
+  if (!has_python("h5py")) GTEST_SKIP() << "no h5py";
+  const TemporaryFolder folder;
+  make_recorder(folder / "run.h5").close();
+  EXPECT_EQ(run_python("import h5py, sys\n"
+                       "held = h5py.File(sys.argv[1])['mesh/main tube/constraints/000000']\n"
+                       "print(held[()], held.attrs['name'], held.attrs['type'])\n",
+                       folder / "run.h5"),
+            "[0] foot Rigid Support\n");
+}
+
 TEST(Recorder, HistoryGrowsRowByRow) {
   const TemporaryFolder folder;
   Recorder recorder = make_recorder(folder / "run.h5");

@@ -54,6 +54,7 @@ inline StructureMesh tube_mesh(int elements) {
   }
   mesh.resultant_names = {"N1", "N2", "N3", "M1", "M2", "M3"};
   mesh.node_arrays = {{"reaction", 3}, {"temperature", 1}};
+  mesh.held = {{"foot", "Rigid Support", {0}}};
   return mesh;
 }
 

@@ -29,15 +29,37 @@ output::CellType cell_type(std::size_t nodes, bool is_shell) {
   return nodes == 1 ? output::CellType::vertex : output::CellType::line;
 }
 
-output::StructureMesh mesh_of(const model::Structure& structure,
-                              const model::Coordinates& reference) {
+// The entry of the deck: one on many nodes makes a constraint for each of them.
+std::string entry_of(const model::Constraint& constraint) {
+  const std::string list = "Constraints / ";
+  const std::string& path = constraint.where.path;
+  return path.starts_with(list) ? path.substr(list.size()) : constraint.name;
+}
+
+std::vector<output::HeldNodes> held_nodes(const model::Model& model,
+                                          const std::unordered_map<int, int>& number) {
+  std::vector<output::HeldNodes> held;
+  for (const model::Constraint& constraint : model.constraints()) {
+    if (constraint.is_structural) continue;
+    const std::string name = entry_of(constraint);
+    for (const int node : constraint.nodes) {
+      const auto found = number.find(node);
+      if (found == number.end()) continue;
+      if (held.empty() || held.back().name != name) held.push_back({name, constraint.type, {}});
+      held.back().nodes.push_back(found->second);
+    }
+  }
+  return held;
+}
+
+output::StructureMesh mesh_of(const model::Structure& structure, const model::Model& model) {
   output::StructureMesh mesh;
   mesh.name = structure.name;
   const bool is_shell = !structure.faces.empty();
   mesh.type = is_shell ? "Shell" : structure.nodes.size() == 1 ? "Body" : "Beam";
   if (is_shell) mesh.directors = output::Directors::single;
   mesh.outlines = structure.outlines;
-  read_nodes(structure, reference, mesh.positions, mesh.triads);
+  read_nodes(structure, model.nodes().reference(), mesh.positions, mesh.triads);
   std::unordered_map<int, int> number;  // of a node within the structure
   for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
   for (const model::Cell& cell : structure.cells) {
@@ -47,6 +69,7 @@ output::StructureMesh mesh_of(const model::Structure& structure,
     mesh.cells.push_back(picture);
     if (cell.source != nullptr) mesh.resultant_names = cell.source->resultant_names();
   }
+  mesh.held = held_nodes(model, number);
   return mesh;
 }
 
@@ -112,7 +135,7 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
                                              const LayerSettings& layers) {
   std::vector<output::StructureMesh> meshes;
   for (const model::Structure& structure : model.structures()) {
-    meshes.push_back(mesh_of(structure, model.nodes().reference()));
+    meshes.push_back(mesh_of(structure, model));
     meshes.back().cell_arrays = layer_arrays(structure, layers);
   }
   return meshes;

@@ -175,7 +175,9 @@ void ResultFiles::add_results(const std::string& name, const analysis::AnalysisR
                               const model::State& state) {
   if (report.tables.empty() && report.shapes.empty() && report.matrices.empty()) return;
   on_root(system_->comm(), [&] {
-    files_->recorder.write_results(results_of(system_->model(), name, report));
+    output::AnalysisResults results = results_of(system_->model(), name, report);
+    results.state = static_cast<int>(frames_) - 1;
+    files_->recorder.write_results(results);
     const auto written = write_analysis_files(system_->model(), name, report, state,
                                               settings_.folder, settings_.pictures);
     analysis_files_.insert(analysis_files_.end(), written.begin(), written.end());

@@ -41,6 +41,7 @@ struct AnalysisResults {
   std::vector<std::string> shape_names;
   std::vector<StructureShapes> shapes;
   std::vector<SparseMatrix> matrices;
+  int state = 0;  ///< number of the last recorded state before it, about which the shapes are
 };
 
 /// Writes a table as text: a line of names, then one per row; numbers have 17 digits and read back

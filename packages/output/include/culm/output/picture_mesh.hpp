@@ -43,6 +43,13 @@ struct CellArray {
   std::vector<std::string> columns;  ///< one name per number of a cell
 };
 
+/// The nodes of a structure that a support, a joint or a connection acts on.
+struct HeldNodes {
+  std::string name;        ///< of the constraint, in the deck
+  std::string type;        ///< "Rigid Support"
+  std::vector<int> nodes;  ///< within the structure, from 0
+};
+
 /// One structure in the reference configuration.
 struct StructureMesh {
   std::string name;                ///< unique in the model
@@ -60,6 +67,7 @@ struct StructureMesh {
   std::vector<std::string> resultant_names;
   std::vector<NodeArray> node_arrays;
   std::vector<CellArray> cell_arrays;
+  std::vector<HeldNodes> held;
 
   int node_count() const { return static_cast<int>(positions.size()); }
   int cell_count() const { return static_cast<int>(cells.size()); }

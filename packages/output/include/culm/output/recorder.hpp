@@ -27,13 +27,15 @@ struct RunInfo {
 ///
 /// - attributes run, deck, model: identities
 /// - /deck: xml; attributes title, version
-/// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity, topology
+/// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity, topology,
+///   outline_of_node, outline_ends, outline_points; constraints/<number>: nodes, attributes name,
+///   type
 /// - /steps/000000/<structure>: position, displacement, director1..3, resultants, node and cell
 ///   arrays; whatever Frame::arrays holds in /steps/000000/%arrays
 /// - /history/values: one row per add_history(); attributes names, units; first column time
 /// - /report: text, scalars/<name>, and tables, attributes as below; findings/<number>, with
 ///   attributes grade ("broken", "warning"), kind, text, analysis, time
-/// - /analyses/<analysis>: one table per name, attributes names, remarks
+/// - /analyses/<analysis>: attribute state; one table per name, attributes names, remarks
 /// - .../shapes/<structure>: (shape, node, displacement and rotation); imaginary parts in
 ///   .../shapes_imaginary/<structure>; matrices by their entries row, column, value
 ///

@@ -1,0 +1,50 @@
+"""Writes a page that shows a run in three dimensions: one HTML file that opens without a network."""
+
+import pathlib
+
+from ..errors import CulmError
+from . import page_file
+from .recording import Recording
+from .scene import scene_of
+
+MOST_STATES = 400
+
+
+def declare(parser):
+    parser.add_argument("run", type=pathlib.Path, help="folder with the results of a run")
+    parser.add_argument(
+        "other", type=pathlib.Path, nargs="?", help="folder of another run, to be shown as its ghost"
+    )
+    parser.add_argument(
+        "--output", type=pathlib.Path, help="page to write; view.html in the folder if not given"
+    )
+    parser.add_argument(
+        "--up", choices=("x", "y", "z"), help="axis that points up; against gravity, or z, if not given"
+    )
+    parser.add_argument(
+        "--states", type=int, default=MOST_STATES, help=f"most states to show; {MOST_STATES} if not given"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print warnings and errors only")
+
+
+def main(arguments, program):
+    del program  # what is shown stands in the files
+    if arguments.states < 1:
+        raise CulmError(f"--states must be at least 1, got {arguments.states}")
+    with Recording(arguments.run) as run:
+        scene = scene_of(run, arguments.states, up=arguments.up)
+        folder = run.folder
+    ghost = None
+    if arguments.other is not None:
+        with Recording(arguments.other) as other:
+            ghost = scene_of(other, arguments.states, with_fields=False)
+    output = arguments.output or folder / "view.html"
+    try:
+        page_file.write(output, scene, ghost)
+    except OSError as error:
+        raise CulmError(f"cannot write '{output}': {error.strerror}", 6) from error
+    if not arguments.quiet:
+        for note in scene["notes"]:
+            print(f"note: {note}")
+        print(output)
+    return 0
