@@ -87,6 +87,13 @@ class Program:
             command += ["--set", setting]
         return self._call(command, folder, time_limit)
 
+    def call(self, *words):
+        """Another verb, with what it prints; the result of subprocess.run."""
+        command = [self.path, *map(str, words)]
+        return subprocess.run(
+            command, capture_output=True, text=True, stdin=subprocess.DEVNULL, env=_environment()
+        )
+
     def resume(self, folder, walltime, time_limit=None):
         """Goes on from the checkpoint of a run for about `walltime` seconds; what the run wrote in
         its folder is continued."""

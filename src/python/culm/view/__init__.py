@@ -19,7 +19,7 @@ def declare(parser):
         "--output", type=pathlib.Path, help="page to write; view.html in the folder if not given"
     )
     parser.add_argument(
-        "--up", choices=("x", "y", "z"), help="axis that points up; against gravity, or z, if not given"
+        "--up", choices=("x", "y", "z"), help="axis that points up; found from gravity or the model if not given"
     )
     parser.add_argument(
         "--states", type=int, default=MOST_STATES, help=f"most states to show; {MOST_STATES} if not given"
@@ -44,6 +44,8 @@ def main(arguments, program):
     except OSError as error:
         raise CulmError(f"cannot write '{output}': {error.strerror}", 6) from error
     if not arguments.quiet:
+        for sentence in scene["broken"]:
+            print(f"broken: {sentence}")
         for note in scene["notes"]:
             print(f"note: {note}")
         print(output)

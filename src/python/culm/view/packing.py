@@ -28,3 +28,10 @@ def halves(values):
 def _packed(values, kind):
     data = numpy.ascontiguousarray(values, dtype=kind)
     return {"kind": kind[1:], "shape": list(data.shape), "data": base64.b64encode(data.tobytes()).decode()}
+
+
+def unpacked(packed):
+    """What was packed, as the page reads it."""
+    values = numpy.frombuffer(base64.b64decode(packed["data"]), dtype=f"<{packed['kind']}")
+    values = values.reshape(packed["shape"])
+    return values if "low" not in packed else packed["low"] + values * numpy.array(packed["step"])

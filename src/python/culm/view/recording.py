@@ -8,6 +8,7 @@ import numpy
 
 from ..errors import CulmError
 from ..resolved_deck import ResolvedDeck
+from ..results import Results
 
 
 @dataclasses.dataclass
@@ -120,6 +121,11 @@ class Recording:
         if "report/text" not in self._file:
             return ""
         return _text(self._file["report/text"][()]).split("\n\n")[0].strip()
+
+    @property
+    def broken(self):
+        """The promises that the run broke, as sentences."""
+        return [str(one) for one in Results(self.path).findings() if one.is_broken]
 
     @property
     def times(self):

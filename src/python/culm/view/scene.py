@@ -19,7 +19,7 @@ def scene_of(run, most_states, up=None, with_fields=True):
     """The scene of a Recording.
 
     @param most_states  how many states at most
-    @param up           axis that points up; from gravity if None
+    @param up           axis that points up; from gravity, or left to the page, if None
     @param with_fields  whether colours are wanted
     """
     notes = _notes_on_the_end(run)
@@ -33,6 +33,7 @@ def scene_of(run, most_states, up=None, with_fields=True):
         "version": run.version,
         "folder": run.folder.resolve().name,
         "notes": notes,
+        "broken": run.broken,
         "level": _level(run.deck),
         "times": [times[state] for state in states] or [0.0],
         "indices": [indices[state] for state in states] or [0],
@@ -106,6 +107,7 @@ def _is_type_of_analysis(path):
 
 
 def _up(deck, axis):
+    """The axis asked for, or against gravity; None where nothing says so."""
     if axis is not None:
         return [float(name == axis) for name in "xyz"]
     for path, value in deck.parameters.items():
@@ -114,7 +116,7 @@ def _up(deck, axis):
             down = numpy.array([float(word) for word in text.strip("{} ").split(",")])
             if down.any():
                 return (-down / numpy.linalg.norm(down)).tolist()
-    return [0.0, 0.0, 1.0]
+    return None
 
 
 def _structure(run, one, part, states, with_fields, pack):

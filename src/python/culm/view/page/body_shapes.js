@@ -19,6 +19,22 @@ function bodyGeometry(body, symbol) {
   }
 }
 
+/** The largest distance of such a surface from the node [m]. */
+function bodyReach(body) {
+  switch (body.kind) {
+    case "box":
+      return Math.hypot(...body.size) / 2;
+    case "sphere":
+      return body.radius;
+    case "cylinder":
+      return Math.hypot(body.radius, body.height / 2);
+    case "cone":
+      return Math.hypot(body.radius, body.height);
+    default:
+      return Math.hypot(...body.centre);
+  }
+}
+
 /** A cube at the centre of mass, which shows that it turns, and a bar from the node to it. */
 function markerGeometry(centre, symbol) {
   const cube = new THREE.BoxBufferGeometry(symbol, symbol, symbol).translate(...centre);

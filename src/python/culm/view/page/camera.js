@@ -1,5 +1,16 @@
 // Where the model is seen from.
 
+const BAR_PIXELS = 130; // that the colour bar takes
+
+/** What points up where nothing tells: across a shallow shell, within a plane, otherwise z. */
+function naturalUp(model, box) {
+  const size = box.getSize(new THREE.Vector3()).toArray();
+  const order = [0, 1, 2].sort((a, b) => size[a] - size[b]);
+  const up = (axis) => new THREE.Vector3().setComponent(axis, 1);
+  if (model.structures.every((one) => one.kind === "Shell") && size[order[0]] < 0.3 * size[order[1]]) return up(order[0]);
+  return order[0] === 2 && size[2] < 0.02 * size[order[1]] ? up(1) : up(2);
+}
+
 class Camera {
   constructor(canvas, up, whenMoved) {
     this.eye = new THREE.PerspectiveCamera(30, 1, 0.1, 1000);
@@ -44,7 +55,9 @@ class Camera {
     if (side.length() < 1e-6) side.copy(this.basis()[0]);
     side.normalize();
     const upward = new THREE.Vector3().crossVectors(back, side);
-    const height = Math.tan((this.eye.fov * Math.PI) / 360), width = height * this.eye.aspect;
+    const height = Math.tan((this.eye.fov * Math.PI) / 360);
+    let width = height * this.eye.aspect;
+    width *= 1 - BAR_PIXELS / this.width;
     let distance = 1e-6;
     for (let corner = 0; corner < 8; corner++) {
       const arm = new THREE.Vector3(
@@ -59,6 +72,12 @@ class Camera {
     this.orbit.update();
   }
 
+  shift(arm) {
+    this.eye.position.add(arm);
+    this.orbit.target.add(arm);
+    this.orbit.update();
+  }
+
   clip() {
     const distance = this.eye.position.distanceTo(this.orbit.target);
     this.eye.near = distance / 100;
@@ -67,8 +86,10 @@ class Camera {
   }
 
   resize(width, height) {
+    this.width = width;
     this.eye.aspect = width / height;
-    this.eye.updateProjectionMatrix();
+    // the model is left of the colour bar
+    this.eye.setViewOffset(width, height, BAR_PIXELS / 2, 0, width, height);
   }
 
   /** Position and target as six numbers, to keep and to take up. */

@@ -48,7 +48,8 @@ function showBar(field, low, high) {
   pen.fillRect(0, 0, 1, 256);
   const ticks = document.getElementById("bar-ticks");
   ticks.textContent = "";
-  for (let i = 4; i >= 0; i--) {
+  const count = high > low ? 5 : 1;
+  for (let i = count - 1; i >= 0; i--) {
     const tick = document.createElement("li");
     tick.textContent = readable(low + ((high - low) * i) / 4);
     ticks.append(tick);

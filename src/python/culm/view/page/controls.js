@@ -5,6 +5,7 @@ const SWITCHES = {
   marks: "supports",
   directors: "directors",
   reference: "reference",
+  follow: "follow",
   ghost: "other run",
 };
 
@@ -45,7 +46,7 @@ class Controls {
   }
 
   addViews(lookFrom) {
-    for (const name of ["corner", "+x", "−x", "+y", "−y", "+z", "−z"]) {
+    for (const name of ["all", "+x", "−x", "+y", "−y", "+z", "−z", "this state"]) {
       const button = document.createElement("button");
       button.textContent = name;
       button.addEventListener("click", () => lookFrom(name));

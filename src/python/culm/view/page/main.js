@@ -5,6 +5,8 @@ class Viewer {
     this.model = new Model(data.run);
     this.ghost = data.ghost && new Model(data.ghost);
     this.fields = fieldsOf(this.model);
+    this.symbol = 0.016 * this.model.size;
+    this.box = this.model.boxOfAll().expandByScalar(this.symbol);
     this.first = this.firstView();
     this.view = { ...this.first, pick: null };
     this.ranges = new Map();
@@ -15,14 +17,13 @@ class Viewer {
     this.inspector = new Inspector(this.model, this.ghost, this.fields);
     this.listen();
     this.resize();
-    this.camera.look(this.box, this.camera.firstDirection(this.box));
-    this.cameraMoved = false;
     this.takeAddress();
   }
 
   /** The state at the end, or the first shape where there is no motion. */
   firstView() {
-    const { times, analyses } = this.model;
+    const { times, analyses, size } = this.model;
+    const travel = this.box.getSize(new THREE.Vector3()).length();
     const isStill = times.length < 2 && analyses.length > 0;
     return {
       state: times.length - 1,
@@ -35,6 +36,7 @@ class Viewer {
       marks: true,
       directors: false,
       reference: isStill,
+      follow: travel > 2 * size,
       ghost: this.ghost !== null,
     };
   }
@@ -45,24 +47,24 @@ class Viewer {
     this.renderer.setPixelRatio(window.devicePixelRatio);
     this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
-    this.scene.add(new THREE.AmbientLight(0xffffff, 0.68));
-    this.camera = new Camera(this.canvas, new THREE.Vector3(...up), () => {
+    this.scene.add(new THREE.AmbientLight(0xffffff, 0.8));
+    const { symbol } = this;
+    const upward = up ? new THREE.Vector3(...up) : naturalUp(this.model, this.box);
+    this.camera = new Camera(this.canvas, upward, () => {
       this.cameraMoved = true;
       this.redraw();
     });
     this.scene.add(this.camera.eye);
-    const symbol = 0.016 * this.model.size;
     const texture = colourTexture();
     const draw = (model, isGhost) => model.structures.map((one) => new DrawnStructure(one, symbol, texture, isGhost));
     this.drawn = draw(this.model, false);
     this.ghosts = this.ghost ? draw(this.ghost, true) : [];
     this.directors = this.model.structures.map((one) => new Directors(one, 2 * symbol));
-    this.marks = this.model.structures.map((one) => new Marks(one, 0.8 * symbol, new THREE.Vector3(...up)));
+    this.marks = this.model.structures.map((one) => new Marks(one, 0.8 * symbol, upward));
     for (const one of [...this.drawn, ...this.ghosts, ...this.marks]) this.scene.add(one.group);
     for (const one of this.directors) this.scene.add(one.lines);
     this.pickMark = new PickMark(this.scene, symbol);
     this.axes = new Axes();
-    this.box = this.model.box().expandByScalar(symbol);
   }
 
   tell({ run, ghost }) {
@@ -70,13 +72,11 @@ class Viewer {
     put("title", run.title);
     put("subtitle", `${run.folder}, culm ${run.version}${ghost ? ` – with ${ghost.folder} in orange` : ""}`);
     const isBare = this.model.structures.some((one) => one.kind === "Beam" && one.outlines === null);
-    const notes = [...run.notes, ...(ghost ? ghost.notes.map((note) => `Other run: ${note}`) : [])];
-    if (isBare) notes.push("Beams without an outline are drawn as thin rods.");
-    for (const note of notes) {
-      const line = document.createElement("li");
-      line.textContent = note;
-      document.getElementById("notes").append(line);
-    }
+    const notes = [...run.notes];
+    if (ghost) notes.push(...[...ghost.broken, ...ghost.notes].map((note) => `Other run: ${note}`));
+    for (const sentence of run.broken) addNote(`A promise is broken: ${sentence}`, "broken");
+    for (const note of notes) addNote(note);
+    if (isBare) addNote("Beams without an outline are drawn as thin rods.", "plain");
     listHeld(this.model.structures);
   }
 
@@ -94,21 +94,26 @@ class Viewer {
 
   takeAddress() {
     const { camera, ...changes } = readAddress(this.model);
-    if (camera) this.camera.numbers = camera;
-    this.cameraMoved = camera !== undefined;
+    this.centre = null; // nothing to follow yet
     this.change({ ...this.first, pick: null, ...changes });
+    if (camera) this.camera.numbers = camera;
+    else this.lookFrom("all");
+    this.cameraMoved = camera !== undefined;
+    this.keepAddress();
   }
 
   keepAddress() {
     writeAddress(this.model, this.view, this.first, this.cameraMoved ? this.camera.numbers : null);
   }
 
+  /** From a side such as "+x" at all states, from the first direction, or nearer at what is shown. */
   lookFrom(name) {
+    const direction = new THREE.Vector3().subVectors(this.camera.eye.position, this.camera.orbit.target);
     const axis = "xyz".indexOf(name[1]);
-    const direction = new THREE.Vector3();
-    if (name === "corner") direction.copy(this.camera.firstDirection(this.box));
-    else direction.setComponent(axis, name[0] === "+" ? 1 : -1);
-    this.camera.look(this.box, direction);
+    if (name === "all") direction.copy(this.camera.firstDirection(this.box));
+    else if (name !== "this state") direction.set(0, 0, 0).setComponent(axis, name[0] === "+" ? 1 : -1);
+    const isNear = name === "this state" || this.view.follow;
+    this.camera.look(isNear ? this.model.boxNow() : this.box, direction);
     this.keepAddress();
   }
 
@@ -123,6 +128,7 @@ class Viewer {
     this.field = this.field || null;
     view.field = this.field ? this.field.key : "";
     this.moveModels();
+    this.follow();
     this.update(view);
     if (!this.timeline.isPlaying) this.keepAddress();
     this.redraw();
@@ -147,6 +153,13 @@ class Viewer {
       model.showState(view.state);
       if (ghost) ghost.showState(this.stateOfGhost());
     }
+  }
+
+  /** Keeps the model where it is in the picture. */
+  follow() {
+    const centre = this.view.follow ? this.model.boxNow().getCenter(new THREE.Vector3()) : null;
+    if (centre && this.centre) this.camera.shift(centre.clone().sub(this.centre));
+    this.centre = centre;
   }
 
   /** At the same time, or the same share of all states where times do not rise. */
@@ -253,6 +266,13 @@ class Viewer {
     this.renderer.render(this.scene, this.camera.eye);
     this.axes.draw(this.renderer, this.camera);
   }
+}
+
+function addNote(text, kind = "") {
+  const line = document.createElement("li");
+  line.className = kind;
+  line.textContent = text;
+  document.getElementById("notes").append(line);
 }
 
 function fail(text) {

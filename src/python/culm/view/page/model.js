@@ -9,7 +9,7 @@ class Model {
     this.structures = data.structures.map((one) => new Structure(one));
     this.analyses = data.analyses.map((one) => new Analysis(one));
     this.state = 0;
-    this.size = this.box(true).getSize(new THREE.Vector3()).length() || 1;
+    this.size = this.boxOfReference().getSize(new THREE.Vector3()).length() || 1;
     this.hasOrderedTimes = this.times.every((time, i) => i === 0 || time > this.times[i - 1]);
   }
 
@@ -21,22 +21,24 @@ class Model {
     return this.structures.find((one) => one.name === name) || null;
   }
 
-  /** The box around the reference, or around all states. */
-  box(ofReference = false) {
-    const box = new THREE.Box3();
-    const point = new THREE.Vector3();
-    for (const { reference, displacements, count } of this.structures) {
-      const states = ofReference ? 0 : displacements.shape[0];
-      for (let node = 0; node < count; node++) {
-        box.expandByPoint(point.fromArray(reference, 3 * node));
-        for (let state = 0; state < states; state++) {
-          const at = 3 * (state * count + node);
-          point.set(...[0, 1, 2].map((k) => reference[3 * node + k] + displacements.at(at + k)));
-          box.expandByPoint(point);
-        }
-      }
+  /** The box around all states. */
+  boxOfAll() {
+    const now = this.state;
+    const box = this.boxOfReference();
+    for (let state = 0; state < this.times.length; state++) {
+      this.showState(state);
+      box.union(this.boxNow());
     }
+    this.showState(now);
     return box;
+  }
+
+  boxNow() {
+    return boxAround(this.structures, (structure) => structure.position);
+  }
+
+  boxOfReference() {
+    return boxAround(this.structures, (structure) => structure.reference);
   }
 
   /** The state whose time is next to one. */
@@ -66,6 +68,17 @@ class Model {
     const { name, unit } = this.level;
     return `${name} ${readable(this.times[state])}${unit && ` ${unit}`} · state ${state + 1} of ${this.times.length}`;
   }
+}
+
+/** The box around structures whose nodes are at `places(structure)`, with what they reach beyond these. */
+function boxAround(structures, places) {
+  const box = new THREE.Box3();
+  const own = new THREE.Box3();
+  for (const structure of structures) {
+    own.setFromArray(places(structure));
+    box.union(own.expandByScalar(structure.reach));
+  }
+  return box;
 }
 
 /** Modes or buckling shapes. */

@@ -20,6 +20,7 @@ class Structure {
       points: new Numbers(data.outlines.points).values,
     };
     this.body = data.body;
+    this.reach = reachOf(this.outlines, this.body);
     this.held = data.held;
     this.fields = data.fields.map((field) => ({ ...field, values: new Numbers(field.values) }));
     // of what is shown: places, displacements, directors d1 d2 d3 of each node
@@ -90,6 +91,14 @@ class Structure {
       }
     }
   }
+}
+
+/** How far from its nodes a structure reaches [m]. */
+function reachOf(outlines, body) {
+  let reach = body ? bodyReach(body) : 0;
+  const points = outlines ? outlines.points : [];
+  for (let i = 0; i < points.length; i += 2) reach = Math.max(reach, Math.hypot(points[i], points[i + 1]));
+  return reach;
 }
 
 /** Turns three vectors by a rotation vector, factor times the one that stands at `from`. */
