@@ -63,7 +63,7 @@ def _select(structures, notes):
     shown = [(one, thinned(one, max(1, math.ceil(share * len(one.ends))))) for one in structures]
     left = sum(len(part.cells) for _, part in shown)
     if left < total:
-        notes.append(f"Of {total} elements {left} are shown, chosen evenly; their numbers are exact.")
+        notes.append(f"Of {total} elements {left} are shown, chosen evenly; they join nodes of the model.")
     return shown
 
 

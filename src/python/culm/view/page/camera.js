@@ -67,7 +67,7 @@ class Camera {
       distance = Math.max(distance, arm.dot(back) + reach);
     }
     this.orbit.target.copy(target);
-    this.eye.position.copy(target).addScaledVector(back, 1.18 * distance);
+    this.eye.position.copy(target).addScaledVector(back, 1.14 * distance);
     this.clip();
     this.orbit.update();
   }

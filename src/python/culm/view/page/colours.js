@@ -26,6 +26,22 @@ function colourTexture() {
   return texture;
 }
 
+/** White that darkens downwards. */
+function backgroundTexture() {
+  const canvas = document.createElement("canvas");
+  canvas.width = 1;
+  canvas.height = 256;
+  const pen = canvas.getContext("2d");
+  const gradient = pen.createLinearGradient(0, 0, 0, 256);
+  gradient.addColorStop(0, "#ffffff");
+  gradient.addColorStop(1, "#eceef1");
+  pen.fillStyle = gradient;
+  pen.fillRect(0, 0, 1, 256);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.minFilter = THREE.LinearFilter;
+  return texture;
+}
+
 /** A number to read: three to five digits. */
 function readable(value) {
   if (value === 0) return "0";

@@ -1,5 +1,7 @@
 // Puts the parts together: the view is changed, the model follows, the picture is drawn.
 
+const MOST_WITH_MESH = 20000; // elements; lines of more hide the colours
+
 class Viewer {
   constructor(data) {
     this.model = new Model(data.run);
@@ -32,7 +34,7 @@ class Viewer {
       scale: 0,
       field: "displacement",
       range: "all",
-      mesh: true,
+      mesh: this.model.cellCount < MOST_WITH_MESH,
       marks: true,
       directors: false,
       reference: isStill,
@@ -43,10 +45,11 @@ class Viewer {
 
   buildScene(up) {
     this.canvas = document.getElementById("picture");
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(window.devicePixelRatio);
     this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
+    this.scene.background = backgroundTexture();
     this.scene.add(new THREE.AmbientLight(0xffffff, 0.8));
     const { symbol } = this;
     const upward = up ? new THREE.Vector3(...up) : naturalUp(this.model, this.box);

@@ -17,6 +17,10 @@ class Model {
     return this.level.moves && this.times.length > 1 && this.hasOrderedTimes;
   }
 
+  get cellCount() {
+    return this.structures.reduce((sum, one) => sum + one.cellCount, 0);
+  }
+
   find(name) {
     return this.structures.find((one) => one.name === name) || null;
   }

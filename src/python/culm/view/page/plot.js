@@ -1,8 +1,8 @@
 // A history as a small plot.
 
-/** Three to five round numbers between two. */
+/** Three to six round numbers between two. */
 function roundNumbers(low, high) {
-  const raw = (high - low) / 4;
+  const raw = (high - low) / 5;
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((one) => one * power >= raw) * power;
   const numbers = [];
