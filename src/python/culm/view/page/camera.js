@@ -1,6 +1,8 @@
 // Where the model is seen from.
 
-const BAR_PIXELS = 130; // that the colour bar takes
+// that the colour bar and the title take
+const BAR_PIXELS = 130;
+const TITLE_PIXELS = 50;
 
 /** What points up where nothing tells: across a shallow shell, within a plane, otherwise z. */
 function naturalUp(model, box) {
@@ -55,9 +57,9 @@ class Camera {
     if (side.length() < 1e-6) side.copy(this.basis()[0]);
     side.normalize();
     const upward = new THREE.Vector3().crossVectors(back, side);
-    const height = Math.tan((this.eye.fov * Math.PI) / 360);
-    let width = height * this.eye.aspect;
-    width *= 1 - BAR_PIXELS / this.width;
+    const half = Math.tan((this.eye.fov * Math.PI) / 360);
+    const height = half * (1 - TITLE_PIXELS / this.height);
+    const width = half * this.eye.aspect * (1 - BAR_PIXELS / this.width);
     let distance = 1e-6;
     for (let corner = 0; corner < 8; corner++) {
       const arm = new THREE.Vector3(
@@ -86,10 +88,9 @@ class Camera {
   }
 
   resize(width, height) {
-    this.width = width;
+    Object.assign(this, { width, height });
     this.eye.aspect = width / height;
-    // the model is left of the colour bar
-    this.eye.setViewOffset(width, height, BAR_PIXELS / 2, 0, width, height);
+    this.eye.setViewOffset(width, height, BAR_PIXELS / 2, -TITLE_PIXELS / 2, width, height);
   }
 
   /** Position and target as six numbers, to keep and to take up. */

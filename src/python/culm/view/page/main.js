@@ -84,7 +84,7 @@ class Viewer {
   }
 
   listen() {
-    window.addEventListener("resize", () => this.resize());
+    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     window.addEventListener("hashchange", () => this.takeAddress());
     let down = null;
     this.canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
