@@ -49,6 +49,7 @@ def couple(arguments):
     case = Case(arguments.case)
     simulation = culm.Simulation(arguments.deck, arguments.set)
     coupling = Coupling(simulation, arguments.analysis, find_port(simulation, arguments.port), case)
+    print(simulation.messages(), end="", flush=True)
     arguments.output.mkdir(parents=True, exist_ok=True)
     turns = Turns(case, arguments.patience)
     turns.begin()
