@@ -1,5 +1,6 @@
-// Factorisation of matrices like those of shells, KLU2 against MUMPS: n x n nodes with six unknowns
-// each, coupled with their eight neighbours. Chains of nodes, like beams, show the other side.
+// Factorisation of matrices like those of shells, Block LU and KLU2 against MUMPS: n x n nodes with
+// six unknowns each, coupled with their eight neighbours. Chains of nodes, like beams, show the
+// other side: what a Newton iteration pays for each node, KLU2 with kept pivots.
 // Counters: front, the figure by which 'Automatic' decides, and MB, the memory that the factors
 // hold. Under mpiexec all ranks take part.
 
@@ -117,9 +118,31 @@ void Solve_Sheet(benchmark::State& run, const char* name) {
   for (auto _ : run) benchmark::DoNotOptimize(run.counters["residual"] = solver->solve(b, x).size);
 }
 
-#define CULM_EACH_SOLVER(function, ...)                                  \
-  BENCHMARK_CAPTURE(function, KLU2, "KLU2")->__VA_ARGS__->UseRealTime(); \
+void FactoriseAndSolve_Chain(benchmark::State& run, const char* name) {
+  const parallel::Comm comm;
+  const auto nodes = static_cast<int>(run.range(0));
+  const auto matrix = fill_matrix(sheet(1, nodes), comm);
+  const auto solver = solver::choose_linear_solver(name, matrix, comm).solver;
+  assembly::Vector x(matrix->getRowMap());
+  assembly::Vector b(matrix->getRowMap());
+  b.putScalar(1.0);
+  if (!solver->factor()) run.SkipWithError("singular");
+  for (auto _ : run) {
+    benchmark::DoNotOptimize(solver->factor());
+    benchmark::DoNotOptimize(run.counters["residual"] = solver->solve(b, x).size);
+  }
+  using benchmark::Counter;
+  run.counters["s/node"] = Counter(nodes, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+#define CULM_EACH_SOLVER(function, ...)                                         \
+  BENCHMARK_CAPTURE(function, BlockLU, "Block LU")->__VA_ARGS__->UseRealTime(); \
+  BENCHMARK_CAPTURE(function, KLU2, "KLU2")->__VA_ARGS__->UseRealTime();        \
   BENCHMARK_CAPTURE(function, MUMPS, "MUMPS")->__VA_ARGS__->UseRealTime()
+BENCHMARK_CAPTURE(FactoriseAndSolve_Chain, BlockLU, "Block LU")
+    ->RangeMultiplier(10)
+    ->Range(10, 10000);
+BENCHMARK_CAPTURE(FactoriseAndSolve_Chain, KLU2, "KLU2")->RangeMultiplier(10)->Range(10, 10000);
 CULM_EACH_SOLVER(Factorise_Strip, DenseRange(1, 6));
 CULM_EACH_SOLVER(Factorise_Sheet, Arg(5)->Arg(8)->Arg(10)->Arg(14)->Arg(20)->Arg(50)->Arg(100));
 BENCHMARK_CAPTURE(Factorise_Sheet, MUMPS, "MUMPS")->Arg(200)->UseRealTime();

@@ -56,14 +56,14 @@ RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
 }
 
 void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
-                        analysis::Context& context, const std::string& linear_solver) {
+                        analysis::Context& context, const solver::ChosenSolver& linear_solver) {
   name_ = entry.name();
   progress_.begin(name_);
   findings_.begin(name_);
   loads_.begin(context.system.model());
   balance_ = {};
   context_ = &context;
-  linear_solver_ = linear_solver;
+  linear_solver_ = &linear_solver;
   turns_.emplace(context.system);
   stepper_ = nullptr;
   number_ = number;
@@ -319,6 +319,11 @@ std::string RunObserver::convergence() const {
                        "in {} of the steps rounding holds forces above 'Force Tolerance', "
                        "most at {}: {:.1e}\n",
                        held_, worst_held_row_, worst_held_);
+  std::string linear;
+  if (linear_solver_ != nullptr) {
+    const std::string remark = linear_solver_->solver->remark();
+    linear = linear_solver_->reason + (remark.empty() ? "" : "; " + remark);
+  }
   return fmt::format(
       "{} steps accepted, {} cut back; {} iterations, {:.1f} per step, at most {}\n"
       "worst accepted residual: forces {:.1e}, constraints {:.1e}\n"
@@ -326,7 +331,7 @@ std::string RunObserver::convergence() const {
       "linear solver: {}\n",
       accepted_, rejected_, iterations_,
       accepted_ > 0 ? static_cast<double>(iterations_) / accepted_ : 0.0, most_iterations_,
-      worst_residual_, worst_constraint_, held, linear_solver_);
+      worst_residual_, worst_constraint_, held, linear);
 }
 
 std::string RunObserver::closing_words() const {

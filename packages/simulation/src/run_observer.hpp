@@ -6,6 +6,7 @@
 #include <culm/simulation/progress.hpp>
 #include <culm/simulation/read_deck.hpp>
 #include <culm/simulation/result_files.hpp>
+#include <culm/solver/linear_solver.hpp>
 
 #include "checkpoints.hpp"
 #include "earlier_states.hpp"
@@ -44,9 +45,9 @@ class RunObserver final : public analysis::Observer {
   /// @param number   of the analysis in the deck, from 0
   /// @param is_last  of the deck: its end is a checkpoint, from which the run can go on to a later
   ///                 one
-  /// @param linear_solver its name and why it was taken, for the report
+  /// @param linear_solver for the report; it lives as long as the run
   void begin(const Options& entry, std::size_t number, bool is_last, analysis::Context& context,
-             const std::string& linear_solver);
+             const solver::ChosenSolver& linear_solver);
   /// What makes the steps from now on, and what its checkpoints hold; none: nothing does.
   /// @param coupled  what else they hold; null if nothing does
   void follow(analysis::Stepper* stepper, CoupledRun* coupled) {
@@ -84,9 +85,9 @@ class RunObserver final : public analysis::Observer {
   const DeckSource& source_;
   const EarlierStates& earlier_;
   const Imperfections& imperfections_;
-  const analysis::ElementTurn& reference_turn_;  // the largest one before any load
-  analysis::ElementTurn turn_;                   // the largest one so far
-  std::string linear_solver_;
+  const analysis::ElementTurn& reference_turn_;          // the largest one before any load
+  analysis::ElementTurn turn_;                           // the largest one so far
+  const solver::ChosenSolver* linear_solver_ = nullptr;  // of the analysis
   Progress progress_;
   Ledger::Id quantities_effect_;
   Ledger::Id history_effect_;

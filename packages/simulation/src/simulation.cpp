@@ -191,7 +191,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     if (!resumes) start_analysis(i, state);
     files.use(*phase.system, phase.watched);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
-    observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear.reason);
+    observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
     const auto report =
         run_analysis(entries[i], context, state, observer, coupled, resumes ? from : nullptr);

@@ -173,6 +173,10 @@ std::vector<int> Klu2::pivots() const {
 bool Klu2::set_pivots(std::span<const int> pivots) {
   Parts& p = *parts_;
   if (std::ranges::equal(this->pivots(), pivots)) return true;  // else it costs a factorisation
+  if (pivots.empty()) {
+    p.free_factors();
+    return true;
+  }
   std::vector<int> sorted(pivots.begin(), pivots.end());
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t k = 0; k < sorted.size(); ++k) {

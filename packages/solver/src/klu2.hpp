@@ -28,8 +28,9 @@ class Klu2 {
   bool factor();
   /// Factors the present values with new pivots. @return as factor()
   bool factor_anew();
-  /// Whether the last factorisation kept the pivots of an earlier one.
-  bool kept_pivots() const { return kept_pivots_; }
+  /// Whether the last factors have the pivots of an earlier matrix, so that a solution must show
+  /// that they serve.
+  bool needs_proof() const { return kept_pivots_; }
   /// Puts A^-1 x into x with the last factors.
   void solve(std::span<double> x);
 
@@ -44,7 +45,8 @@ class Klu2 {
   /// Goes back where others were chosen since.
   void restore_pivots();
   /// The next factorisation keeps these pivots. It then rounds as it would have after those that
-  /// chose them. @return false if they are not pivots of a matrix of this size
+  /// chose them; without any it chooses. @return false if they are not pivots of a matrix of this
+  /// size
   bool set_pivots(std::span<const int> pivots);
 
  private:

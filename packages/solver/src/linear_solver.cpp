@@ -9,9 +9,9 @@
 namespace culm::solver {
 namespace {
 
-// Where the times of KLU2 and MUMPS cross on one rank, on long strips of a shell as on square ones
-// (tests/benchmark).
-constexpr double widest_front_for_klu2 = 60.0;
+// Where the times of Block LU and MUMPS cross on one rank, on long strips of a shell as on square
+// ones (tests/benchmark).
+constexpr double widest_front_for_blocks = 60.0;
 
 // For models that are held or rigid altogether.
 class NothingToSolve final : public LinearSolver {
@@ -26,7 +26,7 @@ class NothingToSolve final : public LinearSolver {
 }  // namespace
 
 const std::vector<std::string>& linear_solver_names() {
-  static const std::vector<std::string> names = {"Automatic", "KLU2", "MUMPS"};
+  static const std::vector<std::string> names = {"Automatic", "Block LU", "KLU2", "MUMPS"};
   return names;
 }
 
@@ -36,17 +36,18 @@ ChosenSolver choose_linear_solver(const std::string& name,
   if (matrix->getGlobalNumRows() == 0) {
     return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
   }
+  if (name == "Block LU") return {make_rooted_block_lu(matrix, comm), "Block LU, as the deck says"};
   if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
   if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
   Ordering ordering = order_rows(*matrix, comm);
   const double front = ordering.fill.front();
-  const bool is_wide = front > widest_front_for_klu2;
+  const bool is_wide = front > widest_front_for_blocks;
   ChosenSolver chosen;
   chosen.reason = fmt::format(
       "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
-      is_wide ? "MUMPS" : "KLU2", front, widest_front_for_klu2, 8e-6 * ordering.fill.entries);
+      is_wide ? "MUMPS" : "Block LU", front, widest_front_for_blocks, 8e-6 * ordering.fill.entries);
   chosen.solver =
-      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_rooted_klu2(matrix, comm);
+      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_rooted_block_lu(matrix, comm);
   return chosen;
 }
 

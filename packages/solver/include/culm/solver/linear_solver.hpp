@@ -54,6 +54,8 @@ class LinearSolver {
   virtual std::vector<int> pivots() const { return {}; }
   /// Goes on with such pivots of the same matrix. @return false if they do not fit
   virtual bool set_pivots(std::span<const int> pivots) { return pivots.empty(); }
+  /// What a report should say of the factorisations so far, on the root; empty if nothing.
+  virtual std::string remark() const { return {}; }
 };
 
 /// KLU2 of Amesos2 on rank 0. Values gather there in global order, so the factors, and the
@@ -62,6 +64,14 @@ class LinearSolver {
 /// which chooses pivots each time and returns wrong solutions on several ranks (Trilinos 13.2 as
 /// packaged by Debian, pull request 12232).
 std::unique_ptr<LinearSolver> make_rooted_klu2(
+    const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+
+/// LU of dense blocks on rank 0, for graphs like chains and trees: the unknowns of a node are
+/// eliminated whole, with the multipliers of a joint, and pivots are chosen among them. Where that
+/// does not serve – a pivot is nothing but rounding, a solution leaves more than 1e-12 – KLU2 takes
+/// over, so that the same matrices are singular as with it. The solution is the same for any number
+/// of ranks.
+std::unique_ptr<LinearSolver> make_rooted_block_lu(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
 
 /// MUMPS on all ranks, with rows where they are. Its ordering, nested dissection of the graph of
@@ -80,8 +90,8 @@ struct ChosenSolver {
 /// What decks may write, the default first.
 const std::vector<std::string>& linear_solver_names();
 
-/// The solver of that name. `Automatic` takes KLU2 for graphs like beams and MUMPS for graphs like
-/// shells, whose factors are so dense that MUMPS gains by its dense kernels; it decides by
+/// The solver of that name. `Automatic` takes Block LU for graphs like beams and MUMPS for graphs
+/// like shells, whose factors are so dense that MUMPS gains by its dense kernels; it decides by
 /// predict_fill. Collective.
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,

@@ -1,5 +1,6 @@
 #include <culm/solver/linear_solver.hpp>
 
+#include "guarded_block_lu.hpp"
 #include "klu2.hpp"
 #include "matrix_checks.hpp"
 #include "rooted_matrix.hpp"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace culm::solver {
 namespace {
@@ -16,22 +18,25 @@ namespace {
 using assembly::CrsMatrix;
 using assembly::values_of;
 
-// Above it kept pivots are not to be trusted; new ones leave little more than rounding.
-constexpr double largest_residual_of_kept_pivots = 1e-12;
+// Above it pivots that were not chosen for this matrix are not to be trusted; those that were leave
+// little more than rounding.
+constexpr double largest_residual_of_doubtful_pivots = 1e-12;
 
-class RootedKlu2 final : public LinearSolver {
+// Factors: Klu2 or GuardedBlockLu.
+template <class Factors>
+class RootedSolver final : public LinearSolver {
  public:
-  RootedKlu2(const Teuchos::RCP<const CrsMatrix>& matrix, const parallel::Comm& comm)
-      : comm_(comm), rooted_(matrix, comm) {
-    if (!comm_.is_root()) return;
-    klu_.emplace(*rooted_.matrix());
+  RootedSolver(std::string name, const Teuchos::RCP<const CrsMatrix>& matrix,
+               const parallel::Comm& comm)
+      : name_(std::move(name)), comm_(comm), rooted_(matrix, comm) {
+    if (comm_.is_root()) factors_.emplace(*rooted_.matrix());
   }
 
-  std::string name() const override { return "KLU2"; }
+  std::string name() const override { return name_; }
 
   bool factor() override {
     rooted_.gather_values();
-    const bool sound = !comm_.is_root() || klu_->factor();
+    const bool sound = !comm_.is_root() || factors_->factor();
     is_proven_ = false;
     return comm_.max(sound ? 0 : 1) == 0;
   }
@@ -42,9 +47,10 @@ class RootedKlu2 final : public LinearSolver {
     if (comm_.is_root()) {
       relative = solve_on_root();
       // only now: later the matrix may have other values than the one that was factored
-      const bool doubtful = !is_proven_ && klu_->kept_pivots();
-      if (doubtful && !(relative <= largest_residual_of_kept_pivots)) {
-        relative = klu_->factor_anew() ? solve_on_root() : std::numeric_limits<double>::infinity();
+      const bool doubtful = !is_proven_ && factors_->needs_proof();
+      if (doubtful && !(relative <= largest_residual_of_doubtful_pivots)) {
+        relative =
+            factors_->factor_anew() ? solve_on_root() : std::numeric_limits<double>::infinity();
       }
       is_proven_ = true;
     }
@@ -53,7 +59,7 @@ class RootedKlu2 final : public LinearSolver {
   }
 
   Determinant determinant() override {
-    const Determinant d = klu_ ? klu_->determinant() : Determinant{};
+    const Determinant d = factors_ ? factors_->determinant() : Determinant{};
     std::array<double, 2> both = {static_cast<double>(d.sign), d.log_size};
     comm_.sum(both);  // other ranks have zeros
     return {static_cast<int>(both[0]), both[1]};
@@ -67,18 +73,25 @@ class RootedKlu2 final : public LinearSolver {
     return comm_.max(ratio);
   }
 
-  std::vector<int> pivots() const override { return klu_ ? klu_->pivots() : std::vector<int>{}; }
+  std::vector<int> pivots() const override {
+    return factors_ ? factors_->pivots() : std::vector<int>{};
+  }
 
   void remember_pivots() override {
-    if (klu_) klu_->remember_pivots();
+    if (factors_) factors_->remember_pivots();
   }
   void restore_pivots() override {
-    if (klu_) klu_->restore_pivots();
+    if (factors_) factors_->restore_pivots();
   }
 
   bool set_pivots(std::span<const int> pivots) override {
-    const bool fit = !comm_.is_root() || pivots.empty() || klu_->set_pivots(pivots);
+    const bool fit = !comm_.is_root() || factors_->set_pivots(pivots);
     return comm_.max(fit ? 0 : 1) == 0;
+  }
+
+  std::string remark() const override {
+    if constexpr (requires { factors_->remark(); }) return factors_ ? factors_->remark() : "";
+    return {};
   }
 
  private:
@@ -86,7 +99,7 @@ class RootedKlu2 final : public LinearSolver {
     const auto x = values_of(rooted_.solution());
     const auto b = values_of(rooted_.rhs());
     std::copy(b.begin(), b.end(), x.begin());
-    klu_->solve(x);
+    factors_->solve(x);
     return residual(*rooted_.matrix(), x, b, {}).relative();
   }
 
@@ -106,17 +119,23 @@ class RootedKlu2 final : public LinearSolver {
     return inverse_iteration(*A, solve, v) / size;
   }
 
+  std::string name_;
   parallel::Comm comm_;
   RootedMatrix rooted_;
-  std::optional<Klu2> klu_;  // on the root
-  bool is_proven_ = false;   // a solution with the last factors was judged
+  std::optional<Factors> factors_;  // on the root
+  bool is_proven_ = false;          // a solution with the last factors was judged
 };
 
 }  // namespace
 
 std::unique_ptr<LinearSolver> make_rooted_klu2(const Teuchos::RCP<const CrsMatrix>& matrix,
                                                const parallel::Comm& comm) {
-  return std::make_unique<RootedKlu2>(matrix, comm);
+  return std::make_unique<RootedSolver<Klu2>>("KLU2", matrix, comm);
+}
+
+std::unique_ptr<LinearSolver> make_rooted_block_lu(const Teuchos::RCP<const CrsMatrix>& matrix,
+                                                   const parallel::Comm& comm) {
+  return std::make_unique<RootedSolver<GuardedBlockLu>>("Block LU", matrix, comm);
 }
 
 }  // namespace culm::solver

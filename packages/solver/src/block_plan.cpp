@@ -1,0 +1,230 @@
+#include "block_plan.hpp"
+
+#include "blocks.hpp"
+#include "elimination_groups.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace culm::solver {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Blocks of rows with the same columns, none of them with hollow rows and others.
+Blocks divide(const Blocks& whole, const std::vector<bool>& is_hollow) {
+  Blocks parts;
+  parts.rows = whole.rows;
+  std::size_t row = 0;
+  std::size_t column = 0;
+  for (std::size_t b = 0; b < whole.sizes.size(); ++b) {
+    for (int i = 0; i < whole.sizes[b]; ++i, ++row) {
+      if (i > 0 && is_hollow[row] == is_hollow[row - 1]) {
+        ++parts.sizes.back();
+        continue;
+      }
+      parts.sizes.push_back(1);
+      parts.widths.push_back(whole.widths[b]);
+      const auto first = whole.columns.begin() + static_cast<std::ptrdiff_t>(column);
+      parts.columns.insert(parts.columns.end(), first, first + whole.widths[b]);
+    }
+    column += index(whole.widths[b]);
+  }
+  return parts;
+}
+
+class Planner {
+ public:
+  Planner(const assembly::CrsMatrix& matrix, const std::vector<bool>& is_hollow)
+      : matrix_(matrix),
+        blocks_(divide(find_blocks(matrix), is_hollow)),
+        block_of_(block_of_row(blocks_)),
+        graph_(couple(blocks_, block_of_)),
+        first_row_(blocks_.sizes.size()) {
+    std::exclusive_scan(blocks_.sizes.begin(), blocks_.sizes.end(), first_row_.begin(), 0);
+    std::vector<bool> hollow_blocks;
+    for (int row : first_row_) hollow_blocks.push_back(is_hollow[index(row)]);
+    groups_ = order_groups(graph_, hollow_blocks);
+    place_blocks();
+    find_panels();
+    list_copies();
+    list_updates();
+    find_gaps();
+  }
+  BlockPlan take() { return std::move(plan_); }
+
+ private:
+  struct Place {
+    std::size_t at = 0;
+    int stride = 0;
+  };
+
+  void place_blocks() {
+    group_of_.resize(blocks_.sizes.size());
+    place_.resize(blocks_.sizes.size());
+    int place = 0;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      for (int block : groups_[g]) {
+        group_of_[index(block)] = static_cast<int>(g);
+        place_[index(block)] = place;
+        place += blocks_.sizes[index(block)];
+        for (int i = 0; i < blocks_.sizes[index(block)]; ++i) {
+          plan_.unknown.push_back(first_row_[index(block)] + i);
+        }
+      }
+    }
+  }
+
+  // A group passes on to the first that follows in U what else stands there.
+  void find_panels() {
+    beside_.resize(groups_.size());
+    std::vector<std::vector<int>> children(groups_.size());
+    std::vector<int> seen_by(blocks_.sizes.size(), -1);
+    for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+      std::vector<int>& beside = beside_[index(g)];
+      const auto add = [&](int block) {
+        if (group_of_[index(block)] <= g || seen_by[index(block)] == g) return;
+        seen_by[index(block)] = g;
+        beside.push_back(block);
+      };
+      for (int block : groups_[index(g)]) {
+        for (int e = graph_.begin[index(block)]; e < graph_.begin[index(block) + 1]; ++e) {
+          add(graph_.neighbours[index(e)]);
+        }
+      }
+      for (int child : children[index(g)]) {
+        for (int block : beside_[index(child)]) add(block);
+      }
+      std::ranges::sort(beside, {}, [&](int block) { return place_[index(block)]; });
+      if (!beside.empty()) children[index(group_of_[index(beside.front())])].push_back(g);
+      add_panel(g);
+    }
+  }
+
+  void add_panel(int g) {
+    BlockPlan::Panel panel;
+    panel.first = place_[index(groups_[index(g)].front())];
+    for (int block : groups_[index(g)]) panel.size += blocks_.sizes[index(block)];
+    panel.beside = plan_.beside.size();
+    for (int block : beside_[index(g)]) {
+      for (int i = 0; i < blocks_.sizes[index(block)]; ++i) {
+        plan_.beside.push_back(place_[index(block)] + i);
+      }
+      panel.width += blocks_.sizes[index(block)];
+    }
+    panel.pivot = plan_.num_values;
+    panel.below = panel.pivot + index(panel.size) * index(panel.stride());
+    plan_.num_values = panel.below + index(panel.width) * index(panel.size);
+    plan_.panels.push_back(panel);
+  }
+
+  // Of a place among the columns of U, or rows of L.
+  int among_beside(const BlockPlan::Panel& panel, int place) const {
+    const auto first = plan_.beside.begin() + static_cast<std::ptrdiff_t>(panel.beside);
+    return static_cast<int>(std::lower_bound(first, first + panel.width, place) - first);
+  }
+
+  // Where the entry of the first row of one block in the first column of another stands.
+  Place find(int row_block, int column_block) const {
+    const int row = place_[index(row_block)];
+    const int column = place_[index(column_block)];
+    const int g = group_of_[index(row_block)];
+    const int h = group_of_[index(column_block)];
+    const BlockPlan::Panel& panel = plan_.panels[index(std::min(g, h))];
+    if (h < g) {
+      const std::size_t above = index(among_beside(panel, row)) * index(panel.size);
+      return {panel.below + above + index(column - panel.first), panel.size};
+    }
+    const int across = g == h ? column - panel.first : panel.size + among_beside(panel, column);
+    const std::size_t above = index(row - panel.first) * index(panel.stride());
+    return {panel.pivot + above + index(across), panel.stride()};
+  }
+
+  void list_copies() {
+    const auto begin = matrix_.getLocalMatrixHost().graph.row_map;
+    std::size_t at = 0;
+    for (std::size_t b = 0; b < blocks_.sizes.size(); ++b) {
+      const std::size_t source = begin(index(first_row_[b]));
+      const std::size_t end = at + index(blocks_.widths[b]);
+      for (std::size_t k = at; k < end;) {
+        const auto column = static_cast<int>(blocks_.columns[k]);
+        const int other = block_of_[index(column)];
+        const int last = first_row_[index(other)] + blocks_.sizes[index(other)];
+        int run = 1;
+        while (k + index(run) < end && column + run < last &&
+               blocks_.columns[k + index(run)] == column + run) {
+          ++run;
+        }
+        const Place target = find(static_cast<int>(b), other);
+        plan_.copies.push_back({source + (k - at),
+                                target.at + index(column - first_row_[index(other)]),
+                                blocks_.widths[b], target.stride, blocks_.sizes[b], run});
+        k += index(run);
+      }
+      at = end;
+    }
+  }
+
+  void list_updates() {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      BlockPlan::Panel& panel = plan_.panels[g];
+      std::size_t below = panel.below;
+      for (int row_block : beside_[g]) {
+        std::size_t beside = panel.pivot + index(panel.size);
+        std::size_t first = plan_.updates.size();  // of this row
+        for (int column_block : beside_[g]) {
+          const Place target = find(row_block, column_block);
+          const int columns = blocks_.sizes[index(column_block)];
+          BlockPlan::Update* last = plan_.updates.size() > first ? &plan_.updates.back() : nullptr;
+          if (last != nullptr && last->target + index(last->columns) == target.at &&
+              last->stride == target.stride) {
+            last->columns += columns;
+          } else {
+            plan_.updates.push_back({below, beside, target.at, target.stride,
+                                     blocks_.sizes[index(row_block)], columns});
+          }
+          beside += index(columns);
+        }
+        below += index(blocks_.sizes[index(row_block)]) * index(panel.size);
+      }
+      panel.updates = plan_.updates.size();
+    }
+  }
+
+  void find_gaps() {
+    std::vector<bool> is_filled(plan_.num_values, false);
+    for (const BlockPlan::Copy& copy : plan_.copies) {
+      for (int i = 0; i < copy.rows; ++i) {
+        const std::size_t first = copy.target + index(i) * index(copy.target_stride);
+        std::fill_n(is_filled.begin() + static_cast<std::ptrdiff_t>(first), copy.columns, true);
+      }
+    }
+    for (std::size_t k = 0; k < is_filled.size(); ++k) {
+      if (is_filled[k]) continue;
+      if (k > 0 && !is_filled[k - 1]) {
+        ++plan_.gaps.back().second;
+      } else {
+        plan_.gaps.emplace_back(k, k + 1);
+      }
+    }
+  }
+
+  const assembly::CrsMatrix& matrix_;
+  Blocks blocks_;
+  std::vector<int> block_of_;  // of each row
+  parallel::Graph graph_;
+  std::vector<int> first_row_;            // of each block
+  std::vector<std::vector<int>> groups_;  // blocks, in the order of elimination
+  std::vector<int> group_of_;             // of each block
+  std::vector<int> place_;                // of the first unknown of each block
+  std::vector<std::vector<int>> beside_;  // of each group: blocks right of the diagonal, in order
+  BlockPlan plan_;
+};
+
+}  // namespace
+
+BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<bool>& is_hollow) {
+  return Planner(matrix, is_hollow).take();
+}
+
+}  // namespace culm::solver

@@ -1,0 +1,71 @@
+#include "blocks.hpp"
+
+#include <algorithm>
+
+namespace culm::solver {
+namespace {
+
+std::size_t index(long long i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Blocks find_blocks(const assembly::CrsMatrix& matrix) {
+  const auto graph = matrix.getLocalMatrixHost().graph;
+  const auto columns_of = [&](std::size_t row) {
+    return std::span<const int>(graph.entries.data() + graph.row_map(row),
+                                graph.row_map(row + 1) - graph.row_map(row));
+  };
+  Blocks blocks;
+  const std::size_t rows = matrix.getRowMap()->getNodeNumElements();
+  for (std::size_t row = 0; row < rows; ++row) {
+    blocks.rows.push_back(matrix.getRowMap()->getGlobalElement(static_cast<int>(row)));
+    const auto columns = columns_of(row);
+    if (row > 0 && std::ranges::equal(columns, columns_of(row - 1))) {
+      ++blocks.sizes.back();
+      continue;
+    }
+    blocks.sizes.push_back(1);
+    blocks.widths.push_back(static_cast<int>(columns.size()));
+    for (int column : columns) {
+      blocks.columns.push_back(matrix.getColMap()->getGlobalElement(column));
+    }
+  }
+  return blocks;
+}
+
+std::vector<int> block_of_row(const Blocks& blocks) {
+  std::vector<int> block_of(blocks.rows.size());
+  std::size_t at = 0;
+  for (std::size_t b = 0; b < blocks.sizes.size(); ++b) {
+    for (int i = 0; i < blocks.sizes[b]; ++i) {
+      block_of[index(blocks.rows[at++])] = static_cast<int>(b);
+    }
+  }
+  return block_of;
+}
+
+parallel::Graph couple(const Blocks& blocks, const std::vector<int>& block_of) {
+  std::vector<std::vector<int>> neighbours(blocks.sizes.size());
+  std::size_t at = 0;
+  for (std::size_t b = 0; b < blocks.sizes.size(); ++b) {
+    int last = static_cast<int>(b);
+    for (int k = 0; k < blocks.widths[b]; ++k) {
+      const int other = block_of[index(blocks.columns[at++])];
+      if (other == last || other == static_cast<int>(b)) continue;  // a run of columns of one block
+      neighbours[b].push_back(other);
+      neighbours[index(other)].push_back(static_cast<int>(b));
+      last = other;
+    }
+  }
+  parallel::Graph graph;
+  graph.weights = blocks.sizes;
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+}  // namespace culm::solver

@@ -1,0 +1,379 @@
+#include "../src/block_lu.hpp"
+
+#include "../src/elimination_groups.hpp"
+#include "../src/guarded_block_lu.hpp"
+#include "../src/matrix_checks.hpp"
+
+#include <Eigen/Dense>
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <culm_kit/no_heap.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+
+namespace culm::solver {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::GlobalIndex;
+using assembly::Map;
+
+// Which blocks are coupled, and how many rows each has; those without diagonal are hollow.
+struct Skeleton {
+  std::string name;
+  std::vector<std::pair<int, int>> edges;
+  std::vector<int> sizes;
+  std::vector<int> hollow;  // numbers of blocks
+
+  int rows() const { return std::accumulate(sizes.begin(), sizes.end(), 0); }
+};
+
+Skeleton chain(int nodes, const std::function<int(int)>& size) {
+  Skeleton s{"chain", {}, {}, {}};
+  for (int i = 0; i < nodes; ++i) {
+    s.sizes.push_back(size(i));
+    if (i > 0) s.edges.emplace_back(i - 1, i);
+  }
+  return s;
+}
+
+// The first k nodes may be the parent of node 2 k + 1 and 2 k + 2.
+Skeleton tree(int nodes, const std::function<int(int)>& size) {
+  Skeleton s{"tree", {}, {}, {}};
+  for (int i = 0; i < nodes; ++i) {
+    s.sizes.push_back(size(i));
+    if (i > 0) s.edges.emplace_back((i - 1) / 2, i);
+  }
+  return s;
+}
+
+Skeleton loop(int nodes, const std::function<int(int)>& size) {
+  Skeleton s = chain(nodes, size);
+  s.name = "loop";
+  s.edges.emplace_back(nodes - 1, 0);
+  return s;
+}
+
+// Bodies with a joint between each two that follow each other, closed to a loop or held by the
+// first joint. Joints take away 1 to 5 freedoms.
+Skeleton bodies(int count, bool closed) {
+  Skeleton s{closed ? "closed bodies" : "bodies", {}, std::vector<int>(count, 6), {}};
+  for (int i = 0; i < count; ++i) {
+    const int joint = count + i;
+    s.sizes.push_back(1 + i % 5);
+    s.hollow.push_back(joint);
+    s.edges.emplace_back(i, joint);
+    if (i > 0) s.edges.emplace_back(i - 1, joint);
+    if (i == 0 && closed) s.edges.emplace_back(count - 1, joint);
+  }
+  return s;
+}
+
+// All blocks within an edge are full; the diagonal is as large as a row, but not so large that no
+// pivots are needed.
+Eigen::MatrixXd random_values(const Skeleton& s, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<int> first(s.sizes.size());
+  std::exclusive_scan(s.sizes.begin(), s.sizes.end(), first.begin(), 0);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(s.rows(), s.rows());
+  const auto fill = [&](int a, int b) {
+    auto block = A.block(first[a], first[b], s.sizes[a], s.sizes[b]);
+    for (int i = 0; i < block.size(); ++i) block(i % s.sizes[a], i / s.sizes[a]) = uniform(random);
+  };
+  for (int b = 0; b < static_cast<int>(s.sizes.size()); ++b) {
+    if (std::ranges::count(s.hollow, b) > 0) continue;
+    fill(b, b);
+    A.block(first[b], first[b], s.sizes[b], s.sizes[b]).diagonal().array() += 3.0;
+  }
+  for (const auto& [a, b] : s.edges) {
+    fill(a, b);
+    fill(b, a);
+  }
+  return A;
+}
+
+// A matrix on this rank with the pattern of a skeleton.
+class BlockMatrix {
+ public:
+  explicit BlockMatrix(const Skeleton& s, unsigned seed = 1) : values(random_values(s, seed)) {
+    std::vector<int> block_of;
+    for (int b = 0; b < static_cast<int>(s.sizes.size()); ++b) {
+      block_of.insert(block_of.end(), static_cast<std::size_t>(s.sizes[b]), b);
+    }
+    const auto couples = [&](int a, int b) {
+      return a == b || std::ranges::count(s.edges, std::pair(a, b)) > 0 ||
+             std::ranges::count(s.edges, std::pair(b, a)) > 0;
+    };
+    const auto self = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
+    const auto map = Teuchos::rcp(new Map(s.rows(), 0, self));
+    matrix = Teuchos::rcp(new CrsMatrix(map, static_cast<std::size_t>(s.rows())));
+    for (int row = 0; row < s.rows(); ++row) {
+      std::vector<GlobalIndex> columns;
+      std::vector<double> entries;
+      for (int column = 0; column < s.rows(); ++column) {
+        if (!couples(block_of[row], block_of[column])) continue;
+        columns.push_back(column);
+        entries.push_back(values(row, column));
+      }
+      matrix->insertGlobalValues(row, Teuchos::arrayViewFromVector(columns),
+                                 Teuchos::arrayViewFromVector(entries));
+    }
+    matrix->fillComplete();
+  }
+
+  // The values again, after they have been changed.
+  void refresh() {
+    const auto local = matrix->getLocalMatrixHost();
+    for (int row = 0; row < local.numRows(); ++row) {
+      const auto at = static_cast<std::size_t>(row);
+      for (auto k = local.graph.row_map(at); k < local.graph.row_map(at + 1); ++k) {
+        local.values(k) = values(row, local.graph.entries(k));
+      }
+    }
+  }
+
+  Eigen::MatrixXd values;
+  Teuchos::RCP<CrsMatrix> matrix;
+};
+
+template <class Factors>
+Eigen::VectorXd solve(Factors& factors, Eigen::VectorXd b) {
+  factors.solve({b.data(), static_cast<std::size_t>(b.size())});
+  return b;
+}
+
+double relative_residual(const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
+                         const Eigen::VectorXd& b) {
+  const double size = (A.cwiseAbs() * x.cwiseAbs() + b.cwiseAbs()).maxCoeff();
+  return (b - A * x).lpNorm<Eigen::Infinity>() / size;
+}
+
+std::vector<Skeleton> skeletons() {
+  const auto any = [](int i) { return 1 + (7 * i) % 9; };
+  const auto node = [](int) { return 6; };
+  std::vector<Skeleton> all;
+  for (const int n : {1, 2, 3, 20}) {
+    for (const auto& make : {chain, tree}) {
+      all.push_back(make(n, any));
+      all.push_back(make(n, node));
+    }
+    all.push_back(bodies(n, false));
+  }
+  for (const int n : {3, 4, 20}) {
+    all.push_back(loop(n, any));
+    all.push_back(loop(n, node));
+    all.push_back(bodies(n, true));
+  }
+  for (int size = 1; size <= 9; ++size) {
+    all.push_back(loop(7, [size](int) { return size; }));
+    all.push_back(chain(7, [size](int) { return size; }));
+  }
+  return all;
+}
+
+TEST(BlockLu, SolvesAndKnowsTheDeterminant) {
+  for (const Skeleton& s : skeletons()) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      const BlockMatrix A(s, seed);
+      BlockLu blocks(*A.matrix);
+      ASSERT_TRUE(blocks.factor()) << s.name << " of " << s.sizes.size();
+      const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+      const Eigen::VectorXd b = A.values * x;
+      const Eigen::VectorXd found = solve(blocks, b);
+      const Eigen::FullPivLU<Eigen::MatrixXd> dense(A.values);
+      // pivots of a few hundredths cost as many digits
+      EXPECT_LT(relative_residual(A.values, found, b), 1e-12) << s.name << " of " << s.sizes.size();
+      EXPECT_LT((found - x).norm(), 1e-12 / dense.rcond() * x.norm());
+      const double exact = dense.determinant();
+      EXPECT_EQ(blocks.determinant().sign, exact > 0.0 ? 1 : -1) << s.name;
+      EXPECT_NEAR(blocks.determinant().log_size, std::log(std::abs(exact)), 1e-9) << s.name;
+    }
+  }
+}
+
+TEST(BlockLu, RowsMayBeExchangedInsideBlocks) {
+  for (const int size : {2, 3, 4, 6}) {
+    const Skeleton s = tree(20, [size](int) { return size; });
+    BlockMatrix A(s);
+    // the large entries leave the diagonal, in every third block
+    for (int b = 0; b < 20; b += 3) {
+      auto rows = A.values.middleRows(size * b, size);
+      rows = Eigen::MatrixXd(rows.colwise().reverse());
+      A.values.diagonal().segment(size * b, size) *= 1e-6;
+    }
+    A.refresh();
+    BlockLu blocks(*A.matrix);
+    ASSERT_TRUE(blocks.factor());
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+    EXPECT_LT(relative_residual(A.values, solve(blocks, b), b), 1e-13) << size;
+    EXPECT_EQ(blocks.determinant().sign, A.values.determinant() > 0.0 ? 1 : -1) << size;
+  }
+}
+
+TEST(BlockLu, AllocatesNothingAfterTheFirstFactorisation) {
+  for (const Skeleton& s : {chain(50, [](int) { return 6; }), bodies(20, true)}) {
+    BlockMatrix A(s);
+    BlockLu blocks(*A.matrix);
+    ASSERT_TRUE(blocks.factor());
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(s.rows());
+    A.values *= 2.0;
+    A.refresh();
+    const kit::NoHeap guard;
+    ASSERT_TRUE(blocks.factor());
+    blocks.solve({x.data(), static_cast<std::size_t>(x.size())});
+    EXPECT_EQ(std::abs(blocks.determinant().sign), 1);
+  }
+}
+
+TEST(BlockLu, FactorsDoNotDependOnEarlierOnes) {
+  const Skeleton s = bodies(12, true);
+  BlockMatrix A(s, 1);
+  const BlockMatrix other(s, 2);
+  BlockLu used(*A.matrix);
+  ASSERT_TRUE(used.factor());
+  A.values = other.values;
+  A.values.block(0, 0, 6, 6).setZero();  // another plan
+  A.refresh();
+  used.factor();
+  A.values = other.values;
+  A.refresh();
+  BlockLu fresh(*A.matrix);
+  ASSERT_TRUE(used.factor() && fresh.factor());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+  EXPECT_EQ(solve(used, b), solve(fresh, b));
+}
+
+TEST(BlockLu, RefusesPivotsThatAreRoundingOrNoNumbers) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  for (const double last : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    BlockMatrix A(s);
+    A.values.row(20) = last * A.values.row(20);
+    A.refresh();
+    BlockLu blocks(*A.matrix);
+    EXPECT_FALSE(blocks.factor());
+  }
+  // two nodes that move together meet no resistance
+  Eigen::MatrixXd spring(2, 2);
+  spring << 1.0, -1.0, -1.0, 1.0;
+  BlockMatrix A(chain(2, [](int) { return 1; }));
+  A.values = spring / 3.0;
+  A.refresh();
+  BlockLu blocks(*A.matrix);
+  EXPECT_FALSE(blocks.factor());
+}
+
+TEST(BlockLu, NewPlanWhereOtherBlocksAreHollow) {
+  const Skeleton s = bodies(5, false);
+  BlockMatrix A(s);
+  BlockLu blocks(*A.matrix);
+  ASSERT_TRUE(blocks.factor());
+  // the second body has neither mass nor stiffness, but two joints with five equations
+  A.values.block(6, 6, 6, 6).setZero();
+  for (int i = 0; i < 6; ++i) A.values(6 + i, 6 + i) = i == 0 ? 1.0 : 0.0;
+  A.refresh();
+  GuardedBlockLu guarded(*A.matrix);
+  ASSERT_TRUE(guarded.factor());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+  EXPECT_LT(relative_residual(A.values, solve(guarded, b), b), 1e-12);
+}
+
+TEST(EliminationGroups, EachJointFindsABodyOfItsOwn) {
+  // joints with five equations need one body each; only one assignment does
+  Skeleton s = bodies(40, false);
+  parallel::Graph graph;
+  std::vector<bool> is_hollow(s.sizes.size(), false);
+  for (const int joint : s.hollow) {
+    s.sizes[static_cast<std::size_t>(joint)] = 5;
+    is_hollow[static_cast<std::size_t>(joint)] = true;
+  }
+  graph.weights = s.sizes;
+  for (int v = 0; v < static_cast<int>(s.sizes.size()); ++v) {
+    for (const auto& [a, b] : s.edges) {
+      if (a == v) graph.neighbours.push_back(b);
+      if (b == v) graph.neighbours.push_back(a);
+    }
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+  }
+  const auto groups = order_groups(graph, is_hollow);
+  EXPECT_EQ(groups.size(), 40u);
+  for (const auto& group : groups) EXPECT_EQ(group, (std::vector<int>{group[0], group[0] + 40}));
+}
+
+// A chain whose first node can be eliminated only after its neighbour.
+BlockMatrix chain_with_singular_end(const Skeleton& s) {
+  BlockMatrix A(s);
+  A.values.block(0, 0, 6, 6).setOnes();
+  A.refresh();
+  return A;
+}
+
+TEST(GuardedBlockLu, Klu2TakesOverWhereBlocksDoNotServeAndGoesOn) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  BlockMatrix A = chain_with_singular_end(s);
+  GuardedBlockLu guarded(*A.matrix);
+  ASSERT_TRUE(guarded.factor());
+  EXPECT_FALSE(guarded.pivots().empty());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+  EXPECT_LT(relative_residual(A.values, solve(guarded, b), b), 1e-13);
+  A.values = random_values(s, 1);
+  A.refresh();
+  ASSERT_TRUE(guarded.factor());
+  EXPECT_FALSE(guarded.pivots().empty());
+  EXPECT_EQ(guarded.remark().find("2 of 2 factorisations by KLU2"), 0u);
+}
+
+TEST(GuardedBlockLu, GoesBackToBlocksAndToPivots) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  BlockMatrix A(s);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+  GuardedBlockLu guarded(*A.matrix);
+  ASSERT_TRUE(guarded.factor());
+  const Eigen::VectorXd by_blocks = solve(guarded, b);
+  guarded.remember_pivots();
+  const Eigen::MatrixXd sound = A.values;
+  A.values = chain_with_singular_end(s).values;
+  A.refresh();
+  ASSERT_TRUE(guarded.factor());
+  const std::vector<int> pivots = guarded.pivots();
+  guarded.restore_pivots();
+  EXPECT_TRUE(guarded.pivots().empty());
+  A.values = sound;
+  A.refresh();
+  ASSERT_TRUE(guarded.factor());
+  EXPECT_EQ(solve(guarded, b), by_blocks);
+
+  GuardedBlockLu resumed(*A.matrix);
+  ASSERT_TRUE(resumed.set_pivots(pivots));
+  EXPECT_EQ(resumed.pivots(), pivots);
+  ASSERT_TRUE(resumed.factor());
+  EXPECT_EQ(resumed.pivots(), pivots);
+  EXPECT_LT(relative_residual(A.values, solve(resumed, b), b), 1e-13);
+  EXPECT_FALSE(resumed.set_pivots(std::vector<int>{1, 0}));
+  ASSERT_TRUE(resumed.set_pivots({}));
+  ASSERT_TRUE(resumed.factor());
+  EXPECT_EQ(solve(resumed, b), by_blocks);
+}
+
+TEST(GuardedBlockLu, SingularMatricesLeaveNoTrace) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  BlockMatrix A(s);
+  const Eigen::MatrixXd sound = A.values;
+  GuardedBlockLu guarded(*A.matrix);
+  A.values.row(20).setZero();
+  A.refresh();
+  EXPECT_FALSE(guarded.factor());
+  EXPECT_TRUE(guarded.pivots().empty());
+  A.values = sound;
+  A.refresh();
+  EXPECT_TRUE(guarded.factor());
+  EXPECT_TRUE(guarded.pivots().empty());
+}
+
+}  // namespace
+}  // namespace culm::solver
