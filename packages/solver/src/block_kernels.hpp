@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace culm::solver {
@@ -15,12 +16,16 @@ using Fixed = std::integral_constant<int, size>;
 /// with the diagonal does not depend on how rows are scaled.
 constexpr double preferred_pivot = 1e-3;
 
+/// Some times the accuracy of a number.
+constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+
 /// D = P^T L U in place, with the reciprocals of the pivots on the diagonal.
-/// @param least      of each pivot, what it must exceed
+/// @param before     size of each diagonal entry before anything was eliminated: a pivot that is
+///                   smaller by all digits is nothing but rounding
 /// @param exchanged  of each row, the one it was exchanged with
 /// @return false if a pivot is too small or not a number
 template <class Size>
-bool factor_block(double* D, int stride, Size size, const double* least, int* exchanged) {
+bool factor_block(double* D, int stride, Size size, const double* before, int* exchanged) {
   for (int c = 0; c < size; ++c) {
     double* row_c = D + c * stride;
     int best = c;
@@ -34,7 +39,7 @@ bool factor_block(double* D, int stride, Size size, const double* least, int* ex
     }
     if (best != c) std::swap_ranges(row_c, row_c + size, D + best * stride);
     exchanged[c] = best;
-    if (!(std::abs(row_c[c]) > least[c])) return false;
+    if (!(std::abs(row_c[c]) > rounding * before[c])) return false;
     row_c[c] = 1.0 / row_c[c];
     for (int r = c + 1; r < size; ++r) {
       double* row_r = D + r * stride;

@@ -1,5 +1,6 @@
 #include "block_lu.hpp"
 
+#include "block_hosts.hpp"
 #include "block_kernels.hpp"
 #include "blocks.hpp"
 
@@ -14,63 +15,55 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 constexpr auto none = std::numeric_limits<std::size_t>::max();
 
-// A pivot so small beside the entry of the matrix in its place is nothing but rounding.
-constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+// Eliminating others may leave on the diagonal so many times the largest entry of the row, as with
+// kept pivots of KLU2. The error of a solution grows by as much.
+constexpr double largest_growth = 1e4;
 
 // What takes a fixed size where it can: the unknowns of a node.
 constexpr Fixed<6> node{};
 
 }  // namespace
 
-BlockLu::BlockLu(const assembly::CrsMatrix& matrix) : matrix_(matrix), local_(matrix.getLocalMatrixHost()) {
-  const auto& graph = local_.graph;
-  int row = 0;
-  for (const int size : find_blocks(matrix).sizes) {
-    const int first = row;
-    for (; row < first + size; ++row) {
-      Row found{none, none, none};
-      for (auto k = graph.row_map(index(row)); k < graph.row_map(index(row) + 1); ++k) {
-        const int column = graph.entries(k);
-        if (column == row) found.diagonal = k;
-        if (column < first || column >= first + size) continue;
-        if (found.first == none) found.first = k;
-        found.last = k + 1;
-      }
-      rows_.push_back(found);
-    }
-  }
-  is_hollow_.assign(rows_.size(), false);
-}
+BlockLu::BlockLu(const assembly::CrsMatrix& matrix)
+    : matrix_(matrix), local_(matrix.getLocalMatrixHost()), sizes_(find_blocks(matrix).sizes) {}
 
 bool BlockLu::factor() {
-  const double* values = local_.values.data();
-  if (find_hollow_rows(values) || plan_.panels.empty()) plan();
-  copy(values);
+  if (host_.empty()) {
+    host_ = choose_hosts(matrix_);
+    plan();
+  }
+  copy(local_.values.data());
   return std::ranges::all_of(plan_.panels, [this](const auto& panel) { return eliminate(panel); });
 }
 
-// Whether others are hollow than before.
-bool BlockLu::find_hollow_rows(const double* values) {
-  bool changes = false;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
-    bool hollow = row.diagonal == none || values[row.diagonal] == 0.0;
-    if (hollow && row.first != none) {
-      hollow =
-          std::all_of(values + row.first, values + row.last, [](double v) { return v == 0.0; });
-    }
-    changes = changes || hollow != is_hollow_[r];
-    is_hollow_[r] = hollow;
-  }
-  return changes;
+bool BlockLu::set_hosts(std::span<const int> host) {
+  if (std::ranges::equal(host_, host)) return true;
+  const auto blocks = static_cast<int>(sizes_.size());
+  const auto is_block = [&](int b) { return b >= -1 && b < blocks; };
+  // a host stands for itself
+  const auto fits = [&](int b) { return b < 0 || host[index(b)] < 0 || host[index(b)] == b; };
+  const bool fit =
+      host.empty() || (host.size() == sizes_.size() && std::ranges::all_of(host, is_block) &&
+                       std::ranges::all_of(host, fits));
+  host_.assign(host.begin(), fit ? host.end() : host.begin());
+  if (!host_.empty()) plan();
+  return fit;
 }
 
 void BlockLu::plan() {
-  plan_ = plan_blocks(matrix_, is_hollow_);
+  plan_ = plan_blocks(matrix_, host_);
+  const std::size_t rows = plan_.unknown.size();
   values_.assign(plan_.num_values, 0.0);
-  least_.assign(rows_.size(), 0.0);
-  exchanged_.assign(rows_.size(), 0);
-  x_.assign(rows_.size(), 0.0);
+  before_.assign(rows, 0.0);
+  exchanged_.assign(rows, 0);
+  x_.assign(rows, 0.0);
+  diagonal_.assign(rows, none);
+  for (std::size_t place = 0; place < rows; ++place) {
+    const std::size_t row = index(plan_.unknown[place]);
+    for (auto k = local_.graph.row_map(row); k < local_.graph.row_map(row + 1); ++k) {
+      if (index(local_.graph.entries(k)) == row) diagonal_[place] = k;
+    }
+  }
   int widest = 0;
   for (const BlockPlan::Panel& panel : plan_.panels) widest = std::max(widest, panel.width);
   beside_.assign(index(widest), 0.0);
@@ -91,13 +84,31 @@ void BlockLu::copy(const double* values) {
   for (const BlockPlan::Copy& c : plan_.copies) {
     c.columns == node ? copy_rows(c, node) : copy_rows(c, c.columns);
   }
-  for (std::size_t place = 0; place < least_.size(); ++place) {
-    const std::size_t diagonal = rows_[index(plan_.unknown[place])].diagonal;
-    least_[place] = diagonal == none ? 0.0 : rounding * std::abs(values[diagonal]);
+  for (std::size_t place = 0; place < before_.size(); ++place) {
+    before_[place] = diagonal_[place] == none ? 0.0 : std::abs(values[diagonal_[place]]);
   }
 }
 
+bool BlockLu::has_grown(const BlockPlan::Panel& panel) const {
+  const double* entry = values_.data() + panel.pivot;
+  for (int i = 0; i < panel.size; ++i, entry += panel.stride() + 1) {
+    const std::size_t place = index(panel.first + i);
+    if (std::abs(*entry) <= largest_growth * before_[place]) continue;
+    if (std::abs(*entry) > largest_growth * largest_in_row(plan_.unknown[place])) return true;
+  }
+  return false;
+}
+
+double BlockLu::largest_in_row(int row) const {
+  double largest = 0.0;
+  for (auto k = local_.graph.row_map(index(row)); k < local_.graph.row_map(index(row) + 1); ++k) {
+    largest = std::max(largest, std::abs(local_.values(k)));
+  }
+  return largest;
+}
+
 bool BlockLu::eliminate(const BlockPlan::Panel& panel) {
+  if (has_grown(panel)) return false;
   if (!(panel.size == node ? factor_panel(panel, node) : factor_panel(panel, panel.size))) {
     return false;
   }
@@ -113,7 +124,7 @@ bool BlockLu::factor_panel(const BlockPlan::Panel& panel, Size size) {
   double* U = D + panel.size;
   const int stride = panel.stride();
   int* exchanged = exchanged_.data() + panel.first;
-  if (!factor_block(D, stride, size, least_.data() + panel.first, exchanged)) return false;
+  if (!factor_block(D, stride, size, before_.data() + panel.first, exchanged)) return false;
   if (panel.width == node) {
     solve_block(D, stride, size, exchanged, U, stride, node);
   } else {

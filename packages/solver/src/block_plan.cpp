@@ -11,40 +11,16 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// Blocks of rows with the same columns, none of them with hollow rows and others.
-Blocks divide(const Blocks& whole, const std::vector<bool>& is_hollow) {
-  Blocks parts;
-  parts.rows = whole.rows;
-  std::size_t row = 0;
-  std::size_t column = 0;
-  for (std::size_t b = 0; b < whole.sizes.size(); ++b) {
-    for (int i = 0; i < whole.sizes[b]; ++i, ++row) {
-      if (i > 0 && is_hollow[row] == is_hollow[row - 1]) {
-        ++parts.sizes.back();
-        continue;
-      }
-      parts.sizes.push_back(1);
-      parts.widths.push_back(whole.widths[b]);
-      const auto first = whole.columns.begin() + static_cast<std::ptrdiff_t>(column);
-      parts.columns.insert(parts.columns.end(), first, first + whole.widths[b]);
-    }
-    column += index(whole.widths[b]);
-  }
-  return parts;
-}
-
 class Planner {
  public:
-  Planner(const assembly::CrsMatrix& matrix, const std::vector<bool>& is_hollow)
+  Planner(const assembly::CrsMatrix& matrix, const std::vector<int>& host)
       : matrix_(matrix),
-        blocks_(divide(find_blocks(matrix), is_hollow)),
+        blocks_(find_blocks(matrix)),
         block_of_(block_of_row(blocks_)),
         graph_(couple(blocks_, block_of_)),
-        first_row_(blocks_.sizes.size()) {
+        first_row_(blocks_.sizes.size()),
+        groups_(order_groups(graph_, host)) {
     std::exclusive_scan(blocks_.sizes.begin(), blocks_.sizes.end(), first_row_.begin(), 0);
-    std::vector<bool> hollow_blocks;
-    for (int row : first_row_) hollow_blocks.push_back(is_hollow[index(row)]);
-    groups_ = order_groups(graph_, hollow_blocks);
     place_blocks();
     find_panels();
     list_copies();
@@ -223,8 +199,8 @@ class Planner {
 
 }  // namespace
 
-BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<bool>& is_hollow) {
-  return Planner(matrix, is_hollow).take();
+BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host) {
+  return Planner(matrix, host).take();
 }
 
 }  // namespace culm::solver

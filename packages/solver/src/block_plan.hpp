@@ -55,8 +55,7 @@ struct BlockPlan {
   std::size_t num_values = 0;
 };
 
-/// Rows with the same columns are blocks, in which `is_hollow` divides those whose part of the
-/// diagonal block is zero from the others. @param matrix with all rows on this rank
-BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<bool>& is_hollow);
+/// @param matrix with all rows on this rank @param host of each block, see `find_hosts`
+BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host);
 
 }  // namespace culm::solver

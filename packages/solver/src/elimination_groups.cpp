@@ -4,9 +4,8 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <array>
 #include <set>
-#include <span>
-#include <tuple>
 #include <utility>
 
 namespace culm::solver {
@@ -21,74 +20,82 @@ std::span<const int> neighbours_of(const Graph& graph, int vertex) {
   return {graph.neighbours.data() + first, index(graph.begin[index(vertex) + 1] - first)};
 }
 
-// Finds a host for hollow blocks, those with the fewest choices first.
-class Hosts {
+class HostSearch {
  public:
-  Hosts(const Graph& graph, const std::vector<bool>& is_hollow)
-      : graph_(graph),
-        is_hollow_(is_hollow),
-        room_(graph.weights),
-        claims_(is_hollow.size(), 0),
-        choices_(is_hollow.size(), 0),
-        host_(is_hollow.size(), -1) {
-    for (int block = 0; block < graph_.size(); ++block) {
-      if (!is_hollow_[index(block)]) continue;
-      for (int other : neighbours_of(graph_, block)) {
-        if (!fits(block, other)) continue;
-        ++choices_[index(block)];
-        ++claims_[index(other)];
+  HostSearch(const Graph& graph, const IsRegular& is_regular)
+      : graph_(graph), is_regular_(is_regular), host_(graph.weights.size(), -1) {
+    for (int block = 0; block < graph.size(); ++block) members_.push_back({block});
+    helpers_.resize(host_.size());
+    helped_.resize(host_.size());
+    free_.resize(host_.size(), 0);
+    for (int block = 0; block < graph.size(); ++block) {
+      if (is_regular(members_[index(block)])) continue;
+      for (int other : neighbours_of(graph, block)) {
+        if (!is_regular(std::array{other, block})) continue;
+        helpers_[index(block)].push_back(other);
+        helped_[index(other)].push_back(block);
       }
-      open_.insert({choices_[index(block)], block});
+      free_[index(block)] = static_cast<int>(helpers_[index(block)].size());
+      open_.insert({free_[index(block)], block});
     }
     while (!open_.empty()) settle(open_.begin()->second);
   }
 
-  // Of each block; -1 if it has none or needs none.
-  const std::vector<int>& of_blocks() const { return host_; }
+  std::vector<int> take() { return std::move(host_); }
 
  private:
-  bool fits(int block, int other) const {
-    return !is_hollow_[index(other)] && room_[index(other)] >= graph_.weights[index(block)];
+  bool is_free(int block) const {
+    return members_[index(block)].size() == 1 && host_[index(block)] < 0;
   }
 
   void settle(int block) {
-    open_.erase({choices_[index(block)], block});
+    open_.erase({free_[index(block)], block});
     int best = -1;
-    const auto rank = [&](int h) { return std::tuple(claims_[index(h)], -room_[index(h)], h); };
-    for (int other : neighbours_of(graph_, block)) {
-      if (!fits(block, other)) continue;
-      if (best < 0 || rank(other) < rank(best)) best = other;
+    for (int other : helpers_[index(block)]) {
+      if (!is_free(other)) continue;
+      if (best < 0 || helped_[index(other)].size() < helped_[index(best)].size()) best = other;
     }
-    if (best < 0) return;
-    host_[index(block)] = best;
-    for (int other : neighbours_of(graph_, block)) {
-      if (fits(block, other)) --claims_[index(other)];
+    host_[index(block)] = block;  // waits
+    if (best >= 0) {
+      join(block, best);
+    } else {
+      share(block);
     }
-    take_room(best, graph_.weights[index(block)]);
   }
 
-  // Blocks that no longer fit have one choice less.
-  void take_room(int host, int size) {
-    const int before = room_[index(host)];
-    room_[index(host)] -= size;
-    for (int other : neighbours_of(graph_, host)) {
-      const int needs = graph_.weights[index(other)];
-      if (needs > before || needs <= room_[index(host)]) continue;
-      const auto waiting = open_.find({choices_[index(other)], other});
+  void share(int block) {
+    for (int other : helpers_[index(block)]) {
+      if (members_[index(other)].size() == 1) continue;  // a guest itself, or it waits
+      std::vector<int> together = members_[index(other)];
+      together.push_back(block);
+      if (!is_regular_(together)) continue;
+      join(block, other);
+      return;
+    }
+  }
+
+  void join(int block, int host) {
+    const bool was_free = is_free(host);
+    host_[index(block)] = host;
+    members_[index(host)].push_back(block);
+    if (!was_free) return;
+    open_.erase({free_[index(host)], host});  // it may have been in need itself
+    for (int other : helped_[index(host)]) {
+      const auto waiting = open_.find({free_[index(other)], other});
       if (waiting == open_.end()) continue;
       open_.erase(waiting);
-      --claims_[index(host)];
-      open_.insert({--choices_[index(other)], other});
+      open_.insert({--free_[index(other)], other});
     }
   }
 
   const Graph& graph_;
-  const std::vector<bool>& is_hollow_;
-  std::vector<int> room_;     // of hosts: unknowns without a partner
-  std::vector<int> claims_;   // of hosts: open blocks that fit
-  std::vector<int> choices_;  // of open blocks: hosts that fit
+  const IsRegular& is_regular_;
   std::vector<int> host_;
-  std::set<std::pair<int, int>> open_;  // choices and block
+  std::vector<std::vector<int>> members_;  // of hosts, themselves first
+  std::vector<std::vector<int>> helpers_;  // of a block in need: neighbours that make it regular
+  std::vector<std::vector<int>> helped_;   // of a neighbour: whom it would help
+  std::vector<int> free_;                  // of an open block: helpers without a guest
+  std::set<std::pair<int, int>> open_;     // blocks in need, by free helpers
 };
 
 // Place of each group: approximate minimum degree.
@@ -112,28 +119,32 @@ std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& gro
 
 }  // namespace
 
-std::vector<std::vector<int>> order_groups(const Graph& graph, const std::vector<bool>& is_hollow) {
-  const Hosts hosts(graph, is_hollow);
-  std::vector<int> group_of(is_hollow.size(), -1);
+std::vector<int> find_hosts(const Graph& graph, const IsRegular& is_regular) {
+  return HostSearch(graph, is_regular).take();
+}
+
+std::vector<std::vector<int>> order_groups(const Graph& graph, const std::vector<int>& host) {
+  const auto is_guest = [&](int block) {
+    return host[index(block)] >= 0 && host[index(block)] != block;
+  };
+  std::vector<int> group_of(host.size(), -1);
   std::vector<std::vector<int>> groups;
   for (int block = 0; block < graph.size(); ++block) {
-    if (hosts.of_blocks()[index(block)] >= 0) continue;
+    if (is_guest(block)) continue;
     group_of[index(block)] = static_cast<int>(groups.size());
     groups.push_back({block});
   }
   for (int block = 0; block < graph.size(); ++block) {
-    const int host = hosts.of_blocks()[index(block)];
-    if (host < 0) continue;
-    group_of[index(block)] = group_of[index(host)];
+    if (!is_guest(block)) continue;
+    group_of[index(block)] = group_of[index(host[index(block)])];
     groups[index(group_of[index(block)])].push_back(block);
   }
   const std::vector<int> place = order_by_degree(graph, group_of, static_cast<int>(groups.size()));
-  // what has no host waits for its neighbours
   std::vector<std::pair<int, int>> order;
   for (int group = 0; group < static_cast<int>(groups.size()); ++group) {
     int last = 2 * place[index(group)];
     const int block = groups[index(group)].front();
-    if (is_hollow[index(block)]) {
+    if (host[index(block)] == block) {  // it waits
       for (int other : neighbours_of(graph, block)) {
         last = std::max(last, 2 * place[index(group_of[index(other)])] + 1);
       }

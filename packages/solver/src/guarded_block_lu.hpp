@@ -13,10 +13,10 @@ namespace culm::solver {
 
 /// Factors of a matrix on one rank, with the operations of Klu2.
 ///
-/// Pivots inside blocks are not always enough. Where one is nothing but rounding, or the caller is
-/// not content with a solution, KLU2 factors the matrix, and goes on with its pivots: they are the
-/// only thing that depends on earlier factorisations. If it finds the matrix singular as well, then
-/// blocks are tried again next time.
+/// Pivots inside blocks are not always enough. Where a factorisation fails, or the caller is not
+/// content with a solution, blocks choose their hosts anew; if that does not help, KLU2 factors the
+/// matrix, and goes on with its pivots. Hosts or pivots are the only thing that depends on earlier
+/// factorisations. A matrix that KLU2 finds singular as well leaves no trace.
 class GuardedBlockLu {
  public:
   /// The matrix stays with the caller.
@@ -24,7 +24,7 @@ class GuardedBlockLu {
 
   /// Factors the present values. @return false if the matrix is singular to working precision
   bool factor();
-  /// Factors the present values by KLU2 with new pivots. @return as factor()
+  /// Factors the present values with new pivots of KLU2. @return as factor()
   bool factor_anew();
   /// Whether the last factors are worth nothing before a solution shows that they serve.
   bool needs_proof() const { return !uses_klu2_ || klu2_->needs_proof(); }
@@ -33,26 +33,30 @@ class GuardedBlockLu {
   /// Of the matrix that was factored last.
   Determinant determinant() const;
 
-  /// Those of KLU2; empty as long as blocks serve.
+  /// The pivots of KLU2, or -1 and the hosts of the blocks, as numbers for set_pivots of the same
+  /// matrix pattern; empty before the first factorisation.
   std::vector<int> pivots() const;
   /// The pivots at hand are those to which restore_pivots goes back.
   void remember_pivots();
   /// Goes back where others were chosen since.
   void restore_pivots();
-  /// Goes on by KLU2 with such pivots, or by blocks without. @return false if they do not fit
+  /// Goes on with such numbers; without any it begins anew. @return false if they do not fit
   bool set_pivots(std::span<const int> pivots);
 
   /// How often KLU2 took over; empty if never.
   std::string remark() const;
 
  private:
+  bool factor_with_other_hosts();
+  bool factor_by_klu2(bool anew);
+  void remember_once();
   Klu2& klu2();
 
   const assembly::CrsMatrix& matrix_;
   BlockLu blocks_;
   std::optional<Klu2> klu2_;  ///< made when it is needed
   bool uses_klu2_ = false;
-  bool used_klu2_ = false;  ///< when pivots were remembered
+  std::optional<std::vector<int>> remembered_;  ///< pivots before others were chosen; else none
   long factorisations_ = 0;
   long by_klu2_ = 0;
 };

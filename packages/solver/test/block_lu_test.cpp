@@ -1,6 +1,6 @@
 #include "../src/block_lu.hpp"
 
-#include "../src/elimination_groups.hpp"
+#include "../src/block_hosts.hpp"
 #include "../src/guarded_block_lu.hpp"
 #include "../src/matrix_checks.hpp"
 
@@ -187,9 +187,9 @@ TEST(BlockLu, SolvesAndKnowsTheDeterminant) {
       const Eigen::VectorXd b = A.values * x;
       const Eigen::VectorXd found = solve(blocks, b);
       const Eigen::FullPivLU<Eigen::MatrixXd> dense(A.values);
-      // pivots of a few hundredths cost as many digits
-      EXPECT_LT(relative_residual(A.values, found, b), 1e-12) << s.name << " of " << s.sizes.size();
-      EXPECT_LT((found - x).norm(), 1e-12 / dense.rcond() * x.norm());
+      // numbers without order need pivots from everywhere; without them they lose some digits
+      EXPECT_LT(relative_residual(A.values, found, b), 1e-10) << s.name << " of " << s.sizes.size();
+      EXPECT_LT((found - x).norm(), 1e-10 / dense.rcond() * x.norm());
       const double exact = dense.determinant();
       EXPECT_EQ(blocks.determinant().sign, exact > 0.0 ? 1 : -1) << s.name;
       EXPECT_NEAR(blocks.determinant().log_size, std::log(std::abs(exact)), 1e-9) << s.name;
@@ -231,22 +231,20 @@ TEST(BlockLu, AllocatesNothingAfterTheFirstFactorisation) {
   }
 }
 
-TEST(BlockLu, FactorsDoNotDependOnEarlierOnes) {
+TEST(BlockLu, WithItsHostsFactorsDoNotDependOnEarlierOnes) {
   const Skeleton s = bodies(12, true);
   BlockMatrix A(s, 1);
-  const BlockMatrix other(s, 2);
   BlockLu used(*A.matrix);
   ASSERT_TRUE(used.factor());
-  A.values = other.values;
-  A.values.block(0, 0, 6, 6).setZero();  // another plan
-  A.refresh();
-  used.factor();
-  A.values = other.values;
+  A.values = random_values(s, 2);
   A.refresh();
   BlockLu fresh(*A.matrix);
+  ASSERT_TRUE(fresh.set_hosts(used.hosts()));
   ASSERT_TRUE(used.factor() && fresh.factor());
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
   EXPECT_EQ(solve(used, b), solve(fresh, b));
+  EXPECT_FALSE(fresh.set_hosts(std::vector<int>{-1}));
+  EXPECT_FALSE(fresh.set_hosts(std::vector<int>(24, 24)));
 }
 
 TEST(BlockLu, RefusesPivotsThatAreRoundingOrNoNumbers) {
@@ -268,92 +266,91 @@ TEST(BlockLu, RefusesPivotsThatAreRoundingOrNoNumbers) {
   EXPECT_FALSE(blocks.factor());
 }
 
-TEST(BlockLu, NewPlanWhereOtherBlocksAreHollow) {
-  const Skeleton s = bodies(5, false);
+TEST(FindHosts, EachJointFindsABodyOfItsOwn) {
+  // joints with five equations need one body each, and only one assignment does
+  Skeleton s = bodies(40, false);
+  for (const int joint : s.hollow) s.sizes[static_cast<std::size_t>(joint)] = 5;
+  const std::vector<int> host = choose_hosts(*BlockMatrix(s).matrix);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_EQ(host[static_cast<std::size_t>(i)], -1);
+    EXPECT_EQ(host[static_cast<std::size_t>(40 + i)], i);
+  }
+}
+
+TEST(FindHosts, OneBodyMayServeTwoJointsAndOneMayHaveToWait) {
+  // a body with joints to the ground of 3, 2 and 2 freedoms; the last is one too many
+  Skeleton s{"star", {{0, 1}, {0, 2}, {0, 3}}, {6, 3, 2, 2}, {1, 2, 3}};
+  const std::vector<int> host = choose_hosts(*BlockMatrix(s).matrix);
+  EXPECT_EQ(std::ranges::count(host, 0), 2);
+  EXPECT_EQ(host[0], -1);
+  EXPECT_EQ(std::ranges::count(host, 1) + std::ranges::count(host, 2) + std::ranges::count(host, 3),
+            1);
+}
+
+TEST(FindHosts, ScaleDoesNotMatter) {
+  const Skeleton s = bodies(8, true);
   BlockMatrix A(s);
-  BlockLu blocks(*A.matrix);
-  ASSERT_TRUE(blocks.factor());
-  // the second body has neither mass nor stiffness, but two joints with five equations
-  A.values.block(6, 6, 6, 6).setZero();
-  for (int i = 0; i < 6; ++i) A.values(6 + i, 6 + i) = i == 0 ? 1.0 : 0.0;
+  const std::vector<int> host = choose_hosts(*A.matrix);
+  for (int i = 0; i < s.rows(); ++i) {
+    A.values.row(i) *= std::pow(10.0, i % 13 - 6);
+    A.values.col(i) *= std::pow(10.0, i % 11 - 5);
+  }
   A.refresh();
+  EXPECT_EQ(choose_hosts(*A.matrix), host);
+}
+
+bool is_by_klu2(const GuardedBlockLu& guarded) {
+  const std::vector<int> pivots = guarded.pivots();
+  return !pivots.empty() && pivots.front() >= 0;
+}
+
+TEST(GuardedBlockLu, ChoosesOtherHostsWhereThoseAtHandDoNotServe) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  BlockMatrix A(s);
   GuardedBlockLu guarded(*A.matrix);
   ASSERT_TRUE(guarded.factor());
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
-  EXPECT_LT(relative_residual(A.values, solve(guarded, b), b), 1e-12);
-}
-
-TEST(EliminationGroups, EachJointFindsABodyOfItsOwn) {
-  // joints with five equations need one body each; only one assignment does
-  Skeleton s = bodies(40, false);
-  parallel::Graph graph;
-  std::vector<bool> is_hollow(s.sizes.size(), false);
-  for (const int joint : s.hollow) {
-    s.sizes[static_cast<std::size_t>(joint)] = 5;
-    is_hollow[static_cast<std::size_t>(joint)] = true;
-  }
-  graph.weights = s.sizes;
-  for (int v = 0; v < static_cast<int>(s.sizes.size()); ++v) {
-    for (const auto& [a, b] : s.edges) {
-      if (a == v) graph.neighbours.push_back(b);
-      if (b == v) graph.neighbours.push_back(a);
-    }
-    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
-  }
-  const auto groups = order_groups(graph, is_hollow);
-  EXPECT_EQ(groups.size(), 40u);
-  for (const auto& group : groups) EXPECT_EQ(group, (std::vector<int>{group[0], group[0] + 40}));
-}
-
-// A chain whose first node can be eliminated only after its neighbour.
-BlockMatrix chain_with_singular_end(const Skeleton& s) {
-  BlockMatrix A(s);
+  const std::vector<int> before = guarded.pivots();
+  guarded.remember_pivots();
   A.values.block(0, 0, 6, 6).setOnes();
   A.refresh();
-  return A;
-}
-
-TEST(GuardedBlockLu, Klu2TakesOverWhereBlocksDoNotServeAndGoesOn) {
-  const Skeleton s = chain(9, [](int) { return 6; });
-  BlockMatrix A = chain_with_singular_end(s);
-  GuardedBlockLu guarded(*A.matrix);
   ASSERT_TRUE(guarded.factor());
-  EXPECT_FALSE(guarded.pivots().empty());
+  EXPECT_FALSE(is_by_klu2(guarded));
+  EXPECT_NE(guarded.pivots(), before);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
   EXPECT_LT(relative_residual(A.values, solve(guarded, b), b), 1e-13);
-  A.values = random_values(s, 1);
-  A.refresh();
-  ASSERT_TRUE(guarded.factor());
-  EXPECT_FALSE(guarded.pivots().empty());
-  EXPECT_EQ(guarded.remark().find("2 of 2 factorisations by KLU2"), 0u);
+  guarded.restore_pivots();
+  EXPECT_EQ(guarded.pivots(), before);
 }
 
-TEST(GuardedBlockLu, GoesBackToBlocksAndToPivots) {
+TEST(GuardedBlockLu, Klu2TakesOverAndGoesOnUntilPivotsAreRestored) {
   const Skeleton s = chain(9, [](int) { return 6; });
   BlockMatrix A(s);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
   GuardedBlockLu guarded(*A.matrix);
   ASSERT_TRUE(guarded.factor());
   const Eigen::VectorXd by_blocks = solve(guarded, b);
+  const std::vector<int> hosts = guarded.pivots();
   guarded.remember_pivots();
-  const Eigen::MatrixXd sound = A.values;
-  A.values = chain_with_singular_end(s).values;
-  A.refresh();
+
+  ASSERT_TRUE(guarded.factor_anew());
+  EXPECT_TRUE(is_by_klu2(guarded));
+  const Eigen::VectorXd by_klu2 = solve(guarded, b);
+  EXPECT_LT(relative_residual(A.values, by_klu2, b), 1e-13);
   ASSERT_TRUE(guarded.factor());
+  EXPECT_TRUE(is_by_klu2(guarded));
+  EXPECT_EQ(guarded.remark().find("2 of 2 factorisations by KLU2"), 0u);
   const std::vector<int> pivots = guarded.pivots();
+
   guarded.restore_pivots();
-  EXPECT_TRUE(guarded.pivots().empty());
-  A.values = sound;
-  A.refresh();
+  EXPECT_EQ(guarded.pivots(), hosts);
   ASSERT_TRUE(guarded.factor());
   EXPECT_EQ(solve(guarded, b), by_blocks);
 
   GuardedBlockLu resumed(*A.matrix);
   ASSERT_TRUE(resumed.set_pivots(pivots));
-  EXPECT_EQ(resumed.pivots(), pivots);
   ASSERT_TRUE(resumed.factor());
   EXPECT_EQ(resumed.pivots(), pivots);
-  EXPECT_LT(relative_residual(A.values, solve(resumed, b), b), 1e-13);
+  EXPECT_EQ(solve(resumed, b), by_klu2);
   EXPECT_FALSE(resumed.set_pivots(std::vector<int>{1, 0}));
   ASSERT_TRUE(resumed.set_pivots({}));
   ASSERT_TRUE(resumed.factor());
@@ -365,14 +362,20 @@ TEST(GuardedBlockLu, SingularMatricesLeaveNoTrace) {
   BlockMatrix A(s);
   const Eigen::MatrixXd sound = A.values;
   GuardedBlockLu guarded(*A.matrix);
-  A.values.row(20).setZero();
-  A.refresh();
-  EXPECT_FALSE(guarded.factor());
-  EXPECT_TRUE(guarded.pivots().empty());
-  A.values = sound;
-  A.refresh();
-  EXPECT_TRUE(guarded.factor());
-  EXPECT_TRUE(guarded.pivots().empty());
+  for (const bool by_klu2 : {false, true}) {
+    A.values = sound;
+    A.refresh();
+    ASSERT_TRUE(by_klu2 ? guarded.factor_anew() : guarded.factor());
+    const std::vector<int> before = guarded.pivots();
+    guarded.remember_pivots();
+    A.values.row(20).setZero();
+    A.refresh();
+    EXPECT_FALSE(guarded.factor());
+    EXPECT_EQ(guarded.pivots(), before);
+    EXPECT_EQ(is_by_klu2(guarded), by_klu2);
+    guarded.restore_pivots();
+    EXPECT_EQ(guarded.pivots(), before);
+  }
 }
 
 }  // namespace

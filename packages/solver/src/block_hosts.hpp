@@ -1,0 +1,16 @@
+/// Which blocks of a matrix cannot be eliminated by themselves.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+
+#include <vector>
+
+namespace culm::solver {
+
+/// Hosts of the blocks (`find_hosts`) by the present values. A part of the matrix counts as regular
+/// if its pivots differ by less than 1e6, after rows and columns have been scaled to one size.
+/// @param matrix with all rows on this rank
+/// @source D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms, 2001
+std::vector<int> choose_hosts(const assembly::CrsMatrix& matrix);
+
+}  // namespace culm::solver
