@@ -16,12 +16,12 @@ using Fixed = std::integral_constant<int, size>;
 /// with the diagonal does not depend on how rows are scaled.
 constexpr double preferred_pivot = 1e-3;
 
-/// Some times the accuracy of a number.
-constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+/// What rounding may leave of a number where many others have been subtracted.
+constexpr double rounding = 512.0 * std::numeric_limits<double>::epsilon();
 
 /// D = P^T L U in place, with the reciprocals of the pivots on the diagonal.
-/// @param before     size of each diagonal entry before anything was eliminated: a pivot that is
-///                   smaller by all digits is nothing but rounding
+/// @param before     largest size of each diagonal entry so far: a pivot that is smaller by all
+///                   digits is nothing but rounding
 /// @param exchanged  of each row, the one it was exchanged with
 /// @return false if a pivot is too small or not a number
 template <class Size>

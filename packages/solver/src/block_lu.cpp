@@ -19,31 +19,62 @@ constexpr auto none = std::numeric_limits<std::size_t>::max();
 // kept pivots of KLU2. The error of a solution grows by as much.
 constexpr double largest_growth = 1e4;
 
+// More are not parts of a model that joints hold, but a matrix that is singular.
+constexpr int most_merged = 16;
+
 // What takes a fixed size where it can: the unknowns of a node.
 constexpr Fixed<6> node{};
 
 }  // namespace
 
 BlockLu::BlockLu(const assembly::CrsMatrix& matrix)
-    : matrix_(matrix), local_(matrix.getLocalMatrixHost()), sizes_(find_blocks(matrix).sizes) {}
+    : matrix_(matrix),
+      local_(matrix.getLocalMatrixHost()),
+      block_of_(block_of_row(find_blocks(matrix))) {
+  num_blocks_ = block_of_.empty() ? 0 : block_of_.back() + 1;
+}
 
-bool BlockLu::factor() {
-  if (host_.empty()) {
-    host_ = choose_hosts(matrix_);
+bool BlockLu::factor() { return host_.empty() ? factor_with_new_hosts() : factor_as_planned(); }
+
+bool BlockLu::factor_with_new_hosts() {
+  host_ = choose_hosts(matrix_);
+  plan();
+  for (int merged = 0; !factor_as_planned(); ++merged) {
+    if (merged == most_merged || !merge_failed()) return false;
     plan();
   }
+  return true;
+}
+
+bool BlockLu::factor_as_planned() {
+  failed_ = nullptr;
   copy(local_.values.data());
   return std::ranges::all_of(plan_.panels, [this](const auto& panel) { return eliminate(panel); });
 }
 
+// A part that joints hold, and nothing else, has no pivots for its last group before the joints are
+// eliminated. So this group is eliminated with the one that follows.
+bool BlockLu::merge_failed() {
+  if (failed_ == nullptr || failed_->width == 0) return false;
+  const auto host_at = [&](int place) {
+    const int block = block_of_[index(plan_.unknown[index(place)])];
+    return host_[index(block)] < 0 ? block : host_[index(block)];
+  };
+  const int from = host_at(failed_->first);
+  const int to = host_at(plan_.beside[failed_->beside]);
+  for (std::size_t block = 0; block < host_.size(); ++block) {
+    if (static_cast<int>(block) == from || host_[block] == from) host_[block] = to;
+  }
+  return true;
+}
+
 bool BlockLu::set_hosts(std::span<const int> host) {
   if (std::ranges::equal(host_, host)) return true;
-  const auto blocks = static_cast<int>(sizes_.size());
-  const auto is_block = [&](int b) { return b >= -1 && b < blocks; };
+  const auto is_block = [&](int b) { return b >= -1 && b < num_blocks_; };
   // a host stands for itself
   const auto fits = [&](int b) { return b < 0 || host[index(b)] < 0 || host[index(b)] == b; };
   const bool fit =
-      host.empty() || (host.size() == sizes_.size() && std::ranges::all_of(host, is_block) &&
+      host.empty() || (host.size() == index(num_blocks_) && std::ranges::all_of(host, is_block) &&
                        std::ranges::all_of(host, fits));
   host_.assign(host.begin(), fit ? host.end() : host.begin());
   if (!host_.empty()) plan();
@@ -89,12 +120,18 @@ void BlockLu::copy(const double* values) {
   }
 }
 
-bool BlockLu::has_grown(const BlockPlan::Panel& panel) const {
+// Also notes how large entries of the diagonal have been. Multipliers begin with nothing there, so
+// that there is no growth to judge.
+bool BlockLu::has_grown(const BlockPlan::Panel& panel) {
   const double* entry = values_.data() + panel.pivot;
   for (int i = 0; i < panel.size; ++i, entry += panel.stride() + 1) {
     const std::size_t place = index(panel.first + i);
-    if (std::abs(*entry) <= largest_growth * before_[place]) continue;
-    if (std::abs(*entry) > largest_growth * largest_in_row(plan_.unknown[place])) return true;
+    const double now = std::abs(*entry);
+    if (now > largest_growth * before_[place] && before_[place] > 0.0 &&
+        now > largest_growth * largest_in_row(plan_.unknown[place])) {
+      return true;
+    }
+    before_[place] = std::max(before_[place], now);
   }
   return false;
 }
@@ -110,6 +147,7 @@ double BlockLu::largest_in_row(int row) const {
 bool BlockLu::eliminate(const BlockPlan::Panel& panel) {
   if (has_grown(panel)) return false;
   if (!(panel.size == node ? factor_panel(panel, node) : factor_panel(panel, panel.size))) {
+    failed_ = &panel;
     return false;
   }
   const auto number = static_cast<std::size_t>(&panel - plan_.panels.data());

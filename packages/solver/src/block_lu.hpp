@@ -25,6 +25,8 @@ class BlockLu {
   /// Factors the present values. @return false if a pivot is nothing but rounding or not a number,
   /// or entries grow too much; the matrix may yet have factors with other pivots
   bool factor();
+  /// The same with hosts that are chosen by the present values.
+  bool factor_with_new_hosts();
   /// Puts A^-1 x into x with the last factors.
   void solve(std::span<double> x);
   /// Of the matrix that was factored last.
@@ -37,10 +39,12 @@ class BlockLu {
   bool set_hosts(std::span<const int> host);
 
  private:
+  bool factor_as_planned();
+  bool merge_failed();
   void plan();
   void copy(const double* values);
   bool eliminate(const BlockPlan::Panel& panel);
-  bool has_grown(const BlockPlan::Panel& panel) const;
+  bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
   template <class Size>
   bool factor_panel(const BlockPlan::Panel& panel, Size size);
@@ -48,12 +52,14 @@ class BlockLu {
 
   const assembly::CrsMatrix& matrix_;
   assembly::CrsMatrix::local_matrix_host_type local_;  ///< of it; to ask for it allocates
-  std::vector<int> sizes_;                             ///< of the blocks
+  std::vector<int> block_of_;                          ///< of each row
+  int num_blocks_ = 0;
   std::vector<int> host_;
   BlockPlan plan_;
-  std::vector<std::size_t> diagonal_;  ///< by place: its entry of the matrix; `none`
+  const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
+  std::vector<std::size_t> diagonal_;         ///< by place: its entry of the matrix; `none`
   std::vector<double> values_;
-  std::vector<double> before_;  ///< by place: size of the diagonal of the matrix
+  std::vector<double> before_;  ///< by place: largest size of the diagonal so far
   std::vector<int> exchanged_;  ///< by place: the row of the block it was exchanged with
   std::vector<double> x_;       ///< by place
   std::vector<double> beside_;  ///< of one panel

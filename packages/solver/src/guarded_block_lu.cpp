@@ -23,8 +23,7 @@ bool GuardedBlockLu::factor() {
 bool GuardedBlockLu::factor_with_other_hosts() {
   const std::vector<int> before = pivots();
   const std::vector<int> hosts = blocks_.hosts();
-  blocks_.set_hosts({});
-  if (blocks_.factor()) {
+  if (blocks_.factor_with_new_hosts()) {
     if (!remembered_) remembered_ = before;
     return true;
   }
