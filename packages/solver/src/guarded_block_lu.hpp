@@ -26,8 +26,11 @@ class GuardedBlockLu {
   bool factor();
   /// Factors the present values with new pivots of KLU2. @return as factor()
   bool factor_anew();
-  /// Whether the last factors are worth nothing before a solution shows that they serve.
-  bool needs_proof() const { return !uses_klu2_ || klu2_->needs_proof(); }
+  /// Whether a solution must show that the last factors serve: each of blocks, as pivots come from
+  /// one block only. @param has_solved whether there was a solution with them
+  bool needs_proof(bool has_solved) const { return !uses_klu2_ || klu2_->needs_proof(has_solved); }
+  /// Whether solutions are to be refined: those of blocks, where they leave more than rounding.
+  bool wants_refinement() const { return !uses_klu2_; }
   /// Puts A^-1 x into x with the last factors.
   void solve(std::span<double> x);
   /// Of the matrix that was factored last.

@@ -28,9 +28,11 @@ class Klu2 {
   bool factor();
   /// Factors the present values with new pivots. @return as factor()
   bool factor_anew();
-  /// Whether the last factors have the pivots of an earlier matrix, so that a solution must show
-  /// that they serve.
-  bool needs_proof() const { return kept_pivots_; }
+  /// Whether a solution must show that the last factors serve: they have the pivots of an earlier
+  /// matrix, and none has shown it. @param has_solved whether there was a solution with them
+  bool needs_proof(bool has_solved) const { return kept_pivots_ && !has_solved; }
+  /// Whether solutions are to be refined: never, as pivots are good or chosen anew.
+  bool wants_refinement() const { return false; }
   /// Puts A^-1 x into x with the last factors.
   void solve(std::span<double> x);
 

@@ -3,6 +3,7 @@
 
 #include <culm/assembly/tpetra.hpp>
 
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -18,6 +19,26 @@ struct Residual {
 /// Of this rank's rows. @param x values of all local columns @param r b - A x, or empty
 Residual residual(const assembly::CrsMatrix& A, std::span<const double> x,
                   std::span<const double> b, std::span<double> r);
+
+/// Residuals above it are more than rounding.
+constexpr double good_residual = 1e-14;
+
+/// Refines a solution, up to twice and as long as it helps.
+/// @param achieved its relative residual @param correct adds a correction @param check the relative
+/// residual of the result @param undo takes the last correction back @return what is achieved
+template <class Correct, class Check, class Undo>
+double refine(double achieved, const Correct& correct, const Check& check, const Undo& undo) {
+  for (int i = 0; i < 2 && achieved > good_residual && std::isfinite(achieved); ++i) {
+    correct();
+    const double refined = check();
+    if (!(refined < achieved)) {
+      undo();
+      break;
+    }
+    achieved = refined;
+  }
+  return achieved;
+}
 
 /// Largest entry on this rank; infinite if one is not finite.
 double largest_entry(const assembly::CrsMatrix& A);

@@ -47,18 +47,14 @@ class MumpsSolver final : public LinearSolver {
 
   LinearResidual solve(const Vector& b, Vector& x) override {
     apply_inverse(*mumps_, b, x);
-    double achieved = check(b, x);
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
-    for (int i = 0; i < 2 && achieved > good_residual && std::isfinite(achieved); ++i) {
+    const auto correct = [&] {
       apply_inverse(*mumps_, rest_, correction_);
       x.update(1.0, correction_, 1.0);
-      const double refined = check(b, x);
-      if (!(refined < achieved)) {
-        x.update(-1.0, correction_, 1.0);
-        break;
-      }
-      achieved = refined;
-    }
+    };
+    const double achieved = refine(
+        check(b, x), correct, [&] { return check(b, x); },
+        [&] { x.update(-1.0, correction_, 1.0); });
     return {achieved};
   }
 
@@ -76,7 +72,6 @@ class MumpsSolver final : public LinearSolver {
   }
 
  private:
-  static constexpr double good_residual = 1e-14;
   // What is beyond, refinement finds in the residual.
   static constexpr double largest_asymmetry = 1e-12;
 

@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace culm::solver {
 namespace {
@@ -21,6 +24,7 @@ using assembly::values_of;
 // Above it pivots that were not chosen for this matrix are not to be trusted; those that were leave
 // little more than rounding.
 constexpr double largest_residual_of_doubtful_pivots = 1e-12;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Factors: Klu2 or GuardedBlockLu.
 template <class Factors>
@@ -37,7 +41,7 @@ class RootedSolver final : public LinearSolver {
   bool factor() override {
     rooted_.gather_values();
     const bool sound = !comm_.is_root() || factors_->factor();
-    is_proven_ = false;
+    has_solved_ = false;
     return comm_.max(sound ? 0 : 1) == 0;
   }
 
@@ -46,13 +50,11 @@ class RootedSolver final : public LinearSolver {
     double relative = 0.0;
     if (comm_.is_root()) {
       relative = solve_on_root();
-      // only now: later the matrix may have other values than the one that was factored
-      const bool doubtful = !is_proven_ && factors_->needs_proof();
-      if (doubtful && !(relative <= largest_residual_of_doubtful_pivots)) {
-        relative =
-            factors_->factor_anew() ? solve_on_root() : std::numeric_limits<double>::infinity();
+      if (!(relative <= largest_residual_of_doubtful_pivots) &&
+          factors_->needs_proof(has_solved_)) {
+        relative = factors_->factor_anew() ? solve_on_root() : infinite;
       }
-      is_proven_ = true;
+      has_solved_ = true;
     }
     rooted_.scatter_solution(x);
     return {comm_.max(relative)};
@@ -100,7 +102,22 @@ class RootedSolver final : public LinearSolver {
     const auto b = values_of(rooted_.rhs());
     std::copy(b.begin(), b.end(), x.begin());
     factors_->solve(x);
-    return residual(*rooted_.matrix(), x, b, {}).relative();
+    const auto check = [&](std::span<double> rest) {
+      return residual(*rooted_.matrix(), x, b, rest).relative();
+    };
+    const double achieved = check({});
+    if (achieved <= good_residual || !factors_->wants_refinement()) return achieved;
+    const auto correct = [&] {
+      rest_.resize(b.size());
+      check(rest_);
+      factors_->solve(rest_);
+      std::transform(x.begin(), x.end(), rest_.begin(), x.begin(), std::plus<>());
+    };
+    const auto undo = [&] {
+      std::transform(x.begin(), x.end(), rest_.begin(), x.begin(), std::minus<>());
+    };
+    return refine(
+        achieved, correct, [&] { return check({}); }, undo);
   }
 
   double iterate_at_root() {
@@ -123,7 +140,8 @@ class RootedSolver final : public LinearSolver {
   parallel::Comm comm_;
   RootedMatrix rooted_;
   std::optional<Factors> factors_;  // on the root
-  bool is_proven_ = false;          // a solution with the last factors was judged
+  std::vector<double> rest_;        // of a solution that is refined
+  bool has_solved_ = false;         // with the last factors
 };
 
 }  // namespace
