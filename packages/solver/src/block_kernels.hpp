@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace culm::solver {
 
@@ -19,62 +21,113 @@ constexpr double preferred_pivot = 1e-3;
 /// What rounding may leave of a number where many others have been subtracted.
 constexpr double rounding = 512.0 * std::numeric_limits<double>::epsilon();
 
-/// D = P^T L U in place, with the reciprocals of the pivots on the diagonal.
+/// The row with the pivot of a column of a block, at or below the diagonal.
+template <class Size>
+int find_pivot(const double* D, int stride, Size size, int column) {
+  const auto size_of = [&](int row) { return std::abs(D[row * stride + column]); };
+  double largest = size_of(column);
+  for (int r = column + 1; r < size; ++r) largest = std::max(largest, size_of(r));
+  if (!(size_of(column) < preferred_pivot * largest)) return column;
+  int row = column + 1;
+  while (size_of(row) < largest) ++row;
+  return row;
+}
+
+/// [D U] with D = P^T L U' in place, the reciprocals of the pivots on the diagonal, and U replaced
+/// by D^-1 U.
+/// @param columns    of U, right of D
 /// @param before     largest size of each diagonal entry so far: a pivot that is smaller by all
 ///                   digits is nothing but rounding
 /// @param exchanged  of each row, the one it was exchanged with
 /// @return false if a pivot is too small or not a number
-template <class Size>
-bool factor_block(double* D, int stride, Size size, const double* before, int* exchanged) {
+template <class Size, class Columns>
+bool factor_panel(double* D, Size size, Columns columns, const double* before, int* exchanged) {
+  const int stride = size + columns;
   for (int c = 0; c < size; ++c) {
     double* row_c = D + c * stride;
-    int best = c;
-    double largest = std::abs(row_c[c]) / preferred_pivot;
-    for (int r = c + 1; r < size; ++r) {
-      const double entry = std::abs(D[r * stride + c]);
-      if (entry <= largest) continue;
-      // the first that beats the diagonal by far; then the largest of all
-      best = r;
-      largest = entry;
-    }
-    if (best != c) std::swap_ranges(row_c, row_c + size, D + best * stride);
+    const int best = find_pivot(D, stride, size, c);
+    if (best != c) std::swap_ranges(row_c, row_c + stride, D + best * stride);
     exchanged[c] = best;
     if (!(std::abs(row_c[c]) > rounding * before[c])) return false;
     row_c[c] = 1.0 / row_c[c];
     for (int r = c + 1; r < size; ++r) {
       double* row_r = D + r * stride;
-      row_r[c] *= row_c[c];
-      for (int k = c + 1; k < size; ++k) row_r[k] -= row_r[c] * row_c[k];
+      const double factor = row_r[c] *= row_c[c];
+      for (int k = c + 1; k < size; ++k) row_r[k] -= factor * row_c[k];
     }
   }
-  return true;
-}
-
-/// X = D^-1 X with the factors of D. @param stride of D @param columns of X
-template <class Size, class Columns>
-void solve_block(const double* D, int stride, Size size, const int* exchanged, double* X,
-                 int stride_X, Columns columns) {
-  for (int c = 0; c < size; ++c) {
-    if (exchanged[c] == c) continue;
-    std::swap_ranges(X + c * stride_X, X + c * stride_X + columns, X + exchanged[c] * stride_X);
-  }
+  double* U = D + size;
   for (int r = 1; r < size; ++r) {
     for (int c = 0; c < r; ++c) {
       const double factor = D[r * stride + c];
-      for (int k = 0; k < columns; ++k) X[r * stride_X + k] -= factor * X[c * stride_X + k];
+      for (int k = 0; k < columns; ++k) U[r * stride + k] -= factor * U[c * stride + k];
     }
   }
   for (int r = size - 1; r >= 0; --r) {
     for (int c = r + 1; c < size; ++c) {
       const double factor = D[r * stride + c];
-      for (int k = 0; k < columns; ++k) X[r * stride_X + k] -= factor * X[c * stride_X + k];
+      for (int k = 0; k < columns; ++k) U[r * stride + k] -= factor * U[c * stride + k];
     }
     const double pivot = D[r * stride + r];  // its reciprocal
-    for (int k = 0; k < columns; ++k) X[r * stride_X + k] *= pivot;
+    for (int k = 0; k < columns; ++k) U[r * stride + k] *= pivot;
+  }
+  return true;
+}
+
+/// The same for sizes that are known, so that it works in a copy without loops.
+template <int size, int columns>
+bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, int* exchanged) {
+  constexpr int stride = size + columns;
+  std::array<double, size * stride> a;
+  std::copy_n(D, a.size(), a.data());
+  const auto eliminate = [&](auto c) {
+    double* row_c = a.data() + c * stride;
+    const int best = find_pivot(a.data(), stride, Fixed<size>(), c);
+    if (best != c) std::swap_ranges(row_c, row_c + stride, a.data() + best * stride);
+    exchanged[c] = best;
+    if (!(std::abs(row_c[c]) > rounding * before[c])) return false;
+    row_c[c] = 1.0 / row_c[c];
+    for (int r = c + 1; r < size; ++r) {
+      double* row_r = a.data() + r * stride;
+      const double factor = row_r[c] *= row_c[c];
+      for (int k = c + 1; k < stride; ++k) row_r[k] -= factor * row_c[k];
+    }
+    return true;
+  };
+  const auto substitute = [&](auto reversed) {
+    constexpr int r = size - 1 - reversed;
+    double* row_r = a.data() + r * stride;
+    for (int c = r + 1; c < size; ++c) {
+      for (int k = size; k < stride; ++k) row_r[k] -= row_r[c] * a[c * stride + k];
+    }
+    for (int k = size; k < stride; ++k) row_r[k] *= row_r[r];
+  };
+  const bool is_sound = [&]<int... i>(std::integer_sequence<int, i...>) {
+    if (!(eliminate(Fixed<i>()) && ...)) return false;
+    (substitute(Fixed<i>()), ...);
+    return true;
+  }
+  (std::make_integer_sequence<int, size>());
+  std::copy_n(a.data(), a.size(), D);
+  return is_sound;
+}
+
+/// x = D^-1 x with the factors of D. @param stride of D
+template <class Size>
+void solve_block(const double* D, int stride, Size size, const int* exchanged, double* x) {
+  for (int c = 0; c < size; ++c) {
+    if (exchanged[c] != c) std::swap(x[c], x[exchanged[c]]);
+  }
+  for (int r = 1; r < size; ++r) {
+    for (int c = 0; c < r; ++c) x[r] -= D[r * stride + c] * x[c];
+  }
+  for (int r = size - 1; r >= 0; --r) {
+    for (int c = r + 1; c < size; ++c) x[r] -= D[r * stride + c] * x[c];
+    x[r] *= D[r * stride + r];  // the reciprocal of the pivot
   }
 }
 
-/// C -= A B. @param inner columns of A
+/// C -= A B. @param inner columns of A, rows of B
 template <class Rows, class Inner, class Columns>
 void subtract_product(const double* A, const double* B, int stride_B, double* C, int stride_C,
                       Rows rows, Inner inner, Columns columns) {
@@ -83,6 +136,31 @@ void subtract_product(const double* A, const double* B, int stride_B, double* C,
       const double factor = A[i * inner + j];
       for (int k = 0; k < columns; ++k) C[i * stride_C + k] -= factor * B[j * stride_B + k];
     }
+  }
+}
+
+/// The same with rows that fit into registers.
+template <int rows, int inner, int columns>
+void subtract_product(const double* A, const double* B, int stride_B, double* C, int stride_C,
+                      Fixed<rows>, Fixed<inner>, Fixed<columns>) {
+  for (int i = 0; i < rows; ++i) {
+    std::array<double, columns> row;
+    std::copy_n(C + i * stride_C, columns, row.data());
+    for (int j = 0; j < inner; ++j) {
+      for (int k = 0; k < columns; ++k) row[k] -= A[i * inner + j] * B[j * stride_B + k];
+    }
+    std::copy_n(row.data(), columns, C + i * stride_C);
+  }
+}
+
+/// y -= A x. @param stride of A
+template <class Rows, class Columns>
+void subtract_product(const double* A, int stride, const double* x, double* y, Rows rows,
+                      Columns columns) {
+  for (int i = 0; i < rows; ++i) {
+    double sum = 0.0;
+    for (int k = 0; k < columns; ++k) sum += A[i * stride + k] * x[k];
+    y[i] -= sum;
   }
 }
 

@@ -25,6 +25,15 @@ constexpr int most_merged = 16;
 // What takes a fixed size where it can: the unknowns of a node.
 constexpr Fixed<6> node{};
 
+// Nodes of chains have one or two neighbours that are eliminated later.
+template <class Visit>
+auto with_sizes(const BlockPlan::Panel& panel, const Visit& visit) {
+  if (panel.size != node) return visit(panel.size, panel.width);
+  if (panel.width == node) return visit(node, node);
+  if (panel.width == 2 * node) return visit(node, Fixed<2 * node>());
+  return visit(node, panel.width);
+}
+
 }  // namespace
 
 BlockLu::BlockLu(const assembly::CrsMatrix& matrix)
@@ -109,11 +118,15 @@ void BlockLu::copy(const double* values) {
     const double* source = values + c.source;
     double* target = values_.data() + c.target;
     for (int i = 0; i < c.rows; ++i, source += c.source_stride, target += c.target_stride) {
-      std::copy_n(source, int{columns}, target);
+      for (int k = 0; k < columns; ++k) target[k] = source[k];
     }
   };
   for (const BlockPlan::Copy& c : plan_.copies) {
-    c.columns == node ? copy_rows(c, node) : copy_rows(c, c.columns);
+    if (c.columns == node) {
+      copy_rows(c, node);
+    } else {
+      copy_rows(c, c.columns);
+    }
   }
   for (std::size_t place = 0; place < before_.size(); ++place) {
     before_[place] = diagonal_[place] == none ? 0.0 : std::abs(values[diagonal_[place]]);
@@ -146,28 +159,16 @@ double BlockLu::largest_in_row(int row) const {
 
 bool BlockLu::eliminate(const BlockPlan::Panel& panel) {
   if (has_grown(panel)) return false;
-  if (!(panel.size == node ? factor_panel(panel, node) : factor_panel(panel, panel.size))) {
+  const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
+    return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
+                        exchanged_.data() + panel.first);
+  });
+  if (!is_sound) {
     failed_ = &panel;
     return false;
   }
   const auto number = static_cast<std::size_t>(&panel - plan_.panels.data());
   update(panel, number == 0 ? 0 : plan_.panels[number - 1].updates);
-  return true;
-}
-
-// Puts D^-1 U in the place of U.
-template <class Size>
-bool BlockLu::factor_panel(const BlockPlan::Panel& panel, Size size) {
-  double* D = values_.data() + panel.pivot;
-  double* U = D + panel.size;
-  const int stride = panel.stride();
-  int* exchanged = exchanged_.data() + panel.first;
-  if (!factor_block(D, stride, size, before_.data() + panel.first, exchanged)) return false;
-  if (panel.width == node) {
-    solve_block(D, stride, size, exchanged, U, stride, node);
-  } else {
-    solve_block(D, stride, size, exchanged, U, stride, panel.width);
-  }
   return true;
 }
 
@@ -181,6 +182,8 @@ void BlockLu::update(const BlockPlan::Panel& panel, std::size_t from) {
     double* target = v + u.target;
     if (panel.size == node && u.rows == node && u.columns == node) {
       subtract_product(L, V, stride, target, u.stride, node, node, node);
+    } else if (panel.size == node && u.rows == node && u.columns == 2 * node) {
+      subtract_product(L, V, stride, target, u.stride, node, node, Fixed<2 * node>());
     } else if (panel.size == node) {
       subtract_product(L, V, stride, target, u.stride, u.rows, node, u.columns);
     } else {
@@ -193,33 +196,33 @@ void BlockLu::solve(std::span<double> x) {
   for (std::size_t place = 0; place < x_.size(); ++place) {
     x_[place] = x[index(plan_.unknown[place])];
   }
-  const double* v = values_.data();
   for (const BlockPlan::Panel& panel : plan_.panels) {
-    double* mine = x_.data() + panel.first;
-    const int* beside = plan_.beside.data() + panel.beside;
-    solve_block(v + panel.pivot, panel.stride(), panel.size, exchanged_.data() + panel.first, mine,
-                1, Fixed<1>());
-    const double* L = v + panel.below;
-    for (int i = 0; i < panel.width; ++i, L += panel.size) {
-      double sum = 0.0;
-      for (int k = 0; k < panel.size; ++k) sum += L[k] * mine[k];
-      x_[index(beside[i])] -= sum;
-    }
+    with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
   }
   for (auto panel = plan_.panels.rbegin(); panel != plan_.panels.rend(); ++panel) {
-    double* mine = x_.data() + panel->first;
-    const int* beside = plan_.beside.data() + panel->beside;
-    for (int k = 0; k < panel->width; ++k) beside_[index(k)] = x_[index(beside[k])];
-    const double* V = v + panel->pivot + panel->size;
-    for (int i = 0; i < panel->size; ++i, V += panel->stride()) {
-      double sum = 0.0;
-      for (int k = 0; k < panel->width; ++k) sum += V[k] * beside_[index(k)];
-      mine[i] -= sum;
-    }
+    with_sizes(*panel, [&](auto size, auto width) { substitute_back(*panel, size, width); });
   }
   for (std::size_t place = 0; place < x_.size(); ++place) {
     x[index(plan_.unknown[place])] = x_[place];
   }
+}
+
+template <class Size, class Width>
+void BlockLu::substitute_forward(const BlockPlan::Panel& panel, Size size, Width width) {
+  double* x = x_.data() + panel.first;
+  const int* beside = plan_.beside.data() + panel.beside;
+  solve_block(values_.data() + panel.pivot, size + width, size, exchanged_.data() + panel.first, x);
+  for (int k = 0; k < width; ++k) beside_[index(k)] = x_[index(beside[k])];
+  subtract_product(values_.data() + panel.below, size, x, beside_.data(), width, size);
+  for (int k = 0; k < width; ++k) x_[index(beside[k])] = beside_[index(k)];
+}
+
+template <class Size, class Width>
+void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width width) {
+  const int* beside = plan_.beside.data() + panel.beside;
+  for (int k = 0; k < width; ++k) beside_[index(k)] = x_[index(beside[k])];
+  subtract_product(values_.data() + panel.pivot + size, size + width, beside_.data(),
+                   x_.data() + panel.first, size, width);
 }
 
 // Rows and columns are in the same order, so that only exchanges inside blocks change the sign.

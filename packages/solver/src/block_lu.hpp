@@ -46,9 +46,11 @@ class BlockLu {
   bool eliminate(const BlockPlan::Panel& panel);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
-  template <class Size>
-  bool factor_panel(const BlockPlan::Panel& panel, Size size);
   void update(const BlockPlan::Panel& panel, std::size_t from);
+  template <class Size, class Width>
+  void substitute_forward(const BlockPlan::Panel& panel, Size size, Width width);
+  template <class Size, class Width>
+  void substitute_back(const BlockPlan::Panel& panel, Size size, Width width);
 
   const assembly::CrsMatrix& matrix_;
   assembly::CrsMatrix::local_matrix_host_type local_;  ///< of it; to ask for it allocates
