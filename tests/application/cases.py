@@ -236,7 +236,7 @@ CASES = [
             "\nbeam                          5        4            0\n",
             "\nRigid Support 'clamp'                    by elimination               beam/0\n",
             "\nunknowns: 24 (0 multipliers)\ndegrees of freedom: 24\nmatrix entries: ",
-            "\nlinear solver: KLU2, automatic: fronts of ",
+            "\nlinear solver: Block LU, automatic: fronts of ",
             "\nBeam, director, order 1 ",
             "\nForce, tip force ",
             "\nthe deck is sound\n",

@@ -4,7 +4,7 @@
 usage: run_deck.py --culm PROGRAM [--mpiexec PROGRAM --parallel] DECK.xml EXPECTED.xml
 
 What an expected file holds, see README.md beside this file. One process runs the deck, both forms
-of the equations where the file says so, and the variants that must fail. With --parallel the deck
+of the equations and another linear solver where the file says so, and the variants that must fail. With --parallel the deck
 runs on 2 and 3 ranks instead, compared with the same file, and with a run on one.
 """
 
@@ -19,7 +19,12 @@ from culm_runs import Culm  # noqa: E402
 
 RANKS = (2, 3)
 RANKS_TOLERANCE = 1e-12
-FORMS_TOLERANCE = 1e-9
+# other ways to solve the same equations: by element of an expected file, how to ask for them
+VARIANTS = {
+    "Forms": ("Solver/Form=Multipliers", "null space and multipliers"),
+    "Solvers": ("Solver/Linear Solver=KLU2", "the linear solver that was taken and KLU2"),
+}
+VARIANTS_TOLERANCE = 1e-9
 # of eigenvalues: rounding counts in proportion to the highest one of the model
 TABLES_TOLERANCE = 1e-6
 COMPARED_COLUMNS = ("frequency [Hz]", "factor")
@@ -167,18 +172,16 @@ def scale_of(expected, history):
 def check_alone(culm, deck, expected):
     complaints = []
     run = check_run(culm, deck, expected, 1, complaints)
-    for forms in expected.findall("Forms") if run else []:
-        settings = ["Solver/Form=Multipliers", *overrides(expected), *overrides(forms)]
-        multipliers = culm.run(deck, settings)
-        if multipliers.exit != 0:
-            what = f"multiplier form: exit code {multipliers.exit}"
-            complaints.append(f"{what}\n{multipliers.errors}")
-            continue
-        what = "null space and multipliers"
-        tolerance = float(forms.get("tolerance", FORMS_TOLERANCE))
-        scale = scale_of(expected, run.history)
-        complaints += compare(run.history, multipliers.history, scale, tolerance, what)
-        complaints += compare_tables(run.tables, multipliers.tables, what)
+    for name, (setting, what) in VARIANTS.items():
+        for variant in expected.findall(name) if run else []:
+            other = culm.run(deck, [setting, *overrides(expected), *overrides(variant)])
+            if other.exit != 0:
+                complaints.append(f"{setting}: exit code {other.exit}\n{other.errors}")
+                continue
+            tolerance = float(variant.get("tolerance", VARIANTS_TOLERANCE))
+            scale = scale_of(expected, run.history)
+            complaints += compare(run.history, other.history, scale, tolerance, what)
+            complaints += compare_tables(run.tables, other.tables, what)
     for failure in expected.findall("Fails"):
         complaints += check_failure(culm, deck, failure, ranks=1)
     return complaints

@@ -11,7 +11,7 @@ namespace {
 
 // Where the times of Block LU and MUMPS cross on one rank, on long strips of a shell as on square
 // ones (tests/benchmark).
-constexpr double widest_front_for_blocks = 60.0;
+constexpr double widest_front_for_blocks = 95.0;
 
 // For models that are held or rigid altogether.
 class NothingToSolve final : public LinearSolver {
