@@ -50,7 +50,8 @@ Schema solver_schema() {
                   "as equations: the reference to compare with.")
                .optional("Null Space"))
       .add(choice("Linear Solver", solver::linear_solver_names(),
-                  "Direct solver of the linear systems: Block LU is best for beams, MUMPS for shells, KLU2 "
+                  "Direct solver of the linear systems: Block LU is best for beams, MUMPS for "
+                  "shells, KLU2 "
                   "needs no blocks; "
                   "'Automatic' decides by the predicted fill of the factors and says so.")
                .optional(solver::linear_solver_names().front()));
