@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -17,9 +16,6 @@ using Fixed = std::integral_constant<int, size>;
 /// The diagonal is a pivot as long as it is so large beside the entries below, because eliminating
 /// with the diagonal does not depend on how rows are scaled.
 constexpr double preferred_pivot = 1e-3;
-
-/// What rounding may leave of a number where many others have been subtracted.
-constexpr double rounding = 512.0 * std::numeric_limits<double>::epsilon();
 
 /// The row with the pivot of a column of a block, at or below the diagonal.
 template <class Size>
@@ -36,19 +32,20 @@ int find_pivot(const double* D, int stride, Size size, int column) {
 /// [D U] with D = P^T L U' in place, the reciprocals of the pivots on the diagonal, and U replaced
 /// by D^-1 U.
 /// @param columns    of U, right of D
-/// @param before     largest size of each diagonal entry so far: a pivot that is smaller by all
-///                   digits is nothing but rounding
+/// @param before     largest size of each diagonal entry so far
+/// @param least      of which each pivot must exceed so much
 /// @param exchanged  of each row, the one it was exchanged with
 /// @return false if a pivot is too small or not a number
 template <class Size, class Columns>
-bool factor_panel(double* D, Size size, Columns columns, const double* before, int* exchanged) {
+bool factor_panel(double* D, Size size, Columns columns, const double* before, double least,
+                  int* exchanged) {
   const int stride = size + columns;
   for (int c = 0; c < size; ++c) {
     double* row_c = D + c * stride;
     const int best = find_pivot(D, stride, size, c);
     if (best != c) std::swap_ranges(row_c, row_c + stride, D + best * stride);
     exchanged[c] = best;
-    if (!(std::abs(row_c[c]) > rounding * before[c])) return false;
+    if (!(std::abs(row_c[c]) > least * before[c])) return false;
     row_c[c] = 1.0 / row_c[c];
     for (int r = c + 1; r < size; ++r) {
       double* row_r = D + r * stride;
@@ -76,7 +73,8 @@ bool factor_panel(double* D, Size size, Columns columns, const double* before, i
 
 /// The same for sizes that are known, so that it works in a copy without loops.
 template <int size, int columns>
-bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, int* exchanged) {
+bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, double least,
+                  int* exchanged) {
   constexpr int stride = size + columns;
   std::array<double, size * stride> a;
   std::copy_n(D, a.size(), a.data());
@@ -85,7 +83,7 @@ bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, 
     const int best = find_pivot(a.data(), stride, Fixed<size>(), c);
     if (best != c) std::swap_ranges(row_c, row_c + stride, a.data() + best * stride);
     exchanged[c] = best;
-    if (!(std::abs(row_c[c]) > rounding * before[c])) return false;
+    if (!(std::abs(row_c[c]) > least * before[c])) return false;
     row_c[c] = 1.0 / row_c[c];
     for (int r = c + 1; r < size; ++r) {
       double* row_r = a.data() + r * stride;

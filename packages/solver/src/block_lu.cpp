@@ -20,7 +20,14 @@ constexpr auto none = std::numeric_limits<std::size_t>::max();
 constexpr double largest_growth = 1e4;
 
 // More are not parts of a model that joints hold, but a matrix that is singular.
-constexpr int most_merged = 16;
+constexpr int most_merged = 8;
+
+// What rounding may leave of a number where many others have been subtracted.
+constexpr double rounding = 512.0 * std::numeric_limits<double>::epsilon();
+
+// Where there is a choice, a pivot keeps more of what has been on the diagonal. Long beams that are
+// held at one end have smaller ones, whatever the choice.
+constexpr double good_pivot = 1e-6;
 
 // What takes a fixed size where it can: the unknowns of a node.
 constexpr Fixed<6> node{};
@@ -43,22 +50,32 @@ BlockLu::BlockLu(const assembly::CrsMatrix& matrix)
   num_blocks_ = block_of_.empty() ? 0 : block_of_.back() + 1;
 }
 
-bool BlockLu::factor() { return host_.empty() ? factor_with_new_hosts() : factor_as_planned(); }
-
-bool BlockLu::factor_with_new_hosts() {
-  host_ = choose_hosts(matrix_);
-  plan();
-  for (int merged = 0; !factor_as_planned(); ++merged) {
-    if (merged == most_merged || !merge_failed()) return false;
-    plan();
-  }
-  return true;
+bool BlockLu::factor() {
+  return host_.empty() ? factor_with_new_hosts() : factor_as_planned(rounding);
 }
 
-bool BlockLu::factor_as_planned() {
+bool BlockLu::factor_with_new_hosts() {
+  const std::vector<int> hosts = choose_hosts(matrix_);
+  return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rounding);
+}
+
+bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
+  host_ = hosts;
+  plan();
+  for (int merged = 0; merged < most_merged; ++merged) {
+    if (factor_as_planned(least)) return true;
+    if (!merge_failed()) return false;
+    plan();
+  }
+  return factor_as_planned(least);
+}
+
+// Pivots have to exceed so much of what has been on the diagonal.
+bool BlockLu::factor_as_planned(double least) {
   failed_ = nullptr;
   copy(local_.values.data());
-  return std::ranges::all_of(plan_.panels, [this](const auto& panel) { return eliminate(panel); });
+  return std::ranges::all_of(plan_.panels,
+                             [&](const auto& panel) { return eliminate(panel, least); });
 }
 
 // A part that joints hold, and nothing else, has no pivots for its last group before the joints are
@@ -157,11 +174,11 @@ double BlockLu::largest_in_row(int row) const {
   return largest;
 }
 
-bool BlockLu::eliminate(const BlockPlan::Panel& panel) {
+bool BlockLu::eliminate(const BlockPlan::Panel& panel, double least) {
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
-                        exchanged_.data() + panel.first);
+                        least, exchanged_.data() + panel.first);
   });
   if (!is_sound) {
     failed_ = &panel;

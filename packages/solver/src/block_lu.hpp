@@ -39,11 +39,12 @@ class BlockLu {
   bool set_hosts(std::span<const int> host);
 
  private:
-  bool factor_as_planned();
+  bool factor_and_merge(const std::vector<int>& hosts, double least);
+  bool factor_as_planned(double least);
   bool merge_failed();
   void plan();
   void copy(const double* values);
-  bool eliminate(const BlockPlan::Panel& panel);
+  bool eliminate(const BlockPlan::Panel& panel, double least);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
   void update(const BlockPlan::Panel& panel, std::size_t from);

@@ -312,8 +312,8 @@ TEST(ChooseLinearSolver, TakesMumpsForDenseFactorsOnly) {
   Eigen::MatrixXd chain = Eigen::MatrixXd::Identity(200, 200);
   for (int i = 1; i < 200; ++i) chain(i, i - 1) = chain(i - 1, i) = 0.25;
   const ScatteredSystem slender(chain);
-  const ScatteredSystem dense(Eigen::MatrixXd::Ones(120, 120) +
-                              Eigen::MatrixXd::Identity(120, 120));
+  const ScatteredSystem dense(Eigen::MatrixXd::Ones(150, 150) +
+                              Eigen::MatrixXd::Identity(150, 150));
   const auto choose = [](const ScatteredSystem& system) {
     return choose_linear_solver("Automatic", system.matrix(), system.comm());
   };
