@@ -24,6 +24,8 @@ using assembly::values_of;
 // Above it pivots that were not chosen for this matrix are not to be trusted; those that were leave
 // little more than rounding.
 constexpr double largest_residual_of_doubtful_pivots = 1e-12;
+// Newton's method makes up for less.
+constexpr double largest_without_refinement = 1e-13;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Factors: Klu2 or GuardedBlockLu.
@@ -106,7 +108,7 @@ class RootedSolver final : public LinearSolver {
       return residual(*rooted_.matrix(), x, b, rest).relative();
     };
     const double achieved = check({});
-    if (achieved <= good_residual || !factors_->wants_refinement()) return achieved;
+    if (achieved <= largest_without_refinement || !factors_->wants_refinement()) return achieved;
     const auto correct = [&] {
       rest_.resize(b.size());
       check(rest_);
