@@ -1,7 +1,7 @@
 // A participant of preCICE that has a mass at each vertex of the structure's mesh. Where the
 // library is, the adapter is tested with it; usage: fluid CONFIGURATION MASS RECORD
 
-#include <culm/coupling/partner.hpp>
+#include <culm/coupling/point_partner.hpp>
 
 #include <precice/precice.hpp>
 
@@ -29,7 +29,7 @@ int main(int, char** argv) {
 
   const auto size = static_cast<Eigen::Index>(values.size());
   VectorXd start = VectorXd::Zero(size), end = start;
-  partner->begin(start);
+  partner->begin(start, start);
   while (participant.isCouplingOngoing()) {
     participant.requiresWritingCheckpoint();  // `partner` and `start` stay at the window's start
     const double window = participant.getMaxTimeStepSize();
@@ -44,5 +44,5 @@ int main(int, char** argv) {
   }
   std::ofstream record(argv[3]);
   record.precision(17);
-  record << partner->energy() << '\n' << end << '\n';
+  record << partner->books().energy << '\n' << end << '\n';
 }

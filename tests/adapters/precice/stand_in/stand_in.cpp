@@ -1,4 +1,4 @@
-#include <culm/coupling/partner.hpp>
+#include <culm/coupling/point_partner.hpp>
 #include <culm/coupling/scheme.hpp>
 
 #include <precice/precice.hpp>
@@ -36,6 +36,9 @@ struct Participant::Coupling {
 
   double number(const std::string& name) const { return std::stod(words.at(name)); }
 
+  // How much the forces of a mass change with its motion in a window [N/m].
+  double stiffness() const { return 2.0 * number("mass") / (window * window); }
+
   // Mean loads of the time window from those at its ends.
   VectorXd loads_at(double time) const {
     if (number("waveform") == 0.0) return end_loads;
@@ -54,7 +57,7 @@ struct Participant::Coupling {
     require(++iterations < most, "the coupling does not converge");
     require(!next.hasNaN(), "displacements are no numbers");
     const double allowed =
-        tolerance * next.norm() + rounding * partner->stiffness(window) * std::sqrt(next.size());
+        tolerance * next.norm() + rounding * stiffness() * std::sqrt(next.size());
     is_complete = (next - end_loads).norm() <= allowed;
     if (!is_complete) {
       end_loads = scheme->next(end_loads, next);
@@ -71,13 +74,13 @@ struct Participant::Coupling {
   void record() const {
     std::ofstream file(words.at("record"));
     file.precision(17);
-    file << partner->energy() << '\n' << displacement << '\n';
+    file << partner->books().energy << '\n' << displacement << '\n';
   }
 
   std::map<std::string, std::string> words;
-  std::unique_ptr<culm::coupling::Partner> partner;
+  std::unique_ptr<culm::coupling::PointModel> partner;
   std::unique_ptr<culm::coupling::Scheme> scheme =
-      culm::coupling::find_scheme("quasi-newton", 0.05);
+      std::make_unique<culm::coupling::QuasiNewton>(0.05, 8, 1e-2);
   VectorXd displacement, start;     // now, and at the start of the window
   VectorXd start_loads, end_loads;  // of the window, as they are known
   double window = 0.0, done = 0.0;  // length, and how much of it has been stepped through [s]
@@ -108,7 +111,7 @@ void Participant::setMeshVertices(std::string_view, std::span<const double> coor
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<VertexID>(i);
   coupling_->displacement = coupling_->start = VectorXd::Zero(size);
   coupling_->start_loads = coupling_->end_loads = VectorXd::Zero(size);
-  coupling_->partner->begin(VectorXd::Zero(size));
+  coupling_->partner->begin(VectorXd::Zero(size), VectorXd::Zero(size));
 }
 
 bool Participant::requiresInitialData() { return true; }
