@@ -20,9 +20,9 @@ TURBINE = ROOT / "inputs/turbine/nrel5mw/turbine_operation.xml"
 C = ["cc", "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
 
 
-def block(page, language):
-    """The first block of a page in a language."""
-    return re.search(rf"```{language}\n(.*?)```\n", page.read_text(), re.DOTALL).group(1)
+def block(page, language, number=0):
+    """A block of a page in a language, the first one or another."""
+    return re.findall(rf"```{language}\n(.*?)```\n", page.read_text(), re.DOTALL)[number]
 
 
 def run(*command, **options):
@@ -93,6 +93,7 @@ def check_coupling(culm):
     print(run(culm.build_c((HERE / "errors.c").read_text(), "errors"), deck), end="")
     print(culm.run_python((HERE / "arrays.py").read_text(), "arrays", deck), end="")
     check_couple(culm, deck)
+    check_socket(culm, deck, work)
     culm.check_symbols()
 
 
@@ -112,6 +113,23 @@ def check_couple(culm, deck):
     loose = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     if loose.returncode != 8 or "too loose" not in loose.stderr:
         sys.exit("a loose coupling loses energy, and nobody says so")
+
+
+def check_socket(culm, deck, work):
+    """The wind as a program of its own does the same work."""
+    script = culm.folder / "wind.py"
+    script.write_text(block(COUPLING, "python", 1))
+    address = f"unix:{culm.folder}/wind"
+    wind = subprocess.Popen([sys.executable, str(script), address],
+                            env={**os.environ, "PYTHONPATH": str(culm.prefix / "share/culm/client")})
+    text = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "socket", "--address", address, "--output",
+               culm.folder / "blown")
+    if wind.wait(60) != 0:
+        sys.exit("the wind did not come to its end")
+    found = float(re.search(r"work on the structure\s+([-+.\de]+)", text).group(1))
+    print(f"over a socket: {found} J")
+    if abs(found - work) > 1e-6 * abs(work):
+        sys.exit("the wind over a socket does another work")
 
 
 def main():
