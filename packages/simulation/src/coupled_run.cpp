@@ -106,6 +106,7 @@ class CoupledRun::Window {
     start_ = stepper_.time();
     latest_ = latest;
     is_ahead_ = false;
+    may_cut_ = true;
     if (length_) stepper_.save(memory_);
   }
 
@@ -192,6 +193,7 @@ class CoupledRun::Window {
     const double end = proposal();
     const double tolerance = same_end * (end - start_);
     is_ahead_ = true;
+    bool has_cut = false;
     while (stepper_.time() < end - tolerance && !stepper_.is_at_end()) {
       const double step = stepper_.proposal();
       const double target = step > end + tolerance ? end : step;
@@ -203,10 +205,12 @@ class CoupledRun::Window {
         report_.is_last = stepper_.is_at_end();
       } else {
         stepper_.fail();
-        if (stepper_.is_exhausted()) return false;
+        has_cut = true;
+        if (!may_cut_ || stepper_.is_exhausted()) return false;
       }
     }
     end_ = stepper_.time();
+    may_cut_ = has_cut;
     return true;
   }
 
@@ -241,6 +245,9 @@ class CoupledRun::Window {
   Snapshot memory_ = Snapshot(Snapshot::Use::memory);
   bool is_ahead_ = false;  // steps of the window have been accepted
   bool is_open_ = false;   // its only step has been attempted
+  // Whether steps that fail are cut: where none failed in the attempt before, the loads are to
+  // blame.
+  bool may_cut_ = true;
   int number_ = 0;
   double start_ = 0.0;
   double end_ = 0.0;

@@ -9,6 +9,7 @@ from .judge import (
     constraints,
     energy,
     entry_of,
+    interface,
     momenta,
     near,
     never_rises,
@@ -332,6 +333,25 @@ CASES = [
         [uncut(), near("tip uy [m]", 1e-3, 0.01)],
         limit=1e12, growth=100, resolution=ROUNDING,
     ),
+    # partners
+    Case(
+        "heavy partner", "MR", "coupling/partners.xml",
+        "mass of the partner [kg]", 1e3,
+        lambda mass: parameters("Coupling/Partners/water", Mass=mass),
+        [uncut(), energy(), interface("water")],
+        limit=1e9, growth=100, resolution=ROUNDING,
+    ),
+    Case(
+        "loose coupling", "MR", "coupling/partners.xml",
+        "mass of the partner [kg]", 1e-3,
+        lambda mass: [
+            *parameters("Coupling", Scheme="Explicit", Window=5e-3),
+            *parameters("Coupling/Partners/water", Mass=mass),
+            *parameters("Coupling/Partners/damper", Mass=1e-3, Stiffness=1.0),
+        ],
+        [uncut()],
+        limit=1e6, growth=4,
+    ),
     # constraints
     Case(
         "hinges on one axis", "NS", "hard/two_hinges.xml",
@@ -635,6 +655,14 @@ ILL_POSED = [
         "a path with nothing that grows", "beam/lee_frame_path.xml",
         ["Loads/P/Function=Constant"],
         4, "no path to follow",
+    ),
+    IllPosed(
+        "a partner that dies", "coupling/partners.xml",
+        [
+            *parameters("Ports/third", Type="Points", Points="{mast@0.75}"),
+            *parameters("Coupling/Partners/third", Type="Faulty", Port="third", Window=9),
+        ],
+        9, "failed in window 9",
     ),
     IllPosed(
         "steps of many turns", "hard/quick_spin.xml",

@@ -82,7 +82,7 @@ def judge_ill_posed(run, exit_code, says):
 
 def find_faults(run):
     """What no run may do, whatever is asked of it; a list of few words."""
-    if run.exit not in (*DONE, 3, 4, 5):
+    if run.exit not in (*DONE, 3, 4, 5, 9):
         return [run.outcome]
     faults = []
     if run.history is not None and not _is_finite(run.history.columns.values()):
@@ -91,7 +91,7 @@ def find_faults(run):
         faults.append("no message")
     if run.exit in (4, 5) and "Try:" not in run.errors:
         faults.append("no diagnosis")
-    if run.exit in (4, 5) or (run.exit == 3 and run.results is not None):
+    if run.exit in (4, 5, 9) or (run.exit == 3 and run.results is not None):
         faults += _faults_of_state(run.results)
     return faults
 
@@ -141,6 +141,14 @@ def uncut():
 
 def energy(bound=1e-9):
     return Check("energy balance", lambda e: e.scalars["relative energy drift"], bound, WRONG)
+
+
+def interface(partner, bound=1e-6):
+    """What got lost at the port of a partner, or came from nowhere, over what it got."""
+    def gap(e):
+        return abs(e.scalars[f"gap of partner {partner}"]) / abs(e.scalars[f"work of partner {partner}"])
+
+    return Check("gap of the interface", gap, bound, WRONG)
 
 
 def momenta(bound=1e-10):
