@@ -4,7 +4,7 @@
     tests/benchmark/linear_solvers.py --culm build/release/src/culm [--sizes 10 100] [--repeat 3]
 
 Prints the table of doc/verification/speed.md: CPU seconds of the time loop as in dynamics.py, the
-least of all repeats, and how far the paths are apart.
+least of all repeats, and how far the paths are apart. The parts are from the ledger of the run.
 """
 
 import argparse
@@ -30,7 +30,7 @@ def cases(sizes, folder):
 
 
 def part(run, name):
-    """Seconds of a part of the ledger, per call of nothing else: wall time."""
+    """Seconds of a part of the ledger, in wall time."""
     return sum(row[3] for row in run.ledger() if row[0].startswith(name))
 
 
