@@ -9,9 +9,9 @@
 namespace culm::solver {
 namespace {
 
-// Where the times of Block LU and MUMPS cross on one rank, on long strips of a shell as on square
-// ones (tests/benchmark).
-constexpr double widest_front_for_blocks = 95.0;
+// Up to here Block LU is faster than MUMPS on one rank, on square sheets of a shell even if MUMPS
+// finds the values symmetric, on long strips by far (tests/benchmark).
+constexpr double widest_slender_front = 95.0;
 
 // For models that are held or rigid altogether.
 class NothingToSolve final : public LinearSolver {
@@ -32,22 +32,24 @@ const std::vector<std::string>& linear_solver_names() {
 
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                                  const parallel::Comm& comm) {
+                                  const parallel::Comm& comm, Refactor refactor) {
   if (matrix->getGlobalNumRows() == 0) {
     return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
   }
-  if (name == "Block LU") return {make_rooted_block_lu(matrix, comm), "Block LU, as the deck says"};
+  const auto make_slender = refactor == Refactor::often ? make_rooted_block_lu : make_rooted_klu2;
+  if (name == "Block LU") return {make_slender(matrix, comm), "Block LU, as the deck says"};
   if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
   if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
   Ordering ordering = order_rows(*matrix, comm);
-  const double front = ordering.fill.front();
-  const bool is_wide = front > widest_front_for_blocks;
+  const Fill fill = ordering.fill;
+  const double front = fill.front();
+  const bool is_wide = front > widest_slender_front;
   ChosenSolver chosen;
+  chosen.solver =
+      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
   chosen.reason = fmt::format(
       "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
-      is_wide ? "MUMPS" : "Block LU", front, widest_front_for_blocks, 8e-6 * ordering.fill.entries);
-  chosen.solver =
-      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_rooted_block_lu(matrix, comm);
+      chosen.solver->name(), front, widest_slender_front, 8e-6 * fill.entries);
   return chosen;
 }
 

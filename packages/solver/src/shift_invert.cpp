@@ -37,7 +37,7 @@ ShiftInvert::ShiftInvert(const Teuchos::RCP<CrsMatrix>& factored, const std::str
     : comm_(comm),
       whole_(*factored->getRowMap(), comm),
       factored_(factored),
-      linear_(choose_linear_solver(linear_solver, factored_, comm).solver),
+      linear_(choose_linear_solver(linear_solver, factored_, comm, Refactor::never).solver),
       in_(factored->getRowMap()),
       out_(factored->getRowMap()) {
   if (!linear_->factor()) refuse();

@@ -323,6 +323,14 @@ TEST(ChooseLinearSolver, TakesMumpsForDenseFactorsOnly) {
   EXPECT_EQ(choose(dense).reason.find("MUMPS, automatic: fronts of "), 0u);
 }
 
+TEST(ChooseLinearSolver, TakesKlu2ForOneFactorisation) {
+  const ScatteredSystem system;
+  for (const char* name : {"Automatic", "Block LU"}) {
+    const auto chosen = choose_linear_solver(name, system.matrix(), system.comm(), Refactor::never);
+    EXPECT_EQ(chosen.solver->name(), "KLU2") << name;
+  }
+}
+
 TEST(RootedKlu2, KeptPivotsThatDoNotServeAreReplaced) {
   ScatteredSystem system;
   const auto solver = make_rooted_klu2(system.matrix(), system.comm());
