@@ -9,6 +9,7 @@ import pathlib
 import shlex
 import signal
 import sys
+import threading
 
 from ..errors import CulmError
 from .case import Case
@@ -43,7 +44,7 @@ def find_port(simulation, asked):
     raise CulmError(f"--port must say which of the deck's ports has the stations: {', '.join(names) or 'it has none'}")
 
 
-def couple(arguments):
+def couple(arguments, stop):
     import culm  # starts MPI, which --help does not need
 
     case = Case(arguments.case)
@@ -51,7 +52,7 @@ def couple(arguments):
     coupling = Coupling(simulation, arguments.analysis, find_port(simulation, arguments.port), case)
     print(simulation.messages(), end="", flush=True)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    turns = Turns(case, arguments.patience)
+    turns = Turns(case, arguments.patience, stop)
     turns.begin()
     command = shlex.split(arguments.command or case.application)
     try:
@@ -77,22 +78,18 @@ def exit_code_of(error, culm):
     return next(code for kind, code in EXITS.items() if isinstance(error, getattr(culm, kind)))
 
 
-def end_by_signal(*_):
-    raise KeyboardInterrupt
-
-
 def main():
     import culm
 
-    signal.signal(signal.SIGTERM, end_by_signal)
+    arguments, stop = parse(), threading.Event()
+    for one in (signal.SIGINT, signal.SIGTERM):  # an exception could come between any two instructions
+        signal.signal(one, lambda *_: stop.set())
     try:
-        couple(parse())
+        couple(arguments, stop)
     except CulmError as error:
         return fail(error, error.exit_code)
     except culm.Error as error:
         return fail(error, exit_code_of(error, culm))
-    except KeyboardInterrupt:
-        return fail("stopped", 7)
     return 0
 
 

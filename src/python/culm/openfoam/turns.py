@@ -10,6 +10,7 @@ from .dictionary import read_dictionary
 from .rotation import euler_angles
 
 LEFT = 9  # exit code: the other program ended, or does not answer
+STOPPED = 7  # exit code
 _PAUSE = 0.005  # between looks at the lock [s]
 
 
@@ -18,11 +19,12 @@ class Turns:
 
     @param case      of the flow program
     @param patience  how long it may work on a step [s]
+    @param stop      an event: somebody wants both programs to end
     """
 
-    def __init__(self, case, patience):
+    def __init__(self, case, patience, stop):
         self._case = case
-        self._patience = patience
+        self._patience, self._stop = patience, stop
         self._lock = case.comms / "OpenFOAM.lock"
         self.waited = 0.0  # for the flow program [s]
 
@@ -42,6 +44,8 @@ class Turns:
             while self._lock.exists():
                 if not flow.is_running():
                     return not self._lock.exists()  # it may have given the turn before
+                if self._stop.is_set():
+                    raise CulmError("stopped by a signal", STOPPED)
                 if time.monotonic() - start > self._patience:
                     raise CulmError(f"{flow.name} has not answered for {self._patience:g} s", LEFT)
                 time.sleep(_PAUSE)
