@@ -104,6 +104,8 @@ def check_light(checks, outcome):
     checks.holds("exit code", code, 8, 8)
     checks.holds("said to be the added mass", "added-mass instability" in text, 1, 1)
     checks.holds("steps before", len(history.levels) - 1, 5, 45)
+    energy, work = (history.column(name)[-1] for name in ("energy total [J]", "stations work [J]"))
+    checks.holds("energy of the deck against the work of its port", abs(energy - work) / work, 0.0, 1e-9)
 
 
 def print_gaps(case):

@@ -71,7 +71,7 @@ def tell(coupling, turns):
     each = 1.0 / max(coupling.exchanges, 1)
     print(f"{coupling.exchanges} exchanges; culm took {each * coupling.busy:.2g} s each, the flow program "
           f"{each * turns.waited:.2g} s")
-    print(f"  {'work of port ' + coupling.port.name:32} {coupling.work:.6g}")
+    print(f"  {'work of port ' + coupling.port.name:32} {coupling.work:.6g} J")
 
 
 def exit_code_of(error, culm):
