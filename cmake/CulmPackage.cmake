@@ -31,13 +31,16 @@ endif()
 
 # Open MPI: start as root (containers), allow more ranks than cores, do not pin ranks, because tests
 # that run side by side would all be pinned to the same cores, and let ranks that wait yield to those
-# that work: on a busy machine short runs are many times slower without.
+# that work: on a busy machine short runs are many times slower without. Do not look for fast networks
+# and do not wait a second for processes that have ended: short runs are many.
 set(CULM_TEST_ENVIRONMENT
     OMPI_ALLOW_RUN_AS_ROOT=1
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     OMPI_MCA_rmaps_base_oversubscribe=1
     OMPI_MCA_hwloc_base_binding_policy=none
     OMPI_MCA_mpi_yield_when_idle=1
+    OMPI_MCA_pml=ob1
+    OMPI_MCA_odls_base_sigkill_timeout=0
     OMPI_MCA_btl_vader_single_copy_mechanism=none
     OPENBLAS_NUM_THREADS=1
 )

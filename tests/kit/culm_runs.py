@@ -16,13 +16,15 @@ from culm.history import History  # noqa: E402
 INPUTS = ROOT / "inputs"
 TIME_LIMIT = 600  # s; against runs that hang, also on a machine that is busy with others
 
-# Open MPI: start as root (containers), more ranks than cores, and do not pin them.
+# Open MPI: start as root (containers), more ranks than cores, and do not pin them; the rest saves time.
 MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none",
     "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_pml": "ob1",
+    "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
     "OPENBLAS_NUM_THREADS": "1",
 }
