@@ -118,10 +118,10 @@ def rod_path(frame, points=260):
     def miss(x):
         angle, fx, fy, load = x * scale
         force = np.array([fx, fy])
-        corner = integrate_bar(frame, np.array([0.0, 0.0, angle, 0.0]), force, frame.length, 60)
+        corner = integrate_bar(frame, np.array([0.0, 0.0, angle, 0.0]), force, frame.length, 30)
         corner[2] -= 0.5 * math.pi
-        point = integrate_bar(frame, corner, force, frame.place, 12)
-        end = integrate_bar(frame, point, force + [0.0, load], frame.length - frame.place, 48)
+        point = integrate_bar(frame, corner, force, frame.place, 6)
+        end = integrate_bar(frame, point, force + [0.0, load], frame.length - frame.place, 24)
         error = [end[0] / frame.length - 1.0, end[1] / frame.length - 1.0]
         error.append(end[3] / (unit * frame.length))
         return np.array(error), (load, point[0] - frame.place, point[1] - frame.length)
@@ -133,14 +133,18 @@ def rod_path(frame, points=260):
     x, step, path = np.array([0.5 * math.pi, 0.0, 0.0, 0.0]), 0.25, []
     direction = np.array([0.0, 0.0, 0.0, 1.0])
     for _ in range(points):
-        tangent = np.linalg.svd(jacobian(x))[2][-1]
+        before = jacobian(x)
+        tangent = np.linalg.svd(before)[2][-1]
         tangent *= math.copysign(1.0, tangent @ direction)
-        y = x + step * tangent
-        for _ in range(12):
+        slope, change = np.vstack([before, tangent]), step * tangent
+        y = x + change
+        for _ in range(20):
             rest = np.append(miss(y)[0], tangent @ (y - x) - step)
             if np.abs(rest).max() < 1e-11:
                 break
-            y = y - np.linalg.solve(np.vstack([jacobian(y), tangent]), rest)
+            slope += np.outer(rest, change) / (change @ change)  # Broyden: costs no derivatives
+            change = -np.linalg.solve(slope, rest)
+            y = y + change
         else:
             raise ArithmeticError(f"no frame found after {len(path)} points")
         direction, x = y - x, y
