@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 
+#include <cstdlib>
 #include <fstream>
 
 namespace culm::app {
@@ -19,22 +20,43 @@ void write_resolved(const Options& deck, const std::filesystem::path& path) {
   if (!file) throw FileError("cannot write '" + path.string() + "'");
 }
 
+// In a temporary folder one that is named after the deck, as folders of results are. Rank 0 makes
+// it; collective.
+std::filesystem::path make_model_folder(const parallel::Comm& comm,
+                                        const std::filesystem::path& deck) {
+  std::error_code failure;
+  std::string name = (std::filesystem::temp_directory_path(failure) / "culm-XXXXXX").string();
+  std::filesystem::path folder;
+  if (comm.is_root() && !failure && mkdtemp(name.data()) != nullptr) {
+    folder = std::filesystem::path(name) / deck.stem();
+    std::filesystem::create_directory(folder, failure);
+  }
+  folder = comm.broadcast(failure ? std::string() : folder.string());
+  if (folder.empty()) throw FileError(name, "cannot be made, which --view needs for a while");
+  return folder;
+}
+
 }  // namespace
 
-void check(const parallel::Comm& comm, const CheckArguments& arguments) {
+void check(const parallel::Comm& comm, CheckArguments& arguments) {
   const double memory = simulation::find_memory(arguments.memory);
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);
-  if (!arguments.resolved.empty()) {
-    simulation::refuse_overwriting(comm, simulation::find_input_files(deck, source),
-                                   arguments.resolved);
+  for (const std::filesystem::path& written : {arguments.resolved, arguments.view}) {
+    if (written.empty()) continue;
+    simulation::refuse_overwriting(comm, simulation::find_input_files(deck, source), written);
   }
   simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
   log.info(std::string(trim(simulation.summary())));
   if (!arguments.resolved.empty() && comm.is_root()) write_resolved(deck, arguments.resolved);
+  if (!arguments.view.empty()) {
+    const std::filesystem::path folder = make_model_folder(comm, arguments.deck);
+    if (comm.is_root()) arguments.model = folder;
+    simulation.write_model(folder / "run.h5");
+  }
   simulation.examine();
   log.info("the deck is sound");
 }

@@ -31,6 +31,8 @@ struct RunArguments : DeckArguments {
 /// A deck to look at, and where to write it as it is used.
 struct CheckArguments : DeckArguments {
   std::filesystem::path resolved;  ///< file for the deck with all defaults; none if empty
+  std::filesystem::path view;      ///< page to show the model; none if empty
+  std::filesystem::path model;     ///< set by check() on rank 0: temporary folder to draw it from
 };
 
 /// A run to go on with, and what changes about it.
@@ -74,7 +76,7 @@ void run(const parallel::Comm& comm, RunArguments& arguments,
 /// Goes on with a run from its last checkpoint.
 void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
-void check(const parallel::Comm& comm, const CheckArguments& arguments);
+void check(const parallel::Comm& comm, CheckArguments& arguments);
 /// Runs a deck together with a partner.
 void couple(const parallel::Comm& comm, CoupleArguments& arguments);
 /// Runs a deck with the loads of a record, and compares how it moves.

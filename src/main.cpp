@@ -139,6 +139,8 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   check->add_option("--resolved", arguments.check.resolved,
                     "Write the deck as it is used to this file: without variables, units and "
                     "includes, with all defaults");
+  check->add_option("--view", arguments.check.view,
+                    "Write a page that shows the model with its supports and loads to this file");
   check->callback(
       [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.check); }; });
   CLI::App* couple =
@@ -264,6 +266,19 @@ int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
   return 0;
 }
 
+// The page of a model that was checked; its file goes, whether the deck was sound or not.
+int show_model(const CheckArguments& check, int code) {
+  if (check.model.empty()) return code;
+  std::error_code ignored;
+  int drawn = 0;
+  if (std::filesystem::exists(check.model / "run.h5", ignored)) {
+    drawn = culm::app::call_python(
+        {"view", check.model.string(), "--output", check.view.string(), "--unsolved", "--quiet"});
+  }
+  std::filesystem::remove_all(check.model.parent_path(), ignored);
+  return code == 0 ? drawn : code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -273,7 +288,7 @@ int main(int argc, char** argv) {
   }
   Arguments arguments;
   bool is_root = false;
-  const int code = run_verb(argc, argv, arguments, is_root);
+  const int code = show_model(arguments.check, run_verb(argc, argv, arguments, is_root));
   const RunArguments& run = arguments.any_run();
   const std::filesystem::path& folder = run.started;
   // the folder may be that of another run, which this one has left alone

@@ -154,6 +154,41 @@ def check_what_is_refused(check, folder, run):
     check.expect(list(damaged.iterdir()) == [damaged / "run.h5"], f"left over: {list(damaged.iterdir())}")
 
 
+def total_of(scene, load):
+    """Sum of the forces and moments of a load of a model that is not solved."""
+    return sum(
+        unpacked(one["actions"]).astype(float).sum(axis=0)
+        for structure in scene["structures"]
+        for one in structure["loaded"]
+        if one["name"] == load
+    )
+
+
+def check_models(check, folder):
+    """Loads of models that are not solved: their sums are those of their decks."""
+    page = folder / "model.html"
+    for deck, load, expected in (
+        ("beam/three_point_bending.xml", "punch", [0, 0, -10, 0, 0, 0]),
+        ("beam/roll_up.xml", "end moment", [0, 0, 0, 0, 2 * numpy.pi * 86.9e3 / 10, 0]),
+        ("shell/plate_under_weight.xml", "weight", [0, 0, -0.01 * 0.25, 0, 0, 0]),
+        # a pressure on what it projects to, 1 by 0.5 both ways
+        ("shell/ring_under_pressure.xml", "inside", [5, 5, 0, 0, 0, 0]),
+    ):
+        for form in ("Null Space", "Multipliers"):
+            settings = ["--set", f"Solver/Form={form}"]
+            done = check.program.call("check", INPUTS / deck, "--quiet", "--view", page, *settings)
+            check.expect(done.returncode == 0 and done.stdout == "", f"{deck}: {done.stdout}{done.stderr}")
+            scene = data_of(page)["run"]
+            check.expect(scene["notes"] == ["This is the model of a deck; nothing is solved."], f"{scene['notes']}")
+            check.expect(scene["folder"] == pathlib.Path(deck).stem, scene["folder"])
+            found = total_of(scene, load)
+            error = numpy.abs(found - expected).max()
+            check.expect(error <= 10 * SINGLE * numpy.abs(expected).max(), f"{deck}, {form}: {found}, expected {expected}")
+            page.unlink()
+    done = check.program.call("check", INPUTS / "beam/roll_up.xml", "--view", page, "--set", "Sections/bar/Type=Tub")
+    check.expect(done.returncode == 3 and not page.exists(), f"a wrong deck: exit {done.returncode}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True)
@@ -165,6 +200,7 @@ def main():
         check_shapes(check, folder)
         check_runs_that_lack_something(check, folder, run)
         check_what_is_refused(check, folder, run)
+        check_models(check, folder)
     for complaint in check.complaints:
         print(f"FAILED: {complaint}")
     sys.exit(1 if check.complaints else 0)

@@ -19,7 +19,7 @@ def strip(columns, rows):
     corner = (numpy.arange(columns)[:, None] * (rows + 1) + numpy.arange(rows)).ravel()
     cells = numpy.stack([corner, corner + rows + 1, corner + rows + 2, corner + 1], axis=1)
     ends = 4 * (numpy.arange(len(cells)) + 1)
-    return Structure("plane", "plane", "Shell", position, {}, cells.ravel(), ends, None, [], [])
+    return Structure("plane", "plane", "Shell", position, {}, cells.ravel(), ends, None, [], [], [])
 
 
 def line(elements):
@@ -27,7 +27,7 @@ def line(elements):
     position[:, 0] = numpy.arange(elements + 1)
     cells = numpy.stack([numpy.arange(elements), numpy.arange(elements) + 1], axis=1)
     ends = 2 * (numpy.arange(elements) + 1)
-    return Structure("line", "line", "Beam", position, {}, cells.ravel(), ends, None, [], [])
+    return Structure("line", "line", "Beam", position, {}, cells.ravel(), ends, None, [], [], [])
 
 
 class PackingTest(unittest.TestCase):

@@ -80,6 +80,23 @@ void write_held(Hdf5File& file, hid_t mesh, const std::vector<HeldNodes>& held) 
   }
 }
 
+void write_loaded(Hdf5File& file, hid_t mesh, const std::vector<LoadedNodes>& loaded) {
+  if (loaded.empty()) return;
+  const Handle group = file.make_group(mesh, "loads");
+  int number = 0;
+  for (const LoadedNodes& one : loaded) {
+    const Handle load = file.make_group(group.id(), step_name(number++));
+    file.set_attribute(load.id(), "name", one.name);
+    file.set_attribute(load.id(), "type", one.type);
+    file.write(load.id(), "nodes", one.nodes);
+    std::vector<double> actions;
+    for (const Vec6& action : one.actions) {
+      actions.insert(actions.end(), action.begin(), action.end());
+    }
+    file.write(load.id(), "actions", actions, {one.actions.size(), 6});
+  }
+}
+
 void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int number) {
   const Handle group = file.make_group(parent, link_name(mesh.name));
   file.set_attribute(group.id(), "name", mesh.name);
@@ -98,6 +115,7 @@ void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int num
   file.write(group.id(), "topology", xdmf_topology(mesh.cells));
   write_outlines(file, group.id(), mesh.outlines);
   write_held(file, group.id(), mesh.held);
+  write_loaded(file, group.id(), mesh.loaded);
 }
 
 Handle make_history(Hdf5File& file, const std::vector<HistoryColumn>& columns) {

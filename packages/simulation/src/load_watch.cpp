@@ -14,22 +14,26 @@ namespace {
 // What is less of a load than this is rounding.
 constexpr double negligible = 1e-12;
 
-// Springs, dampers and what turns act by laws of their own, and may well act on held nodes.
+// "Force 'tip force'"
+std::string title(const model::Batch& load) {
+  const auto [type, name] = title_of(load);
+  return name.empty() ? type : type + " '" + name + "'";
+}
+
+}  // namespace
+
 bool is_given(const model::Batch& load) {
   return dynamic_cast<const load::SlotLoad*>(&load) != nullptr ||
          dynamic_cast<const load::MomentLoad*>(&load) != nullptr ||
          dynamic_cast<const load::PressureLoad*>(&load) != nullptr;
 }
 
-// "Force 'tip force'"; effects are named "type, name"
-std::string title(const model::Batch& load) {
+std::pair<std::string, std::string> title_of(const model::Batch& load) {
   const std::string& effect = load.effect();
   const auto comma = effect.find(", ");
-  if (comma == std::string::npos) return effect;
-  return effect.substr(0, comma) + " '" + effect.substr(comma + 2) + "'";
+  if (comma == std::string::npos) return {effect, {}};
+  return {effect.substr(0, comma), effect.substr(comma + 2)};
 }
-
-}  // namespace
 
 void LoadWatch::begin(const model::Model& model) {
   loads_.clear();

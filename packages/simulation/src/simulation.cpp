@@ -10,6 +10,7 @@
 #include <culm/simulation/simulation.hpp>
 #include <culm/solver/fill.hpp>
 
+#include "model_picture.hpp"
 #include "model_report.hpp"
 #include "on_root.hpp"
 #include "port_picture.hpp"
@@ -329,6 +330,14 @@ void Simulation::examine() {
       known.steppers.make(type, entries[i], context, state)->begin();
     }
   }
+}
+
+void Simulation::write_model(const std::filesystem::path& path) {
+  Parts& p = *parts_;
+  const Phase& phase = p.phases.enter(0, p.comm, p.ledger);
+  const Options& first = p.deck.list("Analyses").entries().front();
+  const double end = first.text("Type") == "Dynamic" ? first.number("End Time") : 1.0;
+  draw_model(*phase.system, describe_run(p.deck, *phase.model, p.comm, nullptr), end, path);
 }
 
 std::string Simulation::summary() const {

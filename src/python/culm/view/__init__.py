@@ -24,6 +24,9 @@ def declare(parser):
     parser.add_argument(
         "--states", type=int, default=MOST_STATES, help=f"most states to show; {MOST_STATES} if not given"
     )
+    parser.add_argument(
+        "--unsolved", action="store_true", help="the file is that of a model, by culm check --view"
+    )
     parser.add_argument("--quiet", action="store_true", help="print warnings and errors only")
 
 
@@ -33,6 +36,8 @@ def main(arguments, program):
         raise CulmError(f"--states must be at least 1, got {arguments.states}")
     with Recording(arguments.run) as run:
         scene = scene_of(run, arguments.states, up=arguments.up)
+        if arguments.unsolved:
+            scene["notes"] = ["This is the model of a deck; nothing is solved."]
         folder = run.folder
     ghost = None
     if arguments.other is not None:

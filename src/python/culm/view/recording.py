@@ -21,6 +21,16 @@ class Held:
 
 
 @dataclasses.dataclass
+class Loaded:
+    """Nodes of a structure that a load acts on."""
+
+    name: str
+    type: str  # "Force"
+    nodes: numpy.ndarray
+    actions: numpy.ndarray  # (nodes, 6): force [N] and moment [N m]
+
+
+@dataclasses.dataclass
 class Outlines:
     """Cross-sections of a line: polygons in (xi1, xi2) [m]."""
 
@@ -55,6 +65,7 @@ class Structure:
     ends: numpy.ndarray  # of the cells in it
     outlines: Outlines | None
     held: list
+    loaded: list
     fields: list
 
 
@@ -177,6 +188,10 @@ def _structure(link, group):
         [
             Held(_text(data.attrs["name"]), _text(data.attrs["type"]), data[()])
             for data in group.get("constraints", {}).values()
+        ],
+        [
+            Loaded(_text(one.attrs["name"]), _text(one.attrs["type"]), one["nodes"][()], one["actions"][()])
+            for one in group.get("loads", {}).values()
         ],
         _fields(group),
     )

@@ -144,6 +144,7 @@ def _structure(run, one, part, states, with_fields, pack):
         "outlines": _outlines(one.outlines, part.nodes),
         "body": shape_of(run.deck, one.name) if one.kind == "Body" else None,
         "held": _held(one, part.nodes),
+        "loaded": _loaded(one, part.nodes),
         "fields": [f for field in one.fields for f in _field(run, one, part, field, states, pack)]
         if with_fields and states
         else [],
@@ -166,6 +167,22 @@ def _held(one, nodes):
         {"name": held.name, "type": held.type, "nodes": sorted({place[n] for n in held.nodes.tolist() if n in place})}
         for held in one.held
     ]
+
+
+def _loaded(one, nodes):
+    place = {int(node): i for i, node in enumerate(nodes)}
+    found = []
+    for load in one.loaded:
+        rows = [row for row, node in enumerate(load.nodes.tolist()) if node in place]
+        found.append(
+            {
+                "name": load.name,
+                "type": load.type,
+                "nodes": [place[node] for node in load.nodes[rows].tolist()],
+                "actions": packing.floats(load.actions[rows]),
+            }
+        )
+    return found
 
 
 def _field(run, one, part, field, states, pack):

@@ -143,6 +143,9 @@ class System {
   /// reactions.
   /// @param load  one of the model, with nothing to remember
   LoadShare share_of(model::Batch& load, const model::State& state) const;
+  /// Force [N] and moment [N m] of such a load at state.next on each node, on the master of one
+  /// that follows it. Collective; changes neither residual() nor reactions.
+  std::vector<Vec6> forces_of(model::Batch& load, const model::State& state) const;
 
   /// Moves state.next to where all constraints hold at state.time, from there on as the nearest
   /// configuration in the metric of the mass. `solve_mass` as in project_velocity.
@@ -159,6 +162,8 @@ class System {
   const parallel::Comm& comm() const { return comm_; }
 
  private:
+  void assemble_alone(model::Batch& load, const model::State& state, std::span<double> residual,
+                      std::span<double> taken) const;
   Vec6 equation_reaction(const std::string& constraint, int node, const model::State& state) const;
   std::pair<double, int> find_largest(double value, int place) const;
   int largest_equation(std::span<const double> rows, double largest) const;

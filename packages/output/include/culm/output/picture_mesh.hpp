@@ -50,6 +50,14 @@ struct HeldNodes {
   std::vector<int> nodes;  ///< within the structure, from 0
 };
 
+/// The nodes of a structure that a load acts on.
+struct LoadedNodes {
+  std::string name;           ///< of the load, in the deck
+  std::string type;           ///< "Force"
+  std::vector<int> nodes;     ///< within the structure, from 0
+  std::vector<Vec6> actions;  ///< force [N] and moment [N m] on each
+};
+
 /// One structure in the reference configuration.
 struct StructureMesh {
   std::string name;                ///< unique in the model
@@ -68,6 +76,7 @@ struct StructureMesh {
   std::vector<NodeArray> node_arrays;
   std::vector<CellArray> cell_arrays;
   std::vector<HeldNodes> held;
+  std::vector<LoadedNodes> loaded;  ///< of a model that is shown before it is solved
 
   int node_count() const { return static_cast<int>(positions.size()); }
   int cell_count() const { return static_cast<int>(cells.size()); }

@@ -29,7 +29,7 @@ struct RunInfo {
 /// - /deck: xml; attributes title, version
 /// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity, topology,
 ///   outline_of_node, outline_ends, outline_points; constraints/<number>: nodes, attributes name,
-///   type
+///   type; loads/<number>: nodes, actions, the same attributes
 /// - /steps/000000/<structure>: position, displacement, director1..3, resultants, node and cell
 ///   arrays; whatever Frame::arrays holds in /steps/000000/%arrays
 /// - /history/values: one row per add_history(); attributes names, units; first column time

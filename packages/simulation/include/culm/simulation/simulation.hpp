@@ -126,6 +126,10 @@ class Simulation {
   /// factorisation is long work.
   void examine();
 
+  /// Writes a result file with nothing but the reference, its constraints and its loads, for
+  /// pictures of a model that is not solved yet. Collective; throws FileError.
+  void write_model(const std::filesystem::path& path);
+
  private:
   void run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
                     CoupledRun* coupled, const Snapshot* from);

@@ -3,6 +3,7 @@
 const SWITCHES = {
   mesh: "mesh",
   marks: "supports",
+  loads: "loads",
   directors: "directors",
   reference: "reference",
   follow: "follow",
@@ -26,14 +27,15 @@ class Controls {
     scale.addEventListener("input", () => change({ scale: Number(scale.value) }));
     field.addEventListener("change", () => change({ field: field.value }));
     range.addEventListener("change", () => change({ range: range.value }));
-    this.addSwitches(ghost !== null, change);
+    this.addSwitches(model, ghost !== null, change);
     this.addViews(lookFrom);
   }
 
-  addSwitches(hasGhost, change) {
+  addSwitches(model, hasGhost, change) {
     this.switches = {};
     for (const [name, text] of Object.entries(SWITCHES)) {
       if (name === "ghost" && !hasGhost) continue;
+      if (name === "loads" && !model.hasLoads) continue;
       const box = document.createElement("input");
       box.type = "checkbox";
       box.id = name;

@@ -32,10 +32,11 @@ class Viewer {
       shape: isStill ? `${analyses[0].name}/1` : "",
       phase: 0,
       scale: 0,
-      field: "displacement",
+      field: this.model.hasLoads ? "" : "displacement",
       range: "all",
       mesh: this.model.cellCount < MOST_WITH_MESH,
       marks: true,
+      loads: true,
       directors: false,
       reference: isStill,
       follow: travel > 2 * size,
@@ -64,7 +65,8 @@ class Viewer {
     this.ghosts = this.ghost ? draw(this.ghost, true) : [];
     this.directors = this.model.structures.map((one) => new Directors(one, 2 * symbol));
     this.marks = this.model.structures.map((one) => new Marks(one, 0.8 * symbol, upward));
-    for (const one of [...this.drawn, ...this.ghosts, ...this.marks]) this.scene.add(one.group);
+    this.loads = new Loads(this.model.structures, 7 * symbol);
+    for (const one of [...this.drawn, ...this.ghosts, ...this.marks, this.loads]) this.scene.add(one.group);
     for (const one of this.directors) this.scene.add(one.lines);
     this.pickMark = new PickMark(this.scene, symbol);
     this.axes = new Axes();
@@ -81,6 +83,7 @@ class Viewer {
     for (const note of notes) addNote(note);
     if (isBare) addNote("Beams without an outline are drawn as thin rods.", "plain");
     listHeld(this.model.structures);
+    listLoads(this.model.structures);
   }
 
   listen() {
@@ -193,6 +196,7 @@ class Viewer {
       one.group.visible = view.marks;
       one.move();
     });
+    this.loads.group.visible = view.loads;
     this.movePick(view.pick);
     this.showBar(low, high);
     this.controls.show(view);

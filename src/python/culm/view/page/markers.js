@@ -87,21 +87,23 @@ function markOf(kind, size) {
   return new THREE.BoxBufferGeometry(size, size, size);
 }
 
-/** Lists what holds the model, with the colours of the marks. */
-function listHeld(structures) {
-  const list = document.getElementById("held-list");
+/** Lists things by their names, with the colours of their marks. @param things  [{name, type}] */
+function listThings(section, things, colour) {
+  const list = document.getElementById(`${section}-list`);
   const seen = new Set();
-  for (const structure of structures) {
-    for (const { name, type } of structure.held) {
-      if (seen.has(name)) continue;
-      seen.add(name);
-      const line = document.createElement("li");
-      const swatch = document.createElement("span");
-      swatch.className = "swatch";
-      swatch.style.background = `#${new THREE.Color(MARK_COLOURS[kindOfConstraint(type)]).getHexString()}`;
-      line.append(swatch, `${name} (${type})`);
-      list.append(line);
-    }
+  for (const { name, type } of things) {
+    if (seen.has(name)) continue;
+    seen.add(name);
+    const line = document.createElement("li");
+    const swatch = document.createElement("span");
+    swatch.className = "swatch";
+    swatch.style.background = `#${new THREE.Color(colour(type)).getHexString()}`;
+    line.append(swatch, `${name} (${type})`);
+    list.append(line);
   }
-  document.getElementById("held").hidden = seen.size === 0;
+  document.getElementById(section).hidden = seen.size === 0;
+}
+
+function listHeld(structures) {
+  listThings("held", structures.flatMap((one) => one.held), (type) => MARK_COLOURS[kindOfConstraint(type)]);
 }

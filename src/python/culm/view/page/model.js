@@ -17,6 +17,10 @@ class Model {
     return this.level.moves && this.times.length > 1 && this.hasOrderedTimes;
   }
 
+  get hasLoads() {
+    return this.structures.some((one) => one.loaded.length > 0);
+  }
+
   get cellCount() {
     return this.structures.reduce((sum, one) => sum + one.cellCount, 0);
   }

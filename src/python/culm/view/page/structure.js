@@ -22,6 +22,7 @@ class Structure {
     this.body = data.body;
     this.reach = reachOf(this.outlines, this.body);
     this.held = data.held;
+    this.loaded = data.loaded.map((load) => ({ ...load, actions: new Numbers(load.actions).values }));
     this.fields = data.fields.map((field) => ({ ...field, values: new Numbers(field.values) }));
     // of what is shown: places, displacements, directors d1 d2 d3 of each node
     this.position = new Float32Array(3 * this.count);

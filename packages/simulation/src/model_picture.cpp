@@ -1,0 +1,70 @@
+#include "model_picture.hpp"
+
+#include "load_watch.hpp"
+#include "on_root.hpp"
+#include "picture_frames.hpp"
+
+#include <vector>
+
+namespace culm::simulation {
+namespace {
+
+// Enough to meet the pulses that a user wants to see.
+constexpr int sampled_times = 64;
+
+double size_of(const std::vector<Vec6>& actions) {
+  double sum = 0.0;
+  for (const Vec6& action : actions) sum += action.squaredNorm();
+  return sum;
+}
+
+std::vector<Vec6> largest_actions(const assembly::System& system, model::Batch& load,
+                                  model::State state, double end) {
+  std::vector<Vec6> largest;
+  double size = 0.0;
+  for (int i = 0; i <= sampled_times; ++i) {
+    state.time = end * i / sampled_times;
+    std::vector<Vec6> actions = system.forces_of(load, state);
+    if (size_of(actions) <= size) continue;
+    size = size_of(actions);
+    largest = std::move(actions);
+  }
+  return largest;
+}
+
+void add_load(const model::Model& model, const model::Batch& load, const std::vector<Vec6>& actions,
+              std::vector<output::StructureMesh>& meshes) {
+  const auto [type, name] = title_of(load);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    output::LoadedNodes loaded{name, type, {}, {}};
+    const std::vector<int>& nodes = model.structures()[s].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vec6& action = actions[static_cast<std::size_t>(nodes[i])];
+      if (action.isZero(0.0)) continue;
+      loaded.nodes.push_back(static_cast<int>(i));
+      loaded.actions.push_back(action);
+    }
+    if (!loaded.nodes.empty()) meshes[s].loaded.push_back(std::move(loaded));
+  }
+}
+
+}  // namespace
+
+void draw_model(const assembly::System& system, const output::RunInfo& info, double end,
+                const std::filesystem::path& path) {
+  const model::Model& model = system.model();
+  const model::State state = model.initial_state();
+  std::vector<output::StructureMesh> meshes = meshes_of(model, {});
+  for (const auto& load : model.loads()) {
+    if (!is_given(*load)) continue;
+    const auto actions = largest_actions(system, *load, state, end);
+    if (!actions.empty()) add_load(model, *load, actions, meshes);
+  }
+  on_root(system.comm(), [&] {
+    output::Recorder recorder(path, info, meshes, {});
+    recorder.record(frame_of(model, {}, state.next));
+    recorder.close();
+  });
+}
+
+}  // namespace culm::simulation
