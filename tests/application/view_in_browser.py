@@ -105,7 +105,7 @@ def check_states(check, browser, run):
         page.slide(70)
         check_picked(check, page, file, 70, 27, node)
         # with the pointer, in the middle of the shell
-        browser.click(450, 400)
+        browser.click(240, 330)
         words = page.text("picked-name").split(";")[0].split(", ")
         check.equal(words[0], "shell", "picked by the pointer")
         element, node = (int(word.split(" ")[1]) for word in words[1:])
