@@ -1,6 +1,7 @@
 #include <culm/solver/linear_solver.hpp>
 
 #include "mumps_solver.hpp"
+#include "one_factorisation.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,30 @@ class NothingToSolve final : public LinearSolver {
   double weakest_direction(Vector&) override { return 0.0; }
 };
 
+using MakeSolver = std::unique_ptr<LinearSolver>(
+    const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+
+// @param make_slender for what Block LU is made for
+ChosenSolver choose(const std::string& name, const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                    const parallel::Comm& comm, MakeSolver* make_slender) {
+  if (matrix->getGlobalNumRows() == 0) {
+    return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
+  }
+  if (name == "Block LU") return {make_slender(matrix, comm), "Block LU, as the deck says"};
+  if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
+  if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
+  Ordering ordering = order_rows(*matrix, comm);
+  const Fill fill = ordering.fill;
+  const bool is_wide = fill.front() > widest_slender_front;
+  ChosenSolver chosen;
+  chosen.solver =
+      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
+  chosen.reason = fmt::format(
+      "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
+      chosen.solver->name(), fill.front(), widest_slender_front, 8e-6 * fill.entries);
+  return chosen;
+}
+
 }  // namespace
 
 const std::vector<std::string>& linear_solver_names() {
@@ -32,25 +57,14 @@ const std::vector<std::string>& linear_solver_names() {
 
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                                  const parallel::Comm& comm, Refactor refactor) {
-  if (matrix->getGlobalNumRows() == 0) {
-    return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
-  }
-  const auto make_slender = refactor == Refactor::often ? make_rooted_block_lu : make_rooted_klu2;
-  if (name == "Block LU") return {make_slender(matrix, comm), "Block LU, as the deck says"};
-  if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
-  if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
-  Ordering ordering = order_rows(*matrix, comm);
-  const Fill fill = ordering.fill;
-  const double front = fill.front();
-  const bool is_wide = front > widest_slender_front;
-  ChosenSolver chosen;
-  chosen.solver =
-      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
-  chosen.reason = fmt::format(
-      "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
-      chosen.solver->name(), front, widest_slender_front, 8e-6 * fill.entries);
-  return chosen;
+                                  const parallel::Comm& comm) {
+  return choose(name, matrix, comm, make_rooted_block_lu);
+}
+
+ChosenSolver choose_for_one_factorisation(const std::string& name,
+                                          const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                          const parallel::Comm& comm) {
+  return choose(name, matrix, comm, make_rooted_klu2);
 }
 
 }  // namespace culm::solver

@@ -2,6 +2,8 @@
 
 #include <culm/base/error.hpp>
 
+#include "one_factorisation.hpp"
+
 #include <cmath>
 
 namespace culm::solver {
@@ -37,7 +39,7 @@ ShiftInvert::ShiftInvert(const Teuchos::RCP<CrsMatrix>& factored, const std::str
     : comm_(comm),
       whole_(*factored->getRowMap(), comm),
       factored_(factored),
-      linear_(choose_linear_solver(linear_solver, factored_, comm, Refactor::never).solver),
+      linear_(choose_for_one_factorisation(linear_solver, factored_, comm).solver),
       in_(factored->getRowMap()),
       out_(factored->getRowMap()) {
   if (!linear_->factor()) refuse();

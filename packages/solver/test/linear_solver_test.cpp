@@ -1,6 +1,7 @@
 #include <culm/parallel/comm.hpp>
 #include <culm/solver/linear_solver.hpp>
 
+#include "../src/one_factorisation.hpp"
 #include "../src/symmetry_check.hpp"
 
 #include <Eigen/Dense>
@@ -326,7 +327,7 @@ TEST(ChooseLinearSolver, TakesMumpsForDenseFactorsOnly) {
 TEST(ChooseLinearSolver, TakesKlu2ForOneFactorisation) {
   const ScatteredSystem system;
   for (const char* name : {"Automatic", "Block LU"}) {
-    const auto chosen = choose_linear_solver(name, system.matrix(), system.comm(), Refactor::never);
+    const auto chosen = choose_for_one_factorisation(name, system.matrix(), system.comm());
     EXPECT_EQ(chosen.solver->name(), "KLU2") << name;
   }
 }

@@ -90,15 +90,11 @@ struct ChosenSolver {
 /// What decks may write, the default first.
 const std::vector<std::string>& linear_solver_names();
 
-/// How often a matrix gets new values.
-enum class Refactor { often, never };
-
 /// The solver of that name. `Automatic` takes Block LU for graphs like beams and MUMPS for graphs
 /// like shells, whose factors are so dense that MUMPS gains by its dense kernels; it decides by
-/// predict_fill. Where a matrix is factored only once, KLU2 takes the place of Block LU: speed is
-/// nothing then, and searches for eigenvalues want all the digits that pivots can keep. Collective.
+/// predict_fill. Collective.
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                                  const parallel::Comm& comm, Refactor refactor = Refactor::often);
+                                  const parallel::Comm& comm);
 
 }  // namespace culm::solver

@@ -1,0 +1,16 @@
+/// The linear solver of a matrix that is factored once.
+#pragma once
+
+#include <culm/solver/linear_solver.hpp>
+
+#include <string>
+
+namespace culm::solver {
+
+/// As choose_linear_solver, but with KLU2 in the place of Block LU: speed is nothing then, and
+/// searches for eigenvalues want all the digits that pivots can keep. Collective.
+ChosenSolver choose_for_one_factorisation(const std::string& name,
+                                          const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                          const parallel::Comm& comm);
+
+}  // namespace culm::solver
