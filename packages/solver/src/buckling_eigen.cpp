@@ -117,7 +117,9 @@ class Buckling {
         complex_.push_back(size);
         continue;
       }
+      // two values that rounding made conjugate have one complex vector, and both its parts
       Eigen::VectorXd x = found.vectors.col(i).real();
+      if (nu.imag() < 0.0) x = found.vectors.col(i).imag();
       if (pencil_.is_symmetric) remove_found(x);
       inverse_.multiply(*pencil_.K, x, Kx);
       const double energy = x.dot(Kx);
