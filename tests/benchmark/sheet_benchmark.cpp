@@ -4,9 +4,9 @@
 
 #include <culm/load/slot_load.hpp>
 #include <culm/material/isotropic.hpp>
-#include <culm/model/element_batch.hpp>
 #include <culm/model/model.hpp>
 #include <culm/shell/elastic_shell.hpp>
+#include <culm/shell/element_batches.hpp>
 #include <culm/solver/newton_solver.hpp>
 
 #include <benchmark/benchmark.h>

@@ -2,8 +2,8 @@
 // by a tip force, null space against multipliers. Counter ns/element is the one to compare.
 
 #include <culm/beam/director_beam.hpp>
+#include <culm/beam/element_batches.hpp>
 #include <culm/load/slot_load.hpp>
-#include <culm/model/element_batch.hpp>
 #include <culm/model/model.hpp>
 #include <culm/solver/newton_solver.hpp>
 

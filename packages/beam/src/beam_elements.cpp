@@ -1,4 +1,4 @@
-#include <culm/model/element_batch.hpp>
+#include <culm/beam/element_batches.hpp>
 
 #include "element_chain.hpp"
 

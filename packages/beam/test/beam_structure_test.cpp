@@ -1,8 +1,8 @@
 #include <culm/base/error.hpp>
 #include <culm/beam/beam_structure.hpp>
 #include <culm/beam/director_beam.hpp>
+#include <culm/beam/element_batches.hpp>
 #include <culm/beam/helical_beam.hpp>
-#include <culm/model/element_batch.hpp>
 #include <culm/model/mass_properties.hpp>
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 #include <culm/joint/shell_connection.hpp>
-#include <culm/model/element_batch.hpp>
 #include <culm/shell/elastic_shell.hpp>
+#include <culm/shell/element_batches.hpp>
 #include <culm/shell/hyperelastic_shell.hpp>
 #include <culm/shell/linear_shell.hpp>
 #include <culm/shell/mesh_types.hpp>

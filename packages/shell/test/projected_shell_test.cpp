@@ -1,4 +1,4 @@
-#include <culm/model/element_batch.hpp>
+#include <culm/shell/element_batches.hpp>
 
 #include "shell_case.hpp"
 

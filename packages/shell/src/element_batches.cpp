@@ -1,0 +1,12 @@
+#include <culm/shell/element_batches.hpp>
+
+namespace culm::model {
+
+template ElementBatch<shell::ElasticShell>& elements(Model&, const std::string&,
+                                                     const StrainDamping&);
+template ElementBatch<shell::HyperelasticShell>& elements(Model&, const std::string&,
+                                                          const StrainDamping&);
+template ElementBatch<shell::LinearShell>& elements(Model&, const std::string&,
+                                                    const StrainDamping&);
+
+}  // namespace culm::model
