@@ -31,6 +31,9 @@ void expect_single_process() {
   ::setenv("OMPI_MCA_btl", "self", keep);
   // all such processes would share one folder, and the first to end would remove it
   ::setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
+  // made for many processes; each call would wait for a turn on a busy machine
+  constexpr int replace = 1;
+  ::setenv("OMPI_MCA_mpi_yield_when_idle", "0", replace);
 }
 
 }  // namespace culm::parallel

@@ -2,6 +2,7 @@
 #include <culm/parallel/single_process.hpp>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -31,6 +32,11 @@ TEST(SingleProcess, OptionsOfUsersAndBatchJobsAreNone) {
 TEST(SingleProcess, IsIsolatedWhereThereIsNoLauncher) {
   const char* isolated = std::getenv("OMPI_MCA_ess_singleton_isolated");
   EXPECT_EQ(isolated != nullptr, Comm().size() == 1);
+}
+
+TEST(SingleProcess, NeverYields) {
+  if (was_launched(environ)) GTEST_SKIP() << "one of several";
+  EXPECT_STREQ(std::getenv("OMPI_MCA_mpi_yield_when_idle"), "0");
 }
 
 }  // namespace
