@@ -18,6 +18,7 @@ import math
 import os
 import socket
 import struct
+import sys
 import threading
 import time
 import zlib
@@ -41,7 +42,9 @@ class Window:
     number, attempt  from 0
     start, end       [s]
     motion           displacement and rotation vector in the window [m, rad], what loads work on
-    position         at the end [m]; rotation: 3x3 matrices against the reference; velocity, acceleration
+    position         at the end [m]
+    rotation         at the end: 3x3 matrices that turn the reference into the present, the unit matrix at first
+    velocity         and angular velocity at the end [m/s, rad/s]; acceleration: mean of the last step
     loads            that acted, once the window is over: mean force and moment [N, N m]
     """
 
@@ -58,12 +61,13 @@ class Partner:
     """What culm asks; override what the program can answer."""
 
     name = "partner"
-    wants = ("position", "motion")  # names of QUANTITIES
+    wants = ("position",)  # names of QUANTITIES, beside the motion, which is always there
     longest_window = math.inf  # [s]
 
     def begin(self, port, reference, velocity, start, window):
-        """Before the first window. reference: (points, 3) [m]; velocity: (points, 6); window: above 0 where a run goes
-        on, from what was saved under this number."""
+        """Before the first window; calls of an own version begin with super().begin(...). reference: (points, 3) [m],
+        in the axes of the deck as everything is; velocity: (points, 6); window: above 0 where a run goes on, from what
+        was saved under this number."""
         self.points = len(reference)
 
     def loads(self, window):
@@ -73,7 +77,8 @@ class Partner:
 
     def accept(self, window):
         """The window is over with this motion. Returns the energy that the partner holds more than at the start and
-        what it has turned into heat since [J], or nothing if it keeps no books."""
+        what it has turned into heat since [J], from which culm finds what the coupling loses; or nothing if it keeps no
+        books."""
 
     def save(self, window):
         """Keep what you are under this number: a run may go on from here."""
@@ -162,13 +167,18 @@ def run(address, partner, patience=600.0):
     except PartnerError:
         raise
     except BaseException as error:
-        connection.send(ERROR, payload=f"{type(error).__name__}: {error}".encode())
+        why = "it left" if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
+        connection.send(ERROR, payload=why.encode())
         raise
     finally:
         connection.close()
 
 
 def _serve(connection, partner):
+    names = [name for name, _ in QUANTITIES]
+    for name in partner.wants:
+        if name not in names:
+            raise ValueError(f"there is no quantity '{name}' to want; allowed: {', '.join(names)}")
     kind, window, _, start, _, payload = connection.receive()
     if kind != HELLO:
         raise PartnerError(f"culm began with a frame of kind {kind}")
@@ -176,7 +186,7 @@ def _serve(connection, partner):
     numbers = numpy.frombuffer(payload, "<f8", 9 * points, 4)
     reference, velocity = numbers[: 3 * points].reshape(-1, 3), numbers[3 * points :].reshape(-1, 6)
     partner.begin(payload[4 + 72 * points :].decode(), reference, velocity, start, window)
-    wanted = sum(1 << i for i, (name, _) in enumerate(QUANTITIES) if name in partner.wants)
+    wanted = sum(1 << i for i, (name, _) in enumerate(QUANTITIES) if name in (*partner.wants, "motion"))
     hello = struct.pack("<IId", points, wanted, partner.longest_window) + partner.name.encode()
     connection.send(HELLO, payload=hello)
     while True:
@@ -216,7 +226,8 @@ def _window(about, payload, points, wanted):
 
 def _connect(address, patience):
     kind, _, place = address.partition(":")
-    end = time.monotonic() + patience
+    start = time.monotonic()
+    has_said = False
     while True:
         try:
             if kind == "unix":
@@ -230,6 +241,10 @@ def _connect(address, patience):
                 raise ValueError(f"'{address}' is no address: 'unix:PATH' or 'tcp:[HOST:]PORT'")
             return channel
         except OSError as error:
-            if time.monotonic() > end:
+            waited = time.monotonic() - start
+            if waited > 2.0 and not has_said:
+                print(f"waiting for culm at {address}", file=sys.stderr)
+                has_said = True
+            if waited > patience:
                 raise PartnerError(f"nobody listens at '{address}' ({os.strerror(error.errno or 0)})") from None
             time.sleep(0.01)

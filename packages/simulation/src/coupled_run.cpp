@@ -67,9 +67,9 @@ struct CoupledRun::Side {
   double work = 0.0;       // that the structure got [J]
   double exchanged = 0.0;  // sum of the sizes of the works of all windows [J]
   coupling::Books books;
-  double stiffness = 0.0;  // the largest change of answers by motion that was seen [N/m]
-  VectorXd moved, answer;  // of the last attempt in this window
-  VectorXd velocity;       // at the start of the window, of schemes that are watched
+  double stiffness = 0.0;         // the largest change of answers by motion that was seen [N/m]
+  VectorXd acted, moved, answer;  // in the last attempt in this window
+  VectorXd velocity;              // at the start of the window, of schemes that are watched
   coupling::LooseWatch loose;
 
   Eigen::Index count() const { return 6 * static_cast<Eigen::Index>(port->size()); }
@@ -494,6 +494,7 @@ VectorXd CoupledRun::ask(const Window& window, int attempt) {
         side.stiffness = std::max(side.stiffness, (own - side.answer).norm() / change);
       }
     }
+    side.acted = loads_.segment(side.first, side.count());
     side.moved = moved;
     side.answer = own;
   }
@@ -574,12 +575,38 @@ void CoupledRun::accept(Window& window, int attempts) {
   most_attempts_ = std::max(most_attempts_, attempts);
 }
 
+// Where loads and answer differ most.
+std::string CoupledRun::worst_point() const {
+  const Side* worst = nullptr;
+  Eigen::Index place = 0;
+  double most = -1.0;
+  for (const Side& side : sides_) {
+    if (side.answer.size() == 0) continue;
+    const VectorXd miss = side.answer - side.acted;
+    Eigen::Index i = 0;
+    const double size = miss.cwiseAbs().maxCoeff(&i);
+    if (size > most) {
+      most = size;
+      place = i;
+      worst = &side;
+    }
+  }
+  if (worst == nullptr) return "there was no answer";
+  return fmt::format("'{}' answers {:.3g} for {:.3g} at point {} of port '{}', component {}",
+                     worst->name, worst->answer[place], worst->acted[place], place / 6,
+                     worst->port_name, place % 6);
+}
+
 void CoupledRun::give_up(const Window& window) const {
+  const bool is_robust = settings_.text("Scheme") == "Quasi Newton";
   throw NumericalError(fmt::format(
-      "Structure and partners did not agree in {} attempts of the window from {:g} s to {:g} s.\n"
-      "Try: 'Scheme' = Quasi Newton, which is the most robust one, more 'Most Attempts', a larger "
-      "'Tolerance', or a smaller 'Step'.",
-      settings_.integer("Most Attempts"), window.start(), window.end()));
+      "Structure and partners did not agree in {} attempts of the window from {:g} s to {:g} s; "
+      "{}.\n"
+      "Try: {}more 'Most Attempts', a larger 'Tolerance', a smaller 'Step' or 'Window'; or the "
+      "loads "
+      "grow with the motion, as in flutter.",
+      settings_.integer("Most Attempts"), window.start(), window.end(), worst_point(),
+      is_robust ? "" : "'Scheme' = Quasi Newton, which is the most robust one, "));
 }
 
 void CoupledRun::close_books(analysis::AnalysisReport& report, double time) {

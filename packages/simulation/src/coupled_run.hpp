@@ -59,6 +59,7 @@ class CoupledRun {
   bool is_enough(const Window& window, const Eigen::VectorXd& answer);
   void watch(Window& window, const Eigen::VectorXd& answer);
   void accept(Window& window, int attempts);
+  std::string worst_point() const;
   [[noreturn]] void give_up(const Window& window) const;
   void close_books(analysis::AnalysisReport& report, double time);
   double latest_end(double start) const;
