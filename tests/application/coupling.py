@@ -142,7 +142,7 @@ SAID = {
     "before": "it answered for window 5, attempt 0, and was asked for window 5, attempt 1",
     "little": "its answer has 96 bytes; six numbers for each of 5 points are 240",
     "nan": "it answered nan for component 1 at point 3",
-    "silence": "it said nothing for 1 s",
+    "silence": "it said nothing for 5 s",
 }
 
 
@@ -172,7 +172,7 @@ class CouplingTest(unittest.TestCase):
         self.deck = self.write("water.xml", text)
         self.remote = self.write("socket.xml", text.replace("Added Mass", "Socket").replace(
             '<Parameter name="Mass" value="20"/>',
-            f'<Parameter name="Address" value="{self.address}"/><Parameter name="Patience" value="1"/>'))
+            f'<Parameter name="Address" value="{self.address}"/><Parameter name="Patience" value="100"/>'))
 
     def write(self, name, text):
         path = self.folder / name
@@ -275,7 +275,9 @@ class Partners(CouplingTest):
             said = SAID[way]
             with self.subTest(way=way):
                 partner = self.start_partner(way)
-                errors = self.culm("run", self.remote, "--output", way, "--quiet", code=FAILED_PARTNER)
+                # long enough for a program to start on a busy machine
+                patience = ["--set", "Coupling/Partners/water/Patience=5"] if way == "silence" else []
+                errors = self.culm("run", self.remote, "--output", way, "--quiet", *patience, code=FAILED_PARTNER)
                 text = re.sub(r"\s+", " ", errors)
                 self.assertIn("the partner 'water' at port 'wet' failed in window 5, attempt 1, from 0.1 s to 0.12 s: "
                               + said, text)
@@ -283,7 +285,8 @@ class Partners(CouplingTest):
                 partner.kill()
 
     def test_that_never_come(self):
-        errors = self.culm("run", self.remote, "--output", "alone", "--quiet", code=FAILED_PARTNER)
+        errors = self.culm("run", self.remote, "--output", "alone", "--quiet", "--set",
+                           "Coupling/Partners/water/Patience=0.5", code=FAILED_PARTNER)
         self.assertIn("nobody came to", errors)
 
     def test_that_die_and_are_resumed(self):
