@@ -449,7 +449,7 @@ bool CoupledRun::repeat(Window& window) {
     }
     bearable = loads_;
     const VectorXd answer = ask(window, tried);
-    if (is_enough(window, answer)) {
+    if (is_enough(answer)) {
       accept(window, tried + 1);
       loads_ = answer;
       scheme_->end_window();
@@ -502,7 +502,7 @@ VectorXd CoupledRun::ask(const Window& window, int attempt) {
 }
 
 // What is asked for, and what rounding of positions makes of loads.
-bool CoupledRun::is_enough(const Window&, const VectorXd& answer) {
+bool CoupledRun::is_enough(const VectorXd& answer) const {
   constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
   return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
     const auto own = answer.segment(side.first, side.count());

@@ -56,7 +56,7 @@ class CoupledRun {
   bool repeat(Window& window);
   void ask(coupling::Window& about, Side& side, Eigen::VectorXd& answer);
   Eigen::VectorXd ask(const Window& window, int attempt);
-  bool is_enough(const Window& window, const Eigen::VectorXd& answer);
+  bool is_enough(const Eigen::VectorXd& answer) const;
   void watch(Window& window, const Eigen::VectorXd& answer);
   void accept(Window& window, int attempts);
   std::string worst_point() const;
