@@ -332,6 +332,12 @@ class Decks(CouplingTest):
         self.says("port 'wet' has a partner already", self.deck, "Coupling/Partners/more/Type=Dashpot",
                   "Coupling/Partners/more/Damping=1", "Coupling/Partners/more/Port=wet")
 
+    def test_whose_partners_cannot_serve(self):
+        self.says("'nowhere' is no address: 'unix:PATH'", self.remote, "Coupling/Partners/water/Address=nowhere")
+        gas = "Coupling/Partners/gas/"
+        self.says("face 0 names point 9; there are 1, from 0", self.deck, gas + "Type=Pressure", gas + "Port=top",
+                  gas + "Pressure=1", gas + "Triangles={9, 0, 0}")
+
     def test_with_partners_that_fail(self):
         fault = ["--set", "Coupling/Partners/fault/Type=Faulty", "--set", "Coupling/Partners/fault/Port=top",
                  "--set", "Coupling/Partners/fault/Window=3", "--quiet"]

@@ -1,4 +1,3 @@
-#include <culm/coupling/partner_error.hpp>
 #include <culm/coupling/pressure_partner.hpp>
 
 #include <limits>
@@ -17,12 +16,6 @@ std::vector<double> start_of(const Window& window) {
 }
 
 }  // namespace
-
-void PressurePartner::begin(const Beginning& beginning) {
-  const std::string objection = port::objection_to(faces_, beginning.points());
-  if (!objection.empty())
-    throw PartnerError("pressure at port '" + beginning.port + "': " + objection);
-}
 
 Eigen::VectorXd PressurePartner::loads(const Window& window) {
   const std::vector<double> forces =

@@ -114,7 +114,11 @@ void register_partners(PartnerRegistry& registry) {
           .add(number("Patience", "s",
                       "How long it may be silent, and how long it may take to come.")
                    .positive()
-                   .optional(600.0)),
+                   .optional(600.0))
+          .check([](const Options& o, InputIssues& issues) {
+            const std::string objection = objection_to_address(o.text("Address"));
+            if (!objection.empty()) issues.add(o.where("Address"), objection);
+          }),
       [](const Options& o) {
         const double patience = o.number("Patience");
         return std::make_unique<RemotePartner>(

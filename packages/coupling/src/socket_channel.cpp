@@ -188,6 +188,15 @@ void remove_old_socket(const std::string& path) {
 
 }  // namespace
 
+std::string objection_to_address(const std::string& text) {
+  try {
+    find_address(text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 std::unique_ptr<Channel> listen(const std::string& text, double patience) {
   const Address address = find_address(text);
   remove_old_socket(address.path);

@@ -300,6 +300,9 @@ CoupledRun::CoupledRun(const Options& deck, const coupling::PartnerRegistry& kno
     if (serves(side.port_name)) {
       throw InputError(entry.where(), "port '" + side.port_name + "' has a partner already");
     }
+    const auto port = std::find_if(ports.begin(), ports.end(),
+                                   [&](const auto& one) { return one->name() == side.port_name; });
+    std::string objection;
     on_root(comm_, [&] {
       if (is_replay_) {
         side.partner = std::make_unique<coupling::ReplayedPartner>(
@@ -307,11 +310,14 @@ CoupledRun::CoupledRun(const Options& deck, const coupling::PartnerRegistry& kno
         return;
       }
       side.partner = known.make(entry.text("Type"), entry);
+      objection = side.partner->objection((*port)->size());
       if (!settings_.flag("Record")) return;
       side.partner = std::make_unique<coupling::RecordedPartner>(
           std::move(side.partner),
           files.folder / ("coupling_" + output::file_part(side.name) + ".record"));
     });
+    if (comm_.size() > 1) objection = comm_.broadcast(objection);
+    if (!objection.empty()) throw InputError(entry.where(), objection);
     sides_.push_back(std::move(side));
   }
 }
@@ -335,10 +341,7 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
   Window window(stepper, system, sides_, length);
   if (!has_begun_) {
     system.synchronise(stepper.state());
-    system.complete(stepper.state().prev);
-    for (Side& side : sides_)
-      side.velocity = as_vector(side.port->read(Quantity::velocity, stepper.state()));
-    begin(stepper.time());
+    begin(stepper.state());
   }
   for (Side& side : sides_) side.velocity = window.velocity(side);
   while (!stepper.is_at_end()) {
@@ -358,7 +361,7 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
   return report;
 }
 
-void CoupledRun::begin(double time) {
+void CoupledRun::begin(const model::State& state) {
   has_begun_ = true;
   const bool goes_on = resumed_ != nullptr && resumed_->has("coupling/counts");
   Eigen::Index count = 0;
@@ -380,11 +383,8 @@ void CoupledRun::begin(double time) {
     const std::string prefix = "coupling/side " + side.name + "/";
     double wanted = 0.0;
     on_root(comm_, [&] {
-      side.partner->begin({side.port_name,
-                           time,
-                           side.port->reference(),
-                           {side.velocity.begin(), side.velocity.end()},
-                           windows_});
+      side.partner->begin({side.port_name, state.time_prev, side.port->reference(),
+                           side.port->read(Quantity::velocity, state), windows_});
       if (goes_on) side.partner->restore(prefix, *resumed_);
       wanted = side.partner->wanted();
     });

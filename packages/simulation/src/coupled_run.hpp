@@ -50,7 +50,7 @@ class CoupledRun {
   struct Side;   // a port and its partner
   class Window;  // the steps of one window
 
-  void begin(double time);
+  void begin(const model::State& state);
   /// @return false if the structure did not converge with the loads that it began with
   bool make_window(Window& window);
   bool repeat(Window& window);

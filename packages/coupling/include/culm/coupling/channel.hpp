@@ -18,6 +18,9 @@ class Channel {
   virtual bool wants_signs_of_life() const { return true; }
 };
 
+/// Why a text is no address; empty if it is one.
+std::string objection_to_address(const std::string& text);
+
 /// Waits at an address until another program comes. Throws PartnerError if none comes for so long
 /// [s], UsageError for what is no address, FileError where it is taken.
 /// @param address  'unix:PATH', or 'tcp:PORT' for this machine, or 'tcp:ADDRESS:PORT' for all that

@@ -14,6 +14,11 @@ namespace culm::coupling {
 class Partner {
  public:
   virtual ~Partner() = default;
+  /// Why it cannot serve a port of so many points; empty if it can. Known from the beginning.
+  virtual std::string objection(int points) const {
+    (void)points;
+    return {};
+  }
   /// Once, before the first window. Throws PartnerError where they do not fit together.
   virtual void begin(const Beginning& beginning) = 0;
   /// What it must know of each window; known after begin.

@@ -16,7 +16,8 @@ class PressurePartner final : public Partner {
   PressurePartner(double pressure, std::vector<port::Face> faces)
       : pressure_(pressure), faces_(std::move(faces)) {}
 
-  void begin(const Beginning& beginning) override;
+  std::string objection(int points) const override { return port::objection_to(faces_, points); }
+  void begin(const Beginning&) override {}
   Quantities wanted() const override {
     return bit(port::Quantity::position) | bit(port::Quantity::motion);
   }
