@@ -31,6 +31,7 @@ Catalogue::Catalogue() {
   register_sampled_signal(signals);
   joint::register_joints(constraints);
   load::register_loads(loads);
+  flow::register_flows(flows);
   port::register_ports(ports);
   coupling::register_partners(partners);
   register_mpi_partner(partners);
@@ -174,6 +175,8 @@ Schema Catalogue::deck_schema() const {
   all_structures.merge(shells.variants());
   all_structures.merge(hybrids.variants());
   all_structures.merge(bodies.variants());
+  Variants all_loads = loads.variants();
+  all_loads.merge(fluid_loads.variants());
   return Schema("culm", "An input deck.")
       .add(text("Title", "What the deck shows.").optional(""))
       .add(integer("Refinement",
@@ -217,7 +220,11 @@ Schema Catalogue::deck_schema() const {
             Schema("Constraints", "Supports and joints by name.")
                 .entries_by_type(constraints.variants()),
             Presence::defaulted)
-      .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(loads.variants()),
+      .list("Flows",
+            Schema("Flows", "Media by name that structures stand or move in.")
+                .entries_by_type(flows.variants()),
+            Presence::defaulted)
+      .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(std::move(all_loads)),
             Presence::defaulted)
       .list("Ports",
             Schema("Ports",

@@ -42,6 +42,36 @@ void build_all(const model::BuilderRegistry& registry, const Options& list,
   }
 }
 
+std::map<std::string, flow::SharedFlow> make_flows(const flow::FlowRegistry& registry,
+                                                   const Options& list,
+                                                   model::BuildContext& context) {
+  std::map<std::string, flow::SharedFlow> flows;
+  for (const Options& entry : list.entries()) {
+    try {
+      if (auto made = registry.make(entry.text("Type"), entry, context)) {
+        flows.emplace(entry.name(), std::move(made));
+      }
+    } catch (const InputError& error) {
+      for (const InputIssue& issue : error.issues()) context.issues.add(issue);
+    }
+  }
+  return flows;
+}
+
+// Loads of all kinds stand in one list, in any order.
+void build_loads(const Catalogue& catalogue, const Options& list, const Inactive& inactive,
+                 flow::FluidContext& fluids) {
+  for (const Options& entry : list.entries()) {
+    if (inactive.contains(entry.name())) continue;
+    if (catalogue.fluid_loads.contains(entry.text("Type"))) {
+      build_one(catalogue.fluid_loads, entry, fluids, fluids.build.issues);
+    } else {
+      build_one(catalogue.loads, entry, fluids.build, fluids.build.issues);
+    }
+  }
+  fluids.finish();
+}
+
 // Beams want sections, shells materials, bodies neither; a deck lists them together and in any
 // order.
 void build_structures(const Catalogue& catalogue, const Options& list,
@@ -207,7 +237,8 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   build_all(catalogue.masses, deck.list("Masses"), context);
   build_signals(catalogue.signals, deck.list("Signals"), model, functions, issues);
   build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
-  build_all(catalogue.loads, deck.list("Loads"), context, setting.inactive);
+  flow::FluidContext fluids(context, make_flows(catalogue.flows, deck.list("Flows"), context));
+  build_loads(catalogue, deck.list("Loads"), setting.inactive, fluids);
   auto ports = make_ports(catalogue, deck.list("Ports"), context);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
   auto watched =

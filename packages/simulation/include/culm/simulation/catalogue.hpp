@@ -5,6 +5,7 @@
 #include <culm/beam/register_beam.hpp>
 #include <culm/control/register_control.hpp>
 #include <culm/coupling/register_coupling.hpp>
+#include <culm/flow/fluid_context.hpp>
 #include <culm/hybrid/tube.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
@@ -32,6 +33,8 @@ struct Catalogue {
   control::SignalRegistry signals;
   model::BuilderRegistry constraints;
   model::BuilderRegistry loads;
+  flow::FlowRegistry flows;
+  flow::FluidLoadRegistry fluid_loads;  ///< in the list of loads, too
   port::PortRegistry ports;
   coupling::PartnerRegistry partners;
   analysis::AnalysisRegistry analyses;

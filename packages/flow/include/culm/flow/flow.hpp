@@ -1,0 +1,43 @@
+/// Media that structures stand or move in.
+#pragma once
+
+#include <culm/base/registry.hpp>
+#include <culm/math/types.hpp>
+#include <culm/model/build_context.hpp>
+
+#include <memory>
+#include <span>
+
+namespace culm::flow {
+
+/// A fluid with a velocity of its own at each place [m] and time [s], which structures do not
+/// disturb.
+class Flow {
+ public:
+  explicit Flow(double density) : density_(density) {}
+  virtual ~Flow() = default;
+
+  double density() const { return density_; }  ///< [kg/m^3]
+  /// Velocities at places, one each [m/s]. May throw InputError where the flow is not known.
+  virtual void velocities(std::span<const Vec3> places, double time,
+                          std::span<Vec3> velocities) const = 0;
+  /// The velocity at one place.
+  Vec3 velocity(const Vec3& place, double time) const {
+    Vec3 result;
+    velocities({&place, 1}, time, {&result, 1});
+    return result;
+  }
+
+ private:
+  double density_ = 0.0;
+};
+
+/// Shared by all loads that act in it.
+using SharedFlow = std::shared_ptr<const Flow>;
+/// Types of the deck's list "Flows", made when all structures are there.
+using FlowRegistry = Registry<SharedFlow, model::BuildContext&>;
+
+/// All types of this package: Uniform.
+void register_flows(FlowRegistry& registry);
+
+}  // namespace culm::flow
