@@ -41,6 +41,8 @@ const std::vector<PythonVerb>& python_verbs() {
       {"effects", "Tell what the effects of a scene cost, and what changes without each"},
       {"report", "Draw the page of a run: report.html in its folder"},
       {"study", "Measure what accuracy costs: vary a deck, compare with a reference, advise"},
+      {"sweep",
+       "Run a deck with many values, several runs at once or in the jobs of an array: sweep.csv"},
       {"view", "Write a page that shows a run in space and time: view.html in its folder"},
   };
   return verbs;

@@ -16,6 +16,7 @@ VERBS = {
     "hard": "margins of hard cases",
     "report": "draw the page of a run",
     "study": "measure what accuracy costs",
+    "sweep": "run a deck with many values",
     "view": "write a page that shows a run in space",
 }
 

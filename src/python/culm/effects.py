@@ -5,6 +5,7 @@ import dataclasses
 import pathlib
 
 from . import effects_table, quantities, removals
+from .at_once import at_once, declare_jobs
 from .errors import CulmError
 from .footnotes import Footnotes
 from .page import Page
@@ -37,6 +38,7 @@ def declare(parser):
     parser.add_argument("--norm", choices=quantities.NORMS, default="rms", help="of changes of histories")
     parser.add_argument("--accuracy", type=float, default=0.01, help="change that matters; 0.01 by default")
     parser.add_argument("--only", nargs="+", metavar="EFFECT", help="effects to take away; all by default")
+    declare_jobs(parser, "runs without an effect")
     parser.add_argument("--output", type=pathlib.Path, help="folder; effects/<name of the deck> by default")
 
 
@@ -49,16 +51,16 @@ def main(arguments, program):
     if not whole.succeeded:
         raise CulmError(whole.errors.strip() or whole.outcome, whole.exit or 4)
     print(f"{whole.cpu:9.2f} s  the whole scene")
+
+    def run_without(number):
+        settings = [*arguments.settings, *wanted[number].settings]
+        patience = max(30.0, PATIENCE * whole.wall)
+        return program.run(arguments.deck, folder / f"without {number}", settings, patience)
+
     outcomes = []
-    for number, removal in enumerate(wanted):
-        run = program.run(
-            arguments.deck,
-            folder / f"without {number}",
-            [*arguments.settings, *removal.settings],
-            max(30.0, PATIENCE * whole.wall),
-        )
+    for removal, run in zip(wanted, at_once(run_without, range(len(wanted)), arguments.jobs)):
         outcomes.append(_compare(removal, whole, run, watched, arguments.norm))
-        print(f"{run.cpu:9.2f} s  without {removal.effect} of {removal.where}")
+        print(f"{run.cpu:9.2f} s  without {removal.effect} of {removal.where}", flush=True)
     outcomes.sort(key=lambda one: (bool(one.failure), -one.change))
     present = whole.results.effects()
     print("\n" + _text(effects_table.COLUMNS, effects_table.rows(present)))
@@ -218,7 +220,8 @@ def _write_page(arguments, present, outcomes, whole, path):
     figure.savefig(path.with_suffix(".png"), dpi=110)
     page.paragraph(
         f"Changes are relative to the whole scene, norm '{arguments.norm}', the largest of what is watched; "
-        "times are those of single runs."
+        "times are those of single runs"
+        + (f", {arguments.jobs} of them at once." if arguments.jobs > 1 else ".")
     )
     page.write(path)
 

@@ -1,11 +1,10 @@
 """Runs the catalogue of hard cases, each with a growing stressor, until it fails or turns wrong."""
 
-import argparse
 import pathlib
-import re
 import subprocess
 import tempfile
 
+from ..at_once import at_once, declare_jobs, declare_part, share
 from ..errors import CulmError
 from . import margins
 from .case import KEYS
@@ -17,9 +16,8 @@ def declare(parser):
     parser.add_argument(
         "--only", nargs="+", metavar="WORD", default=[], help="keys, or parts of names of cases"
     )
-    parser.add_argument(
-        "--part", type=_part, metavar="K/N", default=(1, 1), help="every Nth case from the Kth on"
-    )
+    declare_part(parser, "cases")
+    declare_jobs(parser, "cases")
     parser.add_argument("--list", action="store_true", help="name the cases and run nothing")
     parser.add_argument("--quick", action="store_true", help="margins to a factor of 2 only")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="write the margins")
@@ -38,14 +36,6 @@ def declare(parser):
     )
 
 
-def _part(text):
-    """(K, N) of 'K/N', 1 <= K <= N."""
-    match = re.fullmatch(r"(\d+)/(\d+)", text)
-    if not match or not 1 <= int(match[1]) <= int(match[2]):
-        raise argparse.ArgumentTypeError(f"needs K/N with K from 1 to N, got '{text}'")
-    return int(match[1]), int(match[2])
-
-
 def main(arguments, program):
     from . import catalogue
     from .terminal import Terminal
@@ -54,8 +44,7 @@ def main(arguments, program):
     refusals = select(catalogue.ILL_POSED, arguments.only)
     if not cases and not refusals:
         raise CulmError(f"no case has one of {arguments.only} in its keys or name; see --list", 2)
-    first, step = arguments.part
-    cases, refusals = cases[first - 1 :: step], refusals[first - 1 :: step]
+    cases, refusals = share(cases, arguments.part), share(refusals, arguments.part)
     terminal = Terminal()
     if arguments.list:
         terminal.list(cases, refusals)
@@ -93,21 +82,22 @@ def _run(arguments, program, folder, cases, ill_posed, known, terminal):
 
     decks = pathlib.Path(program.path).parent.parent / "share/culm/inputs"
     trial = Trial(program, decks, folder, arguments.time_limit, keep=arguments.output is not None)
-    found, refused, shrunk = [], [], []
-    terminal.open()
-    for case in cases:
+    found, shrunk = [], []
+
+    def measure(case):
         before = known[0].get(case.name)
-        entry = (
-            trial.measure_again(case, before) if before else trial.measure(case, arguments.quick)
-        )
+        return trial.measure_again(case, before) if before else trial.measure(case, arguments.quick)
+
+    terminal.open()
+    for case, entry in zip(cases, at_once(measure, cases, arguments.jobs)):
         found.append(entry)
         terminal.show(entry)
+        before = known[0].get(case.name)
         if before and margins.has_shrunk(before, entry, case.resolution):
             shrunk.append(f"{case.name}: {before.margin:.3g} -> {entry.margin:.3g}")
-    for one in ill_posed:
-        refused.append(trial.refuse(one))
+    refused = list(at_once(trial.refuse, ill_posed, arguments.jobs))
     terminal.show_refusals(refused)
-    terminal.count(trial.runs, trial.cpu)
+    terminal.count(len(trial.times), sum(trial.times))
     return found, refused, shrunk
 
 

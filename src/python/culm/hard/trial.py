@@ -20,8 +20,7 @@ class Trial:
         self.folder = pathlib.Path(folder)
         self.time_limit = time_limit
         self.keep = keep
-        self.cpu = 0.0  # of all runs [s]
-        self.runs = 0
+        self.times = []  # CPU of all runs [s]; cases may be worked on side by side
 
     def measure(self, case, coarse=False):
         """The margin of a case.
@@ -79,8 +78,7 @@ class Trial:
     def _run(self, name, deck, settings):
         folder = self.folder / "".join(c if c.isalnum() or c in "+-." else "_" for c in name)
         run = self.program.run(self.decks / deck, folder, settings, self.time_limit)
-        self.cpu += run.cpu
-        self.runs += 1
+        self.times.append(run.cpu)
         return run
 
     def _resumes(self, run):
@@ -88,9 +86,8 @@ class Trial:
         and so has none, or if its deck was refused before there were results."""
         if not (run.folder / "run.checkpoint").exists():
             return run.results is None or run.results.scalars().get("accepted steps", 0) == 0
-        self.runs += 1
         again = self.program.resume(run.folder, walltime=1, time_limit=self.time_limit)
-        self.cpu += again.cpu
+        self.times.append(again.cpu)
         return again.exit in (0, 4, 5, 7)
 
     def _tidy(self, folder):

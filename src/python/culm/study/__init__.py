@@ -6,6 +6,7 @@ import shlex
 import sys
 
 from .. import quantities
+from ..at_once import declare_jobs
 from ..errors import CulmError
 from ..history import History
 from ..resolved_deck import ResolvedDeck
@@ -51,9 +52,7 @@ def declare(parser):
     parser.add_argument(
         "--repeat", type=int, default=3, help="times each run is timed; 3 if not given"
     )
-    parser.add_argument(
-        "--jobs", type=int, default=1, help="reference runs at once; they are not timed"
-    )
+    declare_jobs(parser, "reference runs, which are not timed,")
     parser.add_argument(
         "--time-limit", type=float, metavar="S", help="after which a run counts as failed"
     )
@@ -82,9 +81,8 @@ def main(arguments, program):
 
 
 def _check(arguments):
-    for name in ("repeat", "jobs"):
-        if getattr(arguments, name) < 1:
-            raise CulmError(f"--{name} {getattr(arguments, name)}: must be at least 1")
+    if arguments.repeat < 1:
+        raise CulmError(f"--repeat {arguments.repeat}: must be at least 1")
     if not 0 <= arguments.finer <= 3:
         raise CulmError(f"--finer {arguments.finer}: must be from 0 to 3")
     if arguments.target is not None and not 0.0 < arguments.target < 1.0:

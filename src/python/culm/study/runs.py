@@ -1,6 +1,5 @@
 """The runs of a study: one folder per settings, kept, so that a study that was stopped goes on."""
 
-import concurrent.futures
 import dataclasses
 import hashlib
 import json
@@ -9,6 +8,7 @@ import pathlib
 import shutil
 import statistics
 
+from ..at_once import at_once
 from ..errors import CulmError
 from ..history import History
 from ..program import DONE
@@ -46,7 +46,7 @@ class Record:
 class StudyRuns:
     """Makes runs, or finds them in the folder of the study."""
 
-    def __init__(self, program, deck, resolved, folder, time_limit=None, say=print):
+    def __init__(self, program, deck, resolved, folder, time_limit=None, say=print, needs_history=True):
         """@param resolved  ResolvedDeck: runs of another deck, of other files that it reads or of another
         program are not taken for its own"""
         self.program = program
@@ -56,6 +56,7 @@ class StudyRuns:
         self.folder = folder / "runs"
         self.time_limit = time_limit
         self.say = say
+        self.needs_history = needs_history
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def find(self, settings):
@@ -82,8 +83,11 @@ class StudyRuns:
 
         @param wanted  pairs of settings and label
         """
-        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(lambda one: self.find(one[0]) or self._run(*one, timed=False), wanted))
+        return list(self.each(wanted, jobs))
+
+    def each(self, wanted, jobs):
+        """The same, one after the other as they come."""
+        yield from at_once(lambda one: self.find(one[0]) or self._run(*one, timed=False), wanted, jobs)
 
     def _run(self, settings, label, timed):
         folder = self.folder / self._key(settings)
@@ -93,7 +97,7 @@ class StudyRuns:
         run = self._call(settings, part)
         times = [run.cpu] if timed and run.succeeded else []
         record = Record(list(settings), run.exit, run.outcome, _reason(run), times, run.broken, part)
-        if run.succeeded and not (part / "history.csv").exists():
+        if self.needs_history and run.succeeded and not (part / "history.csv").exists():
             raise CulmError("the deck has no analysis that writes a history", 3)
         _keep(record)
         os.replace(part, folder)

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Sweeps of small decks: several runs at once, in parts, collected, gone on with after a kill.
+
+usage: sweep.py --culm PROGRAM
+"""
+
+import argparse
+import csv
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/kit"))
+from culm_runs import INPUTS, MPI_ENVIRONMENT  # noqa: E402
+
+FLIGHT = INPUTS / "flight/spaghetti_3d.xml"
+SHORT = ["--set", "Analyses/motion/End Time=0.3"]
+STIFFNESS = "Sections/bar/EI1"
+TIME_LIMIT = 600  # s
+CULM = None
+
+
+class SweepTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="culm"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def start(self, *words, deck=FLIGHT):
+        return subprocess.Popen(
+            [CULM, "sweep", str(deck), "--output", str(self.folder / "sweep"), *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, **MPI_ENVIRONMENT},
+            start_new_session=True,
+        )
+
+    def sweep(self, *words, exit_code=0, deck=FLIGHT):
+        process = self.start(*words, deck=deck)
+        output, errors = process.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(process.returncode, exit_code, output + errors)
+        return output + errors
+
+    def rows(self):
+        with open(self.folder / "sweep/sweep.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def ended(self):
+        return [one.name for one in self.folder.glob("sweep/runs/*") if not one.suffix]
+
+    def cases(self, *lines):
+        path = self.folder / "cases.csv"
+        path.write_text("\n".join(lines) + "\n")
+        return str(path)
+
+
+class Sweeps(SweepTest):
+    def test_all_combinations_in_order_with_what_is_watched(self):
+        self.sweep("--vary", f"{STIFFNESS}=400,500", "step=0.1,0.05", *SHORT, "--watch", "other end", "--jobs", "2")
+        rows = self.rows()
+        self.assertEqual(
+            [(row[STIFFNESS], row["step"]) for row in rows],
+            [("400", "0.1"), ("400", "0.05"), ("500", "0.1"), ("500", "0.05")],
+        )
+        for row in rows:
+            self.assertEqual(row["outcome"], "done")
+            last, least, largest = (float(row[f"other end x [m] {which}"]) for which in ("last", "least", "largest"))
+            self.assertLessEqual(least, last)
+            self.assertLessEqual(last, largest)
+        self.assertNotEqual(rows[0]["other end x [m] last"], rows[1]["other end x [m] last"])
+        self.assertFalse([name for name in rows[0] if name.startswith("loaded end")])
+
+    def test_parts_are_disjoint_and_collected(self):
+        values = ["--vary", f"{STIFFNESS}=300,400,500", *SHORT]
+        self.sweep(*values, "--part", "1/2")
+        self.assertEqual(len(self.ended()), 2)
+        self.sweep(*values, "--collect", exit_code=4)
+        self.assertEqual([row["outcome"] for row in self.rows()], ["done", "not run", "done"])
+        before = set(self.ended())
+        self.sweep(*values, "--part", "2/2")
+        self.assertEqual(len(set(self.ended()) - before), 1)
+        output = self.sweep(*values, "--collect")
+        self.assertIn("3 runs: 3 done", output)
+
+    def test_a_failure_is_a_line_with_its_reason(self):
+        cases = self.cases(f"{STIFFNESS},Analyses/motion/Newton/Maximum Iterations", "500,20", "500,1")
+        output = self.sweep("--cases", cases, *SHORT, "--set", "Analyses/motion/Smallest Step=0.04", exit_code=4)
+        self.assertIn("1 done, 1 failed", output)
+        good, bad = self.rows()
+        self.assertEqual((good["outcome"], good["reason"]), ("done", ""))
+        self.assertEqual(bad["outcome"], "did not converge")
+        self.assertIn("iteration limit", bad["reason"])
+
+    def test_frequencies_are_collected(self):
+        self.sweep("--vary", "Refinement=1,2", deck=INPUTS / "modes/free_beam.xml")
+        columns = [name for name in self.rows()[0] if name.endswith("frequency [Hz]")]
+        self.assertTrue(columns)
+        self.assertTrue(all(float(row[columns[-1]]) > 0.0 for row in self.rows()))
+
+    def test_goes_on_after_a_kill(self):
+        lines = [f"{300 + i}" for i in range(12)]
+        cases = self.cases(STIFFNESS, *lines)
+        process = self.start("--cases", cases, *SHORT, "--jobs", "2")
+        end = time.monotonic() + TIME_LIMIT
+        while len(self.ended()) < 3 and time.monotonic() < end:
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        kept = {name: (self.folder / "sweep/runs" / name).stat().st_mtime_ns for name in self.ended()}
+        self.assertGreaterEqual(len(kept), 3)
+        self.assertLess(len(kept), len(lines))
+        output = self.sweep("--cases", cases, *SHORT, "--jobs", "2")
+        self.assertIn("12 runs: 12 done", output)
+        for name, made in kept.items():
+            self.assertEqual((self.folder / "sweep/runs" / name).stat().st_mtime_ns, made)
+
+
+class Nonsense(SweepTest):
+    def test_says_what_is_wrong(self):
+        listed = self.cases(f"{STIFFNESS},step", "500")
+        for words, code, text in (
+            ([], 2, "nothing varies"),
+            (["--vary", "step=0.1,0.05", "--cases", listed], 2, "exclude each other"),
+            (["--cases", listed], 6, "line 2: 1 values for 2 names"),
+            (["--cases", str(self.folder / "none.csv")], 6, "none.csv"),
+            (["--vary", "Sections/bar/EII=1,2"], 3, "did you mean"),
+            (["--vary", "step=0.1,0.05", "--part", "3/2"], 2, "needs K/N"),
+            (["--vary", "step=0.1,0.05", "--jobs", "0"], 2, "whole number"),
+        ):
+            with self.subTest(words=words):
+                self.assertIn(text, self.sweep(*words, exit_code=code))
+                self.assertEqual(self.ended(), [])
+
+
+def main():
+    global CULM
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--culm", required=True)
+    arguments, others = parser.parse_known_args()
+    CULM = arguments.culm
+    unittest.main(argv=[sys.argv[0], *others])
+
+
+if __name__ == "__main__":
+    main()
