@@ -35,7 +35,7 @@ SoundRun record_run() {
     recorder.add_history(0.5 * i, std::array{1.0 + i, 2.0});
   }
   SoundRun run;
-  run.mark = recorder.mark();
+  run.mark = recorder.commit();
   recorder.close();
   std::ifstream file(path, std::ios::binary);
   run.bytes.assign(std::istreambuf_iterator<char>(file), {});

@@ -194,19 +194,20 @@ Handle Hdf5File::make_growing_table(hid_t where, const std::string& name, hsize_
           H5Dclose};
 }
 
-void Hdf5File::append_row(hid_t table, hsize_t row, std::span<const double> values) {
-  const std::array<hsize_t, 2> size{row + 1, values.size()};
+void Hdf5File::append_rows(hid_t table, hsize_t first, hsize_t columns,
+                           std::span<const double> values) {
+  const std::array<hsize_t, 2> count{values.size() / columns, columns};
+  const std::array<hsize_t, 2> size{first + count[0], columns};
   check(H5Dset_extent(table, size.data()), "extend table");
   const Handle file_space(check(H5Dget_space(table), "extend table"), H5Sclose);
-  const std::array<hsize_t, 2> start{row, 0};
-  const std::array<hsize_t, 2> count{1, values.size()};
+  const std::array<hsize_t, 2> start{first, 0};
   check(H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
                             nullptr),
         "extend table");
-  const Handle row_space = simple_space({1, values.size()});
-  check(H5Dwrite(table, H5T_NATIVE_DOUBLE, row_space.id(), file_space.id(), H5P_DEFAULT,
+  const Handle rows_space = simple_space({count[0], count[1]});
+  check(H5Dwrite(table, H5T_NATIVE_DOUBLE, rows_space.id(), file_space.id(), H5P_DEFAULT,
                  values.data()),
-        "write table row");
+        "write table rows");
 }
 
 void Hdf5File::write_attribute(hid_t where, const std::string& name, hid_t type, hid_t space,

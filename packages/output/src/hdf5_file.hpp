@@ -47,10 +47,11 @@ class Hdf5File {
              const Shape& shape);
   void write(hid_t where, const std::string& name, std::span<const int> values);
   void write(hid_t where, const std::string& name, const std::string& text);
-  /// An empty table of doubles that grows by append_row().
+  /// An empty table of doubles that grows by append_rows().
   Handle make_growing_table(hid_t where, const std::string& name, hsize_t columns);
-  /// @param row  number of rows so far
-  void append_row(hid_t table, hsize_t row, std::span<const double> values);
+  /// @param first   number of rows so far
+  /// @param values  row after row
+  void append_rows(hid_t table, hsize_t first, hsize_t columns, std::span<const double> values);
 
   void set_attribute(hid_t where, const std::string& name, double value);
   void set_attribute(hid_t where, const std::string& name, int value);

@@ -10,6 +10,7 @@
 #include "names.hpp"
 #include "replace_file.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace culm::output {
@@ -212,19 +213,28 @@ class Recorder::File {
       write_state(file_, step.id(), meshes_[s], frame.structures[s]);
     }
     if (!frame.arrays.empty()) write_arrays(step.id(), frame.arrays);
-    file_.flush();
     ++mark_.steps;
     mark_.steps_sum += file_.take_sum();
+    if (is_due()) commit();
   }
 
   void add_history(double time, std::span<const double> values) {
     internal_check(values.size() == columns_, "one value per history column");
-    std::vector<double> row{time};
-    row.insert(row.end(), values.begin(), values.end());
-    file_.append_row(history_.id(), mark_.rows, row);
-    file_.flush();
+    pending_.push_back(time);
+    pending_.insert(pending_.end(), values.begin(), values.end());
     ++mark_.rows;
-    mark_.history_sum = chain(mark_.history_sum, std::as_bytes(std::span(row)));
+    mark_.history_sum =
+        chain(mark_.history_sum, std::as_bytes(std::span(pending_).last(columns_ + 1)));
+    if (is_due()) commit();
+  }
+
+  // Brings the file up to date.
+  void commit() {
+    const std::size_t rows = pending_.size() / (columns_ + 1);
+    if (rows > 0) file_.append_rows(history_.id(), mark_.rows - rows, columns_ + 1, pending_);
+    pending_.clear();
+    file_.flush();
+    committed_at_ = Clock::now();
   }
 
   void write_report(const std::string& text, std::span<const NamedScalar> scalars,
@@ -243,7 +253,7 @@ class Recorder::File {
     }
     for (const NamedTable& table : tables) write_table(report.id(), table);
     write_findings(report.id(), findings);
-    file_.flush();
+    commit();
   }
 
   void write_results(const AnalysisResults& results) {
@@ -265,20 +275,25 @@ class Recorder::File {
       file_.write(entries.id(), "column", matrix.column);
       file_.write(entries.id(), "value", matrix.value, {matrix.value.size()});
     }
-    file_.flush();
     mark_.results[results.name] = file_.take_sum();
+    commit();
   }
 
   const RecordMark& mark() const { return mark_; }
 
   void close() {
+    commit();
     file_.check(steps_.close(), "close steps");
     file_.check(history_.close(), "close history");
     file_.close();
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct Unnamed {};
+
+  // A commit takes as long as some steps of a small model.
+  bool is_due() const { return Clock::now() - committed_at_ > std::chrono::milliseconds(100); }
 
   // A file that is not in its place yet, and goes if it does not come there.
   File(const std::filesystem::path& temporary, const RunInfo& info,
@@ -315,8 +330,9 @@ class Recorder::File {
       copy_group(from, steps.id(), file_, steps_.id(), step_name(step.index));
     }
     const std::size_t width = columns_ + 1;
-    for (std::size_t row = 0; row < mark.rows; ++row) {
-      file_.append_row(history_.id(), row, std::span(recorded.history).subspan(row * width, width));
+    if (mark.rows > 0) {
+      file_.append_rows(history_.id(), 0, width,
+                        std::span(recorded.history).first(mark.rows * width));
     }
     if (mark.results.empty()) return;
     const Handle analyses = open_group(from, from.id(), "analyses");
@@ -377,6 +393,8 @@ class Recorder::File {
   Hdf5File file_;
   Handle steps_;
   Handle history_;
+  std::vector<double> pending_;  // rows of the history that are not in the file yet
+  Clock::time_point committed_at_;
   RecordMark mark_;
 };
 
@@ -395,8 +413,10 @@ Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
   file_ = std::make_unique<File>(path, info, std::move(meshes), history, mark, recorded);
 }
 
-const RecordMark& Recorder::mark() const {
+const RecordMark& Recorder::commit() {
   internal_check(file_ != nullptr, "the recorder is closed");
+  const QuietHdf5 quiet;
+  file_->commit();
   return file_->mark();
 }
 
@@ -406,7 +426,13 @@ Recorder::Recorder(Recorder&&) noexcept = default;
 Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 
 Recorder::~Recorder() {
+  if (!file_) return;
   const QuietHdf5 quiet;
+  try {
+    file_->commit();
+  } catch (const Error&) {
+    // The file keeps its last commit; a destructor has nobody to tell.
+  }
   file_.reset();
 }
 

@@ -10,12 +10,14 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <string>
+#include <thread>
 
 namespace culm::output {
 namespace {
@@ -39,6 +41,7 @@ TEST(Recorder, StepsReadBackWhileTheFileIsOpen) {
   const std::vector<StructureMesh> meshes = sample_meshes(4);
   Recorder recorder = make_recorder(folder / "run.h5");
   for (int i = 0; i < 3; ++i) recorder.record(sample_frame(meshes, i));
+  recorder.commit();
   const auto read = [&](const std::string& name) {
     return read_dataset(folder / "run.h5", "/steps/000002/" + name);
   };
@@ -59,14 +62,14 @@ TEST(Recorder, StepsReadBackWhileTheFileIsOpen) {
   EXPECT_THAT(read("%arrays/multipliers"), ElementsAre(1, 2, 3));
 }
 
-TEST(Recorder, AFileThatVanishesOrIsReplacedIsAFileErrorAtTheNextFlush) {
+TEST(Recorder, AFileThatVanishesOrIsReplacedIsAFileErrorAtTheNextCommit) {
   const TemporaryFolder folder;
   const auto path = folder / "run.h5";
   const auto add = [&](auto change) {
     Recorder recorder = make_recorder(path);
     recorder.add_history(0.0, std::array{1.0, 2.0});
     change();
-    recorder.add_history(1.0, std::array{1.0, 2.0});
+    recorder.commit();
   };
   EXPECT_THROW(add([&] { std::filesystem::remove(path); }), FileError);
   EXPECT_THROW(add([&] {
@@ -144,6 +147,7 @@ TEST(Recorder, HistoryGrowsRowByRow) {
     recorder.add_history(0.5 * i, std::array{1.0 * i, -2.0 * i});
     expected.insert(expected.end(), {0.5 * i, 1.0 * i, -2.0 * i});
   }
+  EXPECT_EQ(recorder.commit().rows, 1000U);
   EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values"), expected);
 }
 
@@ -185,7 +189,30 @@ print(repr(f['report/text'].asstr()[()]), {k: (s[k][()], s[k].attrs['unit']) for
             "'finished\\n' {'a%2Fb': (2.0, ''), 'energy drift': (1e-12, 'J')}\n");
 }
 
-TEST(Recorder, KilledRunLosesAtMostTheStepItWrote) {
+TEST(Recorder, WhatIsAddedIsInTheFileWithinATenthOfASecond) {
+  const TemporaryFolder folder;
+  Recorder recorder = make_recorder(folder / "run.h5");
+  recorder.add_history(0.0, std::array{1.0, 2.0});
+  recorder.add_history(1.0, std::array{1.0, 2.0});
+  std::this_thread::sleep_for(std::chrono::milliseconds(101));
+  recorder.add_history(2.0, std::array{1.0, 2.0});
+  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values").size(), 9U);
+}
+
+TEST(Recorder, WithoutACloseTheFileIsCompleteAllTheSame) {
+  const TemporaryFolder folder;
+  {
+    Recorder recorder = make_recorder(folder / "run.h5");
+    for (int i = 0; i < 50; ++i) {
+      recorder.record(sample_frame(sample_meshes(4), i));
+      recorder.add_history(i, std::array{1.0, 2.0});
+    }
+  }
+  EXPECT_EQ(count_links(folder / "run.h5", "/steps"), 50);
+  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values").size(), 150U);
+}
+
+TEST(Recorder, KilledRunLosesAtMostWhatCameAfterItsLastCommit) {
   for (int round = 0; round < 8; ++round) {
     const TemporaryFolder folder;
     int progress[2];
@@ -197,6 +224,8 @@ TEST(Recorder, KilledRunLosesAtMostTheStepItWrote) {
       for (frame.index = 0;; ++frame.index) {
         recorder.record(frame);
         recorder.add_history(frame.index, std::array{1.0 * frame.index, 0.0});
+        if (frame.index % 5 != 4) continue;
+        recorder.commit();
         if (::write(progress[1], &frame.index, sizeof frame.index) < 0) ::_exit(1);
       }
     }
@@ -223,7 +252,7 @@ RecordMark write_run(const std::filesystem::path& path, int steps) {
   for (int i = 0; i < steps; ++i) {
     if (i == 3) {
       recorder.write_results({"modes", {{"table", {"f"}, {{1.5}, {2.5}}, {}}}, {}, {}, {}});
-      mark = recorder.mark();
+      mark = recorder.commit();
     }
     recorder.record(sample_frame(sample_meshes(4), i));
     recorder.add_history(i, std::array{10.0 * i, 0.5});
@@ -263,7 +292,7 @@ TEST(Recorder, AnEarlierRunGoesOnAsItWasThen) {
       recorder.record(sample_frame(meshes, i));
       recorder.add_history(i, std::array{10.0 * i, 0.5});
     }
-    EXPECT_EQ(find_recorded(path, info.run, recorder.mark()).steps.size(), 5U);
+    EXPECT_EQ(find_recorded(path, info.run, recorder.commit()).steps.size(), 5U);
     recorder.close();
   }
   EXPECT_EQ(count_links(path, "/steps"), 5);
@@ -372,7 +401,7 @@ TEST(Recorder, OldFileStaysIfTheNewOneCannotBeMade) {
 }
 
 // In a process of its own, because the limit cannot be lifted again.
-TEST(Recorder, FullDiskIsAFileErrorAndKeepsEarlierSteps) {
+TEST(Recorder, FullDiskIsAFileErrorAndKeepsEarlierCommits) {
   const TemporaryFolder folder;
   const pid_t child = ::fork();
   if (child == 0) {
@@ -383,7 +412,10 @@ TEST(Recorder, FullDiskIsAFileErrorAndKeepsEarlierSteps) {
     try {
       Recorder recorder = make_recorder(folder / "run.h5");
       Frame frame = sample_frame(sample_meshes(4), 1);
-      for (frame.index = 0; frame.index < 1000; ++frame.index) recorder.record(frame);
+      for (frame.index = 0; frame.index < 1000; ++frame.index) {
+        recorder.record(frame);
+        if (frame.index == 2) recorder.commit();
+      }
     } catch (const FileError& error) {
       code = std::string(error.what()).find("File too large") != std::string::npos ? 6 : 2;
     }

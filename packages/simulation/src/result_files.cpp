@@ -93,7 +93,7 @@ void ResultFiles::save(Snapshot& snapshot) const {
   snapshot.set_text("run/id", settings_.info.run);
   snapshot.set_text("run/deck", settings_.info.deck);
   snapshot.set_text("run/model", settings_.info.model);
-  if (files_ != nullptr) save_mark(files_->recorder.mark(), snapshot);
+  if (files_ != nullptr) save_mark(files_->recorder.commit(), snapshot);
   std::vector<double> memories;
   for (const WatchedQuantity& watched : *watched_) memories.push_back(watched.quantity->memory());
   snapshot.set("output/memories", std::move(memories));

@@ -43,8 +43,9 @@ struct RunInfo {
 ///
 /// In names the characters / : % | are written as %XX.
 ///
-/// Each record(), add_history() and write_report() takes effect in the file as a whole before it
-/// returns: a killed process loses at most the step it was writing. If it is killed in the
+/// What was added takes effect in the file as a whole, by commits: one with each report and each
+/// result of an analysis, otherwise one for all that came in a tenth of a second, so that slow
+/// steps have one each. A killed process loses what it added since. If it is killed in the
 /// microseconds of a commit, run.h5.journal holds the rest of it and recover_run() brings it home.
 /// Viewers may read the file meanwhile. Call it on one process only. All functions throw FileError
 /// with path and reason.
@@ -62,7 +63,7 @@ class Recorder {
            const RecordMark& mark, const Recorded& recorded);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
-  /// Closes the file; use close() to learn whether that worked.
+  /// Brings the file up to date and closes it; use close() to learn whether that worked.
   ~Recorder();
 
   /// Writes one step. Its index must not have been used before.
@@ -82,8 +83,8 @@ class Recorder {
                     std::span<const NamedTable> tables = {},
                     std::span<const Finding> findings = {});
 
-  /// What the file holds by now.
-  const RecordMark& mark() const;
+  /// Brings the file up to date, and says what it holds then.
+  const RecordMark& commit();
 
   /// Closes the file; nothing can be recorded afterwards.
   void close();
