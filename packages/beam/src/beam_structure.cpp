@@ -209,7 +209,7 @@ Schema beam_schema() {
   return schema;
 }
 
-void add_beam(const Options& options, StructureContext& context) {
+void add_beam(const Options& options, structure::StructureContext& context) {
   const ElementKind kind = read_kind(options);
   const Fidelity fidelity = read_fidelity(options);
   const bool is_rigid = fidelity == Fidelity::rigid;

@@ -3,7 +3,7 @@
 
 namespace culm::beam {
 
-void register_structures(StructureRegistry& registry) {
+void register_beams(structure::StructureRegistry& registry) {
   registry.add("Beam", beam_schema(), add_beam);
 }
 

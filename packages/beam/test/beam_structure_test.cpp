@@ -36,7 +36,7 @@ class BeamStructure : public testing::Test {
  protected:
   const model::Structure& add(const GivenValues& beam, const std::string& curve_type,
                               const GivenValues& curve) {
-    StructureContext context{model, sections, issues, log, refinement};
+    structure::StructureContext context{model, sections, materials, issues, log, refinement};
     add_beam(beam_list(beam, curve_type, curve), context);
     return *model.find_structure("blade");
   }
@@ -54,6 +54,7 @@ class BeamStructure : public testing::Test {
   int refinement = 1;
   model::Model model;
   std::map<std::string, material::Section> sections{{"tube", section()}};
+  std::map<std::string, material::Material> materials;
   InputIssues issues;
   std::ostringstream messages;
   Log log{messages, LogLevel::info};
@@ -87,7 +88,7 @@ TEST_F(BeamStructure, ElementsOfOneKindShareABatch) {
 TEST_F(BeamStructure, WeighsWhatItsSectionsWeigh) {
   for (const GivenValues& kind : {director_1, director_2, helical}) {
     model::Model fresh;
-    StructureContext context{fresh, sections, issues, log};
+    structure::StructureContext context{fresh, sections, materials, issues, log};
     add_beam(beam_list(kind, "Line",
                        {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, 3}}, {"Elements", 4}}),
              context);
@@ -182,9 +183,9 @@ TEST_F(BeamStructure, HelicalElementsHaveNoOrder) {
             std::vector<std::string>{"helical elements have two nodes: leave 'Order' out"});
 }
 
-TEST(RegisterStructures, OffersTheBeam) {
-  StructureRegistry registry;
-  register_structures(registry);
+TEST(RegisterBeams, OffersTheBeam) {
+  structure::StructureRegistry registry;
+  register_beams(registry);
   EXPECT_EQ(registry.names(), std::vector<std::string>{"Beam"});
 }
 
@@ -211,7 +212,7 @@ TEST_F(BeamStructure, RigidBeamWeighsAndTurnsAsTheFullOne) {
                            {"Elements", 6}};
   GivenValues given = director_2;
   model::Model whole;
-  StructureContext context{whole, sections, issues, log};
+  structure::StructureContext context{whole, sections, materials, issues, log};
   add_beam(beam_list(given, "Arc", curved), context);
   given.push_back({"Fidelity", std::string("Rigid")});
   add(given, "Arc", curved);
@@ -263,7 +264,7 @@ TEST_F(BeamStructure, RotaryInertiaGoesAndTheMassStaysAtItsCentre) {
   add_line(given);
   given.push_back({"Rotary Inertia", 0.0});
   model::Model points;
-  StructureContext context{points, sections, issues, log};
+  structure::StructureContext context{points, sections, materials, issues, log};
   add_beam(beam_list(given, "Line",
                      {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, 3}}, {"Elements", 4}}),
            context);

@@ -21,7 +21,7 @@ Field radius_field() { return number("Radius", "m", "Radius of the circle.").pos
 Field height_field() { return number("Height", "m", "Extent along d3.").positive(); }
 
 // Adds a structure of one node with mass.
-void build(const Options& options, const Inertia& inertia, model::BuildContext& context) {
+void build(const Options& options, const Inertia& inertia, structure::StructureContext& context) {
   const Mat3 triad = Eigen::Map<const Mat3>(options.numbers("Directors").data());
   if (triad_defect(triad) > 1e-6) {
     context.issues.add(options.where("Directors"),
@@ -41,11 +41,11 @@ void build(const Options& options, const Inertia& inertia, model::BuildContext& 
   model.masses("Rigid bodies").add(node, mass_matrix(inertia));
 }
 
-void add_shape(model::BuilderRegistry& registry, Schema schema,
+void add_shape(structure::StructureRegistry& registry, Schema schema,
                std::function<Inertia(const Options&)> inertia) {
   const std::string type = schema.name();
   registry.add(type, std::move(schema),
-               [inertia](const Options& options, model::BuildContext& context) {
+               [inertia](const Options& options, structure::StructureContext& context) {
                  build(options, inertia(options), context);
                });
 }
@@ -72,7 +72,7 @@ void build_point_mass(const Options& options, model::BuildContext& context) {
 
 }  // namespace
 
-void register_bodies(model::BuilderRegistry& registry) {
+void register_bodies(structure::StructureRegistry& registry) {
   Schema by_numbers = body_schema("Rigid Body", "Rigid body by its mass properties.");
   by_numbers.add(number("Mass", "kg", "Mass.").positive())
       .add(model::vector_field("Centre", "m", "Centre of mass from the node, in its directors.")

@@ -8,6 +8,7 @@
 #include <culm/material/tube_section.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/shell/shell_structure.hpp>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -59,8 +60,9 @@ Schema tube_schema() {
   return schema;
 }
 
-const material::Material& find_material(const Options& options, const HybridContext& context) {
-  const auto& materials = context.shells.materials;
+const material::Material& find_material(const Options& options,
+                                        const structure::StructureContext& context) {
+  const auto& materials = context.materials;
   const std::string& name = options.text("Material");
   if (const auto found = materials.find(name); found != materials.end()) return found->second;
   std::vector<std::string> names;
@@ -105,7 +107,7 @@ material::Section tube_section(const Options& options, const material::Material&
   return section;
 }
 
-void add_as_beam(const Options& tube, HybridContext& context) {
+void add_as_beam(const Options& tube, structure::StructureContext& context) {
   const material::Material& material = find_material(tube, context);
   const std::string name = "tube";
   const Schema schema = beam::beam_schema();
@@ -124,10 +126,9 @@ void add_as_beam(const Options& tube, HybridContext& context) {
       .set("Elements", tube.integers("Elements")[1]);
   list.add_list(std::move(curve));
   const std::map<std::string, material::Section> sections{{name, tube_section(tube, material)}};
-  beam::StructureContext beams{context.beams.model,      sections,
-                               context.beams.issues,     context.beams.log,
-                               context.beams.refinement, context.beams.imperfection,
-                               context.beams.budget};
+  structure::StructureContext beams{context.model,        sections,      context.materials,
+                                    context.issues,       context.log,   context.refinement,
+                                    context.imperfection, context.budget};
   beam::add_beam(list, beams);
 }
 
@@ -156,19 +157,15 @@ void add_end(const Options& tube, const char* end, const char* edge, const Mat3&
   }
 }
 
-void add_as_shell(const Options& tube, HybridContext& context) {
-  shell::ShellRegistry shells;
-  shell::register_shells(shells);
-  const std::string type = "Shell";
-  const Schema schema = shells.variants().at(type);
+void add_as_shell(const Options& tube, structure::StructureContext& context) {
+  const Schema schema = shell::shell_schema();
   const Vec3 from = model::vector(tube, "From");
   const Vec3 axis = model::vector(tube, "To") - from;
   const Mat3 triad = triad_along(axis, model::vector(tube, "Up"));
   const double wall = tube.number("Wall Thickness");
   isotropic_moduli(find_material(tube, context), tube);
   Options list = default_list(schema, tube.name(), tube.where());
-  list.set("Type", type)
-      .set("Material", tube.text("Material"))
+  list.set("Material", tube.text("Material"))
       .set("Thickness", wall)
       .set("Reference Axis", numbers_of(axis));
   const std::string cylinder = "Cylinder";
@@ -180,12 +177,12 @@ void add_as_shell(const Options& tube, HybridContext& context) {
       .set("Origin", tube.numbers("From"))
       .set("Rotation", numbers_of(log_rotation(triad)));
   list.add_list(std::move(mesh));
-  shells.make(type, list, context.shells);
-  add_end(tube, "first", "v0", triad, context.shells.model);
-  add_end(tube, "last", "v1", triad, context.shells.model);
+  shell::add_shell(list, context);
+  add_end(tube, "first", "v0", triad, context.model);
+  add_end(tube, "last", "v1", triad, context.model);
 }
 
-void add_tube(const Options& tube, HybridContext& context) {
+void add_tube(const Options& tube, structure::StructureContext& context) {
   if (tube.text("Model") == "Beam") {
     add_as_beam(tube, context);
   } else {
@@ -195,6 +192,8 @@ void add_tube(const Options& tube, HybridContext& context) {
 
 }  // namespace
 
-void register_hybrids(HybridRegistry& registry) { registry.add("Tube", tube_schema(), add_tube); }
+void register_hybrids(structure::StructureRegistry& registry) {
+  registry.add("Tube", tube_schema(), add_tube);
+}
 
 }  // namespace culm::hybrid

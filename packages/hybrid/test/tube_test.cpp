@@ -37,9 +37,7 @@ class Tube : public testing::Test {
                                          {"Wall Thickness", 0.1},
                                          {"Elements", std::vector<int>{64, 4}}},
                                         "mast");
-    beam::StructureContext beams{model, sections, issues, log};
-    shell::ShellContext shells{model, materials, log};
-    HybridContext context{beams, shells};
+    structure::StructureContext context{model, sections, materials, issues, log};
     registry.make("Tube", tube, context);
   }
 
@@ -51,7 +49,7 @@ class Tube : public testing::Test {
     return model::NodeTable::slots(model.nodes().reference(), nodes.front());
   }
 
-  HybridRegistry registry;
+  structure::StructureRegistry registry;
   std::map<std::string, material::Material> materials;
   std::map<std::string, material::Section> sections;
   InputIssues issues;

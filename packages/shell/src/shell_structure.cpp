@@ -39,40 +39,6 @@ MeshRegistry meshes() {
   return registry;
 }
 
-Schema shell_schema() {
-  Schema schema("Shell", "Solid-degenerate shell of one or more layers on a surface.");
-  schema.add_all(material::layup_schema())
-      .add(numbers("Reference Axis", "1",
-                   "Vector whose projection on the surface is the axis 1 of materials and "
-                   "resultants; the first line of each element if absent.")
-               .size(3)
-               .optional())
-      .add(choice("Enhanced Membrane", {"None", "4", "7"},
-                  "Parameters of the enhanced membrane strain.")
-               .optional("4"))
-      .add(choice("Enhanced Thickness", {"None", "1", "4"},
-                  "Parameters of the enhanced thickness strain; without them bending is too stiff "
-                  "by Poisson's ratio.")
-               .optional("4"))
-      .add(flag("Assumed Strains",
-                "Transverse shear from the edges and thickness strain from the corners; without "
-                "them the element locks, which shows what they are good for.")
-               .optional(true))
-      .add(choice("Fidelity", {"Full", "Linear", "Rigid"},
-                  "Full: all there is. Linear: small displacements seen from a frame that moves "
-                  "along at will, added as structure 'NAME frame'; materials must be linear. "
-                  "Rigid: mass and inertia only; all nodes follow one that is added at their "
-                  "centre, as structure 'NAME body'.")
-               .optional("Full"))
-      .add(number("Fold Angle", "rad",
-                  "Elements whose normals differ by more at a common edge keep their own "
-                  "directors there.")
-               .between(0.0, 3.1)
-               .optional(20.0 * degree))
-      .list_by_type("Mesh", meshes().variants());
-  return schema;
-}
-
 int parameters(const std::string& choice) { return choice == "None" ? 0 : std::stoi(choice); }
 
 ShellOptions read_options(const Options& options) {
@@ -378,12 +344,49 @@ model::DeckNumbers number_as_in_deck(const ShellMesh& coarse, const ShellMesh& f
   return deck;
 }
 
-void take_from_budget(const ShellContext& context, double elements, const Options& mesh) {
+void take_from_budget(const structure::StructureContext& context, double elements,
+                      const Options& mesh) {
   if (context.budget == nullptr) return;
   context.budget->take(elements, elements * model::SizeBudget::shell_element, mesh.where());
 }
 
-void add_shell(const Options& options, ShellContext& context) {
+}  // namespace
+
+Schema shell_schema() {
+  Schema schema("Shell", "Solid-degenerate shell of one or more layers on a surface.");
+  schema.add_all(material::layup_schema())
+      .add(numbers("Reference Axis", "1",
+                   "Vector whose projection on the surface is the axis 1 of materials and "
+                   "resultants; the first line of each element if absent.")
+               .size(3)
+               .optional())
+      .add(choice("Enhanced Membrane", {"None", "4", "7"},
+                  "Parameters of the enhanced membrane strain.")
+               .optional("4"))
+      .add(choice("Enhanced Thickness", {"None", "1", "4"},
+                  "Parameters of the enhanced thickness strain; without them bending is too stiff "
+                  "by Poisson's ratio.")
+               .optional("4"))
+      .add(flag("Assumed Strains",
+                "Transverse shear from the edges and thickness strain from the corners; without "
+                "them the element locks, which shows what they are good for.")
+               .optional(true))
+      .add(choice("Fidelity", {"Full", "Linear", "Rigid"},
+                  "Full: all there is. Linear: small displacements seen from a frame that moves "
+                  "along at will, added as structure 'NAME frame'; materials must be linear. "
+                  "Rigid: mass and inertia only; all nodes follow one that is added at their "
+                  "centre, as structure 'NAME body'.")
+               .optional("Full"))
+      .add(number("Fold Angle", "rad",
+                  "Elements whose normals differ by more at a common edge keep their own "
+                  "directors there.")
+               .between(0.0, 3.1)
+               .optional(20.0 * degree))
+      .list_by_type("Mesh", meshes().variants());
+  return schema;
+}
+
+void add_shell(const Options& options, structure::StructureContext& context) {
   const auto layup =
       std::make_shared<const material::Layup>(material::read_layup(options, context.materials));
   if (options.text("Fidelity") == "Linear" && !layup->is_linear()) {
@@ -437,8 +440,8 @@ void add_shell(const Options& options, ShellContext& context) {
   add_sets(mesh, structure.nodes, context.model.nodes(), structure);
 }
 
-}  // namespace
-
-void register_shells(ShellRegistry& registry) { registry.add("Shell", shell_schema(), add_shell); }
+void register_shells(structure::StructureRegistry& registry) {
+  registry.add("Shell", shell_schema(), add_shell);
+}
 
 }  // namespace culm::shell

@@ -45,7 +45,7 @@ class ShellStructure : public testing::Test {
     Options list = kit::deck_list(*schema.find_slot("Mesh")->find(mesh_type), mesh, "Mesh");
     list.set("Type", mesh_type);
     options.add_list(list);
-    ShellContext context{target, materials, log, refinement};
+    structure::StructureContext context{target, sections, materials, issues, log, refinement};
     registry.make("Shell", options, context);
     return *target.find_structure("wall");
   }
@@ -55,8 +55,10 @@ class ShellStructure : public testing::Test {
   double thickness = 0.1;
   std::string fidelity = "Full";
   std::string material = "steel";
-  ShellRegistry registry;
+  structure::StructureRegistry registry;
+  std::map<std::string, material::Section> sections;
   std::map<std::string, material::Material> materials;
+  InputIssues issues;
   std::ostringstream printed;
   Log log{printed, LogLevel::info};
   model::Model model;

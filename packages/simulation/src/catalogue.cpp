@@ -1,8 +1,11 @@
+#include <culm/beam/register_beam.hpp>
 #include <culm/body/register_body.hpp>
+#include <culm/hybrid/tube.hpp>
 #include <culm/joint/register_joint.hpp>
 #include <culm/load/register_load.hpp>
 #include <culm/model/initial_motion.hpp>
 #include <culm/output/file_part.hpp>
+#include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/catalogue.hpp>
 
 #include "earlier_states.hpp"
@@ -19,10 +22,10 @@ namespace culm::simulation {
 Catalogue::Catalogue() {
   material::register_sections(sections);
   material::register_materials(materials);
-  beam::register_structures(structures);
-  shell::register_shells(shells);
-  hybrid::register_hybrids(hybrids);
-  body::register_bodies(bodies);
+  beam::register_beams(structures);
+  shell::register_shells(structures);
+  hybrid::register_hybrids(structures);
+  body::register_bodies(structures);
   body::register_masses(masses);
   model::register_initial_motions(initial_conditions);
   model::register_amplitudes(functions);
@@ -171,10 +174,6 @@ Schema::Check at_least_one(std::string what) {
 }  // namespace
 
 Schema Catalogue::deck_schema() const {
-  Variants all_structures = structures.variants();
-  all_structures.merge(shells.variants());
-  all_structures.merge(hybrids.variants());
-  all_structures.merge(bodies.variants());
   Variants all_loads = loads.variants();
   all_loads.merge(fluid_loads.variants());
   return Schema("culm", "An input deck.")
@@ -192,7 +191,7 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(materials.variants()),
             Presence::defaulted)
       .list("Structures", Schema("Structures", "Parts of the model by name.")
-                              .entries_by_type(std::move(all_structures))
+                              .entries_by_type(structures.variants())
                               .check(at_least_one("structure")))
       .list("Imperfections", imperfections_schema(), Presence::defaulted)
       .list("Masses",

@@ -72,29 +72,16 @@ void build_loads(const Catalogue& catalogue, const Options& list, const Inactive
   fluids.finish();
 }
 
-// Beams want sections, shells materials, bodies neither; a deck lists them together and in any
-// order.
-void build_structures(const Catalogue& catalogue, const Options& list,
-                      beam::StructureContext& beams, shell::ShellContext& shells,
-                      model::BuildContext& bodies) {
+void build_structures(const structure::StructureRegistry& registry, const Options& list,
+                      structure::StructureContext& context) {
   for (const Options& entry : list.entries()) {
     if (entry.name().find_first_of("/@") != std::string::npos) {
-      bodies.issues.add(entry.where(),
-                        "the name of a structure must not contain '/' or '@', which stand before "
-                        "its nodes and points");
+      context.issues.add(entry.where(),
+                         "the name of a structure must not contain '/' or '@', which stand before "
+                         "its nodes and points");
       continue;
     }
-    const std::string& type = entry.text("Type");
-    if (catalogue.bodies.contains(type)) {
-      build_one(catalogue.bodies, entry, bodies, bodies.issues);
-    } else if (catalogue.hybrids.contains(type)) {
-      hybrid::HybridContext both{beams, shells};
-      build_one(catalogue.hybrids, entry, both, bodies.issues);
-    } else if (catalogue.shells.contains(type)) {
-      build_one(catalogue.shells, entry, shells, bodies.issues);
-    } else {
-      build_one(catalogue.structures, entry, beams, bodies.issues);
-    }
+    build_one(registry, entry, context, context.issues);
   }
 }
 
@@ -224,11 +211,11 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   if (setting.is_path) functions.emplace("Ramp", model::Amplitude::level());
   const int refinement = deck.integer("Refinement");
   const model::Imperfection imperfection = imperfections.sum(setting.inactive);
-  beam::StructureContext beams{model, sections, issues, log, refinement, &imperfection, &budget};
-  shell::ShellContext shells{model, materials, log, refinement, &imperfection, &budget};
+  structure::StructureContext structures{model, sections,   materials,     issues,
+                                         log,   refinement, &imperfection, &budget};
   model::BuildContext context{model, functions, issues,
                               make_all(catalogue.fields, deck.list("Fields"), issues)};
-  build_structures(catalogue, deck.list("Structures"), beams, shells, context);
+  build_structures(catalogue.structures, deck.list("Structures"), structures);
   refuse_equal_names(deck.list("Structures"), context);
   // what follows refers to structures; without them every reference would be a mistake
   issues.throw_if_any();

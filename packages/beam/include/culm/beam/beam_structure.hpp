@@ -1,7 +1,7 @@
 /// The structure type "Beam" of the deck.
 #pragma once
 
-#include <culm/beam/register_beam.hpp>
+#include <culm/structure/structure_context.hpp>
 
 namespace culm::beam {
 
@@ -11,6 +11,6 @@ Schema beam_schema();
 /// Adds nodes, elements and a structure named like the list. Node sets: first, last, all; middle
 /// when a node lies at half the length; corners, the nodes at kinks, where there are any.
 /// Throws InputError.
-void add_beam(const Options& options, StructureContext& context);
+void add_beam(const Options& options, structure::StructureContext& context);
 
 }  // namespace culm::beam

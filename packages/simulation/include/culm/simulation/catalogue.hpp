@@ -2,16 +2,14 @@
 #pragma once
 
 #include <culm/analysis/register_analysis.hpp>
-#include <culm/beam/register_beam.hpp>
 #include <culm/control/register_control.hpp>
 #include <culm/coupling/register_coupling.hpp>
 #include <culm/flow/fluid_context.hpp>
-#include <culm/hybrid/tube.hpp>
 #include <culm/material/register_material.hpp>
 #include <culm/model/build_context.hpp>
 #include <culm/port/register_port.hpp>
-#include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/quantity.hpp>
+#include <culm/structure/structure_context.hpp>
 
 namespace culm::simulation {
 
@@ -22,10 +20,7 @@ struct Catalogue {
 
   Registry<material::Section> sections;
   Registry<material::Material> materials;
-  beam::StructureRegistry structures;
-  shell::ShellRegistry shells;  ///< structures, too
-  hybrid::HybridRegistry hybrids;
-  model::BuilderRegistry bodies;  ///< and these
+  structure::StructureRegistry structures;
   model::BuilderRegistry masses;
   model::BuilderRegistry initial_conditions;
   Registry<model::Amplitude> functions;
