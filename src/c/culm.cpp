@@ -106,6 +106,7 @@ struct culm_simulation {
 
   std::ostringstream said;
   std::string messages;
+  std::string broken;
   std::string error;
   Simulation simulation;
   Stepper* open_stepper = nullptr;
@@ -204,6 +205,21 @@ int culm_proposal(culm_simulation* simulation, double* target) {
 
 int culm_is_at_end(culm_simulation* simulation, int* is_at_end) {
   return with(simulation, [&](culm_simulation& s) { *is_at_end = s.stepper().is_at_end(); });
+}
+
+int culm_final_time(culm_simulation* simulation, double* time) {
+  return with(simulation, [&](culm_simulation& s) { *time = s.stepper().final_time(); });
+}
+
+int culm_is_exhausted(culm_simulation* simulation, int* is_exhausted) {
+  return with(simulation, [&](culm_simulation& s) { *is_exhausted = s.stepper().is_exhausted(); });
+}
+
+int culm_broken_promises(culm_simulation* simulation, const char** text) {
+  return with(simulation, [&](culm_simulation& s) {
+    s.broken = s.simulation.broken_promises();
+    *text = s.broken.c_str();
+  });
 }
 
 int culm_attempt(culm_simulation* simulation, double target, int* converged) {

@@ -20,7 +20,7 @@ extern "C" {
 #endif
 
 /* What this header describes: major * 1000 + minor. culm_open compares it with the library. */
-#define CULM_API_VERSION 1001
+#define CULM_API_VERSION 1002
 
 /* The communicator of all ranks, for culm_open. */
 #define CULM_WORLD (-1)
@@ -80,6 +80,8 @@ CULM_API int culm_time(culm_simulation* simulation, double* time);
 /* Where the next step should go. */
 CULM_API int culm_proposal(culm_simulation* simulation, double* target);
 CULM_API int culm_is_at_end(culm_simulation* simulation, int* is_at_end);
+/* Where the last step ends: a time [s] or a level; infinite where nobody knows, as on paths. Since 1002. */
+CULM_API int culm_final_time(culm_simulation* simulation, double* time);
 /* Solves a step from the accepted state to `target` with the loads as they are. */
 CULM_API int culm_attempt(culm_simulation* simulation, double target, int* converged);
 /* Makes the attempt the accepted state. */
@@ -88,8 +90,13 @@ CULM_API int culm_accept(culm_simulation* simulation);
 CULM_API int culm_discard(culm_simulation* simulation);
 /* Goes back; the next proposal is nearer. */
 CULM_API int culm_fail(culm_simulation* simulation);
+/* Whether nothing nearer than the last failure may be tried: the analysis has come to nothing. Since 1002. */
+CULM_API int culm_is_exhausted(culm_simulation* simulation, int* is_exhausted);
 /* Ends the analysis. */
 CULM_API int culm_finish(culm_simulation* simulation);
+/* Names the promises that did not hold in the analyses so far, such as the balance of energy, in one line; empty if all
+ * do. Analyses look at theirs at the latest in culm_finish. Valid until the next call of this. Since 1002. */
+CULM_API int culm_broken_promises(culm_simulation* simulation, const char** text);
 /* The accepted state, in memory; loads are not in it. */
 CULM_API int culm_save(culm_simulation* simulation, culm_snapshot** snapshot);
 CULM_API int culm_restore(culm_simulation* simulation, const culm_snapshot* snapshot);

@@ -289,11 +289,15 @@ PYBIND11_MODULE(_culm, module) {
           "time", [](const Handle& stepper) { return stepper->time(); },
           "Time [s] or level of the accepted state.")
       .def_property_readonly(
+          "final_time", [](const Handle& stepper) { return stepper->final_time(); },
+          "Where the last step ends: a time [s] or level; infinite where nobody knows.")
+      .def_property_readonly(
           "steps", [](const Handle& stepper) { return stepper->steps(); }, "Accepted steps so far.")
       .def_property_readonly("is_at_end",
                              [](const Handle& stepper) { return stepper->is_at_end(); })
-      .def_property_readonly("is_exhausted",
-                             [](const Handle& stepper) { return stepper->is_exhausted(); });
+      .def_property_readonly(
+          "is_exhausted", [](const Handle& stepper) { return stepper->is_exhausted(); },
+          "Whether nothing nearer than the last failure may be tried.");
 
   const auto column = [](Quantity quantity) {
     return [quantity](const PortHandle& port) { return read(port, quantity); };
@@ -380,5 +384,10 @@ PYBIND11_MODULE(_culm, module) {
           "velocities", [](Live& live) { return copy(live.simulation().state().velocity); },
           "Their rates at the accepted state [m/s, 1/s]; no nodes in statics.")
       .def("quantities", &quantities, "What the deck's history watches, by name and unit.")
+      .def_property_readonly(
+          "broken_promises", [](Live& live) { return live.simulation().broken_promises(); },
+          "Names the promises that did not hold in the analyses that have ended, in one line; "
+          "empty "
+          "if all do.")
       .def("messages", &Live::messages, "What culm said since the last call.");
 }

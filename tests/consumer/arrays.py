@@ -49,6 +49,7 @@ for other in seen[1:]:
     assert all(np.array_equal(a, b) for a, b in zip(seen[0], other))
 assert [a.shape for a in seen[0]] == [(3, 3), (3, 3, 3), (3, 6), (3, 6), (3, 6)]
 assert np.abs(seen[0][4]).max() > 1e-6
+assert stepper.final_time == 1.0 and not stepper.is_exhausted and mast.broken_promises == ""
 
 refused(culm.UsageError, "shape (points, 3)", net.set, force[:2].T)
 refused(culm.UsageError, "takes 9 values of force, got 6", net.set, force[:2])

@@ -20,8 +20,9 @@ int main(int argc, char **argv) {
   const char *structures[] = {"mast"};
   const double cloud[] = {0.2, 0.0, 3.0, 0.0, -0.1, 7.0};
   double force[6] = {30.0, 0.0, 5.0, 0.0, 20.0, 0.0}, moment[6] = {1.0, 2.0, 3.0, 0.0, 0.0, 0.0};
-  double first[12], again[12], end, work, resultant[3], about[3];
+  double first[12], again[12], end, last, work, resultant[3], about[3];
   int over, points, converged;
+  const char *promises;
   culm_snapshot *start = NULL;
   if (argc < 2) return 1;
 
@@ -45,6 +46,9 @@ int main(int argc, char **argv) {
   EXPECT(culm_is_at_end(mast, &over), CULM_OK, "");
   EXPECT(culm_proposal(mast, &end), CULM_OK, "");
   if (over || fabs(end - 0.05) > 1e-15) return 5;
+  EXPECT(culm_final_time(mast, &last), CULM_OK, "");
+  EXPECT(culm_is_exhausted(mast, &over), CULM_OK, "");
+  if (last != 1.0 || over) return 8;
   EXPECT(culm_accept(mast), CULM_USAGE, "");
   EXPECT(culm_port_set(mast, "nett", force, NULL, 2), CULM_USAGE, "did you mean 'net'?");
   EXPECT(culm_port_set(mast, "net", force, NULL, 1), CULM_USAGE, "takes 6 values of force, got 3");
@@ -76,6 +80,8 @@ int main(int argc, char **argv) {
   if (memcmp(first, again, sizeof first) != 0) return 7;
   culm_snapshot_free(start);
   EXPECT(culm_finish(mast), CULM_OK, "");
+  EXPECT(culm_broken_promises(mast, &promises), CULM_OK, "");
+  if (strcmp(promises, "") != 0) return 9;
   culm_close(mast);
   culm_end();
   printf("C: wrong calls are refused\n");

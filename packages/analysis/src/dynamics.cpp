@@ -235,7 +235,6 @@ StepReport Dynamics::do_attempt(double end) {
   }
   StepReport report;
   report.time = state.time = end;
-  report.final_time = settings_.steps.end_time;
   report.increment = end - state.time_prev;
   stencil_ = scheme_->begin(state, report.increment);
   system().prepare(state, stencil_);

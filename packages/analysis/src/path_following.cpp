@@ -90,7 +90,8 @@ void PathFollowing::do_begin() {
 void PathFollowing::balance_start() {
   model::State& state = this->state();
   StepReport report;
-  report.time = report.final_time = state.time;
+  report.time = state.time;
+  report.final_time = final_time();
   report.outcome = newton().solve(state, Stencil::statics());
   refuse_mirrored(context(), state, report.outcome);
   report.accepted = report.outcome.converged();
@@ -221,7 +222,6 @@ StepReport PathFollowing::do_attempt(double size) {
   }
   report.time = state().time;
   report.increment = state().time - state().time_prev;
-  report.final_time = std::numeric_limits<double>::infinity();
   return report;
 }
 

@@ -112,7 +112,6 @@ StepReport Statics::do_attempt(double level) {
   system().prepare(state(), stencil);
   StepReport report;
   report.time = level;
-  report.final_time = settings_.final_level;
   report.increment = level - state().time_prev;
   report.outcome = newton().solve(state(), stencil);
   refuse_mirrored(context(), state(), report.outcome);

@@ -45,6 +45,7 @@ const StepReport& Stepper::attempt(double target) {
     discard();
     throw;
   }
+  report_.final_time = final_time();
   report_.accepted = report_.outcome.converged();
   report_.step = steps_ + (report_.accepted ? 1 : 0);
   return report_;

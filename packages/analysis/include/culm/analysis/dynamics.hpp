@@ -34,6 +34,7 @@ class Dynamics final : public Stepper {
   static std::unique_ptr<Stepper> make(const Options& options, Context& context,
                                        model::State& state);
 
+  double final_time() const override { return settings_.steps.end_time; }
   const StepControl& control() const { return control_; }
   const Certificate& certificate() const { return certificate_; }
 

@@ -5,6 +5,7 @@
 #include <culm/analysis/path_settings.hpp>
 #include <culm/analysis/stepper.hpp>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ class PathFollowing final : public Stepper {
   static Schema schema() { return path_schema(); }
   static std::unique_ptr<Stepper> make(const Options& options, Context& context,
                                        model::State& state);
+
+  double final_time() const override { return std::numeric_limits<double>::infinity(); }
 
  private:
   /// What is known of the path behind and at the accepted state.

@@ -34,6 +34,8 @@ class Statics final : public Stepper {
   static std::unique_ptr<Stepper> make(const Options& options, Context& context,
                                        model::State& state);
 
+  double final_time() const override { return settings_.final_level; }
+
  private:
   void do_begin() override;
   void do_prepare_resume() override { make_newton(settings_.newton); }

@@ -36,6 +36,9 @@ class Stepper {
   bool is_at_end() const { return reaches_end(); }
   /// Where the next step should go: a time [s], a load level, or the length of a way along a path.
   double proposal() const { return propose(); }
+  /// Where the last step ends: a time [s] or a load level; infinite where nobody knows, as on
+  /// paths.
+  virtual double final_time() const = 0;
   /// Solves a step from the accepted state to `target`, of the kind that proposal() gives; whatever
   /// was attempted before is forgotten. Not converging is a value: StepReport::accepted is false.
   /// The state's end of the step is that of this attempt until the next verb. Throws UsageError for
@@ -92,7 +95,7 @@ class Stepper {
   virtual void do_prepare_resume() = 0;
   virtual bool reaches_end() const = 0;
   virtual double propose() const = 0;
-  /// @return with outcome, time, final_time and increment
+  /// @return with outcome, time and increment
   virtual StepReport do_attempt(double target) = 0;
   /// Learns from an attempt that is accepted; state.prev is still the start of the step. Calls
   /// accept of the system at its place among what happens then.
