@@ -15,6 +15,10 @@ VectorXd translations(const std::vector<double>& values) {
   return all.topRows<3>().reshaped();
 }
 
+VectorXd as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
 VectorXd with_moments(const VectorXd& forces) {
   const Eigen::Index points = forces.size() / 3;
   Eigen::Matrix<double, 6, Eigen::Dynamic> all(6, points);
@@ -127,10 +131,12 @@ std::unique_ptr<PointModel> make_oscillator(double mass, double stiffness) {
   return std::make_unique<Oscillator>(mass, stiffness);
 }
 
+std::string PointPartner::objection(const std::vector<double>& reference) const {
+  return model_->objection(as_vector(reference));
+}
+
 void PointPartner::begin(const Beginning& beginning) {
-  model_->begin(Eigen::Map<const VectorXd>(beginning.reference.data(),
-                                           static_cast<Eigen::Index>(beginning.reference.size())),
-                translations(beginning.velocity));
+  model_->begin(as_vector(beginning.reference), translations(beginning.velocity));
 }
 
 VectorXd PointPartner::loads(const Window& window) {
@@ -162,8 +168,7 @@ void PointPartner::save(const std::string& prefix, Snapshot& snapshot) {
 void PointPartner::restore(const std::string& prefix, const Snapshot& snapshot) {
   const std::vector<double>& memory =
       snapshot.numbers(prefix + "memory", static_cast<std::size_t>(model_->memory().size()));
-  model_->restore(
-      Eigen::Map<const VectorXd>(memory.data(), static_cast<Eigen::Index>(memory.size())));
+  model_->restore(as_vector(memory));
 }
 
 }  // namespace culm::coupling

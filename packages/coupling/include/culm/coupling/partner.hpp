@@ -14,9 +14,10 @@ namespace culm::coupling {
 class Partner {
  public:
   virtual ~Partner() = default;
-  /// Why it cannot serve a port of so many points; empty if it can. Known from the beginning.
-  virtual std::string objection(int points) const {
-    (void)points;
+  /// Why it cannot serve a port with these points; empty if it can. Known from the beginning.
+  /// @param reference  positions, 3 numbers per point [m]
+  virtual std::string objection(const std::vector<double>& reference) const {
+    (void)reference;
     return {};
   }
   /// Once, before the first window. Throws PartnerError where they do not fit together.

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace culm::coupling {
 
@@ -14,6 +16,11 @@ namespace culm::coupling {
 class PointModel {
  public:
   virtual ~PointModel() = default;
+  /// Why it cannot hang on these points; empty if it can. @param reference  positions [m]
+  virtual std::string objection(const Eigen::VectorXd& reference) const {
+    (void)reference;
+    return {};
+  }
   /// Before the first step. @param reference  positions [m]  @param velocity  at the start [m/s]
   virtual void begin(const Eigen::VectorXd& reference, const Eigen::VectorXd& velocity) = 0;
   /// Mean forces of a step. @param moved  in the step [m]  @param h  its length [s]
@@ -48,6 +55,7 @@ class PointPartner final : public Partner {
   PointPartner(std::unique_ptr<PointModel> model, int steps, WindowLoad load)
       : model_(std::move(model)), steps_(steps), load_(load) {}
 
+  std::string objection(const std::vector<double>& reference) const override;
   void begin(const Beginning& beginning) override;
   Eigen::VectorXd loads(const Window& window) override;
   void accept(const Window& window) override;

@@ -16,7 +16,9 @@ class PressurePartner final : public Partner {
   PressurePartner(double pressure, std::vector<port::Face> faces)
       : pressure_(pressure), faces_(std::move(faces)) {}
 
-  std::string objection(int points) const override { return port::objection_to(faces_, points); }
+  std::string objection(const std::vector<double>& reference) const override {
+    return port::objection_to(faces_, static_cast<int>(reference.size() / 3));
+  }
   void begin(const Beginning&) override {}
   Quantities wanted() const override {
     return bit(port::Quantity::position) | bit(port::Quantity::motion);

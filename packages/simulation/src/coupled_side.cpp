@@ -1,0 +1,129 @@
+#include "coupled_side.hpp"
+
+#include <culm/base/error.hpp>
+#include <culm/base/nearest.hpp>
+#include <culm/coupling/record.hpp>
+#include <culm/output/file_part.hpp>
+
+#include "on_root.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace culm::simulation {
+
+using Eigen::VectorXd;
+
+VectorXd translations(const std::vector<double>& values) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(
+      values.data(), 6, static_cast<Eigen::Index>(values.size() / 6));
+  return all.topRows<3>().reshaped();
+}
+
+VectorXd as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+double size_of(const std::vector<double>& points) {
+  const Eigen::Map<const Eigen::Matrix3Xd> x(points.data(), 3,
+                                             static_cast<Eigen::Index>(points.size() / 3));
+  const Vec3 centre = x.rowwise().mean();
+  const double size =
+      std::sqrt((x.colwise() - centre).squaredNorm() / static_cast<double>(x.cols()));
+  return size > 0.0 ? size : 1.0;
+}
+
+VectorXd CoupledSide::loads(const VectorXd& all) const {
+  VectorXd own = all.segment(first, count());
+  own.reshaped(6, count() / 6).bottomRows<3>() *= size;
+  return own;
+}
+
+void CoupledSide::put(VectorXd own, VectorXd& all) const {
+  own.reshaped(6, count() / 6).bottomRows<3>() /= size;
+  all.segment(first, count()) = own;
+}
+
+void CoupledSide::set(const VectorXd& all) const {
+  const VectorXd own = loads(all);
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> table = own.reshaped(6, count() / 6);
+  const VectorXd forces = table.topRows<3>().reshaped();
+  const VectorXd moments = table.bottomRows<3>().reshaped();
+  port->set_loads({forces.data(), static_cast<std::size_t>(forces.size())},
+                  {moments.data(), static_cast<std::size_t>(moments.size())});
+}
+
+namespace {
+
+// The port that an entry of "Partners" names, or the only one.
+const port::Port& find_port(const Options& entry, const Ports& ports) {
+  std::vector<std::string> names;
+  for (const auto& port : ports) names.push_back(port->name());
+  if (!entry.has("Port")) {
+    if (ports.size() == 1) return *ports.front();
+    throw InputError(entry.where(),
+                     ports.empty() ? "needs a port, and the deck has none"
+                                   : "needs 'Port': the deck has " + std::to_string(ports.size()));
+  }
+  const std::string& name = entry.text("Port");
+  const auto port = std::find_if(ports.begin(), ports.end(),
+                                 [&](const auto& one) { return one->name() == name; });
+  if (port != ports.end()) return **port;
+  throw InputError(entry.where("Port"),
+                   "there is no port '" + name + "'" + did_you_mean(name, names));
+}
+
+std::unique_ptr<coupling::Partner> record(std::unique_ptr<coupling::Partner> partner,
+                                          const std::string& name, const CoupledFiles& files) {
+  return std::make_unique<coupling::RecordedPartner>(
+      std::move(partner), files.folder / ("coupling_" + output::file_part(name) + ".record"));
+}
+
+}  // namespace
+
+std::vector<CoupledSide> make_sides(const Options& settings, const coupling::PartnerRegistry& known,
+                                    const CoupledFiles& files, const Ports& ports,
+                                    const parallel::Comm& comm) {
+  const std::vector<Options>& partners = settings.list("Partners").entries();
+  const bool is_replay = !files.replay.empty();
+  if (partners.empty()) {
+    throw InputError(settings.list("Partners").where(), "must hold at least one partner");
+  }
+  if (is_replay && partners.size() > 1) {
+    throw UsageError(
+        fmt::format("a replay needs a deck with one partner; it has {}", partners.size()));
+  }
+  std::vector<CoupledSide> sides;
+  for (const Options& entry : partners) {
+    const port::Port& port = find_port(entry, ports);
+    const bool is_taken = std::any_of(sides.begin(), sides.end(), [&](const CoupledSide& side) {
+      return side.port_name == port.name();
+    });
+    if (is_taken) {
+      throw InputError(entry.where(), "port '" + port.name() + "' has a partner already");
+    }
+    CoupledSide side;
+    side.name = entry.name();
+    side.port_name = port.name();
+    std::string objection;
+    on_root(comm, [&] {
+      if (is_replay) {
+        side.partner = std::make_unique<coupling::ReplayedPartner>(
+            coupling::read_record(files.replay), files.replay.string());
+        return;
+      }
+      side.partner = known.make(entry.text("Type"), entry);
+      objection = side.partner->objection(port.reference());
+      if (settings.flag("Record")) side.partner = record(std::move(side.partner), side.name, files);
+    });
+    if (comm.size() > 1) objection = comm.broadcast(objection);
+    if (!objection.empty()) throw InputError(entry.where(), objection);
+    sides.push_back(std::move(side));
+  }
+  return sides;
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,77 @@
+/// The steps of one window of a coupling.
+#pragma once
+
+#include <culm/analysis/stepper.hpp>
+#include <culm/assembly/system.hpp>
+#include <culm/base/snapshot.hpp>
+#include <culm/coupling/window.hpp>
+
+#include "coupled_side.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace culm::simulation {
+
+/// One step, or several where the deck has windows: then it goes back by a copy of its start.
+/// Collective.
+class CoupledWindow {
+ public:
+  /// @param length  of windows of several steps [s]; none: each step is one
+  CoupledWindow(analysis::Stepper& stepper, assembly::System& system,
+                std::vector<CoupledSide>& sides, std::optional<double> length)
+      : stepper_(stepper), system_(system), sides_(sides), length_(length) {}
+
+  /// Begins the next one. @param latest  where it must end [s]
+  void start(int number, double latest);
+  /// Goes to its end with the loads as they are, from its start. @return whether the structure
+  /// converged
+  bool go();
+  /// To the start, with nothing learnt.
+  void go_back();
+  /// After go().
+  void accept();
+  /// To the last accepted state, where something else has failed.
+  void abandon();
+  /// The structure does not converge, whatever the partners say: gives up, or tries less.
+  void fail();
+
+  /// How the points of a side moved.
+  coupling::Window about(std::size_t side, int attempt) const;
+  /// The same if they stood still.
+  coupling::Window at_rest(std::size_t side);
+  /// Of the points of a side, without rotation, in the present state.
+  Eigen::VectorXd velocity(const CoupledSide& side);
+
+  double start() const { return start_; }
+  double end() const { return end_; }
+  double length() const { return end_ - start_; }
+  bool has_steps() const { return length_.has_value(); }
+  const analysis::StepReport& report() const { return report_; }
+
+ private:
+  double proposal() const;
+  bool go_in_one();
+  bool go_in_steps();
+  void complete();
+  void read(bool is_last);
+
+  analysis::Stepper& stepper_;
+  assembly::System& system_;
+  std::vector<CoupledSide>& sides_;
+  std::optional<double> length_;
+  Snapshot memory_ = Snapshot(Snapshot::Use::memory);
+  bool is_ahead_ = false;  // steps of the window have been accepted
+  bool is_open_ = false;   // its only step has been attempted
+  // whether steps that fail are cut: where none failed in the attempt before, the loads are to
+  // blame
+  bool may_cut_ = true;
+  int number_ = 0;
+  double start_ = 0.0;
+  double end_ = 0.0;
+  double latest_ = 0.0;
+  analysis::StepReport report_;
+  std::vector<coupling::Window> motions_;
+};
+
+}  // namespace culm::simulation
