@@ -1,9 +1,12 @@
+#include <culm/coupling/channel_flow.hpp>
 #include <culm/coupling/point_partner.hpp>
 #include <culm/coupling/pressure_partner.hpp>
 #include <culm/coupling/register_coupling.hpp>
 #include <culm/coupling/remote_partner.hpp>
 #include <culm/coupling/scheme.hpp>
 #include <culm/coupling/test_partners.hpp>
+#include <culm/joint/marker_pair.hpp>
+#include <culm/model/vector_field.hpp>
 
 #include <functional>
 #include <utility>
@@ -46,6 +49,18 @@ std::vector<port::Face> read_faces(const std::vector<int>& triangles,
   return faces;
 }
 
+Schema channel_schema() {
+  Schema schema =
+      partner("Channel",
+              "An ideal fluid in a channel under a wall: points at equal distances in a "
+              "row, the first and the last one a distance away from its open ends.");
+  schema.add(number("Density", "kg/m^3", "Of the fluid.").positive())
+      .add(number("Height", "m", "Of the fluid, from the wall to a floor.").positive())
+      .add(number("Width", "m", "Across.").positive().optional(1.0));
+  joint::add_direction("Normal", "Of the wall, of any length; it moves along it.", schema);
+  return schema;
+}
+
 Field mass_field() { return number("Mass", "kg", "At each point.").positive(); }
 
 }  // namespace
@@ -59,6 +74,12 @@ void register_partners(PartnerRegistry& registry) {
         return std::make_unique<PointPartner>(make_added_mass(o.number("Mass")), 1,
                                               WindowLoad::mean);
       });
+  registry.add("Channel", channel_schema(), [](const Options& o) {
+    return std::make_unique<PointPartner>(
+        make_channel_flow({o.number("Density"), o.number("Height"), o.number("Width"),
+                           model::vector(o, "Normal").normalized()}),
+        1, WindowLoad::mean);
+  });
   add_stepping_partner(registry, "Dashpot",
                        partner("Dashpot", "A dashpot from each point to the ground.")
                            .add(number("Damping", "N s/m", "Of each.").positive()),

@@ -1,0 +1,184 @@
+// How many attempts schemes need where a fluid is heavier than the wall over it.
+#include <culm/coupling/channel_flow.hpp>
+#include <culm/coupling/scheme.hpp>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace culm::coupling {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int points = 40;
+constexpr double spacing = 1.0 / (points + 1);
+constexpr double step = 2e-3;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// A string of unit tension on springs that harden by the cube, by the mid-point rule: H(x) is what
+// the channel under it answers to the step that it makes with forces x.
+class StringOverChannel {
+ public:
+  // @param ratio  mass of each point of the string over the largest one of the fluid
+  explicit StringOverChannel(double ratio) : ratio_(ratio) {
+    FlowChannel channel = {1.0, 0.02, 1.0, Eigen::Vector3d::UnitZ()};
+    const MatrixXd masses = channel_masses(channel, points, spacing);
+    channel.density = 1.0 / masses.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+    fluid_ = make_channel_flow(channel);
+    VectorXd reference = VectorXd::Zero(3 * points);
+    for (int i = 0; i < points; ++i) reference[3 * i] = (i + 1) * spacing;
+    fluid_->begin(reference, VectorXd::Zero(3 * points));
+    tension_ = MatrixXd::Zero(points, points);
+    tension_.diagonal().setConstant(2.0 / (spacing * spacing));
+    tension_.diagonal(1).setConstant(-1.0 / (spacing * spacing));
+    tension_.diagonal(-1).setConstant(-1.0 / (spacing * spacing));
+  }
+
+  VectorXd operator()(const VectorXd& forces) {
+    moved_ = solve(forces);
+    return along_z(fluid_->forces(in_space(moved_), step));
+  }
+  void accept() {
+    fluid_->accept(in_space(moved_), step);
+    velocity_ = 2.0 / step * moved_ - velocity_;
+    place_ += moved_;
+    time_ += step;
+  }
+
+ private:
+  VectorXd solve(const VectorXd& forces) const {
+    constexpr double hardening = 1e6;
+    VectorXd x = VectorXd::LinSpaced(points, spacing, 1.0 - spacing);
+    const VectorXd load = 5.0 * std::sin(40.0 * (time_ + 0.5 * step)) *
+                          (x.array() * (1.0 - x.array()) * (1.0 + 0.2 * x.array())).matrix();
+    VectorXd moved = step * velocity_;
+    for (int i = 0; i < 30; ++i) {
+      const VectorXd middle = place_ + 0.5 * moved;
+      const VectorXd residual = 2.0 * ratio_ / step * (moved / step - velocity_) +
+                                tension_ * middle + hardening * middle.array().cube().matrix() -
+                                forces - load;
+      MatrixXd tangent = 0.5 * tension_;
+      tangent.diagonal().array() +=
+          2.0 * ratio_ / (step * step) + 1.5 * hardening * middle.array().square();
+      const VectorXd change = tangent.llt().solve(-residual);
+      moved += change;
+      if (change.norm() < 1e-14 * moved.norm()) break;
+    }
+    return moved;
+  }
+  static VectorXd in_space(const VectorXd& z) {
+    VectorXd all = VectorXd::Zero(3 * points);
+    all.reshaped(3, points).row(2) = z;
+    return all;
+  }
+  static VectorXd along_z(const VectorXd& all) { return all.reshaped(3, points).row(2); }
+
+  double ratio_;
+  std::unique_ptr<PointModel> fluid_;
+  MatrixXd tension_;
+  VectorXd place_ = VectorXd::Zero(points), velocity_ = place_, moved_ = place_;
+  double time_ = 0.0;
+};
+
+// Mean attempts of 60 windows but the first five.
+double attempts(double ratio, Scheme& scheme, double tolerance) {
+  constexpr int windows = 60, first = 5, most = 200;
+  StringOverChannel model(ratio);
+  VectorXd forces = VectorXd::Zero(points);
+  int sum = 0;
+  for (int window = 0; window < windows; ++window) {
+    VectorXd answer = model(forces);
+    int tried = 1;
+    for (; (answer - forces).norm() > tolerance * answer.norm() + 1e-16; ++tried) {
+      if (tried == most) return never;
+      forces = scheme.next(forces, answer);
+      answer = model(forces);
+    }
+    scheme.end_window();
+    model.accept();
+    forces = answer;
+    if (window >= first) sum += tried;
+  }
+  return static_cast<double>(sum) / (windows - first);
+}
+
+constexpr std::array ratios = {10.0, 2.0, 1.0, 0.3, 0.1, 0.01};
+using Counts = std::array<double, ratios.size()>;
+
+Counts quasi_newton(int reuse, double tolerance) {
+  Counts counts = {};
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    QuasiNewton scheme(0.1, reuse, 1e-2);
+    counts[i] = attempts(ratios[i], scheme, tolerance);
+  }
+  return counts;
+}
+
+Counts aitken(double tolerance) {
+  Counts counts = {};
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    Aitken scheme(0.1);
+    counts[i] = attempts(ratios[i], scheme, tolerance);
+  }
+  return counts;
+}
+
+// Keeps them for who runs the test with --gtest_output.
+void note(const Counts& counts, const std::string& what) {
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    testing::Test::RecordProperty(fmt::format("{}, mass ratio {}", what, ratios[i]),
+                                  fmt::format("{:.1f}", counts[i]));
+  }
+}
+
+void expect_near(const Counts& found, const Counts& expected, const std::string& what) {
+  note(found, what);
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    EXPECT_NEAR(found[i], expected[i], 1.0) << what << ", mass ratio " << ratios[i];
+  }
+}
+
+// The expected counts are those of an independent program for the same kind of problem: another
+// load, the displacement as the unknown.
+TEST(IterationCounts, OfQuasiNewtonAreAsExpected) {
+  expect_near(quasi_newton(0, 1e-8), {4.1, 4.9, 5.2, 6.5, 8.7, 15.4}, "no reuse");
+  expect_near(quasi_newton(5, 1e-8), {2.7, 2.9, 3.1, 3.5, 4.4, 7.5}, "five windows");
+  expect_near(quasi_newton(15, 1e-8), {2.4, 2.6, 2.8, 2.9, 3.3, 4.5}, "fifteen windows");
+  expect_near(quasi_newton(5, 1e-4), {2.1, 2.2, 2.3, 2.4, 2.6, 4.3}, "tolerance 1e-4");
+}
+
+// One factor serves all waves of the string, so its counts are a matter of the load as well: they
+// are compared where few waves count, elsewhere with those of quasi-Newton.
+TEST(IterationCounts, OfAitkenGrowAsTheFluidGetsHeavier) {
+  const Counts counts = aitken(1e-8), best = quasi_newton(5, 1e-8);
+  const std::array expected = {5.5, 7.7, 6.4};
+  note(counts, "Aitken");
+  EXPECT_TRUE(std::is_sorted(counts.begin(), counts.end()));
+  for (const std::size_t i : {0U, 1U, 2U}) EXPECT_NEAR(counts[i], expected[i], 2.0) << ratios[i];
+  for (const std::size_t i : {4U, 5U}) EXPECT_LT(3.0 * best[i], counts[i]) << ratios[i];
+}
+
+// Without relaxation nothing holds from equal masses on, and a constant factor of 0.1 holds below
+// 20 times the mass: 2 / 0.1 = 1 + 19.
+TEST(IterationCounts, OfAConstantFactorEndAtItsLimit) {
+  const auto constant = [](double factor, double ratio) {
+    ConstantRelaxation scheme(factor);
+    return attempts(ratio, scheme, 1e-8);
+  };
+  EXPECT_LT(constant(1.0, 2.0), 30.0);
+  EXPECT_EQ(constant(1.0, 0.95), never);
+  EXPECT_LT(constant(0.1, 1.0 / 16.0), 200.0);
+  EXPECT_EQ(constant(0.1, 1.0 / 20.0), never);
+}
+
+}  // namespace
+}  // namespace culm::coupling
