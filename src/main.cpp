@@ -283,9 +283,7 @@ int show_model(const CheckArguments& check, int code) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (!words.empty() && culm::app::is_python_verb(words.front())) {
-    return culm::app::call_python(words);
-  }
+  if (culm::app::is_for_python(words)) return culm::app::call_python(words);
   Arguments arguments;
   bool is_root = false;
   const int code = show_model(arguments.check, run_verb(argc, argv, arguments, is_root));

@@ -48,8 +48,12 @@ const std::vector<PythonVerb>& python_verbs() {
   return verbs;
 }
 
-bool is_python_verb(const std::string& word) {
-  return std::ranges::find(python_verbs(), word, &PythonVerb::name) != python_verbs().end();
+bool is_for_python(const std::vector<std::string>& words) {
+  if (words.empty()) return false;
+  // of all formats only this one is read here
+  if (words.front() == "import") return words.size() < 2 || words[1] != "openfast";
+  return std::ranges::find(python_verbs(), words.front(), &PythonVerb::name) !=
+         python_verbs().end();
 }
 
 int call_python(const std::vector<std::string>& words) {

@@ -15,8 +15,9 @@ struct PythonVerb {
 /// Verbs of the package; each is a module of this name.
 const std::vector<PythonVerb>& python_verbs();
 
-/// Whether a word of the command line is one of them.
-bool is_python_verb(const std::string& word);
+/// Whether a command line is one for Python: one of these verbs, or `import` of a format that is
+/// read there.
+bool is_for_python(const std::vector<std::string>& words);
 
 /// Runs `culm VERB arguments` in Python, in a process of its own, and waits for it. Must not be
 /// called while MPI is running.

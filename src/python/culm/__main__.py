@@ -1,7 +1,7 @@
 """python3 -m culm VERB …: what the program calls for its verbs that are written in Python.
 
-A verb is a module with `declare(parser)`, its arguments, and `main(arguments, program)`, which
-returns the exit code.
+A verb is a module of its name with `declare(parser)`, its arguments, and `main(arguments, program)`,
+which returns the exit code.
 """
 
 import argparse
@@ -14,6 +14,7 @@ from .errors import CulmError
 VERBS = {
     "effects": "tell what the effects of a scene cost and change",
     "hard": "margins of hard cases",
+    "import": "make a deck from files of another program",
     "report": "draw the page of a run",
     "study": "measure what accuracy costs",
     "sweep": "run a deck with many values",
@@ -21,14 +22,20 @@ VERBS = {
 }
 
 
+def module_of(verb):
+    # the word is one of Python's own
+    name = "importing" if verb == "import" else verb
+    return importlib.import_module(f".{name}", __package__)
+
+
 def main():
     parser = argparse.ArgumentParser(prog="culm")
     verbs = parser.add_subparsers(dest="verb", required=True)
     for name, summary in VERBS.items():
-        module = importlib.import_module(f".{name}", __package__)
+        module = module_of(name)
         module.declare(verbs.add_parser(name, help=summary, description=module.__doc__))
     arguments = parser.parse_args()
-    module = importlib.import_module(f".{arguments.verb}", __package__)
+    module = module_of(arguments.verb)
     from .program import Program
 
     try:

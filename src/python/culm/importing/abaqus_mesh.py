@@ -1,0 +1,337 @@
+"""Nodes, elements, sets, surfaces and couplings of Abaqus and CalculiX."""
+
+import numpy
+
+from .findings import refuse
+from .keyword_file import integer, number
+from .model import BeamElement, Coupling, PointMass, ShellElement
+
+SHELLS = {
+    "S3": 3, "S3R": 3, "S3RS": 3, "STRI3": 3, "S4": 4, "S4R": 4, "S4RS": 4, "S4RSW": 4, "S4R5": 4, "S6": 6,
+    "STRI65": 6, "S8": 8, "S8R": 8, "S8R5": 8, "S9R5": 9,
+}  # fmt: skip
+BEAMS = {
+    "B31": 2, "B31R": 2, "B31H": 2, "B31OS": 2, "B33": 2, "B33H": 2, "B32": 3, "B32R": 3, "B32H": 3, "B32OS": 3,
+    "PIPE31": 2, "PIPE32": 3,
+}  # fmt: skip
+POINTS = {"MASS": 1, "ROTARYI": 1, "DCOUP3D": 1}
+
+
+def read_mesh_block(reader, block):
+    """@return whether the block is one of these"""
+    action = {
+        "NODE": _nodes,
+        "NGEN": _generate_nodes,
+        "ELEMENT": _elements,
+        "ELGEN": _generate_elements,
+        "NSET": _node_set,
+        "ELSET": _element_set,
+        "SURFACE": _surface,
+        "RIGID BODY": _rigid_body,
+        "COUPLING": _coupling,
+        "KINEMATIC": _kinematic,
+        "DISTRIBUTING": _distributing,
+        "MPC": _multi_point,
+    }.get(block.keyword)
+    if action is None:
+        return False
+    action(reader, block)
+    return True
+
+
+def _nodes(reader, block):
+    if block.get("SYSTEM") not in (None, "R"):
+        refuse(block.place, "*NODE with SYSTEM other than R is not read")
+    found = []
+    for place, cells in block.lines:
+        key = reader.key(integer(cells[0], place, "the number of a node"))
+        values = [number(cell, place, "a coordinate") for cell in cells[1:4] if cell]
+        position = numpy.array([*values, 0.0, 0.0, 0.0][:3])
+        if key in reader.model.nodes:
+            refuse(place, f"node {cells[0]} is there twice")
+        reader.model.nodes[key] = _placed(reader, position)
+        found.append(key)
+    reader.findings.count("nodes", len(found))
+    _add_to_set(reader.model.node_sets, reader, block.get("NSET"), found)
+
+
+def _placed(reader, position):
+    """In the place of the instance: turned after it is moved, as the manual of Abaqus has it."""
+    if reader.transform is None:
+        return position
+    lines, place = reader.transform
+    if lines:
+        position = position + _numbers(lines[0], 3, place)
+    if len(lines) > 1:
+        values = _numbers(lines[1], 7, place)
+        start, axis, angle = values[:3], values[3:6] - values[:3], numpy.radians(values[6])
+        axis = axis / numpy.linalg.norm(axis)
+        arm = position - start
+        turned = arm * numpy.cos(angle) + numpy.cross(axis, arm) * numpy.sin(angle)
+        position = start + turned + axis * (axis @ arm) * (1.0 - numpy.cos(angle))
+    return position
+
+
+def _numbers(cells, count, place):
+    values = [number(cell, place) for cell in cells if cell]
+    if len(values) > count:
+        refuse(place, f"expected at most {count} numbers, found {len(values)}")
+    return numpy.array([*values, *[0.0] * (count - len(values))])
+
+
+def _generate_nodes(reader, block):
+    if block.has("LINE") and block.get("LINE") not in (None, ""):
+        refuse(block.place, "*NGEN along curves is not read")
+    for place, cells in block.lines:
+        first, last = (integer(cell, place) for cell in cells[:2])
+        step = integer(cells[2], place) if len(cells) > 2 and cells[2] else 1
+        ends = [reader.find_nodes(str(one), place)[0] for one in (first, last)]
+        if step == 0 or (last - first) % step or abs((last - first) // step) > 10**6:
+            refuse(place, f"the step {step} does not lead from {first} to {last}")
+        made = [*ends]
+        a, b = (reader.model.nodes[end] for end in ends)
+        for i in range(first + step, last, step):
+            if reader.key(i) not in reader.model.nodes:
+                reader.findings.count("nodes")
+            reader.model.nodes[reader.key(i)] = a + (b - a) * (i - first) / (last - first)
+            made.append(reader.key(i))
+        _add_to_set(reader.model.node_sets, reader, block.get("NSET"), made)
+
+
+def _elements(reader, block):
+    type = block.required("TYPE")
+    size = SHELLS.get(type) or BEAMS.get(type) or POINTS.get(type)
+    if size is None:
+        refuse(block.place, f"elements of type {type} have no counterpart in culm: it has shells, beams, point masses")
+    found = []
+    for place, numbers in _records(block, size + 1):
+        key = reader.key(numbers[0])
+        if key in reader.elements:
+            refuse(place, f"element {numbers[0]} is there twice")
+        _add_element(reader, type, key, [reader.key(node) for node in numbers[1:]], place)
+        found.append(key)
+    reader.findings.count(f"elements {type}", len(found))
+    _add_to_set(reader.element_sets, reader, block.get("ELSET"), found)
+
+
+def _records(block, size):
+    """Elements may go over several lines."""
+    numbers, start = [], None
+    for place, cells in block.lines:
+        start = start or place
+        numbers += [integer(cell, place, "the number of a node") for cell in cells if cell]
+        if len(numbers) >= size:
+            if len(numbers) > size and size != 2:
+                refuse(start, f"expected {size} numbers for an element, found {len(numbers)}")
+            yield start, numbers[:size]
+            numbers, start = [], None
+    if numbers:
+        refuse(start, f"expected {size} numbers for an element, found {len(numbers)}")
+
+
+def _add_element(reader, type, key, nodes, place):
+    for node in nodes:
+        if node not in reader.model.nodes:
+            number_ = node[1] if isinstance(node, tuple) else node
+            refuse(place, f"there is no node {number_}")
+    corners = 4 if SHELLS.get(type, 4) in (4, 8, 9) else 3
+    if type in SHELLS and len(set(nodes[:corners])) < 3 or type in BEAMS and len(set(nodes)) < len(nodes):
+        refuse(place, "an element has the same node twice")
+    reader.elements[key] = (type, tuple(nodes), place)
+
+
+def _generate_elements(reader, block):
+    """A row of elements from a first one, and rows of rows."""
+    for place, cells in block.lines:
+        values = [integer(cell, place) for cell in cells if cell]
+        key = reader.key(values[0])
+        if key not in reader.elements:
+            refuse(place, f"there is no element {values[0]}")
+        type, nodes, _ = reader.elements[key]
+        counts = [values[1], *values[4:5], *values[7:8]]
+        steps = [(values[i] if len(values) > i else 1, values[i + 1] if len(values) > i + 1 else 1) for i in (2, 5, 8)]
+        made = []
+        total = int(numpy.prod([max(count, 1) for count in counts]))
+        if total > 10**6:
+            refuse(place, f"{total} elements are more than 1e6")
+        for index in numpy.ndindex(*counts):
+            to_node = sum(i * step[0] for i, step in zip(index, steps))
+            to_element = sum(i * step[1] for i, step in zip(index, steps))
+            copy = reader.key(values[0] + to_element)
+            moved = [reader.key((n[1] if isinstance(n, tuple) else n) + to_node) for n in nodes]
+            if any(index):
+                if copy in reader.elements:
+                    refuse(place, f"element {values[0] + to_element} is there twice")
+                _add_element(reader, type, copy, moved, place)
+                reader.findings.count(f"elements {type}")
+            made.append(copy)
+        _add_to_set(reader.element_sets, reader, block.get("ELSET"), made)
+
+
+def _add_to_set(sets, reader, name, numbers):
+    if name:
+        members = sets.setdefault(reader.prefix + name, [])
+        known = set(members)
+        members += [one for one in numbers if one not in known]
+
+
+def _node_set(reader, block):
+    _set(reader, block, block.required("NSET"), reader.model.node_sets, reader.find_nodes, reader.model.nodes)
+
+
+def _element_set(reader, block):
+    _set(reader, block, block.required("ELSET"), reader.element_sets, reader.find_elements, reader.elements)
+
+
+def _set(reader, block, name, sets, find, existing):
+    instance = block.get("INSTANCE")
+    before, prefix = reader.prefix, (f"{instance}." if instance else reader.prefix)
+    found = []
+    reader.prefix = prefix
+    for place, cells in block.lines:
+        cells = [cell for cell in cells if cell]
+        if block.has("GENERATE"):
+            values = [integer(cell, place) for cell in cells]
+            if len(values) not in (2, 3) or (len(values) == 3 and values[2] <= 0):
+                refuse(place, "expected first, last and step of the numbers")
+            step = values[2] if len(values) == 3 else 1
+            if (values[1] - values[0]) // step > 10**7:
+                refuse(place, "more than 1e7 numbers")
+            keys = [reader.key(i) for i in range(values[0], values[1] + 1, step)]
+            found += [key for key in keys if key in existing]
+        elif block.has("ELSET") and block.keyword == "NSET":
+            refuse(block.place, "*NSET by ELSET is not read")
+        else:
+            for cell in cells:
+                found += find(cell, place)
+    reader.prefix = before
+    if instance:
+        _add_to_set(sets, reader, name, found)
+        sets.setdefault(prefix + name, []).extend(found)
+    else:
+        _add_to_set(sets, reader, name, found)
+    if not found:
+        reader.findings.assume(f"the set {name} is empty", block.place)
+        sets.setdefault(prefix + name, [])
+
+
+def _surface(reader, block):
+    name = block.required("NAME")
+    faces = []
+    for place, cells in block.lines:
+        if block.get("TYPE") == "NODE":
+            faces.append((reader.find_nodes(cells[0], place), "NODE", place))
+        else:
+            face = cells[1].upper() if len(cells) > 1 else ""
+            faces.append((reader.find_elements(cells[0], place), face, place))
+    reader.surfaces[reader.prefix + name] = faces
+
+
+def _nodes_of_surface(reader, name, place):
+    for candidate in (reader.prefix + name, name):
+        if candidate in reader.surfaces:
+            nodes = []
+            for members, face, _ in reader.surfaces[candidate]:
+                nodes += members if face == "NODE" else [n for key in members for n in _face(reader, key, face, place)]
+            return list(dict.fromkeys(nodes))
+    if name in reader.model.node_sets or reader.prefix + name in reader.model.node_sets:
+        return reader.find_nodes(name, place)
+    refuse(place, f"there is no surface '{name}'")
+
+
+def _face(reader, key, face, place):
+    """Nodes of an element, or of one of its edges."""
+    type, nodes, _ = reader.elements[key]
+    if not face.startswith("E"):
+        return nodes
+    corners = 3 if SHELLS.get(type) in (3, 6) else 4
+    i = integer(face[1:], place, "an edge, E1 to E4") - 1
+    if not 0 <= i < corners:
+        refuse(place, f"an element of type {type} has no edge {face}")
+    return (nodes[i], nodes[(i + 1) % corners], *nodes[corners + i : corners + i + 1])
+
+
+def _rigid_body(reader, block):
+    reference = reader.find_nodes(block.required("REF NODE"), block.place)[0]
+    followers = []
+    for name in ("NSET", "TIE NSET"):
+        if block.get(name):
+            followers += reader.find_nodes(block.get(name), block.place)
+    for name in ("PIN NSET",):
+        if block.get(name):
+            refuse(block.place, f"*RIGID BODY with {name} is not read")
+    if block.get("ELSET"):
+        for key in reader.find_elements(block.get("ELSET"), block.place):
+            followers += reader.elements[key][1]
+    if block.get("ROT NODE"):
+        # the node whose displacement is the rotation of the body in CalculiX
+        turning = reader.find_nodes(block.get("ROT NODE"), block.place)[0]
+        reader.rotation_nodes = {**getattr(reader, "rotation_nodes", {}), turning: reference}
+    _couple(reader, reference, followers, block, "rigid body")
+
+
+def _couple(reader, reference, followers, block, name):
+    followers = [node for node in dict.fromkeys(followers) if node != reference]
+    reader.model.couplings.append(Coupling(reference, followers, block.place, name))
+    reader.findings.count("rigid couplings")
+
+
+def _coupling(reader, block):
+    reference = reader.find_nodes(block.required("REF NODE"), block.place)[0]
+    nodes = _nodes_of_surface(reader, block.required("SURFACE"), block.place)
+    reader.coupling = (reference, nodes, (block.get("CONSTRAINT NAME") or "coupling").lower())
+
+
+def _kinematic(reader, block):
+    if reader.coupling is None:
+        refuse(block.place, "*KINEMATIC without *COUPLING before it")
+    reference, nodes, name = reader.coupling
+    held = set()
+    for place, cells in block.lines:
+        first = integer(cells[0], place)
+        last = integer(cells[1], place) if len(cells) > 1 and cells[1] else first
+        held |= set(range(first, last + 1))
+    if held and not held >= {1, 2, 3, 4, 5, 6}:
+        if not held >= {1, 2, 3}:
+            refuse(block.place, "*KINEMATIC that couples some translations only is not read")
+        reader.findings.assume("a kinematic coupling of translations only holds rotations, too", block.place)
+    _couple(reader, reference, nodes, block, name)
+
+
+def _distributing(reader, block):
+    if reader.coupling is None:
+        refuse(block.place, "*DISTRIBUTING without *COUPLING before it")
+    reference, nodes, name = reader.coupling
+    reader.findings.assume("a distributing coupling is a rigid one, which is stiffer", block.place)
+    _couple(reader, reference, nodes, block, name)
+
+
+def _multi_point(reader, block):
+    for place, cells in block.lines:
+        kind = cells[0].upper()
+        if kind not in ("BEAM", "TIE"):
+            refuse(place, f"*MPC of type {kind} is not read; BEAM and TIE are")
+        follower = reader.find_nodes(cells[1], place)
+        reference = reader.find_nodes(cells[2], place)
+        if len(reference) == 1:
+            _couple(reader, reference[0], follower, block, f"mpc {kind.lower()}")
+        elif len(reference) == len(follower):
+            for one, other in zip(reference, follower):
+                _couple(reader, one, [other], block, f"mpc {kind.lower()}")
+        else:
+            refuse(place, f"{len(follower)} nodes cannot follow {len(reference)}")
+
+
+def element_of(reader, key, wall, section, up):
+    """The record of an element, when its properties are known."""
+    type, nodes, place = reader.elements[key]
+    if type in SHELLS:
+        return ShellElement(key, nodes, wall, place)
+    if SHELLS.get(type) is None and BEAMS[type] == 3:
+        nodes = (nodes[0], nodes[2], nodes[1])  # the node between comes second in the file
+    return BeamElement(key, nodes, section, up, place)
+
+
+def point_mass(reader, key, mass, inertia):
+    type, nodes, place = reader.elements[key]
+    return PointMass(nodes[0], mass, place, inertia)

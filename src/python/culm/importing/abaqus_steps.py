@@ -1,0 +1,373 @@
+"""Supports, loads and steps of Abaqus and CalculiX.
+
+Loads of a step go on in the steps after it until they are changed; every step of the deck begins in
+the reference with all loads that act in it, which is the same as long as what is loaded is elastic.
+"""
+
+import collections
+
+import numpy
+
+from .abaqus_mesh import BEAMS, SHELLS
+from .findings import did_you_mean, refuse
+from .keyword_file import integer, is_integer, number
+from .model import ElementLoad, NodeLoad, Step, Support
+
+NAMED_SUPPORTS = {
+    "ENCASTRE": {1, 2, 3, 4, 5, 6},
+    "PINNED": {1, 2, 3},
+    "XSYMM": {1, 5, 6},
+    "YSYMM": {2, 4, 6},
+    "ZSYMM": {3, 4, 5},
+    "XASYMM": {2, 3, 4},
+    "YASYMM": {1, 3, 5},
+    "ZASYMM": {1, 2, 6},
+}
+KINDS = {"STATIC": "static", "FREQUENCY": "modal", "BUCKLE": "buckling"}
+# steps that are not done; what they hold is left out
+OTHER_KINDS = {
+    "DYNAMIC", "MODAL DYNAMIC", "STEADY STATE DYNAMICS", "HEAT TRANSFER", "VISCO", "GREEN", "COMPLEX FREQUENCY",
+    "COUPLED TEMPERATURE-DISPLACEMENT", "UNCOUPLED TEMPERATURE-DISPLACEMENT", "SENSITIVITY", "ELECTROMAGNETICS",
+}  # fmt: skip
+
+
+class Open:
+    """The step that is read."""
+
+    def __init__(self, block, number_, name):
+        self.number = number_
+        self.name = name
+        self.place = block.place
+        self.nonlinear = block.has("NLGEOM") and (block.get("NLGEOM") or "YES") != "NO"
+        self.perturbation = block.has("PERTURBATION")
+        self.kind = None
+        self.modes = 10
+        self.is_closed = False
+
+
+class Acting:
+    """What acts in the step that is read, and what each step had: loads by what they act on."""
+
+    def __init__(self):
+        self.nodes = {}  # (node, direction) -> (value, place)
+        self.elements = {}  # (elements, label) -> (value, place)
+        self.history = []  # (step, nodes, elements)
+
+
+def read_step_block(reader, block):
+    """@return whether the block is one of these"""
+    if block.keyword in KINDS or block.keyword in OTHER_KINDS:
+        _kind(reader, block)
+        return True
+    action = {
+        "STEP": _step,
+        "END STEP": _end_step,
+        "BOUNDARY": _boundary,
+        "CLOAD": _node_loads,
+        "DLOAD": _element_loads,
+        "DSLOAD": _surface_loads,
+        "AMPLITUDE": _amplitude,
+        "NODE PRINT": _watch,
+    }.get(block.keyword)
+    if action is None:
+        return False
+    action(reader, block)
+    return True
+
+
+def _acting(reader):
+    if not hasattr(reader, "acting"):
+        reader.acting = Acting()
+    return reader.acting
+
+
+def _step(reader, block):
+    if reader.step is not None:
+        refuse(block.place, f"*STEP within the step of line {reader.step.place.line}: *END STEP is missing")
+    acting = _acting(reader)
+    number_ = len(acting.history)
+    name = block.get("NAME") or f"step {number_ + 1}"
+    taken = [step.name for step, _, _ in acting.history]
+    reader.step = Open(block, number_, name.lower() if name.lower() not in taken else f"{name.lower()} {number_ + 1}")
+
+
+def _kind(reader, block):
+    if reader.step is None:
+        refuse(block.place, f"*{block.keyword} outside a step")
+    reader.step.kind = KINDS.get(block.keyword, block.keyword)
+    for place, cells in block.lines if block.keyword in KINDS else []:
+        for cell in cells:
+            number(cell or "0", place, f"a number of *{block.keyword}")
+    if block.keyword in ("FREQUENCY", "BUCKLE") and block.lines:
+        place, cells = block.lines[0]
+        reader.step.modes = integer(cells[0], place, "the number of modes") if cells[0] else 10
+        if not 1 <= reader.step.modes <= 100000:
+            refuse(place, f"the number of modes must be between 1 and 100000, got {reader.step.modes}")
+
+
+def _end_step(reader, block):
+    if reader.step is None:
+        refuse(block.place, "*END STEP without *STEP before it")
+    acting = _acting(reader)
+    acting.history.append((reader.step, dict(acting.nodes), dict(acting.elements)))
+    reader.step = None
+
+
+def _amplitude(reader, block):
+    reader.findings.leave_out("*AMPLITUDE: loads grow in proportion to the level", block.place)
+
+
+def _boundary(reader, block):
+    step = reader.step
+    if step is not None and block.get("OP") == "NEW" and any(s.steps is None for s in reader.model.supports):
+        reader.findings.leave_out("*BOUNDARY, OP=NEW: supports of the model stay", block.place)
+    if block.get("TYPE") not in (None, "DISPLACEMENT"):
+        reader.findings.leave_out(f"*BOUNDARY of TYPE {block.get('TYPE')}", block.place)
+        return
+    steps = None if step is None else set(range(step.number, 10**4))
+    groups = collections.defaultdict(dict)
+    places = {}
+    for place, cells in block.lines:
+        key = cells[0].upper()
+        places.setdefault(key, place)
+        if len(cells) < 2 or not cells[1]:
+            refuse(place, "expected a node or set, and what is held of it")
+        if cells[1].upper() in NAMED_SUPPORTS:
+            groups[key].update({i: 0.0 for i in NAMED_SUPPORTS[cells[1].upper()]})
+            continue
+        if not is_integer(cells[1]):
+            refuse(place, f"unknown support '{cells[1]}'{did_you_mean(cells[1].upper(), NAMED_SUPPORTS)}")
+        first = integer(cells[1], place, "a degree of freedom")
+        last = integer(cells[2], place) if len(cells) > 2 and cells[2] else first
+        value = number(cells[3], place) if len(cells) > 3 and cells[3] else 0.0
+        if not 1 <= first <= last:
+            refuse(place, f"degrees of freedom must rise from 1, got {first} to {last}")
+        if last > 6:
+            reader.findings.leave_out("boundary conditions on degrees of freedom above 6", place)
+        groups[key].update({i: value for i in range(first, min(last, 6) + 1)})
+    for key, held in groups.items():
+        nodes, held = _by_rotation_node(reader, reader.find_nodes(key, places[key]), held)
+        if held:
+            reader.model.supports.append(Support(nodes, held, places[key], _support_name(key), steps))
+    reader.findings.count("lines of supports", len(block.lines))
+
+
+def _support_name(key):
+    return f"node {key}" if is_integer(key) else key.lower()
+
+
+def _by_rotation_node(reader, nodes, held):
+    """The translations of a ROT NODE of CalculiX are the rotations of its rigid body."""
+    turning = getattr(reader, "rotation_nodes", {})
+    if len(nodes) == 1 and nodes[0] in turning:
+        return [turning[nodes[0]]], {i + 3: value for i, value in held.items() if i <= 3}
+    return nodes, held
+
+
+def _watch(reader, block):
+    if block.get("NSET") and any("U" in cells for _, cells in block.lines):
+        reader.model.watched += reader.find_nodes(block.get("NSET"), block.place)
+
+
+def _in_step(reader, block):
+    if reader.step is None:
+        refuse(block.place, f"*{block.keyword} outside a step")
+    for name in ("AMPLITUDE", "FOLLOWER", "TIME DELAY", "LOAD CASE", "SECTOR"):
+        if block.has(name):
+            reader.findings.leave_out(f"{name} of *{block.keyword}", block.place)
+
+
+def _node_loads(reader, block):
+    _in_step(reader, block)
+    acting = _acting(reader).nodes
+    if block.get("OP") == "NEW":
+        acting.clear()
+    fresh = set()
+    for place, cells in block.lines:
+        if len(cells) < 3:
+            refuse(place, "expected node or set, direction, value")
+        direction = integer(cells[1], place, "a direction, 1 to 6")
+        if not 1 <= direction <= 6:
+            refuse(place, f"a force acts along 1 to 6, got {direction}")
+        value = number(cells[2], place)
+        for node in reader.find_nodes(cells[0], place):
+            nodes, turned = _by_rotation_node(reader, [node], {direction: value})
+            for i, one in turned.items():
+                key = (nodes[0], i)
+                # loads of one block on one node add up, those of an earlier step are replaced
+                before = acting[key][0] if key in fresh else 0.0
+                acting[key] = (before + one, place)
+                fresh.add(key)
+    reader.findings.count("lines of node loads", len(block.lines))
+
+
+def _element_loads(reader, block):
+    _in_step(reader, block)
+    acting = _acting(reader).elements
+    if block.get("OP") == "NEW":
+        acting.clear()
+    for place, cells in block.lines:
+        if len(cells) < 3:
+            refuse(place, "expected element or set, kind of load, value")
+        label = cells[1].upper()
+        whole = not cells[0] and label == "GRAV"
+        members = tuple(reader.elements) if whole else tuple(reader.find_elements(cells[0], place))
+        values = [number(cell, place) for cell in cells[2:] if cell]
+        if not values:
+            refuse(place, f"{label} without a value")
+        acting[(members, label)] = (values, place)
+    reader.findings.count("lines of element loads", len(block.lines))
+
+
+def _surface_loads(reader, block):
+    _in_step(reader, block)
+    acting = _acting(reader).elements
+    for place, cells in block.lines:
+        name = cells[0].strip('"').upper()
+        if name not in reader.surfaces:
+            refuse(place, f"there is no surface '{name}'{did_you_mean(name, reader.surfaces)}")
+        if len(cells) < 3 or cells[1].upper() != "P":
+            reader.findings.leave_out(f"*DSLOAD of kind {cells[1] if len(cells) > 1 else '?'}", place)
+            continue
+        for members, face, _ in reader.surfaces[name]:
+            # pressure on a face pushes it
+            side = {"SPOS": -1.0, "SNEG": 1.0}.get(face)
+            if side is None:
+                refuse(place, f"pressure on the face {face or 'none'} of surface '{name}': SPOS or SNEG is read")
+            acting[(tuple(members), f"P {face}")] = ([side * number(cells[2], place)], place)
+
+
+def finish_steps(reader):
+    """Steps and loads of the model, when the whole file is known."""
+    if reader.step is not None:
+        refuse(reader.step.place, "the file ends within this step: *END STEP is missing")
+    history = _acting(reader).history
+    kept = [entry for entry in history if entry[0].kind in KINDS.values()]
+    for step, _, _ in history:
+        if step.kind is None:
+            refuse(step.place, "the step does not say what it is: *STATIC, *FREQUENCY or *BUCKLE")
+        if step.kind not in KINDS.values():
+            reader.findings.leave_out(f"a step of *{step.kind}", step.place)
+    model = reader.model
+    if not kept:
+        reader.findings.leave_out("the file has no step that is read: the deck finds modes")
+        place = next(iter(reader.elements.values()))[2]
+        model.steps.append(Step("modes", "modal", place))
+        return
+    _make_steps(reader, kept)
+    node_loads, element_loads = {}, {}
+    for number_, (step, nodes, elements) in enumerate(kept):
+        if step.kind == "modal":
+            continue
+        if step.kind == "buckling" and model.steps[number_].preloaded:
+            continue
+        _collect_node_loads(nodes, number_, node_loads)
+        _collect_element_loads(elements, number_, element_loads)
+    model.node_loads += node_loads.values()
+    for (members, label), entries in element_loads.items():
+        for values, (place, steps) in entries.items():
+            _make_element_load(reader, members, label, list(values), place, steps)
+
+
+def _make_steps(reader, kept):
+    """A step of modes starts from the static one before it, where that is what the file asks for."""
+    before = None
+    for step, _, _ in kept:
+        preloaded = None
+        if step.kind != "static" and before is not None and (step.perturbation or before.nonlinear):
+            preloaded = before.name
+        if step.kind == "buckling" and preloaded:
+            reader.findings.leave_out("the static step before *BUCKLE: factors are those of the load of the step alone", step.place)
+            preloaded = None
+        reader.model.steps.append(Step(step.name, step.kind, step.place, step.modes, step.nonlinear, preloaded))
+        if step.kind == "static":
+            before = step
+    if any(step.kind == "static" and not step.nonlinear for step, _, _ in kept):
+        reader.findings.assume("linear static steps become nonlinear ones, which agree where displacements are small")
+    used = {id(step.steps) for step in reader.model.supports}
+    if len(used) > 1:
+        numbers = {step.number: i for i, (step, _, _) in enumerate(kept)}
+        for support in reader.model.supports:
+            if support.steps is not None:
+                support.steps = {new for old, new in numbers.items() if old in support.steps}
+
+
+def _collect_node_loads(nodes, number_, found):
+    """One load for all nodes with the same force."""
+    vectors, places = collections.defaultdict(lambda: numpy.zeros(6)), {}
+    for (node, direction), (value, place) in nodes.items():
+        vectors[node][direction - 1] += value
+        places.setdefault(node, place)
+    groups = collections.defaultdict(list)
+    for node, vector in vectors.items():
+        if vector.any():
+            groups[tuple(vector)].append(node)
+    for vector, members in groups.items():
+        key = (vector, tuple(members))
+        if key not in found:
+            found[key] = NodeLoad(members, numpy.array(vector), places[members[0]], "force", set())
+        found[key].steps.add(number_)
+
+
+def _collect_element_loads(elements, number_, found):
+    for key, (values, place) in elements.items():
+        entries = found.setdefault(key, {})
+        entries.setdefault(tuple(values), (place, set()))[1].add(number_)
+
+
+def _make_element_load(reader, members, label, values, place, steps):
+    model = reader.model
+    if not any(values):
+        return
+    if label == "GRAV":
+        direction = numpy.array([*values[1:4], 0.0, 0.0, 0.0][:3])
+        if set(members) != {key for key, (type, _, _) in reader.elements.items()}:
+            reader.findings.assume("gravity acts on everything, not only on the elements named", place)
+        model.element_loads.append(ElementLoad("gravity", [], values[0] * direction, place, "gravity", steps))
+        return
+    shells = [key for key in members if reader.elements[key][0] in SHELLS]
+    beams = [key for key in members if reader.elements[key][0] in BEAMS]
+    places = {element.number: i for i, element in enumerate(model.shells)}
+    beam_places = {element.number: i for i, element in enumerate(model.beams)}
+    if label.startswith("P ") or (label == "P" and shells):
+        model.element_loads.append(
+            ElementLoad("pressure", [places[k] for k in shells], values[0], place, "pressure", steps)
+        )
+    elif label in ("BX", "BY", "BZ"):
+        _body_force(model, shells, beams, places, beam_places, numpy.eye(3)["XYZ".index(label[1])] * values[0], place, steps)
+    elif label in ("PX", "PY", "PZ") and beams:
+        force = numpy.eye(3)["XYZ".index(label[1])] * values[0]
+        model.element_loads.append(ElementLoad("line", [beam_places[k] for k in beams], force, place, "line load", steps))
+    elif label in ("P1", "P2") and beams:
+        _line_in_section(reader, beams, beam_places, int(label[1]), values[0], place, steps)
+    else:
+        reader.findings.leave_out(f"element loads of kind {label}", place)
+
+
+def _body_force(model, shells, beams, places, beam_places, force, place, steps):
+    """Force per volume, as force per area of each wall; beams know no area here."""
+    walls = collections.defaultdict(list)
+    for key in shells:
+        walls[model.shells[places[key]].wall].append(places[key])
+    for wall, members in walls.items():
+        thickness = sum(layer.thickness for layer in model.walls[wall].layers)
+        model.element_loads.append(ElementLoad("surface", members, force * thickness, place, "body force", steps))
+    if beams:
+        model.findings.leave_out("body forces on beams", place)
+
+
+def _line_in_section(reader, beams, beam_places, axis, value, place, steps):
+    """Along an axis of the section. CalculiX has it as a pressure on a face of the solid beam."""
+    model = reader.model
+    groups = collections.defaultdict(list)
+    for key in beams:
+        element = model.beams[beam_places[key]]
+        tangent = model.nodes[element.nodes[1]] - model.nodes[element.nodes[0]]
+        tangent = tangent / numpy.linalg.norm(tangent)
+        first = numpy.array(element.up, float) - (numpy.array(element.up) @ tangent) * tangent
+        first = first / (numpy.linalg.norm(first) or 1.0)
+        direction = first if axis == 1 else numpy.cross(tangent, first)
+        groups[tuple(numpy.round(direction * value, 12))].append(beam_places[key])
+    reader.findings.assume("P1 and P2 on beams are forces per length, as in Abaqus", place)
+    for force, members in groups.items():
+        model.element_loads.append(ElementLoad("line", members, numpy.array(force), place, "line load", steps))

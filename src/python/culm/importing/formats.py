@@ -1,0 +1,16 @@
+"""The formats of `culm import` that are read in Python: each is a module of this name.
+
+A module has `read(path, arguments)`, which returns a Model (model.py) or a ready deck
+(ready_deck.py), and may have `declare(parser)` for options of its own, and FILE, which says what
+file is meant.
+"""
+
+import importlib
+
+FORMATS = {
+    "abaqus": "A model of Abaqus or CalculiX, .inp",
+}
+
+
+def module_of(name):
+    return importlib.import_module(f".{name}", __package__)

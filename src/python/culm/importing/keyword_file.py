@@ -1,0 +1,131 @@
+"""Files of Abaqus and CalculiX as blocks: a keyword, its parameters, the lines of data below."""
+
+import dataclasses
+import pathlib
+import re
+
+from ..errors import CulmError
+from .findings import FILE_ERROR, Place, refuse
+
+DEEPEST = 20  # includes within includes
+MOST_BYTES = 2**30
+NUMBER = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?"
+
+
+@dataclasses.dataclass
+class Block:
+    """@param lines  (place, cells) of each line of data"""
+
+    keyword: str
+    parameters: dict  # upper case; values as they stand, None for flags
+    place: Place
+    lines: list
+
+    def get(self, name):
+        """A parameter in upper case without quotation marks; None if it is not there."""
+        value = self.parameters.get(name)
+        return None if value is None else value.strip('"').upper()
+
+    def required(self, name):
+        value = self.get(name)
+        if not value:
+            refuse(self.place, f"*{self.keyword} needs the parameter {name}")
+        return value
+
+    def has(self, name):
+        return name in self.parameters
+
+
+def read_blocks(path, depth=0):
+    """All blocks of a file and of those it includes."""
+    path = pathlib.Path(path)
+    blocks = []
+    for number, line in _logical_lines(path):
+        place = Place(str(path), number)
+        if line.startswith("*"):
+            keyword, parameters = _keyword(line, place)
+            if keyword == "INCLUDE":
+                if depth == DEEPEST:
+                    refuse(place, f"files include each other more than {DEEPEST} deep")
+                name = parameters.get("INPUT")
+                if not name:
+                    refuse(place, "*INCLUDE needs the parameter INPUT")
+                blocks += read_blocks(path.parent / name.strip('"'), depth + 1)
+                continue
+            blocks.append(Block(keyword, parameters, place, []))
+        elif not blocks:
+            refuse(place, f"expected a keyword, as *NODE, found '{line[:40]}'")
+        else:
+            blocks[-1].lines.append((place, [cell.strip() for cell in line.split(",")]))
+    return blocks
+
+
+def read_text(path):
+    """The text of a file; what is not UTF-8 is taken as Latin-1."""
+    path = pathlib.Path(path)
+    if not path.is_file():
+        raise CulmError(f"{path}: is not there, or no regular file", FILE_ERROR)
+    if path.stat().st_size > MOST_BYTES:
+        raise CulmError(f"{path}: is larger than 1 GB", FILE_ERROR)
+    data = path.read_bytes()
+    if b"\0" in data:
+        line = data[: data.index(b"\0")].count(b"\n") + 1
+        refuse(Place(str(path), line), "holds a zero byte, so it is no text file")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def number(cell, place, what="a number"):
+    """A real number; Fortran's D is an E."""
+    text = cell.strip().upper().replace("D", "E")
+    value = float(text) if re.fullmatch(NUMBER, text) else float("nan")
+    if not abs(value) < float("inf"):
+        refuse(place, f"expected {what}, found '{cell[:40]}'")
+    return value
+
+
+def is_integer(text):
+    return re.fullmatch(r"[+-]?[0-9]{1,18}", text) is not None
+
+
+def integer(cell, place, what="a whole number"):
+    text = cell.strip()
+    if not is_integer(text):
+        refuse(place, f"expected {what}, found '{cell[:40]}'")
+    return int(text)
+
+
+def _logical_lines(path):
+    """Lines without comments; those of keywords that end with a comma go on in the next."""
+    waiting, start = "", 0
+    for number_, raw in enumerate(read_text(path).split("\n"), 1):
+        line = raw.strip()
+        if not line or line.startswith("**"):
+            continue
+        if waiting:
+            line = waiting + line
+        else:
+            start = number_
+        waiting = ""
+        if line.startswith("*") and line.endswith(","):
+            waiting = line
+            continue
+        yield start, line
+    if waiting:
+        refuse(Place(str(path), start), "the file ends within a keyword line")
+
+
+def _keyword(line, place):
+    first, *rest = [cell.strip() for cell in line[1:].split(",")]
+    parameters = {}
+    for cell in rest:
+        if not cell:
+            continue
+        name, _, value = cell.partition("=")
+        parameters[" ".join(name.upper().split())] = value.strip() if "=" in cell else None
+    keyword = " ".join(first.upper().split())
+    if not keyword:
+        refuse(place, "a keyword line without a keyword")
+    return keyword, parameters

@@ -1,0 +1,169 @@
+"""Degrees of freedom of a file, held one by one, as supports of the deck."""
+
+import collections
+
+import numpy
+
+from .places import directors
+
+UNIT = numpy.eye(3)
+TRANSLATIONS, ROTATIONS = {1, 2, 3}, {4, 5, 6}
+DRILLING = 0.05  # sine of axis and director, below which a rotation is one about the director
+
+
+def add_supports(model, places, quads, constraints):
+    """Supports of the model to the list Constraints. @return names by step: {name: steps or None}"""
+    steps_of = {}
+    for support in model.supports:
+        for name in _add_support(support, model, places, quads, constraints):
+            steps_of[name] = support.steps
+    return steps_of
+
+
+def _add_support(support, model, places, quads, constraints):
+    nodes = [node for node in quads.with_added(support.nodes) if places.spots.get(node)]
+    lost = [node for node in support.nodes if not places.spots.get(node)]
+    if lost:
+        model.findings.leave_out(f"supports of nodes that belong to no element, as {lost[0]}", support.place)
+    shells = [node for node in nodes if places.leader(node).is_shell]
+    others = [node for node in nodes if not places.leader(node).is_shell]
+    made = []
+    if others:
+        made += _hold(others, _of_triads(support.held), support, places, constraints)
+    groups = collections.defaultdict(list)
+    for node in shells:
+        groups[_of_shell(support, node, places, model)].append(node)
+    for kinds, members in groups.items():
+        made += _hold(members, [_entry(kind) for kind in kinds], support, places, constraints)
+    return made
+
+
+def _hold(nodes, entries, support, places, constraints):
+    """One constraint for each entry (type, values, numbers): on all nodes, or on single nodes of
+    shells by number, where a point has several."""
+    made = []
+    for type, values, only in entries:
+        if only is None:
+            target = places.one_name(nodes, support.name)
+        else:
+            target = places.set_of([f"{part}/{number}" for part, number in only], support.name)
+        name = _free_name(support.name, constraints)
+        entry = constraints.list(name, f"{support.place}", type).add("Node", target)
+        for key, value in values.items():
+            entry.add(key, value)
+        made.append(name)
+    return made
+
+
+def _free_name(name, constraints):
+    taken = {one.name for one in constraints.lists()}
+    number = 1
+    while f"{name} {number}" in taken:
+        number += 1
+    return f"{name} {number}"
+
+
+def _entry(kind):
+    type, values, only = kind
+    return type, dict(values), only
+
+
+def _of_triads(held):
+    """Entries for nodes with a triad: beams and bodies."""
+    moving = any(held.values())
+    at = set(held)
+    if not moving:
+        if at >= TRANSLATIONS | ROTATIONS:
+            return [("Rigid Support", {}, None)]
+        if at >= TRANSLATIONS and len(at & ROTATIONS) == 2:
+            (free,) = ROTATIONS - at
+            return [("Revolute Support", {"Axis": UNIT[free - 4]}, None)]
+    entries = []
+    left = dict(held)
+    for i in (1, 2, 3):
+        across = ROTATIONS - {i + 3}
+        if not moving and i in left and across <= set(left) and not TRANSLATIONS <= at:
+            entries.append(("Symmetry", {"Normal": UNIT[i - 1]}, None))
+            for one in (i, *across):
+                del left[one]
+    entries += _translations(left)
+    for i in sorted(ROTATIONS & set(left)):
+        values = {"Axis": UNIT[i - 4]}
+        if left[i]:
+            values["Angle"] = left[i]
+        entries.append(("Rotation", values, None))
+    return entries
+
+
+def _translations(held):
+    at = TRANSLATIONS & set(held)
+    if at == TRANSLATIONS:
+        motion = numpy.array([held[i] for i in (1, 2, 3)])
+        return [("Spherical Support", {"Translation": motion} if motion.any() else {}, None)]
+    entries = []
+    for i in sorted(at):
+        values = {"Direction": UNIT[i - 1]}
+        if held[i]:
+            values["Translation"] = held[i]
+        entries.append(("Simple Support", values, None))
+    return entries
+
+
+def _of_shell(support, node, places, model):
+    """Entries for a point of a shell, as a hashable tuple. A rotation about an axis a moves the
+    director d by a × d, so to hold it is to hold the director along that."""
+    held = support.held
+    turned = [i for i in ROTATIONS if held.get(i)]
+    if turned:
+        model.findings.leave_out("prescribed rotations of shell nodes", support.place)
+    spot = places.leader(node)
+    at = directors(spot, node)
+    rotations = sorted(ROTATIONS & set(held) - set(turned))
+    if set(held) >= TRANSLATIONS and rotations == [4, 5, 6] and not any(held.values()):
+        return _frozen([("Rigid Support", {}, None)])
+    entries = _translations(held)
+    kept = [_held_directions(rotations, director) for director in at]
+    if rotations and not any(len(one) for one in kept):
+        model.findings.assume(
+            "supports against turning about the normal of a shell hold nothing: its nodes have no such rotation",
+            support.place,
+        )
+    if all(numpy.allclose(one, kept[0]) if len(one) == len(kept[0]) else False for one in kept):
+        entries += [("Director Support", {"Direction": along}, None) for along in kept[0]]
+    else:  # sides of a fold, each with its own directions
+        for one, shell_node in zip(kept, spot.structure.nodes[node]):
+            only = ((spot.structure.name, shell_node.number),)
+            entries += [("Director Support", {"Direction": along}, only) for along in one]
+    return _frozen(entries)
+
+
+def _held_directions(rotations, director):
+    """An orthonormal basis of all a × d, with axes of space where they fit."""
+    moves = numpy.array([numpy.cross(UNIT[i - 4], director) for i in rotations]).reshape(-1, 3)
+    moves = moves[numpy.linalg.norm(moves, axis=1) > DRILLING]
+    if not len(moves):
+        return []
+    _, sizes, rows = numpy.linalg.svd(moves)
+    basis = rows[: int((sizes > DRILLING).sum())]
+    found = []
+    for axis in UNIT:
+        if numpy.linalg.norm(basis @ axis) > 1.0 - 1e-9:
+            found.append(axis)
+    for row in basis:
+        rest = row - sum((row @ one) * one for one in found)
+        if len(found) < len(basis) and numpy.linalg.norm(rest) > 1e-6:
+            found.append(rest / numpy.linalg.norm(rest))
+    return found
+
+
+def _frozen(entries):
+    return tuple(
+        (type, tuple((key, _rounded(value)) for key, value in values.items()), only) for type, values, only in entries
+    )
+
+
+def _rounded(value):
+    """The same for directions that differ by rounding."""
+    if isinstance(value, numpy.ndarray):
+        return tuple(float(x) + 0.0 for x in numpy.round(value, 12))
+    return value

@@ -1,0 +1,145 @@
+"""Input files that CalculiX and culm both read: a plate, a layered cylinder panel, a frame.
+
+usage: samples.py FOLDER      (writes plate.inp, panel.inp, frame.inp)
+"""
+
+import math
+import pathlib
+import sys
+
+STEPS = """*STEP
+*STATIC
+*{kind}
+{static}
+*NODE PRINT, NSET=WATCHED
+U
+*END STEP
+*STEP
+*FREQUENCY
+4
+*END STEP
+*STEP
+*BUCKLE
+3
+*CLOAD
+{buckling}
+*END STEP
+"""
+
+
+def grid(columns, rows, place):
+    """Nodes and eight-node elements over a grid: numbers 1000 j + i + 1 at (2 columns, 2 rows)."""
+    nodes = {
+        1000 * j + i + 1: place(i / (2 * columns), j / (2 * rows))
+        for j in range(2 * rows + 1)
+        for i in range(2 * columns + 1)
+        if i % 2 == 0 or j % 2 == 0
+    }
+    elements = {}
+    for j in range(rows):
+        for i in range(columns):
+            a = 2000 * j + 2 * i + 1
+            corners = [a, a + 2, a + 2002, a + 2000]
+            elements[columns * j + i + 1] = corners + [a + 1, a + 1002, a + 2001, a + 1000]
+    return nodes, elements
+
+
+def lines(numbers):
+    """A set, sixteen numbers to a line."""
+    numbers = list(numbers)
+    return "\n".join(", ".join(map(str, numbers[i : i + 16])) for i in range(0, len(numbers), 16))
+
+
+def mesh(nodes, elements, type, name):
+    text = "*NODE, NSET=ALL\n"
+    text += "\n".join(f"{n}, " + ", ".join(f"{x:.12g}" for x in place) for n, place in nodes.items())
+    text += f"\n*ELEMENT, TYPE={type}, ELSET={name}\n"
+    return text + "\n".join(f"{e}, " + ", ".join(map(str, row)) for e, row in elements.items()) + "\n"
+
+
+def edge_forces(numbers, total, direction):
+    """Nodal forces of a load that is even along a row of quadratic elements."""
+    share = total / ((len(numbers) - 1) // 2) / 6.0
+    weights = {n: 0.0 for n in numbers}
+    for i in range(0, len(numbers) - 2, 2):
+        for n, w in zip(numbers[i : i + 3], (1, 4, 1)):
+            weights[n] += w * share
+    return "\n".join(f"{n}, {direction}, {w:.12g}" for n, w in weights.items())
+
+
+def plate(n=8):
+    """Simply supported, under pressure; pressed along x in the step of buckling."""
+    nodes, elements = grid(n, n, lambda u, v: (u, v, 0.0))
+    edge = lambda test: [k for k, p in nodes.items() if test(*p[:2])]  # noqa: E731
+    left, right = edge(lambda x, y: x == 0), edge(lambda x, y: x == 1)
+    rim = edge(lambda x, y: x in (0, 1) or y in (0, 1))
+    middle = 1000 * n + n + 1
+    return (
+        "*HEADING\nSquare plate, simply supported\n"
+        + mesh(nodes, elements, "S8R", "PLATE")
+        + f"*NSET, NSET=RIM\n{lines(rim)}\n*NSET, NSET=LEFT\n{lines(left)}\n*NSET, NSET=WATCHED\n{middle}\n"
+        + "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7850.\n"
+        + "*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL\n0.01\n"
+        + f"*BOUNDARY\nRIM, 3, 3\nLEFT, 1, 1\n1, 2, 2\n{2 * n + 1}, 2, 2\n"
+        + STEPS.format(kind="DLOAD", static="PLATE, P, 100.", buckling=edge_forces(right, -1e4, 1))
+    )
+
+
+def panel(n=8, radius=1.0, angle=1.0, length=1.0):
+    """A part of a cylinder about z with layers along the axis and around, [0/90/0]; clamped below,
+    pushed at the middle, and pressed from above in the step of buckling. Each column of elements has
+    a section of its own, so that the directions of the layers follow the surface."""
+    half = 0.5 * angle
+
+    def place(u, v):
+        phi = angle * u - half
+        return radius * math.cos(phi), radius * math.sin(phi), length * v
+
+    nodes, elements = grid(n, n, place)
+    bottom = [i + 1 for i in range(2 * n + 1)]
+    top = [2000 * n + i + 1 for i in range(2 * n + 1)]
+    middle = 1000 * n + n + 1
+    text = "*HEADING\nCylinder panel of three layers\n" + mesh(nodes, elements, "S8R", "PANEL")
+    text += f"*NSET, NSET=BOTTOM\n{lines(bottom)}\n*NSET, NSET=TOP\n{lines(top)}\n*NSET, NSET=WATCHED\n{middle}\n"
+    text += "*MATERIAL, NAME=PLY\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
+    text += "1.4E11, 1.0E10, 1.0E10, 0.3, 0.3, 0.4, 5.0E9, 5.0E9\n3.5E9\n*DENSITY\n1600.\n"
+    for i in range(n):
+        phi = angle * (i + 0.5) / n - half
+        around = f"{-math.sin(phi):.12g}, {math.cos(phi):.12g}, 0."
+        text += f"*ELSET, ELSET=COLUMN{i + 1}\n{lines(range(i + 1, n * n + 1, n))}\n"
+        text += f"*ORIENTATION, NAME=AXIAL{i + 1}\n0., 0., 1., {around}\n"
+        text += f"*ORIENTATION, NAME=AROUND{i + 1}\n{around}, 0., 0., 1.\n"
+        text += f"*SHELL SECTION, ELSET=COLUMN{i + 1}, COMPOSITE\n"
+        for layer in ("AXIAL", "AROUND", "AXIAL"):
+            text += f"0.004, , PLY, {layer}{i + 1}\n"
+    text += "*BOUNDARY\nBOTTOM, 1, 6\nTOP, 1, 2\n"
+    return text + STEPS.format(kind="CLOAD", static=f"{middle}, 1, -100.", buckling=edge_forces(top, -1e4, 3))
+
+
+def frame(n=6, height=3.0, width=4.0):
+    """A portal of three members; pushed sideways at a corner, pressed on both in the step of buckling."""
+    path = [(0.0, 0.0, height * i / (2 * n)) for i in range(2 * n + 1)]
+    path += [(width * i / (2 * n), 0.0, height) for i in range(1, 2 * n + 1)]
+    path += [(width, 0.0, height * (1 - i / (2 * n))) for i in range(1, 2 * n + 1)]
+    nodes = {i + 1: p for i, p in enumerate(path)}
+    elements = {e + 1: [2 * e + 1, 2 * e + 2, 2 * e + 3] for e in range(3 * n)}
+    columns = [*range(1, n + 1), *range(2 * n + 1, 3 * n + 1)]
+    first, second = 2 * n + 1, 4 * n + 1
+    return (
+        "*HEADING\nPortal frame\n"
+        + mesh(nodes, elements, "B32R", "FRAME")
+        + f"*ELSET, ELSET=COLUMNS\n{lines(columns)}\n*ELSET, ELSET=GIRDER\n{lines(range(n + 1, 2 * n + 1))}\n"
+        + f"*NSET, NSET=FEET\n1, {6 * n + 1}\n*NSET, NSET=WATCHED\n{first}\n"
+        + "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7850.\n"
+        + "*BEAM SECTION, ELSET=COLUMNS, MATERIAL=STEEL, SECTION=RECT\n0.1, 0.15\n0., 1., 0.\n"
+        + "*BEAM SECTION, ELSET=GIRDER, MATERIAL=STEEL, SECTION=RECT\n0.1, 0.2\n0., 1., 0.\n"
+        + "*BOUNDARY\nFEET, 1, 6\n"
+        + STEPS.format(kind="CLOAD", static=f"{first}, 1, 1000.", buckling=f"{first}, 3, -1e5\n{second}, 3, -1e5")
+    )
+
+
+SAMPLES = {"plate": plate, "panel": panel, "frame": frame}
+
+if __name__ == "__main__":
+    for name, make in SAMPLES.items():
+        (pathlib.Path(sys.argv[1]) / f"{name}.inp").write_text(make())

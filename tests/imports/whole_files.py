@@ -1,0 +1,9 @@
+"""Small files of all formats, of our own, that tests damage: name -> (format, {file name: text})."""
+
+import samples
+
+WHOLE_FILES = {
+    "plate.inp": ("abaqus", {"plate.inp": samples.plate(2)}),
+    "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
+    "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),
+}
