@@ -69,6 +69,12 @@ struct ReplayArguments : RunArguments {
   std::filesystem::path record;
 };
 
+/// What to print of the input reference.
+struct ReferenceArguments {
+  std::string name;       ///< a list, type or parameter; everything if empty
+  bool relax_ng = false;  ///< as a grammar
+};
+
 /// Runs a deck.
 /// @param replay  a record whose loads act in place of those of the partner; empty for none
 void run(const parallel::Comm& comm, RunArguments& arguments,
@@ -83,7 +89,7 @@ void couple(const parallel::Comm& comm, CoupleArguments& arguments);
 void replay(const parallel::Comm& comm, ReplayArguments& arguments);
 /// Makes a deck from files of OpenFAST, and a report beside it; replaces nothing.
 void import_openfast(const parallel::Comm& comm, const ImportArguments& arguments);
-/// Prints the input reference, or the part of it that has a name.
-void reference(const parallel::Comm& comm, const std::string& name);
+/// Prints the input reference, the part of it that has a name, or its grammar.
+void reference(const parallel::Comm& comm, const ReferenceArguments& arguments);
 
 }  // namespace culm::app

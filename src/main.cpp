@@ -2,12 +2,13 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/text.hpp>
-#include <culm/base/version.hpp>
 #include <culm/parallel/first_ranks.hpp>
 #include <culm/simulation/session.hpp>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "python.hpp"
+#include "version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <mpi.h>
@@ -31,6 +32,7 @@ using culm::app::CheckArguments;
 using culm::app::CoupleArguments;
 using culm::app::DeckArguments;
 using culm::app::ImportArguments;
+using culm::app::ReferenceArguments;
 using culm::app::ReplayArguments;
 using culm::app::ResumeArguments;
 using culm::app::RunArguments;
@@ -50,7 +52,7 @@ struct Arguments {
 
   ResumeArguments resume;
   ImportArguments import;
-  std::string name;  // for the reference
+  ReferenceArguments reference;
 };
 
 template <class VerbArguments>
@@ -118,7 +120,7 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
 void declare_verbs(CLI::App& app, Arguments& arguments,
                    std::function<void(const culm::parallel::Comm&)>& action) {
   using culm::parallel::Comm;
-  app.set_version_flag("--version", std::string(culm::version));
+  app.set_version_flag("--version", culm::app::version_text());
   app.require_subcommand(1);
   CLI::App* run = app.add_subcommand("run", "Run a deck");
   add_run_options(*run, arguments.run);
@@ -178,29 +180,31 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
     action = [&](const Comm& comm) { culm::app::import_openfast(comm, arguments.import); };
   });
   CLI::App* reference = app.add_subcommand("reference", "Print what a deck may contain");
-  reference->add_option("name", arguments.name,
-                        "A list, type or parameter; everything if not given");
+  CLI::Option* name = reference->add_option("name", arguments.reference.name,
+                                            "A list, type or parameter; everything if not given");
+  reference
+      ->add_flag("--relax-ng", arguments.reference.relax_ng,
+                 "Print a grammar of decks in RELAX NG, for editors")
+      ->excludes(name);
   reference->callback(
-      [&] { action = [&](const Comm& comm) { culm::app::reference(comm, arguments.name); }; });
+      [&] { action = [&](const Comm& comm) { culm::app::reference(comm, arguments.reference); }; });
   // these are called before MPI starts; here they are named for the help
   for (const auto& verb : culm::app::python_verbs()) app.add_subcommand(verb.name, verb.summary);
+  CLI::App* commands = app.add_subcommand("commands", "The table of all verbs and options");
+  commands->group("");  // for the program itself
+  commands->callback([&] {
+    action = [&](const Comm& comm) {
+      if (comm.is_root()) std::fputs(culm::app::table_of_commands(app).c_str(), stdout);
+    };
+  });
 }
 
-std::vector<std::string> names_of_verbs(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
-  return names;
-}
-
-// CLI11 misses a subcommand even where an unknown one is given.
+// CLI11 misses a subcommand, or a deck, even where a misspelt one is given.
 int report(const CLI::ParseError& error, const CLI::App& app, const culm::parallel::Comm& comm) {
-  const std::vector<std::string> extras = app.remaining();
-  const bool unknown = app.get_subcommands().empty() && !extras.empty();
-  if (error.get_exit_code() != 0 && unknown) {
-    const std::string hint = culm::did_you_mean(extras.front(), names_of_verbs(app));
+  const std::string unknown = culm::app::explain_unknown_word(app);
+  if (error.get_exit_code() != 0 && !unknown.empty()) {
     if (comm.is_root()) {
-      std::fprintf(stderr, "unknown command '%s'%s\nRun with --help for more information.\n",
-                   extras.front().c_str(), hint.c_str());
+      std::fprintf(stderr, "%s\nRun with --help for more information.\n", unknown.c_str());
     }
     return 2;
   }

@@ -37,8 +37,10 @@ int replace_process(const std::filesystem::path& program, const std::vector<std:
 
 const std::vector<PythonVerb>& python_verbs() {
   static const std::vector<PythonVerb> verbs = {
+      {"completion", "Print what bash or zsh needs to complete command lines"},
       {"hard", "Run the hard cases with growing stressors and tell their margins"},
       {"effects", "Tell what the effects of a scene cost, and what changes without each"},
+      {"manual", "Write the manual as pages for man"},
       {"report", "Draw the page of a run: report.html in its folder"},
       {"study", "Measure what accuracy costs: vary a deck, compare with a reference, advise"},
       {"sweep",

@@ -1,4 +1,5 @@
 #include <culm/deck/reference.hpp>
+#include <culm/deck/relax_ng.hpp>
 #include <culm/simulation/catalogue.hpp>
 
 #include "command.hpp"
@@ -7,8 +8,10 @@
 
 namespace culm::app {
 
-void reference(const parallel::Comm& comm, const std::string& name) {
-  const std::string text = deck::reference(simulation::Catalogue().deck_schema(), name);
+void reference(const parallel::Comm& comm, const ReferenceArguments& arguments) {
+  const Schema schema = simulation::Catalogue().deck_schema();
+  const std::string text =
+      arguments.relax_ng ? deck::relax_ng(schema) : deck::reference(schema, arguments.name);
   if (comm.is_root()) std::fputs(text.c_str(), stdout);
 }
 

@@ -3,6 +3,7 @@
 
 - Links between pages, and paths in `code`, lead somewhere.
 - The table of packages in doc/developer/architecture.md says what their CMakeLists.txt say.
+- CHANGELOG.md knows the version, and that of the format of decks.
 - Every section that a comment cites, as in `@source formulation 4.1`, has a page in doc/theory/README.md.
 """
 
@@ -20,6 +21,7 @@ ROOTS = ("packages/", "tests/", "tools/", "inputs/", "cmake/", "src/", "doc/")
 
 def pages():
     yield ROOT / "README.md"
+    yield ROOT / "CHANGELOG.md"
     yield from sorted(DOC.rglob("*.md"))
     yield from sorted(PACKAGES.glob("*/README.md"))
     yield from sorted((ROOT / "tests").rglob("README.md"))
@@ -91,6 +93,20 @@ def check_sources():
             yield f"{place}: section {section} of the formulation is not in {THEORY.relative_to(ROOT)}"
 
 
+def check_changes():
+    """The newest entry of CHANGELOG.md is that of the version and format of decks in the code."""
+    entry = (ROOT / "CHANGELOG.md").read_text().split("\n## ")[1]
+    version = re.search(r'version = "(.*)"', (PACKAGES / "base/include/culm/base/version.hpp").read_text())[1]
+    number = re.search(r"format_version = (\d+)", (PACKAGES / "deck/include/culm/deck/format.hpp").read_text())[1]
+    project = re.search(r"project\(culm VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
+    if project != version:
+        yield f"CMakeLists.txt: version {project}, but {version} in version.hpp"
+    if not entry.startswith(version):
+        yield f"CHANGELOG.md: the newest entry is not that of {version}"
+    if f"Deck format {number}" not in entry:
+        yield f"CHANGELOG.md: the newest entry does not name 'Deck format {number}'"
+
+
 def main():
     errors = []
     count = 0
@@ -99,6 +115,7 @@ def main():
         errors += check_page(page)
     errors += check_packages()
     errors += check_sources()
+    errors += check_changes()
     for error in errors:
         print(error)
     print(f"docs: {count} pages, {len(errors)} errors")

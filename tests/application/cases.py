@@ -64,7 +64,8 @@ def is_imported(folder, _):
 
 
 def is_version(_, stdout):
-    return "" if re.fullmatch(r"\d+\.\d+\.\d+\n", stdout) else f"'{stdout}' is no version"
+    lines = r"\d+\.\d+\.\d+\ncommit: ([0-9a-f]{7,}(-dirty)?|unknown)\nbuild: \w+, .+\ndeck format: \d+\n"
+    return "" if re.fullmatch(lines, stdout) else f"'{stdout}' is no version"
 
 
 def is_help_of_culm(_, stdout):

@@ -1427,7 +1427,19 @@ COMMANDS = [
     usage("no verb", "", "A subcommand is required"),
     usage("unknown verb", "chekc deck.xml", "unknown command 'chekc' – did you mean 'check'?"),
     usage("no deck named", "run", "deck is required"),
-    usage("unknown option", "run deck.xml --frob", "--frob"),
+    usage("unknown option", "run deck.xml --frob", "unknown option '--frob' (allowed: --help, --set"),
+    usage("misspelt option", "run deck.xml --stirct", "unknown option '--stirct' – did you mean '--strict'?"),
+    usage(
+        "misspelt option with a value, and no deck",
+        "run --outptu=here",
+        "unknown option '--outptu' – did you mean '--output'?",
+    ),
+    usage(
+        "misspelt option of a verb in Python",
+        "report out --quite",
+        "unknown option '--quite' – did you mean '--quiet'?",
+    ),
+    usage("a word too many for a verb in Python", "report out more", "'more' is one word too many"),
     usage("two decks", "run deck.xml deck2.xml", "deck2.xml"),
     usage("--output without a folder", "run deck.xml --output", "--output"),
     usage(

@@ -18,4 +18,17 @@ std::string describe(const Field& field) {
   return words;
 }
 
+std::string describe_fully(const Field& field) {
+  std::string words = describe(field);
+  if (field.required()) {
+    words += ", required";
+  } else if (field.default_value()) {
+    const std::string value = to_string(*field.default_value());
+    words += ", default " + (value.empty() ? "empty" : value);
+  } else {
+    words += ", optional";
+  }
+  return words + "." + (field.doc().empty() ? "" : " " + field.doc());
+}
+
 }  // namespace culm::deck

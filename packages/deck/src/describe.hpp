@@ -10,4 +10,7 @@ namespace culm::deck {
 /// "text: box, tube".
 std::string describe(const Field& field);
 
+/// The same with the default and the sentence of the field: "number > 0 kg, required. Mass."
+std::string describe_fully(const Field& field);
+
 }  // namespace culm::deck

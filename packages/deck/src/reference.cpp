@@ -21,16 +21,7 @@ struct Topic {
 std::string sentence(const std::string& doc) { return doc.empty() ? "" : " " + doc; }
 
 std::string field_line(const Field& field) {
-  std::string words = "- `" + field.name() + "` – " + describe(field);
-  if (field.required()) {
-    words += ", required";
-  } else if (field.default_value()) {
-    const std::string value = to_string(*field.default_value());
-    words += ", default " + (value.empty() ? "empty" : value);
-  } else {
-    words += ", optional";
-  }
-  return words + "." + sentence(field.doc()) + "\n";
+  return "- `" + field.name() + "` – " + describe_fully(field) + "\n";
 }
 
 std::string slot_line(const Schema::Slot& slot) {

@@ -2,42 +2,10 @@
 
 #include "array_text.hpp"
 #include "convert.hpp"
+#include "xml_text.hpp"
 
 namespace culm::deck {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char symbol : text) {
-    switch (symbol) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      // XML turns white space of attributes into blanks, unless it is written by number.
-      case '\n':
-        result += "&#10;";
-        break;
-      case '\t':
-        result += "&#9;";
-        break;
-      case '\r':
-        result += "&#13;";
-        break;
-      default:
-        result += symbol;
-    }
-  }
-  return result;
-}
 
 std::string value_text(const Value& value) {
   const auto* texts = std::get_if<std::vector<std::string>>(&value);

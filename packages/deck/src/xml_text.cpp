@@ -37,4 +37,37 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char symbol : text) {
+    switch (symbol) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      // XML turns white space of attributes into blanks, unless it is written by number.
+      case '\n':
+        result += "&#10;";
+        break;
+      case '\t':
+        result += "&#9;";
+        break;
+      case '\r':
+        result += "&#13;";
+        break;
+      default:
+        result += symbol;
+    }
+  }
+  return result;
+}
+
 }  // namespace culm::deck

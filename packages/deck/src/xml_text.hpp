@@ -12,4 +12,7 @@ std::string xml_objection(std::string_view text);
 /// The text for a message: other bytes than printable ASCII as \xNN, and cut if it is long.
 std::string printable(std::string_view text);
 
+/// The text as it stands between the quotes of an attribute, or between tags.
+std::string escaped(std::string_view text);
+
 }  // namespace culm::deck

@@ -5,36 +5,24 @@ which returns the exit code.
 """
 
 import argparse
-import importlib
 import os
 import sys
 
+from .commands import PYTHON_VERBS, explain_unknown_word, module_of
 from .errors import CulmError
-
-VERBS = {
-    "effects": "tell what the effects of a scene cost and change",
-    "hard": "margins of hard cases",
-    "import": "make a deck from files of another program",
-    "report": "draw the page of a run",
-    "study": "measure what accuracy costs",
-    "sweep": "run a deck with many values",
-    "view": "write a page that shows a run in space",
-}
-
-
-def module_of(verb):
-    # the word is one of Python's own
-    name = "importing" if verb == "import" else verb
-    return importlib.import_module(f".{name}", __package__)
 
 
 def main():
     parser = argparse.ArgumentParser(prog="culm")
     verbs = parser.add_subparsers(dest="verb", required=True)
-    for name, summary in VERBS.items():
+    for name in PYTHON_VERBS:
         module = module_of(name)
-        module.declare(verbs.add_parser(name, help=summary, description=module.__doc__))
-    arguments = parser.parse_args()
+        module.declare(verbs.add_parser(name, description=module.__doc__))
+    arguments, unknown = parser.parse_known_args()
+    if unknown:
+        verb = verbs.choices[arguments.verb]
+        print(explain_unknown_word(unknown[0], verb), file=sys.stderr)
+        return 2
     module = module_of(arguments.verb)
     from .program import Program
 
