@@ -106,9 +106,10 @@ function(culm_add_package name)
     culm_add_header_check(${name})
   endif()
 
-  install(TARGETS ${target} EXPORT culmTargets)
+  install(TARGETS ${target} EXPORT culmTargets COMPONENT development)
   if(headers)
-    install(DIRECTORY ${folder}/include/culm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(DIRECTORY ${folder}/include/culm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+            COMPONENT development)
   endif()
   set_property(GLOBAL APPEND PROPERTY CULM_PACKAGES ${name})
 endfunction()
@@ -297,7 +298,7 @@ function(culm_install_config)
     return()
   endif()
   set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/culm)
-  install(EXPORT culmTargets NAMESPACE culm:: DESTINATION ${destination})
+  install(EXPORT culmTargets NAMESPACE culm:: DESTINATION ${destination} COMPONENT development)
   configure_package_config_file(
     ${PROJECT_SOURCE_DIR}/cmake/culmConfig.cmake.in ${PROJECT_BINARY_DIR}/culmConfig.cmake
     INSTALL_DESTINATION ${destination}
@@ -307,5 +308,6 @@ function(culm_install_config)
   )
   install(FILES ${PROJECT_BINARY_DIR}/culmConfig.cmake ${PROJECT_BINARY_DIR}/culmConfigVersion.cmake
                 ${PROJECT_SOURCE_DIR}/cmake/CulmDependencies.cmake DESTINATION ${destination}
+          COMPONENT development
   )
 endfunction()
