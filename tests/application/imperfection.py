@@ -6,6 +6,8 @@ import pathlib
 import sys
 import tempfile
 
+import h5py
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "src/python"))
 from culm.program import Program  # noqa: E402
@@ -50,6 +52,15 @@ def main():
             run = program.run(deck, loaded, settings)
             if run.exit != exit_code or words not in run.errors:
                 complaints.append(f"{settings}: exit {run.exit}, {run.errors}")
+        file = shapes / "run.h5"
+        whole = file.read_bytes()
+        with h5py.File(file) as run:
+            shape = run["analyses/buckling/shapes/column"]
+            place = shape.id.get_offset() + shape.id.get_storage_size() // 2
+        file.write_bytes(whole[:place] + bytes([whole[place] ^ 16]) + whole[place + 1 :])
+        run = program.run(deck, loaded, entry(shapes))
+        if run.exit != 6 or "the results of 'buckling' are not what was written" not in run.errors:
+            complaints.append(f"a flipped bit: exit {run.exit}, {run.errors}")
     for complaint in complaints:
         print(f"FAILED: {complaint}")
     sys.exit(1 if complaints else 0)

@@ -378,6 +378,48 @@ def changed_table(program, folder, options):
     refuse(program, folder / "out", "the checkpoint belongs to another model")
 
 
+def flip_bit(path, chance):
+    raw = bytearray(path.read_bytes())
+    bit = chance.randrange(8 * len(raw))
+    raw[bit // 8] ^= 1 << bit % 8
+    path.write_bytes(raw)
+    return bit
+
+
+def start_from_another_run(program, folder, options):
+    """'Start From' takes the newest state of a run with the same structures, whole, or nothing."""
+    start = settings("Analyses/motion/Start From=other", "Analyses/motion/Start Time=0")
+
+    def refuse_start(complaint, *more, expect=6):
+        _, _, err = program("run", *TORSION, *start, *more, "--output", "out", expect=(expect,))
+        demand(complaint in err, f"stderr is {err}")
+
+    program("run", *TORSION, *EVERY_STEP, "--output", "other")
+    shutil.copytree(folder / "other", folder / "sound")
+    program("run", *TORSION, *start, "--output", "out")
+    expected = (folder / "out/history.csv").read_bytes()
+    refuse_start("other nodes in the reference", *settings("Structures/spun/Position={0, 0, 1.1}"), expect=3)
+    renamed = (INPUTS / "joint/torsion.xml").read_text().replace("led", "let")
+    (folder / "renamed.xml").write_text(renamed)
+    _, _, err = program("run", "renamed.xml", "--quiet", *start, "--output", "out", expect=(3,))
+    demand("no structure 'let'" in err, f"stderr is {err}")
+    chance = random.Random(options.seed)
+    for name in ["run.checkpoint"] + options.flips * ["run.h5"]:
+        shutil.rmtree(folder / "other")
+        shutil.copytree(folder / "sound", folder / "other")
+        bit = flip_bit(folder / "other" / name, chance)
+        code, _, err = program("run", *TORSION, *start, "--output", "out", expect=(0, 6))
+        demand(name != "run.checkpoint" or code == 6, "a damaged checkpoint was taken, or an older one")
+        if code == 0:
+            demand((folder / "out/history.csv").read_bytes() == expected, f"bit {bit} of {name}: {err}")
+    program("run", *TORSION, "--output", "twin")
+    shutil.copy(folder / "twin/run.checkpoint", folder / "other")
+    shutil.copy(folder / "sound/run.h5", folder / "other")
+    refuse_start("other/run.h5: is not the result file of this checkpoint: ")
+    (folder / "other/run.checkpoint").write_bytes(b"no checkpoint")
+    refuse_start("'Start From' may name other/run.checkpoint.old")
+
+
 def flipped_bits(program, folder, options):
     """A bit that turned over in run.h5 or a checkpoint is found, or changes nothing."""
     program("run", *TORSION, "--output", "whole")
@@ -388,10 +430,7 @@ def flipped_bits(program, folder, options):
         shutil.rmtree(folder / "parts", ignore_errors=True)
         shutil.copytree(folder / "stopped", folder / "parts")
         path = folder / "parts" / chance.choice(["run.h5", "run.h5", "run.checkpoint"])
-        raw = bytearray(path.read_bytes())
-        bit = chance.randrange(8 * len(raw))
-        raw[bit // 8] ^= 1 << bit % 8
-        path.write_bytes(raw)
+        bit = flip_bit(path, chance)
         before = bytes_of(folder / "parts")
         code, _, err = program("resume", "parts", "--quiet", expect=(0, 6))
         if code == 0:
@@ -583,6 +622,7 @@ ALWAYS = [
     damaged_checkpoints,
     foreign_checkpoints,
     changed_table,
+    start_from_another_run,
     flipped_bits,
     checkpoints_can_be_switched_off,
     other_number_of_processes,

@@ -4,6 +4,8 @@
 
 #include "hdf5_read.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace culm::output {
@@ -75,6 +77,7 @@ void ContentSum::add_dataset(std::string_view name, std::span<const hsize_t> sha
 }
 
 void ContentSum::add_attribute(std::string_view name, std::span<const std::byte> content) {
+  if (name == sum_attribute) return;
   add('a', name, 0, content);
 }
 
@@ -89,6 +92,8 @@ void ContentSum::add(char kind, std::string_view name, std::uint64_t shape,
 std::uint64_t chain(std::uint64_t sum, std::span<const std::byte> content) {
   return fold(sum, checksum(content));
 }
+
+std::string sum_text(std::uint64_t sum) { return fmt::format("{:016x}", sum); }
 
 std::string joined(std::span<const std::string> texts) {
   std::string all;

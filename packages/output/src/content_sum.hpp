@@ -12,7 +12,10 @@ namespace culm::output {
 
 class Hdf5File;
 
-/// Adds up groups, datasets and attributes; their order does not matter.
+/// The attribute in which a group may carry its own sum.
+inline constexpr const char* sum_attribute = "content_sum";
+
+/// Adds up groups, datasets and attributes but sum_attribute; their order does not matter.
 class ContentSum {
  public:
   /// A group; its content is added by itself.
@@ -32,6 +35,9 @@ class ContentSum {
 
 /// One after the other; here the order matters.
 std::uint64_t chain(std::uint64_t sum, std::span<const std::byte> content);
+
+/// As the attribute says it: 16 hexadecimal digits.
+std::string sum_text(std::uint64_t sum);
 
 /// Texts as bytes, each with its end.
 std::string joined(std::span<const std::string> texts);

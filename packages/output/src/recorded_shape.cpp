@@ -4,6 +4,7 @@
 
 #include "hdf5_read.hpp"
 #include "names.hpp"
+#include "survive_reading.hpp"
 
 #include <fmt/core.h>
 
@@ -15,14 +16,23 @@ std::string known_analyses(const Hdf5File& file) {
   return join(list_links(file, open_group(file, file.id(), "analyses").id()), ", ");
 }
 
-}  // namespace
+// The results of an analysis carry the checksum with which they were written.
+void check_sum(const Hdf5File& file, const std::string& analysis) {
+  const Handle all = open_group(file, file.id(), "analyses");
+  const std::string name = link_name(analysis);
+  const Handle group = open_group(file, all.id(), name);
+  if (read_text(file, group.id(), sum_attribute) == sum_text(sum_of_group(file, all.id(), name))) {
+    return;
+  }
+  throw FileError(
+      file.path().string(),
+      fmt::format("is damaged: the results of '{}' are not what was written", analysis));
+}
 
-RecordedShape find_recorded_shape(const std::filesystem::path& path, const std::string& analysis,
-                                  int number) {
+RecordedShape read_shape_of(const std::filesystem::path& path, const std::string& analysis,
+                            int number) {
   const QuietHdf5 quiet;
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);
-  const Hdf5File file = Hdf5File::open(is_folder ? path / "run.h5" : path);
+  const Hdf5File file = Hdf5File::open(path);
   const std::string name = link_name(analysis);
   const bool has_analyses = has_link(file, file.id(), "analyses");
   const std::string place = "analyses/" + name;
@@ -31,6 +41,7 @@ RecordedShape find_recorded_shape(const std::filesystem::path& path, const std::
     throw FileError(file.path().string(), fmt::format("has no analysis '{}' with shapes; it has {}",
                                                       analysis, known_analyses(file)));
   }
+  check_sum(file, analysis);
   const Handle group = open_group(file, file.id(), place + "/shapes");
   RecordedShape found;
   for (const std::string& link : list_links(file, group.id())) {
@@ -46,6 +57,17 @@ RecordedShape find_recorded_shape(const std::filesystem::path& path, const std::
     found[read_text(file, mesh.id(), "name")] = {first, first + static_cast<std::ptrdiff_t>(count)};
   }
   return found;
+}
+
+}  // namespace
+
+RecordedShape find_recorded_shape(const std::filesystem::path& path, const std::string& analysis,
+                                  int number) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path, ignored);
+  const std::filesystem::path file = is_folder ? path / "run.h5" : path;
+  survive_reading(file, [&] { read_shape_of(file, analysis, number); });
+  return read_shape_of(file, analysis, number);
 }
 
 }  // namespace culm::output

@@ -275,7 +275,9 @@ class Recorder::File {
       file_.write(entries.id(), "column", matrix.column);
       file_.write(entries.id(), "value", matrix.value, {matrix.value.size()});
     }
-    mark_.results[results.name] = file_.take_sum();
+    const std::uint64_t sum = file_.take_sum();
+    file_.set_attribute(group.id(), sum_attribute, sum_text(sum));
+    mark_.results[results.name] = sum;
     commit();
   }
 

@@ -52,6 +52,8 @@ void save_mark(const output::RecordMark& mark, Snapshot& snapshot) {
   }
 }
 
+}  // namespace
+
 output::RecordMark restore_mark(const Snapshot& snapshot) {
   const auto sum = [&](const std::string& name) {
     return std::stoull(snapshot.text("output/sum of " + name));
@@ -68,8 +70,6 @@ output::RecordMark restore_mark(const Snapshot& snapshot) {
   }
   return mark;
 }
-
-}  // namespace
 
 ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
                          ResultSettings settings, const std::vector<WatchedQuantity>& watched,

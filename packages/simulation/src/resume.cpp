@@ -14,9 +14,8 @@
 #include <vector>
 
 namespace culm::simulation {
-namespace {
 
-std::string read_sound(const std::filesystem::path& file) {
+std::string read_sound_checkpoint(const std::filesystem::path& file) {
   std::string content = output::read_checkpoint(file);
   try {
     if (Snapshot::decode(content).integer("format") == RunObserver::checkpoint_format) {
@@ -27,6 +26,8 @@ std::string read_sound(const std::filesystem::path& file) {
   }
   throw FileError(file.string(), "was written by a version of culm that is not compatible");
 }
+
+namespace {
 
 struct Content {
   std::filesystem::path file;
@@ -43,12 +44,12 @@ Content read_newest(const std::filesystem::path& folder) {
   }
   std::string warning;
   try {
-    return {newest, read_sound(newest), {}};
+    return {newest, read_sound_checkpoint(newest), {}};
   } catch (const FileError& error) {
     warning = error.what();
   }
   try {
-    return {older, read_sound(older), warning + "; going on from " + older.string()};
+    return {older, read_sound_checkpoint(older), warning + "; going on from " + older.string()};
   } catch (const FileError& error) {
     throw FileError(warning + "\n" + error.what());
   }
@@ -66,7 +67,7 @@ FoundCheckpoint find_checkpoint(const parallel::Comm& comm, const std::filesyste
     } else if (path.filename() == "run.h5") {
       content = read_newest(path.parent_path());
     } else {
-      content = {path, read_sound(path), {}};
+      content = {path, read_sound_checkpoint(path), {}};
     }
   });
   if (!content.warning.empty()) log.warning(content.warning);

@@ -7,6 +7,7 @@
 
 #include "coupled_run.hpp"
 #include "finite.hpp"
+#include "other_run.hpp"
 
 #include <fmt/format.h>
 
@@ -184,6 +185,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set_text("run/version", std::string(version));
   snapshot.set("run/ranks", context_->system.comm().size());
   snapshot.set("run/analysis", static_cast<double>(number_));
+  save_structures(context_->system.model(), snapshot);
   source_.save(snapshot);
   findings_.save(snapshot);
   loads_.save(snapshot);

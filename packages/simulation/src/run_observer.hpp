@@ -31,7 +31,7 @@ struct Balance {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 4;
+  static constexpr int checkpoint_format = 5;
 
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints& checkpoints,
               const DeckSource& source, const EarlierStates& earlier,

@@ -13,6 +13,7 @@
 #include "model_picture.hpp"
 #include "model_report.hpp"
 #include "on_root.hpp"
+#include "other_run.hpp"
 #include "port_picture.hpp"
 #include "run_observer.hpp"
 #include "simulation_parts.hpp"
@@ -268,18 +269,11 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
 
 // The nodes of a checkpoint of another run; multipliers and memories begin anew.
 Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::State& state) {
-  const std::string& path = analysis.text("Start From");
-  const FoundCheckpoint found = find_checkpoint(parts_->comm, path, parts_->log);
-  if (found.snapshot.numbers("state/position").size() != state.next.size()) {
-    throw InputError(
-        analysis.where("Start From"),
-        fmt::format("the run in '{}' has {} nodes, this model has {}", path,
-                    found.snapshot.numbers("state/position").size() / 12, state.next.size() / 12));
-  }
+  const Snapshot found = find_state_of_run(parts_->comm, analysis, *phase.model);
   Snapshot snapshot;
   phase.system->save(state, snapshot);
   for (const char* name : {"state/position", "state/velocity", "state/time", "state/at rest"}) {
-    snapshot.set(name, found.snapshot.numbers(name));
+    snapshot.set(name, found.numbers(name));
   }
   return snapshot;
 }

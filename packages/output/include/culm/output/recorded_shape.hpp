@@ -15,7 +15,8 @@ using RecordedShape = std::map<std::string, std::vector<double>>;
 /// Reads the real part of a shape.
 /// @param path    run.h5, or the folder of it
 /// @param number  of the shape, from 1
-/// Throws FileError if the file cannot be read or has no such analysis or shape.
+/// Throws FileError if the file cannot be read, has no such analysis or shape, or holds other
+/// results of the analysis than were written.
 RecordedShape find_recorded_shape(const std::filesystem::path& path, const std::string& analysis,
                                   int number);
 

@@ -35,7 +35,8 @@ struct RunInfo {
 /// - /history/values: one row per add_history(); attributes names, units; first column time
 /// - /report: text, scalars/<name>, and tables, attributes as below; findings/<number>, with
 ///   attributes grade ("broken", "warning"), kind, text, analysis, time
-/// - /analyses/<analysis>: attribute state; one table per name, attributes names, remarks
+/// - /analyses/<analysis>: attributes state, content_sum (a checksum of the rest); one table per
+/// name, attributes names, remarks
 /// - .../shapes/<structure>: (shape, node, displacement and rotation); imaginary parts in
 ///   .../shapes_imaginary/<structure>; matrices by their entries row, column, value
 ///

@@ -28,6 +28,9 @@ struct LayerSettings {
 /// Reads the list Output / Shell. Throws InputError for layers that no shell has.
 LayerSettings read_layer_settings(const Options& shell, const model::Model& model);
 
+/// How far the result file was that belongs to a checkpoint of ResultFiles::save().
+output::RecordMark restore_mark(const Snapshot& snapshot);
+
 /// What to write, and how often.
 struct ResultSettings {
   std::filesystem::path folder;  ///< which is there

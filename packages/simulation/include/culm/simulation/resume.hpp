@@ -20,7 +20,11 @@ struct FoundCheckpoint {
   Snapshot snapshot;
 };
 
-/// Reads a checkpoint.
+/// The content of a checkpoint file. Throws FileError if it cannot be read, is damaged, or comes
+/// from a version of culm that is not compatible.
+std::string read_sound_checkpoint(const std::filesystem::path& file);
+
+/// Reads a checkpoint to go on with.
 /// @param path  the file, or the folder of the run or its run.h5: then the newest one that is
 /// whole, with a
 ///              warning when it is not the newest one

@@ -1,0 +1,125 @@
+#include "other_run.hpp"
+
+#include <culm/base/error.hpp>
+#include <culm/base/nearest.hpp>
+#include <culm/output/checkpoint_file.hpp>
+#include <culm/output/checksum.hpp>
+#include <culm/output/recorder.hpp>
+#include <culm/simulation/result_files.hpp>
+#include <culm/simulation/resume.hpp>
+
+#include "checkpoints.hpp"
+#include "on_root.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace culm::simulation {
+namespace {
+
+using Path = std::filesystem::path;
+
+std::string sum_of(const model::Model& model, const model::Structure& structure) {
+  std::vector<double> numbers;
+  for (const int node : structure.nodes) {
+    const auto slots = model::NodeTable::slots(model.nodes().reference(), node);
+    numbers.insert(numbers.end(), slots.data(), slots.data() + slots.size());
+  }
+  return fmt::format("{:016x}", output::checksum(std::as_bytes(std::span(numbers))));
+}
+
+std::string key(std::string_view what, std::size_t number) {
+  return fmt::format("run/structure {}/{}", number, what);
+}
+
+// The checkpoint of a folder, its run.h5 or itself.
+Path checkpoint_named(const Path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return checkpoint_path(path);
+  return path.filename() == "run.h5" ? checkpoint_path(path.parent_path()) : path;
+}
+
+std::string read_newest(const Path& file) {
+  try {
+    return read_sound_checkpoint(file);
+  } catch (const FileError& error) {
+    const Path older = output::previous_checkpoint(file);
+    std::error_code ignored;
+    if (!std::filesystem::exists(older, ignored)) throw;
+    throw FileError(std::string(error.what()) + "; 'Start From' may name " + older.string() +
+                    ", the state before");
+  }
+}
+
+// Both must be of one run; a checkpoint may also be kept without results.
+void check_results(const Path& run, const Snapshot& snapshot) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(run, ignored)) return;
+  output::recover_run(run);
+  output::find_recorded(run, snapshot.text("run/id"), restore_mark(snapshot));
+}
+
+std::vector<std::string> structures_of(const Snapshot& snapshot) {
+  std::vector<std::string> names(static_cast<std::size_t>(snapshot.integer("run/structures")));
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = snapshot.text(key("name", i));
+  return names;
+}
+
+// What is not the same there, or nothing.
+std::string difference(const Snapshot& snapshot, const model::Model& model) {
+  const std::vector<std::string> there = structures_of(snapshot);
+  std::size_t i = 0;
+  for (const model::Structure& structure : model.structures()) {
+    if (i >= there.size() || there[i] != structure.name) {
+      return fmt::format("it has no structure '{}' in this place{}", structure.name,
+                         did_you_mean(structure.name, there));
+    }
+    const int nodes = snapshot.integer(key("nodes", i));
+    if (nodes != static_cast<int>(structure.nodes.size())) {
+      return fmt::format("its '{}' has {} nodes, that of this model {}", structure.name, nodes,
+                         structure.nodes.size());
+    }
+    if (snapshot.text(key("sum", i)) != sum_of(model, structure)) {
+      return fmt::format("its '{}' has other nodes in the reference than that of this model",
+                         structure.name);
+    }
+    ++i;
+  }
+  return i == there.size() ? "" : fmt::format("it has a structure '{}' more", there[i]);
+}
+
+}  // namespace
+
+void save_structures(const model::Model& model, Snapshot& snapshot) {
+  std::size_t i = 0;
+  for (const model::Structure& structure : model.structures()) {
+    snapshot.set_text(key("name", i), structure.name);
+    snapshot.set(key("nodes", i), static_cast<double>(structure.nodes.size()));
+    snapshot.set_text(key("sum", i), sum_of(model, structure));
+    ++i;
+  }
+  snapshot.set("run/structures", static_cast<double>(i));
+}
+
+Snapshot find_state_of_run(const parallel::Comm& comm, const Options& analysis,
+                           const model::Model& model) {
+  const Path path = analysis.text("Start From");
+  const Path file = checkpoint_named(path);
+  std::string content;
+  on_root(comm, [&] {
+    content = read_newest(file);
+    if (file != path) check_results(file.parent_path() / "run.h5", Snapshot::decode(content));
+  });
+  Snapshot snapshot = Snapshot::decode(comm.broadcast(content));
+  if (const std::string found = difference(snapshot, model); !found.empty()) {
+    throw InputError(
+        analysis.where("Start From"),
+        fmt::format("the run in '{}' has not the same structures: {}", path.string(), found));
+  }
+  return snapshot;
+}
+
+}  // namespace culm::simulation
