@@ -44,6 +44,7 @@ struct ResumeArguments {
   std::string walltime;
   bool strict = false;  ///< warnings count as broken promises
   bool quiet = false;
+  int ranks = 0;  ///< so many of the processes are ours; all if zero
 };
 
 /// Files of another program, and the deck to make of them.

@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/text.hpp>
+#include <culm/coupling/partner_error.hpp>
 #include <culm/parallel/first_ranks.hpp>
 #include <culm/simulation/session.hpp>
 
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -53,6 +55,9 @@ struct Arguments {
   ResumeArguments resume;
   ImportArguments import;
   ReferenceArguments reference;
+
+  /// How many of the processes are culm's; zero: all.
+  int ranks() const { return std::max(any_run().ranks, resume.ranks); }
 };
 
 template <class VerbArguments>
@@ -105,14 +110,18 @@ void add_ending(CLI::App& verb, bool& strict) {
       "warnings on standard error and run.h5, /report/findings, say which; 9 a partner failed.");
 }
 
+void add_ranks(CLI::App& verb, int& ranks) {
+  verb.add_option("--ranks", ranks,
+                  "culm is the first so many processes of the launcher, others are partners");
+}
+
 void add_run_options(CLI::App& verb, RunArguments& arguments) {
   add_deck_options(verb, arguments);
   add_walltime(verb, arguments.walltime);
   verb.add_option("--output", arguments.folder,
                   "Folder for results; results/<name of the deck> if not given");
   add_ending(verb, arguments.strict);
-  verb.add_option("--ranks", arguments.ranks,
-                  "culm is the first so many processes of the launcher, others are partners");
+  add_ranks(verb, arguments.ranks);
   verb.add_flag("--report", arguments.report, "Write report.html beside the results");
 }
 
@@ -132,6 +141,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   resume->add_option("--deck", arguments.resume.deck,
                      "Deck in place of that of the run; the model must be the same");
   add_common_options(*resume, arguments.resume);
+  add_ranks(*resume, arguments.resume.ranks);
   add_walltime(*resume, arguments.resume.walltime);
   add_ending(*resume, arguments.resume.strict);
   resume->callback(
@@ -220,9 +230,12 @@ void print_lines(const std::string& text) {
   }
 }
 
-// The error is the same on all ranks, so one speaks for them.
-int report(const culm::Error& error, const culm::parallel::Comm& comm) {
+// The error is the same on all ranks, so one speaks for them. A partner in the same launcher that
+// has failed may never come to the end of MPI, which waits for all: it is ended with this program.
+int report(const culm::Error& error, bool has_partners, const culm::parallel::Comm& comm) {
   if (comm.is_root()) print_lines(error.what());
+  const bool has_failed = dynamic_cast<const culm::PartnerError*>(&error) != nullptr;
+  if (has_failed && has_partners && comm.is_root()) MPI_Abort(MPI_COMM_WORLD, error.exit_code());
   return error.exit_code();
 }
 
@@ -250,12 +263,12 @@ int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
   declare_verbs(app, arguments, action);
   try {
     app.parse(argc, argv);
-    const int ranks = arguments.any_run().ranks;
+    const int ranks = arguments.ranks();
     action(ranks > 0 ? culm::parallel::first_ranks(ranks) : comm);
   } catch (const CLI::ParseError& error) {
     return report(error, app, comm);
   } catch (const culm::Error& error) {
-    return report(error, comm);
+    return report(error, arguments.ranks() > 0, comm);
   } catch (const std::bad_alloc&) {
     return report_lack_of_memory(comm);
   } catch (const std::length_error&) {

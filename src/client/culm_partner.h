@@ -87,36 +87,50 @@ static int culm_partner_fail(culm_partner* it, const char* what) {
   return -1;
 }
 
-static int culm_partner_send(culm_partner* it, uint16_t kind, const void* payload, uint64_t size) {
-  unsigned char head[64] = "CULM";
+/* The bytes of a frame about what was asked last, to be freed; NULL if there is no memory. */
+static char* culm_partner_frame(const culm_partner* it, uint16_t kind, const void* payload, uint64_t size) {
   const uint16_t version = 1;
   uint32_t sum;
-  size_t length = 64 + (size_t)size, done = 0;
-  char* frame = (char*)malloc(length);
-  if (frame == NULL) return culm_partner_fail(it, "there is no memory for a frame");
-  memcpy(head + 4, &version, 2);
-  memcpy(head + 6, &kind, 2);
-  memcpy(head + 8, it->header + 8, 24); /* what was asked for */
-  memcpy(head + 32, &size, 8);
-  sum = (uint32_t)crc32(0, head, 40);
-  if (size > 0) sum = (uint32_t)crc32_z(sum, (const Bytef*)payload, (z_size_t)size);
-  memcpy(head + 40, &sum, 4);
-  memcpy(frame, head, 64);
-  if (size > 0) memcpy(frame + 64, payload, (size_t)size);
+  char* frame = (char*)calloc(1, 64 + (size_t)size);
+  if (frame == NULL) return NULL;
+  memcpy(frame, "CULM", 4);
+  memcpy(frame + 4, &version, 2);
+  memcpy(frame + 6, &kind, 2);
+  memcpy(frame + 8, it->header + 8, 24); /* window, attempt, start, end */
+  memcpy(frame + 32, &size, 8);
+  sum = (uint32_t)crc32(0, (const Bytef*)frame, 40);
+  if (size > 0) {
+    sum = (uint32_t)crc32_z(sum, (const Bytef*)payload, (z_size_t)size);
+    memcpy(frame + 64, payload, (size_t)size);
+  }
+  memcpy(frame + 40, &sum, 4);
+  return frame;
+}
+
+static int culm_partner_write(culm_partner* it, const char* bytes, size_t length) {
+  size_t done = 0;
 #ifdef CULM_PARTNER_MPI
   if (it->socket < 0) {
-    MPI_Send(frame, (int)length, MPI_BYTE, it->rank, 0, it->comm);
-    done = length;
+    MPI_Send(bytes, (int)length, MPI_BYTE, it->rank, 0, it->comm);
+    return 0;
   }
 #endif
   while (done < length) {
-    const ssize_t n = send(it->socket, frame + done, length - done, MSG_NOSIGNAL);
+    const ssize_t n = send(it->socket, bytes + done, length - done, MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) break;
+    if (n < 0) return culm_partner_fail(it, "culm is gone");
     done += (size_t)n;
   }
+  return 0;
+}
+
+static int culm_partner_send(culm_partner* it, uint16_t kind, const void* payload, uint64_t size) {
+  char* frame = culm_partner_frame(it, kind, payload, size);
+  int failed;
+  if (frame == NULL) return culm_partner_fail(it, "there is no memory for a frame");
+  failed = culm_partner_write(it, frame, 64 + (size_t)size);
   free(frame);
-  return done == length ? 0 : culm_partner_fail(it, "culm is gone");
+  return failed;
 }
 
 static int culm_partner_read(culm_partner* it, char* to, size_t size) {

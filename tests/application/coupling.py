@@ -67,10 +67,14 @@ class Dying(Water):
     way = None
 
     def loads(self, window):
-        if (window.number, window.attempt) == (5, 1):
+        if (window.number, window.attempt) == (5, 1) and self.way in WAYS:
             self.connection.last = (ANSWER, 5, 1, window.start, window.end)
             return WAYS[self.way](self, super().loads(window))
         return super().loads(window)
+
+    def accept(self, window):
+        energy, heat = super().accept(window)
+        return (numpy.inf if self.way == "infinite" and window.number == 5 else energy), heat
 
 
 ANSWER = culm_partner.ANSWER
@@ -116,6 +120,15 @@ def answer_no_number(partner, loads):
     return loads
 
 
+def be_slow(partner, loads):
+    time.sleep(3.0)
+    return loads
+
+
+def stay_alive(partner, loads):
+    time.sleep(TIME_LIMIT)  # its heart goes on
+
+
 def fall_silent(partner, loads):
     partner.connection.ended.set()  # its heart, too
     time.sleep(TIME_LIMIT)
@@ -132,6 +145,8 @@ WAYS = {
     "little": answer_too_little,
     "nan": answer_no_number,
     "silence": fall_silent,
+    "alive": stay_alive,
+    "slow": be_slow,
 }
 SAID = {
     "kill": "it is gone without a word",
@@ -143,6 +158,8 @@ SAID = {
     "little": "its answer has 96 bytes; six numbers for each of 5 points are 240",
     "nan": "it answered nan for component 1 at point 3",
     "silence": "it said nothing for 5 s",
+    "alive": "it says that it is alive, and has not answered for 2 s",
+    "infinite": "its energy is inf J, its heat 0 J",
 }
 
 
@@ -186,12 +203,33 @@ class CouplingTest(unittest.TestCase):
             text=True, env={**os.environ, **MPI_ENVIRONMENT}, cwd=self.folder,
         )
 
+    def over_mpi(self):
+        """The deck with a partner on the rank after those of culm."""
+        return self.write("mpi.xml", self.deck.read_text().replace("Added Mass", "MPI").replace(
+            '<Parameter name="Mass" value="20"/>', f'<Parameter name="Rank" value="{OPTIONS.ranks}"/>'))
+
+    def start_both(self, *words, way=""):
+        """culm and the partner in C in one mpiexec, culm on the first ranks."""
+        return subprocess.Popen(
+            [OPTIONS.mpiexec, "-n", str(OPTIONS.ranks), os.path.abspath(OPTIONS.culm), *map(str, words), "--ranks",
+             str(OPTIONS.ranks), ":", "-n", "1", os.path.abspath(OPTIONS.mpi_partner), "mpi", way],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, **MPI_ENVIRONMENT},
+            cwd=self.folder,
+        )
+
     def start_partner(self, way=""):
         process = subprocess.Popen(
             [sys.executable, __file__, "--partner", self.address, str(self.folder), way], stderr=subprocess.PIPE,
             text=True,
         )
         self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def start_partner_in_c(self, way=""):
+        process = subprocess.Popen([os.path.abspath(OPTIONS.socket_partner), self.address, way], stderr=subprocess.DEVNULL,
+                                   cwd=self.folder)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
@@ -222,24 +260,14 @@ class Programs(CouplingTest):
 
     def test_with_a_partner_in_c(self):
         self.culm("run", self.deck, "--output", "here", "--quiet")
-        partner = subprocess.Popen([OPTIONS.socket_partner, self.address])
+        partner = self.start_partner_in_c()
         self.culm("run", self.remote, "--output", "there", "--quiet")
         self.assertEqual(partner.wait(TIME_LIMIT), 0)
         self.same("here", "there")
 
     def test_over_mpi(self):
-        """Both in one mpiexec, culm on the first ranks."""
         self.culm("run", self.deck, "--output", "here", "--quiet")
-        ranks = OPTIONS.ranks
-        deck = self.write("mpi.xml", self.deck.read_text().replace("Added Mass", "MPI").replace(
-            '<Parameter name="Mass" value="20"/>', f'<Parameter name="Rank" value="{ranks}"/>'))
-        process = subprocess.Popen(
-            [OPTIONS.mpiexec, "-n", str(ranks), os.path.abspath(OPTIONS.culm), "run", deck, "--ranks", str(ranks),
-             "--output", "there", "--quiet", ":", "-n", "1", OPTIONS.mpi_partner, "mpi"],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, **MPI_ENVIRONMENT},
-            cwd=self.folder,
-        )
-        self.finish(process)
+        self.finish(self.start_both("run", self.over_mpi(), "--output", "there", "--quiet"))
         self.same("here", "there")
 
     def test_replay_of_a_record(self):
@@ -270,19 +298,74 @@ class Programs(CouplingTest):
 
 
 class Partners(CouplingTest):
+    def dies(self, way, said, errors, rows=5):
+        """One message, and results up to the window before."""
+        text = re.sub(r"\s+", " ", errors)
+        self.assertEqual(text.count("the partner '"), 1, text)
+        self.assertRegex(text, "the partner '[a-z]+' at port 'wet' failed in window 5, attempt [0-9], from 0.1 s to 0.12 s: "
+                         + re.escape(said))
+        self.assertEqual(self.rows(way), rows)
+
+    def limits(self, way):
+        """Long enough for a program to start on a busy machine."""
+        return {"silence": ["--set", "Coupling/Partners/water/Patience=5"],
+                "alive": ["--set", "Coupling/Partners/water/Time Limit=2"]}.get(way, [])
+
     def test_that_die(self):
         for way in SAID if OPTIONS.ranks == 1 else ("kill", "nan"):
-            said = SAID[way]
             with self.subTest(way=way):
                 partner = self.start_partner(way)
-                # long enough for a program to start on a busy machine
-                patience = ["--set", "Coupling/Partners/water/Patience=5"] if way == "silence" else []
-                errors = self.culm("run", self.remote, "--output", way, "--quiet", *patience, code=FAILED_PARTNER)
-                text = re.sub(r"\s+", " ", errors)
-                self.assertIn("the partner 'water' at port 'wet' failed in window 5, attempt 1, from 0.1 s to 0.12 s: "
-                              + said, text)
-                self.assertEqual(self.rows(way), 5)
+                errors = self.culm("run", self.remote, "--output", way, "--quiet", *self.limits(way), code=FAILED_PARTNER)
+                self.dies(way, SAID[way], errors)
                 partner.kill()
+
+    def test_in_c_that_die(self):
+        for way in SAID if OPTIONS.ranks == 1 else ("leave", "infinite"):
+            with self.subTest(way=way):
+                partner = self.start_partner_in_c(way)
+                said = SAID[way].replace("RuntimeError: ", "")
+                errors = self.culm("run", self.remote, "--output", way, "--quiet", *self.limits(way), code=FAILED_PARTNER)
+                self.dies(way, said, errors)
+                partner.kill()
+
+    def test_over_mpi_that_die(self):
+        """The launcher ends all programs with one that is killed, and says so itself."""
+        said = {**SAID, "raise": "it says: negative volume in cell 7", "half": "a frame is not as long as it says"}
+        for way in ("leave", "nan") if OPTIONS.ranks > 1 else said:
+            with self.subTest(way=way):
+                settings = [*self.limits(way), "--set", "Output/Checkpoint Interval=0"]
+                process = self.start_both("run", self.over_mpi(), "--output", way, "--quiet", *settings, way=way)
+                output, errors = process.communicate(timeout=TIME_LIMIT)
+                if way in ("kill", "leave"):
+                    self.assertNotEqual(process.returncode, 0)
+                    self.assertEqual(self.rows(way), 5, errors)
+                else:
+                    self.assertEqual(process.returncode, FAILED_PARTNER, output + errors)
+                    self.dies(way, said[way], errors)
+
+    def test_over_mpi_that_die_and_are_resumed(self):
+        settings = ["--quiet", "--set", "Output/Checkpoint Interval=0"]
+        deck = self.over_mpi()
+        self.finish(self.start_both("run", deck, "--output", "whole", *settings))
+        self.start_both("run", deck, "--output", "killed", *settings, way="kill").communicate(timeout=TIME_LIMIT)
+        self.start_both("resume", "killed", "--quiet").communicate(timeout=TIME_LIMIT)
+        self.same("whole", "killed")
+
+    def test_that_lie_about_their_energy(self):
+        """Nobody can tell a lie from a coupling that is too loose: a broken promise, after whole results."""
+        partner = self.start_partner_in_c("energy")
+        errors = self.culm("run", self.remote, "--output", "lie", "--quiet", code=8)
+        self.assertIn("the interface 'water' makes", errors)
+        partner.wait(TIME_LIMIT)
+        self.assertEqual(self.rows("lie"), 25)
+
+    def test_that_are_slow_and_alive(self):
+        """Signs of life keep a partner that takes longer than 'Patience'."""
+        partner = self.start_partner("slow")
+        self.culm("run", self.remote, "--output", "slow", "--quiet", "--set", "Coupling/Partners/water/Patience=2")
+        self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
+        self.culm("run", self.deck, "--output", "here", "--quiet")
+        self.same("here", "slow")
 
     def test_that_never_come(self):
         errors = self.culm("run", self.remote, "--output", "alone", "--quiet", "--set",
@@ -345,8 +428,16 @@ class Decks(CouplingTest):
         self.assertIn("the partner at port 'top' failed in window 3", errors)
         self.assertEqual(self.rows("dead"), 3)
         errors = self.culm("run", self.deck, "--output", "nan", *fault, "--set",
-                           "Coupling/Partners/fault/Fault=No Number", code=5)
-        self.assertIn("partner 'fault' answered nan for component 0 at point 0 of port 'top', in window 3", errors)
+                           "Coupling/Partners/fault/Fault=No Number", code=FAILED_PARTNER)
+        said = "the partner 'fault' at port 'top' failed in window 3, attempt 0, from 0.06 s to 0.08 s: it answered "
+        self.assertIn(said + "nan for component 0 at point 0", errors)
+        errors = self.culm("run", self.deck, "--output", "count", *fault, "--set",
+                           "Coupling/Partners/fault/Fault=Wrong Count", code=FAILED_PARTNER)
+        self.assertIn(said + "0 numbers; six for each of 1 points are 6", errors)
+        self.assertEqual(self.rows("count"), 3)
+        errors = self.culm("run", self.deck, "--output", "energy", *fault, "--set",
+                           "Coupling/Partners/fault/Fault=Wrong Energy", code=8)
+        self.assertIn("the interface 'fault' makes", errors)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@
 
 namespace culm::coupling {
 
-Conversation::Conversation(std::unique_ptr<Channel> channel, double patience)
-    : channel_(std::move(channel)), patience_(patience) {
+Conversation::Conversation(std::unique_ptr<Channel> channel, double patience, double time_limit)
+    : channel_(std::move(channel)), patience_(patience), time_limit_(time_limit) {
   if (channel_->wants_signs_of_life()) heart_ = std::thread([this] { beat(); });
 }
 
@@ -43,10 +43,16 @@ void Conversation::say(const Frame& frame) {
 
 Frame Conversation::listen() {
   listens_ = true;
-  Frame frame;
-  do {
+  const auto start = std::chrono::steady_clock::now();
+  Frame frame = decode(channel_->receive(patience_));
+  while (frame.kind == FrameKind::alive) {
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    if (waited.count() > time_limit_) {
+      throw PartnerError(
+          fmt::format("it says that it is alive, and has not answered for {:g} s", time_limit_));
+    }
     frame = decode(channel_->receive(patience_));
-  } while (frame.kind == FrameKind::alive);
+  }
   listens_ = false;
   if (frame.kind == FrameKind::error || frame.kind == FrameKind::bye) {
     throw PartnerError(frame.payload.empty() ? "it said good-bye" : "it says: " + frame.payload);

@@ -111,6 +111,18 @@ Frame answer(const Window& window, const Eigen::VectorXd& loads) {
   return frame;
 }
 
+std::string objection_to(const Eigen::VectorXd& answer, int points) {
+  if (answer.size() != 6 * static_cast<Eigen::Index>(points)) {
+    return fmt::format("it answered {} numbers; six for each of {} points are {}", answer.size(),
+                       points, 6 * points);
+  }
+  for (Eigen::Index i = 0; i < answer.size(); ++i) {
+    if (std::isfinite(answer[i])) continue;
+    return fmt::format("it answered {} for component {} at point {}", answer[i], i % 6, i / 6);
+  }
+  return {};
+}
+
 Eigen::VectorXd read_answer(const Frame& frame, int points) {
   const std::size_t count = 6 * static_cast<std::size_t>(points);
   if (frame.payload.size() != count * sizeof(double)) {
@@ -120,12 +132,11 @@ Eigen::VectorXd read_answer(const Frame& frame, int points) {
                     frame.payload.size(), points, count * sizeof(double)));
   }
   const std::vector<double> values = Reader(frame.payload).numbers(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::isfinite(values[i])) continue;
-    throw PartnerError(
-        fmt::format("it answered {} for component {} at point {}", values[i], i % 6, i / 6));
-  }
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(count));
+  Eigen::VectorXd loads =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(count));
+  const std::string objection = objection_to(loads, points);
+  if (!objection.empty()) throw PartnerError(objection);
+  return loads;
 }
 
 Frame accepted(const Window& window, const Books& books) {
@@ -143,6 +154,10 @@ Books read_accepted(const Frame& frame) {
   books.energy = reader.number();
   books.dissipated = reader.number();
   expect_end(reader, frame);
+  if (std::isinf(books.energy) || std::isinf(books.dissipated)) {
+    throw PartnerError(
+        fmt::format("its energy is {} J, its heat {} J", books.energy, books.dissipated));
+  }
   return books;
 }
 

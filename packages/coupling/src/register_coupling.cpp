@@ -61,6 +61,26 @@ Schema channel_schema() {
   return schema;
 }
 
+Fault fault_of(const std::string& name) {
+  if (name == "No Number") return Fault::no_number;
+  if (name == "Wrong Count") return Fault::wrong_count;
+  return name == "Wrong Energy" ? Fault::wrong_energy : Fault::death;
+}
+
+Schema socket_schema() {
+  Schema schema =
+      partner("Socket", "Another program, which comes to an address and speaks the wire format.");
+  schema
+      .add(text("Address",
+                "'unix:PATH', 'tcp:PORT' for programs on this machine, or 'tcp:ADDRESS:PORT'."))
+      .check([](const Options& o, InputIssues& issues) {
+        const std::string objection = objection_to_address(o.text("Address"));
+        if (!objection.empty()) issues.add(o.where("Address"), objection);
+      });
+  add_patience_fields(schema);
+  return schema;
+}
+
 Field mass_field() { return number("Mass", "kg", "At each point.").positive(); }
 
 }  // namespace
@@ -118,34 +138,20 @@ void register_partners(PartnerRegistry& registry) {
             o.number("Pressure"),
             read_faces(o.integers("Triangles"), o.integers("Quadrilaterals")));
       });
-  registry.add("Faulty",
-               partner("Faulty", "Fails, to see what becomes of a run then.")
-                   .add(choice("Fault", {"Death", "No Number"}, "How.").optional("Death"))
-                   .add(integer("Window", "From which window on, the first one 0.").at_least(0)),
-               [](const Options& o) {
-                 return std::make_unique<FaultyPartner>(
-                     o.text("Fault") == "Death" ? Fault::death : Fault::no_number,
-                     o.integer("Window"));
-               });
   registry.add(
-      "Socket",
-      partner("Socket", "Another program, which comes to an address and speaks the wire format.")
-          .add(text("Address",
-                    "'unix:PATH', 'tcp:PORT' for programs on this machine, or 'tcp:ADDRESS:PORT'."))
-          .add(number("Patience", "s",
-                      "How long it may be silent, and how long it may take to come.")
-                   .positive()
-                   .optional(600.0))
-          .check([](const Options& o, InputIssues& issues) {
-            const std::string objection = objection_to_address(o.text("Address"));
-            if (!objection.empty()) issues.add(o.where("Address"), objection);
-          }),
+      "Faulty",
+      partner("Faulty", "Fails, to see what becomes of a run then.")
+          .add(choice("Fault", {"Death", "No Number", "Wrong Count", "Wrong Energy"}, "How.")
+                   .optional("Death"))
+          .add(integer("Window", "From which window on, the first one 0.").at_least(0)),
       [](const Options& o) {
-        const double patience = o.number("Patience");
-        return std::make_unique<RemotePartner>(
-            [address = o.text("Address"), patience] { return listen(address, patience); },
-            patience);
+        return std::make_unique<FaultyPartner>(fault_of(o.text("Fault")), o.integer("Window"));
       });
+  registry.add("Socket", socket_schema(), [](const Options& o) {
+    const double patience = o.number("Patience");
+    return make_remote_partner(
+        o, [address = o.text("Address"), patience] { return listen(address, patience); });
+  });
 }
 
 Schema coupling_schema(const PartnerRegistry& partners) {

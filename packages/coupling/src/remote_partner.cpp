@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace culm::coupling {
@@ -28,7 +28,7 @@ void RemotePartner::begin(const Beginning& beginning) {
   last_.number = beginning.window;
   last_.start = last_.end = beginning.time;
   speak(last_, [&] {
-    conversation_.emplace(open_(), patience_);
+    conversation_.emplace(open_(), patience_, time_limit_);
     conversation_->say(hello(beginning));
     const Frame frame = conversation_->listen();
     if (frame.kind != FrameKind::hello) {
@@ -82,6 +82,24 @@ void RemotePartner::end(const std::string& why) {
   } catch (const PartnerError&) {  // it has left before: nothing is lost
   }
   conversation_.reset();
+}
+
+void add_patience_fields(Schema& schema) {
+  schema
+      .add(number("Patience", "s", "How long it may be silent, and how long it may take to come.")
+               .positive()
+               .optional(600.0))
+      .add(number("Time Limit", "s",
+                  "How long it may take for an answer, though it says that it is alive; for ever "
+                  "if absent.")
+               .positive()
+               .optional());
+}
+
+std::unique_ptr<Partner> make_remote_partner(const Options& options, RemotePartner::Open open) {
+  const double time_limit = options.has("Time Limit") ? options.number("Time Limit")
+                                                      : std::numeric_limits<double>::infinity();
+  return std::make_unique<RemotePartner>(std::move(open), options.number("Patience"), time_limit);
 }
 
 }  // namespace culm::coupling

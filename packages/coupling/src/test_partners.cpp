@@ -49,8 +49,13 @@ Eigen::VectorXd FaultyPartner::loads(const Window& window) {
                     "{:g} s to {:g} s: as the deck wants it",
                     port_, window.number, window.attempt, window.start, window.end));
   }
-  loads[0] = std::numeric_limits<double>::quiet_NaN();
+  if (fault_ == Fault::no_number) loads[0] = std::numeric_limits<double>::quiet_NaN();
+  if (fault_ == Fault::wrong_count) loads.conservativeResize(loads.size() - 6);
   return loads;
+}
+
+void FaultyPartner::accept(const Window& window) {
+  if (fault_ == Fault::wrong_energy && window.number >= window_) books_.energy = 1.0;
 }
 
 }  // namespace culm::coupling

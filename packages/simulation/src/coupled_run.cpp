@@ -1,6 +1,8 @@
 #include "coupled_run.hpp"
 
 #include <culm/base/error.hpp>
+#include <culm/coupling/messages.hpp>
+#include <culm/coupling/partner_error.hpp>
 
 #include "on_root.hpp"
 
@@ -187,14 +189,11 @@ void CoupledRun::ask(coupling::Window& about, CoupledSide& side, VectorXd& answe
   VectorXd own(side.count());
   on_root(comm_, [&] {
     own = side.partner->loads(about);
-    for (Eigen::Index i = 0; i < own.size(); ++i) {
-      if (std::isfinite(own[i])) continue;
-      throw NonFiniteError(fmt::format(
-          "partner '{}' answered {} for component {} at point {} of port '{}', in window {} from "
-          "{:g} s to {:g} s, attempt {}",
-          side.name, own[i], i % 6, i / 6, side.port_name, about.number, about.start, about.end,
-          about.attempt));
-    }
+    const std::string objection = coupling::objection_to(own, side.port->size());
+    if (objection.empty()) return;
+    throw PartnerError(fmt::format(
+        "the partner '{}' at port '{}' failed in window {}, attempt {}, from {:g} s to {:g} s: {}",
+        side.name, side.port_name, about.number, about.attempt, about.start, about.end, objection));
   });
   if (comm_.size() > 1) comm_.broadcast({own.data(), static_cast<std::size_t>(own.size())});
   side.put(std::move(own), answer);
@@ -352,7 +351,7 @@ void CoupledRun::close_books(analysis::AnalysisReport& report, double time) {
                                  : "  the partner keeps no books: no balance\n";
       continue;
     }
-    const double share = side.exchanged > 0.0 ? std::abs(gap) / side.exchanged : 0.0;
+    const double share = gap == 0.0 ? 0.0 : std::abs(gap) / side.exchanged;
     report.text += fmt::format(
         "  energy that the partner gained    {:>20.12g} J\n"
         "  energy that it turned into heat   {:>20.12g} J\n"

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <limits>
 #include <thread>
+#include <utility>
 
 namespace culm::simulation {
 namespace {
@@ -74,18 +75,15 @@ class MpiChannel final : public coupling::Channel {
 }  // namespace
 
 void register_mpi_partner(coupling::PartnerRegistry& registry) {
-  registry.add(
-      "MPI",
-      Schema("MPI", "Another program in the same mpiexec, which speaks the wire format.")
-          .add(text("Port", "Where it acts; the only port of the deck if absent.").optional())
-          .add(integer("Rank", "Of the partner among all processes; those of culm come first.")
-                   .at_least(1))
-          .add(number("Patience", "s", "How long it may be silent.").positive().optional(600.0)),
-      [](const Options& o) {
-        return std::make_unique<coupling::RemotePartner>(
-            [rank = o.integer("Rank")] { return std::make_unique<MpiChannel>(rank); },
-            o.number("Patience"));
-      });
+  Schema schema("MPI", "Another program in the same mpiexec, which speaks the wire format.");
+  schema.add(text("Port", "Where it acts; the only port of the deck if absent.").optional())
+      .add(integer("Rank", "Of the partner among all processes; those of culm come first.")
+               .at_least(1));
+  coupling::add_patience_fields(schema);
+  registry.add("MPI", std::move(schema), [](const Options& o) {
+    return coupling::make_remote_partner(
+        o, [rank = o.integer("Rank")] { return std::make_unique<MpiChannel>(rank); });
+  });
 }
 
 }  // namespace culm::simulation

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,7 +20,9 @@ namespace culm::coupling {
 class Conversation {
  public:
   /// @param patience  for each word of the other side [s]
-  Conversation(std::unique_ptr<Channel> channel, double patience);
+  /// @param time_limit  for an answer, however often the other side says that it is alive [s]
+  Conversation(std::unique_ptr<Channel> channel, double patience,
+               double time_limit = std::numeric_limits<double>::infinity());
   ~Conversation();
   Conversation(const Conversation&) = delete;
   Conversation& operator=(const Conversation&) = delete;
@@ -35,6 +38,7 @@ class Conversation {
 
   std::unique_ptr<Channel> channel_;
   double patience_;
+  double time_limit_;
   std::mutex sending_;
   std::atomic<bool> listens_ = false;
   std::mutex ending_;

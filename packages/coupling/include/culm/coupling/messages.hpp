@@ -26,6 +26,9 @@ Frame motion(FrameKind kind, const Window& window, Quantities wanted);
 Window read_motion(const Frame& frame, Quantities wanted, int points);
 
 Frame answer(const Window& window, const Eigen::VectorXd& loads);
+/// What is wrong with the loads of an answer, "it answered …": their number, or one that is none;
+/// empty if nothing is.
+std::string objection_to(const Eigen::VectorXd& answer, int points);
 /// Throws PartnerError for another number of loads and for what is no number.
 Eigen::VectorXd read_answer(const Frame& frame, int points);
 

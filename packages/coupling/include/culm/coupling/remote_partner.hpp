@@ -1,6 +1,8 @@
 /// Another program as a partner.
 #pragma once
 
+#include <culm/base/options.hpp>
+#include <culm/base/schema.hpp>
 #include <culm/coupling/conversation.hpp>
 #include <culm/coupling/messages.hpp>
 #include <culm/coupling/partner.hpp>
@@ -17,8 +19,9 @@ namespace culm::coupling {
 class RemotePartner final : public Partner {
  public:
   using Open = std::function<std::unique_ptr<Channel>()>;
-  /// @param patience  for each of its words [s]
-  RemotePartner(Open open, double patience) : open_(std::move(open)), patience_(patience) {}
+  /// @param patience  for each of its words [s]  @param time_limit  for each of its answers [s]
+  RemotePartner(Open open, double patience, double time_limit)
+      : open_(std::move(open)), patience_(patience), time_limit_(time_limit) {}
   ~RemotePartner() override;
 
   void begin(const Beginning& beginning) override;
@@ -38,11 +41,17 @@ class RemotePartner final : public Partner {
 
   Open open_;
   double patience_;
+  double time_limit_;
   std::optional<Conversation> conversation_;
   std::string port_;
   Introduction partner_;
   Books books_;
   Window last_;  ///< that was accepted
 };
+
+/// Fields of the deck that say how long it may be silent, and how long it may take.
+void add_patience_fields(Schema& schema);
+/// The partner that they describe.
+std::unique_ptr<Partner> make_remote_partner(const Options& options, RemotePartner::Open open);
 
 }  // namespace culm::coupling

@@ -28,8 +28,10 @@ class RandomPartner final : public Partner {
 
 /// What can go wrong in a window, from there on.
 enum class Fault {
-  death,     ///< PartnerError, as of a program that is gone
-  no_number  ///< an answer that is no number
+  death,        ///< PartnerError, as of a program that is gone
+  no_number,    ///< an answer that is no number
+  wrong_count,  ///< loads of one point less than there are
+  wrong_energy  ///< books of an energy that nobody has seen
 };
 
 /// A partner without loads until something goes wrong with it.
@@ -38,8 +40,8 @@ class FaultyPartner final : public Partner {
   FaultyPartner(Fault fault, int window) : fault_(fault), window_(window) {}
   void begin(const Beginning& beginning) override { port_ = beginning.port; }
   Eigen::VectorXd loads(const Window& window) override;
-  void accept(const Window&) override {}
-  Books books() const override { return {}; }
+  void accept(const Window& window) override;
+  Books books() const override { return books_; }
   void save(const std::string&, Snapshot&) override {}
   void restore(const std::string&, const Snapshot&) override {}
 
@@ -47,6 +49,7 @@ class FaultyPartner final : public Partner {
   Fault fault_;
   int window_;
   std::string port_;
+  Books books_;
 };
 
 }  // namespace culm::coupling
