@@ -4,7 +4,8 @@
 usage: damaged.py [--count N]     (so many flips for each file; cuts are at every 5 %)
 
 If less is read than of the whole file, without a message that the whole file does not give, the deck
-is wrong in silence. A number that is another one by the flip is what the file then says.
+is wrong in silence, and of a file that is cut any other deck. A number that is another one by the flip
+is what the file then says.
 """
 
 import argparse
@@ -40,8 +41,8 @@ def damage(format, name, files, whole, count, complaints, outcomes):
             cut = {**files, target: data[: len(data) * percent // 100]}
             deck, message = outcome(format, cut)
             outcomes[deck is None] += 1
-            if deck is not None and is_silent(deck, whole):
-                complaints.append(f"{name}: {target} cut at {percent} %: a deck without a word")
+            if deck is not None and deck.text != whole.text and not deck.messages() - whole.messages():
+                complaints.append(f"{name}: {target} cut at {percent} %: another deck without a word")
             if message is not None and not message.strip():
                 complaints.append(f"{name}: {target} cut at {percent} %: an empty message")
     generator = random.Random(1)

@@ -1,9 +1,12 @@
 """Small files of all formats, of our own, that tests damage: name -> (format, {file name: text})."""
 
+import desio_samples
 import samples
 
 WHOLE_FILES = {
     "plate.inp": ("abaqus", {"plate.inp": samples.plate(2)}),
     "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
+    "cantilever of DeSiO": ("desio", desio_samples.cantilever()),
+    "rotor of DeSiO": ("desio", desio_samples.rotor()),
     "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),
 }

@@ -2,6 +2,7 @@
 
 import dataclasses
 import difflib
+import pathlib
 
 from ..errors import CulmError
 
@@ -44,6 +45,13 @@ class Findings:
 
     def assume(self, sentence, place=None):
         self.assumed.setdefault(sentence, []).append(place)
+
+    def look_at_end(self, path):
+        """Says that a file ends within a line, where that may be the middle of a number."""
+        data = pathlib.Path(path).read_bytes()
+        if data and not data.endswith((b"\n", b"\r")):
+            place = Place(str(path), data.count(b"\n") + 1)
+            self.assume("a file that ends within a line is whole: if it was cut, its last number is wrong", place)
 
     def leave_out(self, sentence, place=None):
         """Something of the file that acts on the result and is not in the deck."""

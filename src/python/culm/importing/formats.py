@@ -9,6 +9,7 @@ import importlib
 
 FORMATS = {
     "abaqus": "A model of Abaqus or CalculiX, .inp",
+    "desio": "A model of DeSiO-Structure, a folder of text files",
 }
 
 

@@ -12,6 +12,8 @@ from .findings import DECK_ERROR, FILE_ERROR
 from .model import Model
 from .report import report_text
 
+DOES_NOT_SOLVE = 4  # exit code of culm
+
 
 def write_import(arguments, read, program):
     """Reads the file, writes deck, meshes and report. @return exit code"""
@@ -75,8 +77,10 @@ def _header(file, format, findings):
 def _build(program, deck):
     """The model as culm sees it. Raises CulmError with what culm says if it refuses the deck."""
     done = program.call("check", deck)
-    if done.returncode != 0:
-        said = done.stderr.replace(str(deck.parent) + "/", "").strip()
+    said = done.stderr.replace(str(deck.parent) + "/", "").strip()
+    if done.returncode == DOES_NOT_SOLVE:  # the deck is what the file is: a mechanism, for example
+        print(f"warning: the deck does not solve as it is:\n{said}", file=sys.stderr)
+    elif done.returncode != 0:
         raise CulmError(f"the deck that this file makes cannot be built, nothing is written:\n{said}", DECK_ERROR)
     return (done.stdout + done.stderr).replace(str(deck.parent) + "/", "")
 
