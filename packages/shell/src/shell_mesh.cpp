@@ -44,7 +44,8 @@ class Union {
     return i;
   }
   void join(std::size_t i, std::size_t j) {
-    parent_[std::max(find(i), find(j))] = find(std::min(i, j));
+    const auto [first, other] = std::minmax({find(i), find(j)});
+    parent_[other] = first;
   }
 
  private:

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 namespace culm::shell {
 namespace {
@@ -145,6 +147,29 @@ TEST(ShellMesh, PointsOnlyGiveAveragedDirectors) {
   for (std::size_t a = 0; a < mesh.positions.size(); ++a) {
     const Vec3 out(mesh.positions[a].x(), mesh.positions[a].y(), 0.0);
     EXPECT_LT((mesh.directors[a] - out.normalized()).norm(), 1e-14);
+  }
+}
+
+TEST(ShellMesh, ElementsInAnyOrderShareTheirNodes) {
+  const Facets rows = patch(plane(Vec3::Zero(), Vec3(3, 0, 0), Vec3(0, 3, 0)), 3, 3, "plate");
+  std::vector<std::size_t> order(9);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // with two turns of each element's first corner, and all orders of four elements about a point
+  for (std::size_t turn = 0; turn < 2; ++turn) {
+    do {
+      Facets mixed;
+      mixed.points = rows.points;
+      for (std::size_t q : order) {
+        std::array<int, 4> quad = rows.quads[q];
+        std::array<Vec3, 4> normals = rows.normals[q];
+        std::rotate(quad.begin(), quad.begin() + static_cast<long>(turn * (q % 4)), quad.end());
+        mixed.quads.push_back(quad);
+        mixed.normals.push_back(normals);
+      }
+      const ShellMesh mesh = make_mesh(mixed, fold);
+      ASSERT_EQ(mesh.size(), 16);
+      ASSERT_TRUE(mesh.folds.empty());
+    } while (std::next_permutation(order.begin(), order.begin() + 6));
   }
 }
 
