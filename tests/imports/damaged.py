@@ -28,15 +28,20 @@ def outcome(format, files):
 
 def is_silent(deck, whole):
     """Whether something is missing from the deck, and nothing says so."""
-    lost = any(deck.findings.read.get(name, 0) < count for name, count in whole.findings.read.items())
+    counts = {name: count for name, count in whole.findings.read.items() if isinstance(count, int)}
+    lost = any(deck.findings.read.get(name, 0) < count for name, count in counts.items())
     fewer = any(deck.count().get(name, 0) < whole.count().get(name, 0) for name in ("Structures", "Analyses"))
     return (lost or fewer) and not deck.messages() - whole.messages()
+
+
+def contents(data):
+    return data.encode() if isinstance(data, str) else data
 
 
 def damage(format, name, files, whole, count, complaints, outcomes):
     main = next(iter(files))
     for target in files:
-        data = files[target].encode()
+        data = contents(files[target])
         for percent in range(0, 100, 5):
             cut = {**files, target: data[: len(data) * percent // 100]}
             deck, message = outcome(format, cut)
@@ -48,7 +53,7 @@ def damage(format, name, files, whole, count, complaints, outcomes):
     generator = random.Random(1)
     for _ in range(count):
         target = generator.choice(list(files)) if len(files) > 1 else main
-        data = bytearray(files[target].encode())
+        data = bytearray(contents(files[target]))
         place, bit = generator.randrange(len(data)), generator.randrange(8)
         data[place] ^= 1 << bit
         deck, _ = outcome(format, {**files, target: bytes(data)})

@@ -1,6 +1,7 @@
 """Small files of all formats, of our own, that tests damage: name -> (format, {file name: text})."""
 
 import desio_samples
+import gmsh_samples
 import samples
 
 WHOLE_FILES = {
@@ -9,4 +10,9 @@ WHOLE_FILES = {
     "cantilever of DeSiO": ("desio", desio_samples.cantilever()),
     "rotor of DeSiO": ("desio", desio_samples.rotor()),
     "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),
+    **{
+        name: ("gmsh", {"sheet.msh": data})
+        for name, data, kind, order in gmsh_samples.all_forms()
+        if (kind, order) in ((gmsh_samples.QUAD, 1), (gmsh_samples.TRIANGLE, 2))
+    },
 }

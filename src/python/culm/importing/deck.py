@@ -13,6 +13,7 @@ from .shell_parts import is_isotropic, shell_parts
 from .supports import add_supports
 
 SMOOTH = 1e-6  # directors of two shells that go on into each other differ by less
+FARTHEST = 1e12  # m
 FAINT = 1e-9  # mass of a reference node that has none, of the mass of the model
 MOST_WATCHED = 5  # nodes in the history
 SMALL_SHELL_MOMENT = 1e-6  # part of a moment about a director that is rounding
@@ -24,6 +25,7 @@ class Deck:
     def __init__(self, model, stem):
         self.model = model
         self.stem = stem
+        _refuse_far_nodes(model)
         self.quads = Quads(model)
         self.parts = shell_parts(model, self.quads)
         self.chains = beam_chains(model)
@@ -56,6 +58,7 @@ class Deck:
         self.inactive.update({name: where for name, where in steps.items() if where is not None})
         self._add_node_loads(loads)
         self._add_element_loads(loads, element_sets)
+        self._keep_sets()
         for name, names in self.places.sets.items():
             node_sets.list(name).add("Nodes", names)
         self._add_analyses()
@@ -350,6 +353,30 @@ class Deck:
         entry.add("Force", numpy.array(load.value, float))
         self.inactive[name] = load.steps
 
+    def _keep_sets(self):
+        """Sets that nothing in the file uses, in the meshes that they belong to."""
+        for part in self.parts:
+            places = collections.defaultdict(list)
+            for q, element in enumerate(part.elements):
+                places[element].append(q)
+            taken = set()
+            for name, members in self.model.surface_sets.items():
+                chosen = [q for element in members for q in places[element] if q not in taken]
+                if len(chosen) < sum(len(places[element]) for element in members):
+                    self.model.findings.assume(f"elements in several surfaces are in the first only, not in '{name}'")
+                taken.update(chosen)
+                if chosen:
+                    part.quad_sets[unique_name(name, set(part.quad_sets))] = chosen
+            for name, lines in self.model.edge_sets.items():
+                pieces = [piece for line in lines for piece in self.quads.pieces(line)]
+                chosen = [tuple(part.points[node] for node in one) for one in pieces if set(one) <= set(part.points)]
+                if chosen:
+                    part.line_sets[unique_name(name, set(part.line_sets))] = chosen
+            for name, nodes in self.model.point_sets.items():
+                chosen = [part.points[node] for node in nodes if node in part.points]
+                if chosen:
+                    part.point_sets[unique_name(name, {*part.point_sets, *part.line_sets})] = chosen
+
     def _add_analyses(self):
         analyses = self.root.list("Analyses")
         steps = self.model.steps
@@ -386,6 +413,14 @@ class Deck:
                 target = self.places.names([node], f"node {name_of(node)}")[0]
                 history.list(name, type="Displacement").add("Node", target)
         self.root.list("Output").items.append(history)
+
+
+def _refuse_far_nodes(model):
+    """Squares of lengths must be numbers."""
+    for number, position in model.nodes.items():
+        if not numpy.abs(position).max() < FARTHEST:
+            place = (model.shells or model.beams)[0].place if model.shells or model.beams else model.title
+            refuse(place, f"node {name_of(number)} of its model lies at {position.tolist()}, which no structure does")
 
 
 def name_of(number):

@@ -158,5 +158,9 @@ class Model:
     couplings: list = dataclasses.field(default_factory=list)
     node_loads: list = dataclasses.field(default_factory=list)
     element_loads: list = dataclasses.field(default_factory=list)
+    # sets of a mesh that the deck keeps for its user
+    surface_sets: dict = dataclasses.field(default_factory=dict)  # name -> places in shells
+    edge_sets: dict = dataclasses.field(default_factory=dict)  # name -> lines, by two or three nodes
+    point_sets: dict = dataclasses.field(default_factory=dict)  # name -> nodes
     watched: list = dataclasses.field(default_factory=list)  # nodes whose displacements are asked for
     steps: list = dataclasses.field(default_factory=list)

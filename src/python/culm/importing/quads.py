@@ -53,6 +53,12 @@ class Quads:
                 added[middle] = None
         return nodes + [node for node in added if node not in known and node not in self.model.nodes]
 
+    def pieces(self, line):
+        """A line of two or three nodes, the one between last, as edges of quadrilaterals."""
+        a, b = line[:2]
+        middle = self._between.get(frozenset((a, b))) if self.is_split else None
+        return [(a, b)] if middle is None else [(a, middle), (middle, b)]
+
     def _known_between(self):
         """The node between two corners, where an element of second order has one."""
         known = {}

@@ -45,6 +45,7 @@ class ShellPart:
         self.positions = numpy.array([positions[node] for node in points])
         self.corners = numpy.array([[self.points[node] for node in quad] for quad in quads])
         self.point_sets = {}  # name -> numbers of points
+        self.line_sets = {}  # name -> pairs of them
         self.quad_sets = {}  # name -> numbers of quadrilaterals
         self._join_points()
         self._number_nodes()
@@ -103,26 +104,31 @@ class ShellPart:
 
     def mesh_text(self, comment):
         """The mesh as a Gmsh file (MSH 2.2), with physical points and surfaces for sets."""
-        points, quads = sorted(self.point_sets), sorted(self.quad_sets)
         # an element has one physical group, so one that is in several sets stands for each
-        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Comments", comment, "$EndComments"]
-        lines += ["$PhysicalNames", str(len(points) + len(quads))]
-        lines += [f'0 {i + 1} "{name}"' for i, name in enumerate(points)]
-        lines += [f'2 {i + 1} "{name}"' for i, name in enumerate(quads)]
-        lines += ["$EndPhysicalNames", "$Nodes", str(len(self.positions))]
-        lines += [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(self.positions.tolist())]
+        points, lines, quads = sorted(self.point_sets), sorted(self.line_sets), sorted(self.quad_sets)
+        text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Comments", comment, "$EndComments"]
+        names = [(0, points), (1, lines), (2, quads)]
+        text += ["$PhysicalNames", str(sum(len(sets) for _, sets in names))]
+        text += [f'{dimension} {i + 1} "{name}"' for dimension, sets in names for i, name in enumerate(sets)]
+        text += ["$EndPhysicalNames", "$Nodes", str(len(self.positions))]
+        text += [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(self.positions.tolist())]
         elements = [
             f"15 2 {group + 1} {group + 1} {point + 1}"
             for group, name in enumerate(points)
             for point in self.point_sets[name]
         ]
+        elements += [
+            f"1 2 {group + 1} {group + 1} {a + 1} {b + 1}"
+            for group, name in enumerate(lines)
+            for a, b in self.line_sets[name]
+        ]
         group_of = {q: i + 1 for i, name in enumerate(quads) for q in self.quad_sets[name]}
         for q, quad in enumerate(self.corners.tolist()):
             group = group_of.get(q, 0)
             elements.append(f"3 2 {group} {group} " + " ".join(str(point + 1) for point in quad))
-        lines += ["$EndNodes", "$Elements", str(len(elements))]
-        lines += [f"{i + 1} {element}" for i, element in enumerate(elements)]
-        return "\n".join([*lines, "$EndElements"]) + "\n"
+        text += ["$EndNodes", "$Elements", str(len(elements))]
+        text += [f"{i + 1} {element}" for i, element in enumerate(elements)]
+        return "\n".join([*text, "$EndElements"]) + "\n"
 
 
 def shell_parts(model, quads):
