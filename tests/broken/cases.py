@@ -1428,6 +1428,19 @@ COMMANDS = [
     usage("unknown verb", "chekc deck.xml", "unknown command 'chekc' – did you mean 'check'?"),
     usage("no deck named", "run", "deck is required"),
     usage("unknown option", "run deck.xml --frob", "unknown option '--frob' (allowed: --help, --set"),
+    wrong(
+        "distance to nothing",
+        TIP + WATCH,
+        "@@" + TIP + 'value="Distance"/>\n        <Parameter name="Node" value="beam/last"/>',
+        "Output / History / tip: needs either 'To' or 'Structure'",
+    ),
+    wrong(
+        "section loads beyond the end",
+        WATCH,
+        'value="Section Loads"/>\n        <Parameter name="Structure" value="beam"/>'
+        '\n        @@<Parameter name="Station" value="1.5"/>',
+        "Output / History / tip / Station: must be between 0 and 1, got 1.5",
+    ),
     usage("misspelt option", "run deck.xml --stirct", "unknown option '--stirct' – did you mean '--strict'?"),
     usage(
         "misspelt option with a value, and no deck",

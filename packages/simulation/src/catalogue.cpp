@@ -43,6 +43,8 @@ Catalogue::Catalogue() {
   register_signal_quantity(quantities);
   register_link_quantities(quantities);
   register_element_quantities(quantities);
+  register_section_loads(quantities);
+  register_distance_quantity(quantities);
 }
 
 namespace {

@@ -307,6 +307,21 @@ class Energy final : public Quantity {
   }
 };
 
+class Momenta final : public Quantity {
+ public:
+  std::vector<output::HistoryColumn> columns() const override {
+    return {{"lx", "N s"},   {"ly", "N s"},   {"lz", "N s"},
+            {"Lx", "N m s"}, {"Ly", "N m s"}, {"Lz", "N m s"}};
+  }
+  void evaluate(const assembly::System& system, const model::State& state,
+                std::vector<double>& numbers) const override {
+    const model::Momentum momentum = system.momentum(state.next, state.velocity);
+    for (const Vec3& one : {momentum.linear, momentum.angular}) {
+      numbers.insert(numbers.end(), one.begin(), one.end());
+    }
+  }
+};
+
 }  // namespace
 
 void register_element_quantities(QuantityRegistry& registry) {
@@ -330,6 +345,12 @@ void register_element_quantities(QuantityRegistry& registry) {
   registry.add("Strain Energy", Schema("Strain Energy", "Strain energy of the whole model."),
                [](const Options&, model::BuildContext&) -> std::unique_ptr<Quantity> {
                  return std::make_unique<StrainEnergy>();
+               });
+  registry.add("Momentum",
+               Schema("Momentum",
+                      "Linear momentum of the whole model, and angular momentum about the origin."),
+               [](const Options&, model::BuildContext&) -> std::unique_ptr<Quantity> {
+                 return std::make_unique<Momenta>();
                });
   registry.add(
       "Energy",

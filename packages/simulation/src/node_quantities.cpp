@@ -2,6 +2,8 @@
 #include <culm/math/rotation.hpp>
 #include <culm/simulation/quantity.hpp>
 
+#include "place.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -17,27 +19,20 @@ namespace {
 using model::NodeTable;
 using output::HistoryColumn;
 
-// What is watched: a node, or a point fixed to it.
-struct Place {
-  int node = -1;
-  Vec3 offset = Vec3::Zero();  // in the directors of the node
-  std::string constraint;      // whose reaction; all if empty
-
-  Vec3 position(const model::Coordinates& q) const {
-    const auto slots = NodeTable::slots(q, node);
-    return slots.col(0) + slots.rightCols<3>() * offset;
-  }
+// What is watched.
+struct Watched : Place {
+  std::string constraint;  // whose reaction; all if empty
 };
 
 // A quantity that is a function of one node.
 class NodeQuantity final : public Quantity {
  public:
-  using Evaluate = std::function<void(const assembly::System&, const model::State&, const Place&,
+  using Evaluate = std::function<void(const assembly::System&, const model::State&, const Watched&,
                                       std::vector<double>&)>;
 
-  using Object = std::string (*)(const model::Model&, const Place&);
+  using Object = std::string (*)(const model::Model&, const Watched&);
 
-  NodeQuantity(const Place& place, std::vector<HistoryColumn> columns, Evaluate evaluate,
+  NodeQuantity(const Watched& place, std::vector<HistoryColumn> columns, Evaluate evaluate,
                Object object)
       : place_(place),
         columns_(std::move(columns)),
@@ -54,7 +49,7 @@ class NodeQuantity final : public Quantity {
   }
 
  private:
-  Place place_;
+  Watched place_;
   std::vector<HistoryColumn> columns_;
   Evaluate evaluate_;
   Object object_;
@@ -64,14 +59,25 @@ void append(const Vec3& v, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), v.data(), v.data() + 3);
 }
 
-void position(const assembly::System&, const model::State& state, const Place& place,
+void position(const assembly::System&, const model::State& state, const Watched& place,
               std::vector<double>& numbers) {
-  append(place.position(state.next), numbers);
+  append(place.seen_position(state.next), numbers);
 }
 
-void displacement(const assembly::System& system, const model::State& state, const Place& place,
+void displacement(const assembly::System& system, const model::State& state, const Watched& place,
                   std::vector<double>& numbers) {
-  append(place.position(state.next) - place.position(system.model().nodes().reference()), numbers);
+  append(place.seen_position(state.next) - place.seen_position(system.model().nodes().reference()),
+         numbers);
+}
+
+void velocity(const assembly::System&, const model::State& state, const Watched& place,
+              std::vector<double>& numbers) {
+  append(place.seen_velocity(state), numbers);
+}
+
+void angular_velocity(const assembly::System&, const model::State& state, const Watched& place,
+                      std::vector<double>& numbers) {
+  append(place.seen_spin(state), numbers);
 }
 
 // The shortest rotation that turns one direction into another.
@@ -83,7 +89,7 @@ Vec3 turn_between(const Vec3& from, const Vec3& to) {
   return cosine < 0.0 ? Vec3(std::numbers::pi * any_normal(from)) : Vec3(Vec3::Zero());
 }
 
-void rotation(const assembly::System& system, const model::State& state, const Place& place,
+void rotation(const assembly::System& system, const model::State& state, const Watched& place,
               std::vector<double>& numbers) {
   const auto& reference = system.model().nodes().reference();
   if (system.model().nodes().kind(place.node) != NodeKind::node12) {
@@ -92,12 +98,12 @@ void rotation(const assembly::System& system, const model::State& state, const P
            numbers);
     return;
   }
-  const Mat3 D = NodeTable::slots(state.next, place.node).rightCols<3>();
-  const Mat3 D0 = NodeTable::slots(reference, place.node).rightCols<3>();
+  const Mat3 D = place.seen_directors(state.next);
+  const Mat3 D0 = place.seen_directors(reference);
   append(log_rotation(D * D0.transpose()), numbers);
 }
 
-void reaction(const assembly::System& system, const model::State& state, const Place& place,
+void reaction(const assembly::System& system, const model::State& state, const Watched& place,
               std::vector<double>& numbers) {
   const Vec6 r = place.constraint.empty() ? system.reaction(place.node, state)
                                           : system.reaction_of(place.constraint, place.node, state);
@@ -105,7 +111,7 @@ void reaction(const assembly::System& system, const model::State& state, const P
 }
 
 // The force of a connection that takes the unknowns of a node away is in no equation.
-std::string object_to_reaction(const model::Model& model, const Place& place) {
+std::string object_to_reaction(const model::Model& model, const Watched& place) {
   const model::NodeTable& nodes = model.nodes();
   if (!place.constraint.empty() || !nodes.is_slave(place.node)) return {};
   std::string connection = "a rigid connection";
@@ -121,7 +127,7 @@ std::string object_to_reaction(const model::Model& model, const Place& place) {
 }
 
 // False, and an issue, if there is no such constraint there or it has no multipliers of its own.
-bool read_constraint(const Options& options, model::BuildContext& context, Place& place) {
+bool read_constraint(const Options& options, model::BuildContext& context, Watched& place) {
   if (!options.has("Constraint")) return true;
   place.constraint = options.text("Constraint");
   std::vector<std::string> names;
@@ -143,52 +149,64 @@ bool read_constraint(const Options& options, model::BuildContext& context, Place
   return false;
 }
 
+// Whether a node turns as a whole: with a frame, or for an angular velocity, a director does not
+// do.
+bool has_triad_where_needed(const std::string& type, const Options& options,
+                            model::BuildContext& context, const Watched& place) {
+  const bool needed = type == "Angular Velocity" || (type == "Rotation" && place.frame >= 0);
+  return !needed || has_triad(place.node, "Node", options, context);
+}
+
 void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> columns,
          NodeQuantity::Evaluate evaluate, NodeQuantity::Object object = nullptr) {
   const std::string type = schema.name();
   const bool has_offset = schema.find_field("Offset") != nullptr;
+  const bool has_frame = schema.find_field("Frame") != nullptr;
   const bool has_constraint = schema.find_field("Constraint") != nullptr;
   schema.add(model::node_field("Node", "The node, such as 'structure/last'."));
-  registry.add(type, std::move(schema),
-               [columns = std::move(columns), evaluate = std::move(evaluate), object, has_offset,
-                has_constraint](const Options& options,
-                                model::BuildContext& context) -> std::unique_ptr<Quantity> {
-                 const std::vector<int> nodes = model::select_nodes(options, "Node", context);
-                 if (nodes.empty()) return nullptr;
-                 if (nodes.size() > 1) {
-                   context.issues.add(
-                       options.where("Node"),
-                       "names " + std::to_string(nodes.size()) + " nodes, but one is watched");
-                   return nullptr;
-                 }
-                 Place place{nodes.front(), Vec3::Zero(), {}};
-                 if (has_constraint && !read_constraint(options, context, place)) return nullptr;
-                 if (has_offset) place.offset = model::vector(options, "Offset");
-                 return std::make_unique<NodeQuantity>(place, columns, evaluate, object);
-               });
-}
-
-Field offset_field() {
-  return model::vector_field("Offset", "m", "From the node to the watched point, in its directors.")
-      .optional({0.0, 0.0, 0.0});
+  registry.add(
+      type, std::move(schema),
+      [type, columns = std::move(columns), evaluate = std::move(evaluate), object, has_offset,
+       has_frame, has_constraint](const Options& options,
+                                  model::BuildContext& context) -> std::unique_ptr<Quantity> {
+        const std::optional<Place> read = read_place(options, has_offset, has_frame, context);
+        if (!read) return nullptr;
+        Watched place{*read, {}};
+        if (has_constraint && !read_constraint(options, context, place)) return nullptr;
+        if (!has_triad_where_needed(type, options, context, place)) return nullptr;
+        return std::make_unique<NodeQuantity>(place, columns, evaluate, object);
+      });
 }
 
 }  // namespace
 
 void register_node_quantities(QuantityRegistry& registry) {
   add(registry,
-      Schema("Position", "Position of a node or a point fixed to it.").add(offset_field()),
+      Schema("Position", "Position of a node or a point fixed to it.")
+          .add(offset_field())
+          .add(frame_field()),
       {{"x", "m"}, {"y", "m"}, {"z", "m"}}, position);
   add(registry,
       Schema("Displacement", "Displacement of a node, or a point fixed to it, from the reference.")
-          .add(offset_field()),
+          .add(offset_field())
+          .add(frame_field()),
       {{"ux", "m"}, {"uy", "m"}, {"uz", "m"}}, displacement);
   add(registry,
       Schema(
           "Rotation",
           "Rotation vector of the directors of a node from the reference; of a node of a shell the "
-          "shortest that turns its director."),
+          "shortest that turns its director.")
+          .add(frame_field()),
       {{"rx", "rad"}, {"ry", "rad"}, {"rz", "rad"}}, rotation);
+  add(registry,
+      Schema("Velocity", "Velocity of a node, or a point fixed to it; zero in statics.")
+          .add(offset_field())
+          .add(frame_field()),
+      {{"vx", "m/s"}, {"vy", "m/s"}, {"vz", "m/s"}}, velocity);
+  add(registry,
+      Schema("Angular Velocity", "Angular velocity of a node with directors; zero in statics.")
+          .add(frame_field()),
+      {{"wx", "rad/s"}, {"wy", "rad/s"}, {"wz", "rad/s"}}, angular_velocity);
   add(registry,
       Schema("Reaction",
              "Force, and moment about the node, by which supports and joints act on the structure "

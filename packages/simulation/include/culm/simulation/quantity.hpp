@@ -43,13 +43,17 @@ std::vector<double> evaluate(const std::vector<WatchedQuantity>& watched,
 /// Makers report mistakes as issues and may then return nothing.
 using QuantityRegistry = Registry<std::unique_ptr<Quantity>, model::BuildContext&>;
 
-/// Position, Displacement, Rotation and Reaction of a node.
+/// Position, Displacement, Rotation, Velocity, Angular Velocity and Reaction of a node.
 void register_node_quantities(QuantityRegistry& registry);
 /// The value of a signal.
 void register_signal_quantity(QuantityRegistry& registry);
 /// Springs, dampers, drives and angles of joints.
 void register_link_quantities(QuantityRegistry& registry);
-/// Stress resultants of an element, and energies.
+/// Stress resultants of an element, energies and momenta.
 void register_element_quantities(QuantityRegistry& registry);
+/// Force and moment in a section of a beam.
+void register_section_loads(QuantityRegistry& registry);
+/// Of two points, or of a point and a beam.
+void register_distance_quantity(QuantityRegistry& registry);
 
 }  // namespace culm::simulation

@@ -1,0 +1,151 @@
+#include <culm/simulation/quantity.hpp>
+
+#include "place.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace culm::simulation {
+namespace {
+
+// Position and directors of a material point.
+Eigen::Matrix<double, 3, 4> slots_at(const model::Marker& marker, const model::Coordinates& q) {
+  Eigen::Matrix<double, 3, 4> slots = Eigen::Matrix<double, 3, 4>::Zero();
+  for (std::size_t a = 0; a < marker.nodes.size(); ++a) {
+    slots += marker.weights[a] * model::NodeTable::slots(q, marker.nodes[a]);
+  }
+  return slots;
+}
+
+// Force and moment in a section of a beam. The mean resultants of elements are those of their
+// centres to second order; between them, and on to the ends, the vectors in space are linear.
+class SectionLoads final : public Quantity {
+ public:
+  enum class Axes { section, space, frame };
+  struct Source {
+    model::Cell cell;
+    model::Marker centre;
+    double weight;
+  };
+
+  SectionLoads(std::vector<Source> sources, model::Marker station, Axes axes, int frame)
+      : sources_(std::move(sources)), station_(std::move(station)), axes_(axes), frame_(frame) {}
+
+  std::vector<output::HistoryColumn> columns() const override {
+    std::vector<output::HistoryColumn> columns;
+    for (const auto& [letter, unit] : {std::pair{"F", "N"}, {"M", "N m"}}) {
+      for (const char* axis :
+           axes_ == Axes::space ? std::array{"x", "y", "z"} : std::array{"1", "2", "3"}) {
+        columns.push_back({std::string(letter) + axis, unit});
+      }
+    }
+    return columns;
+  }
+  void evaluate(const assembly::System&, const model::State& state,
+                std::vector<double>& numbers) const override {
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+    for (const Source& source : sources_) {
+      std::vector<double> resultants;
+      source.cell.source->resultants(source.cell.item, state.next, resultants);
+      const Mat3 directors = slots_at(source.centre, state.next).rightCols<3>();
+      force += source.weight * directors * Vec3(resultants.data());
+      moment += source.weight * directors * Vec3(resultants.data() + 3);
+    }
+    const Mat3 axes = axes_in(state.next);
+    for (const Vec3& vector : {force, moment}) {
+      const Vec3 shown = axes.transpose() * vector;
+      numbers.insert(numbers.end(), shown.begin(), shown.end());
+    }
+  }
+
+ private:
+  Mat3 axes_in(const model::Coordinates& q) const {
+    if (axes_ == Axes::space) return Mat3::Identity();
+    if (axes_ == Axes::frame) return model::NodeTable::slots(q, frame_).rightCols<3>();
+    return slots_at(station_, q).rightCols<3>();
+  }
+
+  std::vector<Source> sources_;
+  model::Marker station_;
+  Axes axes_;
+  int frame_;
+};
+
+// Places of the centres of elements as fractions of the length.
+std::vector<double> centres_of(const model::Structure& beam) {
+  const std::size_t per_element = beam.line_points.size() / beam.cells.size();
+  std::vector<double> centres;
+  double length = 0.0;
+  for (std::size_t first = 0; first < beam.line_points.size(); first += per_element) {
+    double own = 0.0;
+    for (std::size_t k = 0; k < per_element; ++k) own += beam.line_points[first + k].length;
+    centres.push_back(length + 0.5 * own);
+    length += own;
+  }
+  for (double& centre : centres) centre /= length;
+  return centres;
+}
+
+// The two elements whose centres lie about the station, or nearest to it, and their weights.
+std::vector<SectionLoads::Source> find_sources(const model::Structure& beam, double station) {
+  const std::vector<double> centres = centres_of(beam);
+  const auto source = [&](std::size_t i, double weight) {
+    return SectionLoads::Source{beam.cells[i], *marker_at_fraction(beam, centres[i]), weight};
+  };
+  if (centres.size() == 1) return {source(0, 1.0)};
+  const auto above = std::lower_bound(centres.begin() + 1, centres.end() - 1, station);
+  const auto i = static_cast<std::size_t>(above - centres.begin());
+  const double weight = (station - centres[i - 1]) / (centres[i] - centres[i - 1]);
+  return {source(i - 1, 1.0 - weight), source(i, weight)};
+}
+
+std::unique_ptr<Quantity> make_section_loads(const Options& options, model::BuildContext& context) {
+  const model::Structure* beam = model::select_structure(options, context);
+  if (beam == nullptr) return nullptr;
+  const bool is_beam = !beam->line_points.empty() && beam->cells.front().source != nullptr;
+  if (!is_beam || beam->cells.front().source->resultant_names().size() != 6) {
+    context.issues.add(options.where("Structure"),
+                       "structure '" + beam->name +
+                           "' does not have the six stress resultants of a beam of 'Fidelity' Full "
+                           "or Linear, with torsion");
+    return nullptr;
+  }
+  int frame = -1;
+  auto axes =
+      options.text("Axes") == "Space" ? SectionLoads::Axes::space : SectionLoads::Axes::section;
+  if (options.has("Frame")) {
+    const std::optional<int> node = read_node(options, "Frame", context);
+    if (!node || !has_triad(*node, "Frame", options, context)) return nullptr;
+    frame = *node;
+    axes = SectionLoads::Axes::frame;
+  }
+  const double station = options.number("Station");
+  return std::make_unique<SectionLoads>(find_sources(*beam, station),
+                                        *marker_at_fraction(*beam, station), axes, frame);
+}
+
+}  // namespace
+
+void register_section_loads(QuantityRegistry& registry) {
+  Schema schema("Section Loads",
+                "Force and moment in a section of a beam, by which the part beyond it, towards the "
+                "last node, acts on the part before; linear between the centres of elements.");
+  schema.add(model::structure_field())
+      .add(number("Station", "",
+                  "Place of the section as a fraction of the length: 0 at the first node, 1 at the "
+                  "last.")
+               .between(0.0, 1.0))
+      .add(choice("Axes", {"Section", "Space"}, "The directors of the section, or space.")
+               .optional("Section"))
+      .add(text("Frame", "Or a node whose directors are the axes.").optional())
+      .check([](const Options& options, InputIssues& issues) {
+        if (options.has("Frame") && options.given("Axes")) {
+          issues.add(options.where("Axes"), "'Frame' gives the axes already");
+        }
+      });
+  registry.add("Section Loads", std::move(schema), make_section_loads);
+}
+
+}  // namespace culm::simulation
