@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that the documentation has not drifted from the code.
 
-- Links between pages, and paths in `code`, lead somewhere.
+- Links between pages, also to headings, and paths in `code`, lead somewhere.
 - The table of packages in doc/developer/architecture.md says what their CMakeLists.txt say.
 - CHANGELOG.md knows the version, and that of the format of decks.
 - Every section that a comment cites, as in `@source formulation 4.1`, has a page in doc/theory/README.md.
@@ -31,12 +31,23 @@ def exists(base, name):
     return (base / name).exists() or any(base.glob(name))
 
 
+def anchors(text):
+    """By which links reach the headings of a page."""
+    headings = re.findall(r"^#+ (.+?)\s*$", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
 def check_page(page):
     place = page.relative_to(ROOT)
     text = page.read_text()
-    for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
-        if "://" not in link and not (page.parent / link).exists():
+    for link, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)]*))?\)", text):
+        target = page.parent / link if link else page
+        if "://" in link:
+            continue
+        if not target.exists():
             yield f"{place}: the link '{link}' leads nowhere"
+        elif anchor and target.suffix == ".md" and anchor not in anchors(target.read_text()):
+            yield f"{place}: there is no heading '{anchor}' in '{link or page.name}'"
     for name in re.findall(r"`([^`\s{}<>…]+)`", text):
         name = re.sub(r":\d+$", "", name)
         if not name.startswith(ROOTS) or "NAME" in name or name.startswith("src/"):
