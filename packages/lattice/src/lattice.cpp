@@ -1,0 +1,227 @@
+#include <culm/lattice/lattice.hpp>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <utility>
+#include <vector>
+
+namespace culm::lattice {
+namespace {
+
+constexpr double far_chords = 1e4;  // length of a straight wake
+
+Points sum(const Points& a, double factor, const Points& b) {
+  Points result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result.set(i, a.at(i) + factor * b.at(i));
+  return result;
+}
+
+Points mean(const Points& a, const Points& b) {
+  Points result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result.set(i, 0.5 * (a.at(i) + b.at(i)));
+  return result;
+}
+
+Points unit(Points vectors) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) vectors.set(i, vectors.at(i).normalized());
+  return vectors;
+}
+
+// Values at collocation points carried to middles of segments. The middle of a segment along the
+// span lies between two collocation points of its strip, the leading one ahead of the first.
+Points to_middles(const BoundLattice& bound, const Points& at_collocation) {
+  Points result(bound.num_segments());
+  for (const Panelling& s : bound.surfaces()) {
+    const auto [m, n] = s.panels;
+    const auto value = [&](int i, int j) { return at_collocation.at(s.ring(i, j)); };
+    for (int j = 0; j < n; ++j) {
+      for (int i = 1; i < m; ++i) {
+        result.set(s.across(i, j), 0.5 * (value(i - 1, j) + value(i, j)));
+      }
+      result.set(s.across(0, j), m > 1 ? Vec3(1.5 * value(0, j) - 0.5 * value(1, j)) : value(0, j));
+      result.set(s.across(m, j), value(m - 1, j));
+    }
+    for (int i = 0; i < m; ++i) {
+      for (int j = 0; j <= n; ++j) {
+        result.set(s.along(i, j),
+                   0.5 * (value(i, j > 0 ? j - 1 : 0) + value(i, j < n ? j : n - 1)));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+FluidState Lattice::initial_state() const {
+  const auto rings = static_cast<Eigen::Index>(bound_.num_rings());
+  const bool at_segments = setting_.forces == ForceRule::joukowski;
+  return {Eigen::VectorXd::Zero(rings),
+          Points(at_segments ? bound_.num_segments() : bound_.num_rings()),
+          Wake(bound_, setting_.rows, setting_.core)};
+}
+
+Points Lattice::flow_at(const Points& places, double time) const {
+  std::vector<Vec3> at(places.size()), velocities(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) at[i] = places.at(i);
+  flow_->velocities(at, time, velocities);
+  Points result(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) result.set(i, velocities[i]);
+  return result;
+}
+
+Points Lattice::force_points(const Points& grid) const {
+  return setting_.forces == ForceRule::joukowski ? bound_.segment_middles(bound_.corners(grid))
+                                                 : bound_.collocation_points(grid);
+}
+
+Lattice::ComingWake Lattice::begin_step(const FluidState& state, const Points& start,
+                                        const Points& expected, double time_start,
+                                        double time_end) const {
+  ComingWake coming{state.wake, {}, {}};
+  const Points corners = bound_.corners(start);
+  const Points edges = bound_.edge_points(corners);
+  const double middle = 0.5 * (time_start + time_end);
+  Points at_edges = flow_at(edges, middle);
+  Points at_lines = flow_at(state.wake.lines(), middle);
+  if (setting_.wake == WakeMotion::free) {
+    const Segments segments = bound_.segments(corners);
+    at_edges =
+        sum(at_edges, 1.0, induced_at(edges, segments, state.circulation, state.wake, edges));
+    at_lines = sum(at_lines, 1.0,
+                   induced_at(state.wake.lines(), segments, state.circulation, state.wake, edges));
+  }
+  coming.wake.advance(time_end - time_start, edges, at_edges, at_lines,
+                      bound_.edge_circulation(state.circulation));
+  const Wake::Sheet far = coming.wake.far_part();
+  coming.at_collocation.resize(bound_.num_rings());
+  bound_.add_induced(far.segments, far.strengths, bound_.collocation_points(expected),
+                     coming.at_collocation);
+  // carried over, because as many more points would cost twice as much again
+  coming.at_forces = setting_.forces == ForceRule::joukowski
+                         ? to_middles(bound_, coming.at_collocation)
+                         : coming.at_collocation;
+  return coming;
+}
+
+// No flow through the collocation points, with what moves there relative to them. The circulation
+// of a straight wake is unknown as well: it is that of the rings at the edge.
+Eigen::VectorXd Lattice::solve(const Segments& segments, const Points& grid,
+                               const Points& velocities, const Wake* straight,
+                               const Points& edges) const {
+  const Points places = bound_.collocation_points(grid);
+  const Points normals = unit(bound_.areas(grid));
+  const auto rings = static_cast<Eigen::Index>(bound_.num_rings());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rings, rings);
+  bound_.add_influence(segments, places, normals, matrix);
+  if (straight != nullptr) {
+    Wake one = *straight;
+    for (const Panelling& s : bound_.surfaces()) {
+      for (int j = 0; j < s.panels.span; ++j) {
+        std::vector<double> strip(bound_.num_strips(), 0.0);
+        strip[s.strip(j)] = 1.0;
+        one.make_straight(straight->lines(), std::move(strip));
+        const auto column = static_cast<Eigen::Index>(s.ring(s.panels.chord - 1, j));
+        for (const Wake::Sheet& sheet : {one.near_part(edges), one.far_part()}) {
+          for (std::size_t k = 0; k < sheet.segments.size(); ++k) {
+            if (sheet.strengths[k] == 0.0) continue;
+            bound_.add_induced_normal(sheet.segments, k, sheet.strengths[k], places, normals,
+                                      {matrix.col(column).data(), bound_.num_rings()});
+          }
+        }
+      }
+    }
+  }
+  Eigen::VectorXd right(rings);
+  for (Eigen::Index k = 0; k < rings; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    right[k] = -velocities.at(at).dot(normals.at(at));
+  }
+  return matrix.partialPivLu().solve(right);
+}
+
+// By the bound rings and by a whole wake.
+Points Lattice::induced_at(const Points& places, const Segments& segments,
+                           const Eigen::VectorXd& circulation, const Wake& wake,
+                           const Points& edges) const {
+  Points result(places.size());
+  bound_.add_induced(segments, bound_.strengths(circulation), places, result);
+  for (const Wake::Sheet& sheet : {wake.near_part(edges), wake.far_part()}) {
+    bound_.add_induced(sheet.segments, sheet.strengths, places, result);
+  }
+  return result;
+}
+
+FluidResult Lattice::step(const FluidState& state, const ComingWake& coming,
+                          const GridStep& grid) const {
+  const Points corners = bound_.corners(grid.end);
+  const Segments segments = bound_.segments(corners);
+  const Points edges = bound_.edge_points(corners);
+  const Wake::Sheet near = coming.wake.near_part(edges);
+
+  const Points places = bound_.collocation_points(grid.end);
+  Points relative = sum(sum(flow_at(places, grid.time_end), 1.0, coming.at_collocation), -1.0,
+                        bound_.collocation_points(grid.end_velocity));
+  bound_.add_induced(near.segments, near.strengths, places, relative);
+  FluidResult result;
+  result.circulation = solve(segments, grid.end, relative, nullptr, edges);
+
+  result.induced = coming.at_forces;
+  const Points forced = force_points(grid.end);
+  bound_.add_induced(segments, bound_.strengths(result.circulation), forced, result.induced);
+  bound_.add_induced(near.segments, near.strengths, forced, result.induced);
+
+  const double step = grid.time_end - grid.time_start;
+  const Points middle = mean(grid.start, grid.end);
+  const Points moved = sum(grid.end, -1.0, grid.start);
+  Points wind = flow_at(force_points(middle), 0.5 * (grid.time_start + grid.time_end));
+  wind = sum(wind, 1.0, mean(state.induced, result.induced));
+  wind = sum(wind, -1.0 / step, force_points(moved));
+  result.forces = forces(middle, wind, 0.5 * (state.circulation + result.circulation),
+                         (result.circulation - state.circulation) / step);
+  return result;
+}
+
+FluidState Lattice::state_after(const FluidResult& result, Wake wake) {
+  return {result.circulation, result.induced, std::move(wake)};
+}
+
+Points Lattice::far_line(const Points& edges, double time) const {
+  const Points wind = flow_at(edges, time);
+  Points far(edges.size());
+  for (const Panelling& s : bound_.surfaces()) {
+    for (int j = 0; j <= s.panels.span; ++j) {
+      const std::size_t at = s.edge_point(j);
+      // no wind leaves no wake: normalized() of zero is zero
+      far.set(at, edges.at(at) + far_chords * s.chord * wind.at(at).normalized());
+    }
+  }
+  return far;
+}
+
+FluidResult Lattice::steady(const Points& grid, double time) const {
+  const Points corners = bound_.corners(grid);
+  const Segments segments = bound_.segments(corners);
+  const Points edges = bound_.edge_points(corners);
+  Wake wake(bound_, 1, setting_.core);
+  wake.make_straight(far_line(edges, time), std::vector<double>(bound_.num_strips(), 0.0));
+  FluidResult result;
+  result.circulation =
+      solve(segments, grid, flow_at(bound_.collocation_points(grid), time), &wake, edges);
+  wake.make_straight(wake.lines(), bound_.edge_circulation(result.circulation));
+  const Points places = force_points(grid);
+  result.induced = induced_at(places, segments, result.circulation, wake, edges);
+  result.forces = forces(grid, sum(flow_at(places, time), 1.0, result.induced), result.circulation,
+                         Eigen::VectorXd::Zero(result.circulation.size()));
+  return result;
+}
+
+FluidState Lattice::steady_state(const FluidResult& result, const Points& grid, double time) const {
+  Wake wake(bound_, setting_.rows, setting_.core);
+  wake.make_straight(far_line(bound_.edge_points(bound_.corners(grid)), time),
+                     bound_.edge_circulation(result.circulation));
+  return state_after(result, std::move(wake));
+}
+
+}  // namespace culm::lattice
