@@ -35,6 +35,8 @@ Catalogue::Catalogue() {
   joint::register_joints(constraints);
   load::register_loads(loads);
   flow::register_flows(flows);
+  strip::register_airfoils(airfoils);
+  strip::register_strips(strips);
   port::register_ports(ports);
   coupling::register_partners(partners);
   register_mpi_partner(partners);
@@ -178,6 +180,7 @@ Schema::Check at_least_one(std::string what) {
 Schema Catalogue::deck_schema() const {
   Variants all_loads = loads.variants();
   all_loads.merge(fluid_loads.variants());
+  all_loads.merge(strips.variants());
   return Schema("culm", "An input deck.")
       .add(text("Title", "What the deck shows.").optional(""))
       .add(integer("Refinement",
@@ -224,6 +227,10 @@ Schema Catalogue::deck_schema() const {
       .list("Flows",
             Schema("Flows", "Media by name that structures stand or move in.")
                 .entries_by_type(flows.variants()),
+            Presence::defaulted)
+      .list("Airfoils",
+            Schema("Airfoils", "What sections do in a flow, by name.")
+                .entries_by_type(airfoils.variants()),
             Presence::defaulted)
       .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(std::move(all_loads)),
             Presence::defaulted)

@@ -60,11 +60,15 @@ std::map<std::string, flow::SharedFlow> make_flows(const flow::FlowRegistry& reg
 
 // Loads of all kinds stand in one list, in any order.
 void build_loads(const Catalogue& catalogue, const Options& list, const Inactive& inactive,
-                 flow::FluidContext& fluids) {
+                 strip::StripContext& strips) {
+  flow::FluidContext& fluids = strips.fluids;
   for (const Options& entry : list.entries()) {
     if (inactive.contains(entry.name())) continue;
-    if (catalogue.fluid_loads.contains(entry.text("Type"))) {
+    const std::string& type = entry.text("Type");
+    if (catalogue.fluid_loads.contains(type)) {
       build_one(catalogue.fluid_loads, entry, fluids, fluids.build.issues);
+    } else if (catalogue.strips.contains(type)) {
+      build_one(catalogue.strips, entry, strips, fluids.build.issues);
     } else {
       build_one(catalogue.loads, entry, fluids.build, fluids.build.issues);
     }
@@ -225,7 +229,8 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   build_signals(catalogue.signals, deck.list("Signals"), model, functions, issues);
   build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
   flow::FluidContext fluids(context, make_flows(catalogue.flows, deck.list("Flows"), context));
-  build_loads(catalogue, deck.list("Loads"), setting.inactive, fluids);
+  strip::StripContext strips(fluids, make_all(catalogue.airfoils, deck.list("Airfoils"), issues));
+  build_loads(catalogue, deck.list("Loads"), setting.inactive, strips);
   auto ports = make_ports(catalogue, deck.list("Ports"), context);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
   auto watched =

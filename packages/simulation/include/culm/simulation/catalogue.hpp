@@ -9,6 +9,7 @@
 #include <culm/model/build_context.hpp>
 #include <culm/port/register_port.hpp>
 #include <culm/simulation/quantity.hpp>
+#include <culm/strip/register_strip.hpp>
 #include <culm/structure/structure_context.hpp>
 
 namespace culm::simulation {
@@ -30,6 +31,8 @@ struct Catalogue {
   model::BuilderRegistry loads;
   flow::FlowRegistry flows;
   flow::FluidLoadRegistry fluid_loads;  ///< in the list of loads, too
+  strip::AirfoilRegistry airfoils;
+  strip::StripRegistry strips;  ///< in the list of loads, too
   port::PortRegistry ports;
   coupling::PartnerRegistry partners;
   analysis::AnalysisRegistry analyses;

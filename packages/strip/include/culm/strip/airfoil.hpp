@@ -1,0 +1,30 @@
+/// What a section does in a steady flow.
+#pragma once
+
+#include <culm/base/registry.hpp>
+#include <culm/math/types.hpp>
+
+#include <memory>
+
+namespace culm::strip {
+
+/// Coefficients of lift, drag and moment about the quarter chord, nose up, in this order [-].
+using Coefficients = Vec3;
+
+/// Coefficients by the angle of attack.
+class Airfoil {
+ public:
+  virtual ~Airfoil() = default;
+  /// @param alpha  angle of attack from -pi to pi [rad]
+  /// @param slope  derivatives of the coefficients by it [1/rad]
+  virtual Coefficients at(double alpha, Coefficients& slope) const = 0;
+};
+
+/// Shared by all stations that have it.
+using SharedAirfoil = std::shared_ptr<const Airfoil>;
+/// Types of the deck's list "Airfoils": Thin, Polar.
+using AirfoilRegistry = Registry<SharedAirfoil>;
+
+void register_airfoils(AirfoilRegistry& registry);
+
+}  // namespace culm::strip

@@ -1,0 +1,108 @@
+/// Loads of a flow on sections of slender structures.
+#pragma once
+
+#include <culm/flow/flow.hpp>
+#include <culm/model/amplitude.hpp>
+#include <culm/model/memoryless_batch.hpp>
+#include <culm/model/structure.hpp>
+#include <culm/strip/airfoil.hpp>
+#include <culm/strip/lag.hpp>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::strip {
+
+/// A section at a point of a line, which stands for a length of it.
+struct Station {
+  model::Marker point;         ///< on the axis of the line
+  double length = 0.0;         ///< of the reference [m]
+  double chord = 0.0;          ///< [m]
+  double axis_at = 0.25;       ///< place of the axis behind the nose, in chords [-]
+  Vec3 along = Vec3::Zero();   ///< unit vector from nose to tail, in the directors
+  Vec3 across = Vec3::Zero();  ///< unit vector towards the suction side, in the directors
+  SharedAirfoil airfoil = {}, next_airfoil = {};  ///< blended
+  double blend = 0.0;                             ///< share of the second one
+};
+
+/// What a station saw and felt in the step that was evaluated last.
+struct StationState {
+  double angle = 0.0;            ///< of attack at the three-quarter chord [rad]
+  double effective_angle = 0.0;  ///< behind the lag [rad]
+  double speed = 0.0;            ///< relative wind across the span [m/s]
+  Coefficients coefficients = Coefficients::Zero();
+  double normal = 0.0;      ///< force per length towards the suction side [N/m]
+  double tangential = 0.0;  ///< and towards the tail [N/m]
+};
+
+/// Which effects the loads have.
+struct StripModel {
+  Lag lag;
+  bool apparent_mass = false;
+};
+
+/// Lift, drag and moment of sections by their coefficients, at the angle of the three-quarter
+/// chord, with the lag of the circulation and apparent mass. Points of a section are linear in the
+/// coordinates, x + eta c with the axis x and the unit vector c along the chord; forces come in by
+/// the transpose of the same map, so that their work over a step is F . Dx of their points. The
+/// wind is that without the structure. In statics the structure stands still, and lags have ended.
+/// States of the lag start at zero, as after a sudden start from rest, unless a static analysis was
+/// before. @source fluids B0, B2
+class StripLoad final : public model::MemorylessBatch {
+ public:
+  static constexpr int max_nodes = 4;
+
+  StripLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+            flow::SharedFlow flow, StripModel model)
+      : MemorylessBatch(std::move(effect)),
+        nodes_(nodes),
+        amplitude_(std::move(amplitude)),
+        flow_(std::move(flow)),
+        model_(model) {}
+
+  void add(Station station);
+
+  const std::vector<Station>& stations() const { return stations_; }
+  /// Of a station of this rank; zeros elsewhere.
+  const StationState& state(int station) const {
+    return states_[static_cast<std::size_t>(station)];
+  }
+  /// Whether this rank counts a station in sums.
+  bool owns(int station) const { return owned_[static_cast<std::size_t>(station)]; }
+
+  int size() const override { return static_cast<int>(stations_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  bool has_tangent() const override { return true; }
+  void place(model::Placement placement, model::Form form) override;
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void accept(model::State& state) override;
+  bool relaxes() const override { return model_.lag.states > 0; }
+  std::size_t memory_size() const override;
+  void save(model::Items items, std::span<double> numbers) const override;
+  void restore(std::span<const double> numbers) override;
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+
+ private:
+  using LagStates = std::array<double, Lag::max_states>;
+  struct Evaluation;
+  template <class Number>
+  Evaluation evaluate(std::size_t station, const model::State& state, const Stencil& stencil,
+                      Want want) const;
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
+                        model::Target& target);
+
+  const model::NodeTable& nodes_;
+  model::Amplitude amplitude_;
+  flow::SharedFlow flow_;
+  StripModel model_;
+  std::vector<Station> stations_;
+  std::vector<StationState> states_;
+  std::vector<bool> owned_;
+  std::vector<LagStates> lag_, next_lag_;  // of the accepted state, and of the trial
+};
+
+}  // namespace culm::strip

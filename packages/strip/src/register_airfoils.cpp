@@ -1,0 +1,10 @@
+#include "types.hpp"
+
+namespace culm::strip {
+
+void register_airfoils(AirfoilRegistry& registry) {
+  register_thin(registry);
+  register_polar(registry);
+}
+
+}  // namespace culm::strip

@@ -1,0 +1,203 @@
+/// Forces of a flow on one section per length, with their derivatives where numbers carry them.
+#pragma once
+
+#include <culm/strip/strip_load.hpp>
+
+#include <unsupported/Eigen/AutoDiff>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace culm::strip {
+
+/// A number with its derivatives by place, chord and normal of a section at the end of a step.
+using Dual = Eigen::AutoDiffScalar<Vec<9>>;
+
+inline double value_of(double number) { return number; }
+inline double value_of(const Dual& number) { return number.value(); }
+
+template <class Number>
+using Vector = Eigen::Matrix<Number, 3, 1>;
+
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  Number sum = a[0] * b[0];
+  sum += a[1] * b[1];
+  sum += a[2] * b[2];
+  return sum;
+}
+
+/// Position of the axis, unit vector along the chord in the reference, and one across, towards the
+/// suction side; or their velocities, or accelerations.
+template <class Number>
+struct SectionVectors {
+  Vector<Number> axis, chord, normal;
+};
+
+template <class Number>
+struct SectionMotion {
+  SectionVectors<Number> place, velocity, acceleration;
+};
+
+/// What a section knows of the flow and of the step.
+struct Surroundings {
+  double density = 0.0;
+  Vec3 wind_at_quarter = Vec3::Zero(), wind_at_three_quarters = Vec3::Zero();
+  double step = 0.0;                          ///< zero in statics
+  std::array<double, Lag::max_states> lag{};  ///< at the start of the step
+};
+
+/// What follows from it. The forces act on the vectors of the section: f . dx + g . dc + h . dn.
+template <class Number>
+struct SectionLoads {
+  SectionVectors<Number> forces;
+  std::array<double, Lag::max_states> lag{};  ///< at the end of the step
+  StationState seen;
+};
+
+/// A function of a number of which value and slope are known.
+inline double chain(double, double value, double) { return value; }
+inline Dual chain(const Dual& x, double value, double slope) {
+  return {value, Vec<9>(slope * x.derivatives())};
+}
+
+/// The angle of a vector; Eigen's own for such numbers takes memory from the heap.
+inline double angle_of(double y, double x) { return std::atan2(y, x); }
+inline Dual angle_of(const Dual& y, const Dual& x) {
+  const double square = x.value() * x.value() + y.value() * y.value();
+  return {std::atan2(y.value(), x.value()),
+          Vec<9>((x.value() * y.derivatives() - y.value() * x.derivatives()) / square)};
+}
+
+/// Wind slower than this brings no load: its angle has no meaning [m/s].
+constexpr double no_wind = 1e-9;
+
+/// Adds a force at a point eta behind the axis.
+template <class Number>
+void add_at(double eta, const Vector<Number>& force, SectionVectors<Number>& forces) {
+  forces.axis += force;
+  forces.chord += Number(eta) * force;
+}
+
+/// Adds a moment, nose up, as a couple on chord and normal: its power is moment times angular
+/// velocity.
+template <class Number>
+void add_moment(const Number& moment, const Vector<Number>& c, const Vector<Number>& n,
+                const Number& chord_norm, SectionVectors<Number>& forces) {
+  const Number half = 0.5 * moment / chord_norm;
+  forces.chord -= half * n;
+  forces.normal += half * c;
+}
+
+/// The downwash behind the lag, and the states at the end of the step.
+template <class Number>
+Number lagged(const Lag& lag, const Number& downwash, const Number& speed, double half_chord,
+              const Surroundings& around, std::array<double, Lag::max_states>& next) {
+  Number effective = downwash;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lag.states); ++i) {
+    const Number target = lag.amplitude[i] * downwash;
+    Number middle = target;
+    if (around.step > 0.0) {
+      const Number time = (around.step * lag.rate[i] / half_chord) * speed;
+      const Number end = lag_step<Number>(around.lag[i], target, lag_share(time));
+      middle = 0.5 * (end + around.lag[i]);
+      next[i] = value_of(end);
+    } else {
+      next[i] = value_of(target);
+    }
+    effective += middle - target;
+  }
+  return effective;
+}
+
+inline Coefficients blended(const Station& station, double alpha, Coefficients& slope) {
+  Coefficients result = station.airfoil->at(alpha, slope);
+  if (station.blend > 0.0) {
+    Coefficients other;
+    result += station.blend * (station.next_airfoil->at(alpha, other) - result);
+    slope += station.blend * (other - slope);
+  }
+  return result;
+}
+
+/// @source fluids B2
+template <class Number>
+SectionLoads<Number> section_loads(const Station& station, const StripModel& model,
+                                   const SectionMotion<Number>& motion,
+                                   const Surroundings& around) {
+  using std::sqrt;
+  SectionLoads<Number> loads;
+  loads.lag = around.lag;
+  const Vector<Number> zero = Vector<Number>::Constant(Number(0.0));
+  SectionVectors<Number>& forces = loads.forces;
+  forces = {zero, zero, zero};
+
+  const Number chord_norm = sqrt(dot(motion.place.chord, motion.place.chord));
+  const Vector<Number> c = motion.place.chord / chord_norm;
+  Vector<Number> n = motion.place.normal - dot(motion.place.normal, c) * c;
+  n = Vector<Number>(n / sqrt(dot(n, n)));
+  const double b = 0.5 * station.chord;
+  const auto behind = [&](double place) { return (place - station.axis_at) * station.chord; };
+  const auto velocity_at = [&](double eta) -> Vector<Number> {
+    return motion.velocity.axis + Number(eta) * motion.velocity.chord;
+  };
+  const Number turning = -dot(motion.velocity.chord, n) / chord_norm;  // nose up
+
+  const Vector<Number> wind =
+      around.wind_at_three_quarters.cast<Number>() - velocity_at(behind(0.75));
+  const Number along = dot(wind, c);
+  const Number across = dot(wind, n);
+  const Number speed_squared = along * along + across * across;
+  if (value_of(speed_squared) > no_wind * no_wind) {
+    const Number speed = sqrt(speed_squared);
+    const Number effective = lagged(model.lag, across, speed, b, around, loads.lag);
+    const Number alpha = angle_of(effective, along);
+    Coefficients slope;
+    const Coefficients value = blended(station, value_of(alpha), slope);
+    const Number lift = chain(alpha, value[0], slope[0]);
+    // the lift is normal to the wind that it follows
+    const Number tilt =
+        angle_of(Number(along * (across - effective)), Number(along * along + across * effective));
+    const Number drag = chain(alpha, value[1], slope[1]) + tilt * lift;
+    const Number pressure = (0.5 * around.density * station.chord) * speed_squared;
+
+    const Vector<Number> wind_there =
+        around.wind_at_quarter.cast<Number>() - velocity_at(behind(0.25));
+    Number wc = dot(wind_there, c);
+    Number wn = dot(wind_there, n);
+    const Number size = sqrt(Number(wc * wc + wn * wn));
+    if (value_of(size) > no_wind) {
+      wc = Number(wc / size);
+      wn = Number(wn / size);
+      const Number tangential = pressure * (drag * wc - lift * wn);
+      const Number normal = pressure * (lift * wc + drag * wn);
+      add_at<Number>(behind(0.25), tangential * c + normal * n, forces);
+      loads.seen.normal = value_of(normal);
+      loads.seen.tangential = value_of(tangential);
+    }
+    add_moment<Number>(pressure * station.chord * chain(alpha, value[2], slope[2]), c, n,
+                       chord_norm, forces);
+    loads.seen.angle = std::atan2(value_of(across), value_of(along));
+    loads.seen.effective_angle = value_of(alpha);
+    loads.seen.speed = value_of(speed);
+    loads.seen.coefficients = value;
+    if (model.apparent_mass) {
+      const Number force = (std::numbers::pi * around.density * b * b) * speed * turning;
+      add_at<Number>(behind(0.75), force * n, forces);
+    }
+  }
+  if (model.apparent_mass) {
+    const double mass = std::numbers::pi * around.density * b * b;
+    const Vector<Number> middle =
+        motion.acceleration.axis + Number(behind(0.5)) * motion.acceleration.chord;
+    const Number force = -mass * dot(middle, n);
+    add_at<Number>(behind(0.5), force * n, forces);
+    const Number turning_rate = -dot(motion.acceleration.chord, n) / chord_norm;
+    add_moment<Number>(Number((-mass * b * b / 8.0) * turning_rate), c, n, chord_norm, forces);
+  }
+  return loads;
+}
+
+}  // namespace culm::strip

@@ -1,0 +1,248 @@
+#include <culm/load/slot_kernel.hpp>
+#include <culm/strip/strip_load.hpp>
+
+#include "section_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace culm::strip {
+namespace {
+
+using Motion = model::ItemMotion<StripLoad::max_nodes>;
+using Columns = Mat<3, 3>;  // axis, chord, normal
+
+// What the slots of node a do for the vectors of a section: columns axis, chord, normal.
+Mat<4, 3> factors(const Station& station, std::size_t a) {
+  const double weight = station.point.weights[a];
+  Mat<4, 3> T;
+  T.col(0) << weight, weight * station.point.offset;
+  T.col(1) << 0.0, weight * station.along;
+  T.col(2) << 0.0, weight * station.across;
+  return T;
+}
+
+template <class Slots>
+Columns vectors_of(const Station& station, const Slots& slots) {
+  Columns result = Columns::Zero();
+  for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
+    result += slots(station.point.nodes[a], a) * factors(station, a);
+  }
+  return result;
+}
+
+Columns vectors_of(const Station& station, const model::Coordinates& q) {
+  return vectors_of(station, [&](int node, std::size_t) -> model::NodeSlots {
+    return model::NodeTable::slots(q, node);
+  });
+}
+
+// Numbers that carry the derivatives by the vectors at the end of the step, times a factor.
+void set(const Vec3& values, int, double, Vector<double>& result) { result = values; }
+void set(const Vec3& values, int first, double factor, Vector<Dual>& result) {
+  for (int i = 0; i < 3; ++i) {
+    result[i] = Dual(values[i], Vec<9>(factor * Vec<9>::Unit(first + i)));
+  }
+}
+
+template <class Number>
+SectionVectors<Number> carried(const Columns& values, double factor) {
+  SectionVectors<Number> result;
+  set(values.col(0), 0, factor, result.axis);
+  set(values.col(1), 3, factor, result.chord);
+  set(values.col(2), 6, factor, result.normal);
+  return result;
+}
+
+void put(const Vector<double>& force, int column, Columns& values, Mat<9, 9>&) {
+  values.col(column) = force;
+}
+void put(const Vector<Dual>& force, int column, Columns& values, Mat<9, 9>& derivative) {
+  for (int i = 0; i < 3; ++i) {
+    values(i, column) = force[i].value();
+    derivative.row(3 * column + i) = force[i].derivatives();
+  }
+}
+
+double time_of(const model::State& state, const Stencil& stencil) {
+  return (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
+}
+
+}  // namespace
+
+struct StripLoad::Evaluation {
+  Columns forces = Columns::Zero();          // on axis, chord and normal [N]
+  Mat<9, 9> derivative = Mat<9, 9>::Zero();  // by those at the end of the step
+  LagStates lag{};
+  StationState seen;
+};
+
+void StripLoad::add(Station station) {
+  stations_.push_back(std::move(station));
+  states_.emplace_back();
+  owned_.push_back(false);
+  lag_.emplace_back();
+  next_lag_.emplace_back();
+}
+
+std::vector<int> StripLoad::blocks(int item, const model::UnknownTable& unknowns) const {
+  return blocks_of(stations_[static_cast<std::size_t>(item)].point.nodes, unknowns);
+}
+
+void StripLoad::place(model::Placement placement, model::Form form) {
+  for (std::size_t i = 0; i < placement.items.size(); ++i) {
+    owned_[static_cast<std::size_t>(placement.items[i])] = placement.owned[i];
+  }
+  MemorylessBatch::place(std::move(placement), form);
+}
+
+template <class Number>
+StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const model::State& state,
+                                          const Stencil& stencil, Want want) const {
+  const Station& station = stations_[station_number];
+  const bool mass = want == Want::mass;
+  const bool moves = stencil.step > 0.0 && !mass;
+  const double theta = mass ? 1.0 : stencil.theta;
+  const Columns prev = vectors_of(station, state.prev);
+  const Columns next = vectors_of(station, state.next);
+  const Columns moved = next - prev;
+  const double rate = moves ? 1.0 / stencil.step : 0.0;
+  Columns acceleration = Columns::Zero();
+  if (moves && stencil.inertia > 0.0) {
+    acceleration = stencil.inertia * moved + vectors_of(station, state.acceleration_offset);
+  }
+  SectionMotion<Number> motion;
+  motion.place = carried<Number>((1.0 - theta) * prev + theta * next, mass ? 0.0 : theta);
+  motion.velocity = carried<Number>(rate * moved, rate);
+  motion.acceleration = carried<Number>(acceleration, mass ? 1.0 : stencil.inertia);
+
+  Surroundings around{flow_->density()};
+  around.step = moves ? stencil.step : 0.0;
+  around.lag = lag_[station_number];
+  const Columns middle = (1.0 - theta) * prev + theta * next;
+  const std::array<Vec3, 2> places = {
+      middle.col(0) + (0.25 - station.axis_at) * station.chord * middle.col(1),
+      middle.col(0) + (0.75 - station.axis_at) * station.chord * middle.col(1)};
+  std::array<Vec3, 2> winds;
+  flow_->velocities(places, time_of(state, stencil), winds);
+  around.wind_at_quarter = winds[0];
+  around.wind_at_three_quarters = winds[1];
+
+  const SectionLoads<Number> loads = section_loads<Number>(station, model_, motion, around);
+  Evaluation result;
+  put(loads.forces.axis, 0, result.forces, result.derivative);
+  put(loads.forces.chord, 1, result.forces, result.derivative);
+  put(loads.forces.normal, 2, result.forces, result.derivative);
+  const double factor = station.length * (mass ? 1.0 : amplitude_.in_step(state, stencil));
+  result.forces *= factor;
+  result.derivative *= factor;
+  result.lag = loads.lag;
+  result.seen = loads.seen;
+  return result;
+}
+
+Verdict StripLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
+                            model::Target& target) {
+  if (want == Want::mass && !model_.apparent_mass) return Verdict::ok;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, want, target);
+  });
+}
+
+// r_s = -T_s F      dr_s / dq_t = -T_s dF/dX T_t^T,   X the vectors of the section at the end
+template <class Space>
+Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                                 Want want, model::Target& target) {
+  constexpr int W = Space::width;
+  const auto number = static_cast<std::size_t>(placement().items[i]);
+  const Station& station = stations_[number];
+  const bool tangent = want != Want::residual;
+  const Evaluation found = tangent ? evaluate<Dual>(number, state, stencil, want)
+                                   : evaluate<double>(number, state, stencil, want);
+  if (!std::isfinite(found.forces.sum())) return Verdict::not_finite;
+  const bool mass = want == Want::mass;
+  if (!mass) {
+    next_lag_[number] = found.lag;
+    states_[number] = found.seen;
+  }
+  const double theta = mass ? 1.0 : stencil.theta;
+  const Motion motion(nodes_, station.point.nodes, state, theta);
+  for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
+    const Mat<4, 3> T = factors(station, a);
+    const Vec<12> slots = Mat<3, 4>(-found.forces * T.transpose()).reshaped();
+    if (!mass) {
+      Vec<W> residual;
+      Space::reduce_rows(slots, motion.arms_mid[a], residual);
+      target.force_scale =
+          std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+      placement().scatter.add_residual(i, static_cast<int>(a), residual.data(), target);
+    }
+    if (!tangent) continue;
+    for (std::size_t b = 0; b < station.point.nodes.size(); ++b) {
+      const Mat<4, 3> other = factors(station, b);
+      Mat<12, 12> K = Mat<12, 12>::Zero();
+      for (int p = 0; p < 3; ++p) {
+        for (int q = 0; q < 3; ++q) {
+          const Mat3 part = -found.derivative.block<3, 3>(3 * p, 3 * q);
+          for (int s = 0; s < 4; ++s) {
+            for (int t = 0; t < 4; ++t) K.block<3, 3>(3 * s, 3 * t) += T(s, p) * other(t, q) * part;
+          }
+        }
+      }
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      load::add_slot_tangent<Space>(K, motion.arms_mid[a], motion.arms_next[b], block);
+      if (a == b && !mass) {
+        Space::add_turning(slots.reshaped<Eigen::ColMajor>(3, 4), motion.arms_next[a],
+                           stencil.theta, block);
+      }
+      placement().scatter.add_tangent(i, static_cast<int>(a), static_cast<int>(b), block, target);
+    }
+  }
+  return Verdict::ok;
+}
+
+void StripLoad::accept(model::State&) { lag_ = next_lag_; }
+
+std::size_t StripLoad::memory_size() const {
+  return stations_.size() * static_cast<std::size_t>(model_.lag.states);
+}
+
+void StripLoad::save(model::Items items, std::span<double> numbers) const {
+  const auto count = static_cast<std::size_t>(model_.lag.states);
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (items == model::Items::owned && !placement().owned[i]) continue;
+    const auto number = static_cast<std::size_t>(placement().items[i]);
+    std::copy_n(lag_[number].begin(), count,
+                numbers.begin() + static_cast<std::ptrdiff_t>(number * count));
+  }
+}
+
+void StripLoad::restore(std::span<const double> numbers) {
+  const auto count = static_cast<std::size_t>(model_.lag.states);
+  for (const int item : placement().items) {
+    const auto number = static_cast<std::size_t>(item);
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(number * count), count,
+                lag_[number].begin());
+    next_lag_[number] = lag_[number];
+  }
+}
+
+model::StepWork StripLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    const auto number = static_cast<std::size_t>(placement().items[i]);
+    const Station& station = stations_[number];
+    const Motion motion(nodes_, station.point.nodes, state, stencil.theta);
+    const Columns forces = evaluate<double>(number, state, stencil, Want::residual).forces;
+    Motion::Slots slots(3, motion.mid.cols());
+    for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
+      slots.middleCols<4>(4 * static_cast<int>(a)) = forces * factors(station, a).transpose();
+    }
+    load::add_item_work(slots, motion, station.point.nodes, state, true, work);
+  }
+  return work;
+}
+
+}  // namespace culm::strip
