@@ -566,7 +566,7 @@ VALUES = [
         change=[('<ParameterList name="Curve">', '@@<ParameterList name="Curve">')],
         errors=[
             "deck.xml:{line}: Structures / beam / Curve: asks for 102400000 elements, with which the "
-            "model needs about 2.46 TB of memory and 16 GB are allowed: take fewer elements, or "
+            "model needs about 2.46 TB (elements 2 TB, factors 461 GB) of memory and 16 GB are allowed: take fewer elements, or "
             "allow more with --max-memory"
         ],
         ranks=True,
@@ -578,7 +578,7 @@ VALUES = [
         change=[('<ParameterList name="Curve">', '@@<ParameterList name="Curve">')],
         errors=[
             "deck.xml:{line}: Structures / beam / Curve: asks for 4 elements, with which the model "
-            "needs about 0.032 MB of memory and 0.02 MB are allowed: take fewer elements, or allow "
+            "needs about 0.032 MB (elements 0.026 MB, factors 0.006 MB) of memory and 0.02 MB are allowed: take fewer elements, or allow "
             "more with --max-memory"
         ],
     ),
@@ -586,10 +586,18 @@ VALUES = [
         "shell of 65536 x 65536 elements",
         shell(("Type", "Plane"), ("Side 1", "{1, 0, 0}"), ("Side 2", "{0, 1, 0}"), ("Elements", "{65536, 65536}")),
         "deck.xml:{line}: Structures / wall / Mesh: asks for 4294967296 elements, with which the "
-        "model needs about 68.7 TB of memory and 8 GB are allowed: take fewer elements, or allow "
-        "more with --max-memory",
+        "model needs about 326 TB (elements 68.7 TB, factors 257 TB) of memory and 8 GB are allowed: "
+        "take fewer elements, or allow more with --max-memory",
         args="run deck.xml --output out --max-memory 8GB",
         ranks=True,
+    ),
+    whole(
+        "elements fit, but not their factors",
+        shell(("Type", "Plane"), ("Side 1", "{1, 0, 0}"), ("Side 2", "{0, 1, 0}"), ("Elements", "{500, 500}")),
+        "deck.xml:{line}: Structures / wall / Mesh: asks for 250000 elements, with which the "
+        "model needs about 11.2 GB (elements 4 GB, factors 7.16 GB) of memory and 5 GB are allowed: "
+        "take fewer elements, or allow more with --max-memory",
+        args="run deck.xml --output out --max-memory 5GB",
     ),
     whole(
         "layers repeated without end",

@@ -224,8 +224,7 @@ void add_beam(const Options& options, structure::StructureContext& context) {
   const Density density{order_of(kind), context.refinement};
   if (context.budget != nullptr) {
     const double nodes = count_nodes(curve, density);
-    context.budget->take(nodes / density.order, nodes * model::SizeBudget::beam_node,
-                         curve.where());
+    context.budget->take_beam(nodes / density.order, nodes, curve.where());
   }
   Axis axis = axes().make(curve.text("Type"), curve, density);
   check_finite(axis, curve);

@@ -1,26 +1,76 @@
 #include <culm/base/error.hpp>
 #include <culm/model/size_budget.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace culm::model {
 namespace {
 
-TEST(SizeBudget, IsSharedByAllThatAsk) {
-  const Where where{"deck.xml", 7, "Structures / beam / Curve"};
-  SizeBudget budget(1e9);
-  budget.take(1000, 6e8, where);
-  budget.take(1000, 4e8, where);
+const Where where{"deck.xml", 7, "Structures / beam / Curve"};
+
+std::string refusal(SizeBudget& budget, double elements) {
   try {
-    budget.take(1.5e9, 2.4e12, where);
-    FAIL() << "nothing was thrown";
+    budget.take_beam(elements, elements, where);
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "deck.xml:7: Structures / beam / Curve: asks for 1500000000 elements, with which "
-        "the model needs about 2.4 TB of memory and 1 GB are allowed: take fewer elements, "
-        "or allow more with --max-memory");
+    return error.what();
   }
+  return "";
+}
+
+TEST(SizeBudget, IsSharedByAllThatAsk) {
+  SizeBudget budget(1e9);
+  EXPECT_EQ(refusal(budget, 7e4), "");
+  EXPECT_EQ(refusal(budget, 5e4), "");
+  EXPECT_EQ(refusal(budget, 1e9),
+            "deck.xml:7: Structures / beam / Curve: asks for 1000000000 elements, with which the "
+            "model needs about 8 TB (elements 6.5 TB, factors 1.5 TB) of memory and 1 GB are "
+            "allowed: take fewer elements, or allow more with --max-memory");
+}
+
+// What predict_fill() finds in the graphs of such meshes [MB].
+TEST(SizeBudget, KnowsTheFactorsOfSurfacesByTheirSides) {
+  struct Sides {
+    double narrow;
+    double wide;
+    double factors;
+  };
+  for (const auto& [narrow, wide, factors] : {Sides{16, 16, 2.1},
+                                              {32, 32, 12},
+                                              {128, 128, 330},
+                                              {192, 192, 800},
+                                              {64, 256, 300},
+                                              {32, 512, 250},
+                                              {8, 512, 33},
+                                              {8, 4096, 270}}) {
+    SizeBudget budget(1e12);
+    budget.take_shell(narrow * wide, 1.0, narrow, where);
+    EXPECT_NEAR(1e-6 * budget.taken().factors, factors, 0.2 * factors) << narrow << " x " << wide;
+  }
+}
+
+// A run of 64 x 64 elements took 25 MB more for stresses and strains of 3 layers, 512 MB for those
+// of 60, 261 MB more for 200 modes.
+TEST(SizeBudget, CountsLayersAndModesThatTheDeckWants) {
+  const auto need = [](SizeDemands demands, double layers) {
+    SizeBudget budget(1e12, demands);
+    budget.take_shell(64.0 * 64.0, layers, 64.0, where);
+    return budget.taken();
+  };
+  EXPECT_EQ(need({}, 60.0).layers, 0.0);
+  EXPECT_EQ(need({}, 60.0).modes, 0.0);
+  EXPECT_NEAR(need({.layer_arrays = 2}, 3.0).layers, 25e6, 2e6);
+  EXPECT_NEAR(need({.layer_arrays = 2}, 60.0).layers, 512e6, 20e6);
+  EXPECT_EQ(need({.layer_arrays = 2, .shown_layers = 3.0}, 60.0).layers,
+            need({.layer_arrays = 2}, 3.0).layers);
+  EXPECT_NEAR(need({.modes = 200}, 1.0).modes, 261e6, 20e6);
+}
+
+TEST(SizeBudget, NeedsNameTheirParts) {
+  const MemoryNeed need{262e6, 330e6, 0.0, 1e9};
+  EXPECT_EQ(need.text(), "1.59 GB (elements 262 MB, factors 330 MB, modes 1 GB)");
+  EXPECT_NO_THROW(refuse_above(2e9, need, "the model", where));
+  EXPECT_THROW(refuse_above(1.5e9, need, "the model", where), InputError);
 }
 
 }  // namespace

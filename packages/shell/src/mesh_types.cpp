@@ -4,6 +4,7 @@
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/surfaces.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <utility>
@@ -115,16 +116,19 @@ Facets read_quads(const Options& options) {
 
 }  // namespace
 
-double count_facets(const Options& mesh) {
+FacetCount count_facets(const Options& mesh) {
   const std::string& type = mesh.text("Type");
-  if (type == "Gmsh") return 0.0;
-  if (type == "Quads") return static_cast<double>(mesh.integers("Quads").size()) / 4.0;
+  if (type == "Gmsh") return {};
+  if (type == "Quads") return {static_cast<double>(mesh.integers("Quads").size()) / 4.0};
+  const auto grid = [](double across, double along) {
+    return FacetCount{across * along, std::min(across, along)};
+  };
   const std::vector<double> n(mesh.integers("Elements").begin(), mesh.integers("Elements").end());
-  if (type == "I Section") return (4.0 * n[0] + n[1]) * n[2];
+  if (type == "I Section") return grid(4.0 * n[0] + n[1], n[2]);
   if (type == "Airfoil") {
-    return (n[0] + n[1] * static_cast<double>(mesh.numbers("Webs").size())) * n[2];
+    return grid(n[0] + n[1] * static_cast<double>(mesh.numbers("Webs").size()), n[2]);
   }
-  return n[0] * n[1];
+  return grid(n[0], n[1]);
 }
 
 void register_meshes(MeshRegistry& registry) {

@@ -344,10 +344,13 @@ model::DeckNumbers number_as_in_deck(const ShellMesh& coarse, const ShellMesh& f
   return deck;
 }
 
-void take_from_budget(const structure::StructureContext& context, double elements,
-                      const Options& mesh) {
+// Of a mesh before it is made; of one from a file once it is read.
+void take_from_budget(const structure::StructureContext& context, const FacetCount& count,
+                      const material::Layup& layup, const Options& mesh) {
   if (context.budget == nullptr) return;
-  context.budget->take(elements, elements * model::SizeBudget::shell_element, mesh.where());
+  const double n = context.refinement;
+  context.budget->take_shell(count.all * n * n, static_cast<double>(layup.layers.size()),
+                             count.narrow * n, mesh.where());
 }
 
 }  // namespace
@@ -398,12 +401,11 @@ void add_shell(const Options& options, structure::StructureContext& context) {
   const Options& list = options.list("Mesh");
   const MeshRegistry types = meshes();
   const std::string& type = list.text("Type");
-  const double parts = 1.0 * context.refinement * context.refinement;
-  take_from_budget(context, count_facets(list) * parts, list);
+  take_from_budget(context, count_facets(list), *layup, list);
   const double fold_angle = options.number("Fold Angle");
   Facets facets = types.make(type, list, 1);
   if (type == "Gmsh") {
-    take_from_budget(context, static_cast<double>(facets.quads.size()) * parts, list);
+    take_from_budget(context, {static_cast<double>(facets.quads.size())}, *layup, list);
   }
   ShellMesh mesh = make_mesh(facets, fold_angle);
   ShellMesh coarse;  // as the deck describes it, if that is not what is built

@@ -202,13 +202,29 @@ std::vector<std::unique_ptr<port::Port>> make_ports(const Catalogue& catalogue, 
   return ports;
 }
 
+model::SizeDemands demands_of(const Options& deck) {
+  model::SizeDemands demands;
+  for (const Options& analysis : deck.list("Analyses").entries()) {
+    for (const Options::Parameter& parameter : analysis.parameters()) {
+      if (parameter.name != "Modes") continue;
+      demands.modes = std::max(demands.modes, analysis.integer(parameter.name));
+    }
+  }
+  const Options& layers = deck.list("Output").list("Shell");
+  demands.layer_arrays = (layers.flag("Stresses") ? 1 : 0) + (layers.flag("Strains") ? 1 : 0);
+  if (layers.has("Layers")) {
+    demands.shown_layers = static_cast<double>(layers.integers("Layers").size());
+  }
+  return demands;
+}
+
 }  // namespace
 
 BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
                       const Imperfections& imperfections, const Setting& setting, const Log& log,
                       double memory, model::Model& model) {
   InputIssues issues;
-  model::SizeBudget budget(memory);
+  model::SizeBudget budget(memory, demands_of(deck));
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
@@ -247,7 +263,7 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
     if (!objection.empty()) issues.add(history.entries()[i].where("Node"), objection);
   }
   issues.throw_if_any();
-  return {std::move(watched), std::move(ports)};
+  return {std::move(watched), std::move(ports), budget.taken()};
 }
 
 }  // namespace culm::simulation

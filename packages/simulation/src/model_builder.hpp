@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/base/log.hpp>
+#include <culm/model/size_budget.hpp>
 #include <culm/port/port.hpp>
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
@@ -18,6 +19,7 @@ namespace culm::simulation {
 struct BuiltWith {
   std::vector<WatchedQuantity> watched;            ///< by the history
   std::vector<std::unique_ptr<port::Port>> ports;  ///< of the deck
+  model::MemoryNeed need;                          ///< predicted
 };
 
 /// Fills the model with all that the deck lists but what does not act, and freezes it. Throws

@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
+#include <culm/solver/fill.hpp>
 
 #include "earlier_states.hpp"
 #include "model_builder.hpp"
@@ -109,7 +110,14 @@ std::vector<double> move_ranges(const std::vector<double>& values,
   return moved;
 }
 
+// Of the memory, that a model takes by its elements where its factors may take all.
+constexpr double noticeable_share = 0.1;
+
 }  // namespace
+
+double factors_by_graph(const Phase& phase, const parallel::Comm& comm) {
+  return sizeof(double) * solver::predict_fill(*phase.system->matrix(), comm).entries;
+}
 
 Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
                const Log& log, double memory)
@@ -153,6 +161,7 @@ void Phases::build(Phase& phase) const {
       build_model(catalogue_, deck_, imperfections_, phase.setting, log_, memory_, *phase.model);
   phase.watched = std::move(built.watched);
   phase.ports = std::move(built.ports);
+  phase.need = built.need;
   for (const auto& [name, cloud] : clouds_) attach(name, cloud, phase);
 }
 
@@ -228,6 +237,11 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
   }
   phase.linear = solver::choose_linear_solver(deck_.list("Solver").text("Linear Solver"),
                                               phase.system->matrix(), comm);
+  // the order in which a solver eliminates is found a second time, so only where it may matter
+  if (phase.need.total() > noticeable_share * memory_) {
+    phase.need.factors = factors_by_graph(phase, comm);
+    model::refuse_above(memory_, phase.need, "the model", deck_.list("Structures").where());
+  }
   if (EarlierStates::wants_reference(deck_.list("Analyses"))) {
     model::State state = phase.model->initial_state();
     phase.system->save(state, phase.reference);

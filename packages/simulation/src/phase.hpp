@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/analysis.hpp>
+#include <culm/model/size_budget.hpp>
 #include <culm/port/register_port.hpp>
 #include <culm/simulation/catalogue.hpp>
 #include <culm/simulation/result_files.hpp>
@@ -40,8 +41,13 @@ struct Phase {
   std::vector<std::unique_ptr<port::Port>> ports;
   std::unique_ptr<assembly::System> system;  ///< made when it is first needed
   solver::ChosenSolver linear;
-  Snapshot reference;  ///< its state at the beginning, if an analysis starts from there
+  model::MemoryNeed need;  ///< predicted from the deck
+  Snapshot reference;      ///< its state at the beginning, if an analysis starts from there
 };
+
+/// What the factors need of memory by the graph, not by the sides of meshes [B]. Collective.
+/// @pre the system is made
+double factors_by_graph(const Phase& phase, const parallel::Comm& comm);
 
 /// The phases of a deck. Nodes are the same in all of them; unknowns, equations and batches are
 /// not, nor is the stress-free geometry once an analysis has found an imperfection of it.

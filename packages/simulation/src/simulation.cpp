@@ -336,6 +336,8 @@ void Simulation::write_model(const std::filesystem::path& path) {
 
 std::string Simulation::summary() const {
   const Phase& phase = parts_->phases.of(0);
+  model::MemoryNeed need = phase.need;
+  need.factors = factors_by_graph(phase, parts_->comm);
   const model::Model& model = *phase.model;
   const auto entries = phase.system->matrix()->getGlobalNumEntries();
   std::string text = report_masses(model) + '\n';
@@ -343,7 +345,8 @@ std::string Simulation::summary() const {
     text += constraints + '\n';
   }
   text += report_unknowns(model) + fmt::format("matrix entries: {}\n", entries);
-  text += fmt::format("linear solver: {}\n\n", phase.linear.reason);
+  text += fmt::format("linear solver: {}\n", phase.linear.reason);
+  text += fmt::format("memory, predicted: {}\n\n", need.text());
   text +=
       fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
   const auto count = [](const std::optional<long long>& n) {

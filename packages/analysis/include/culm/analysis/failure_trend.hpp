@@ -10,7 +10,8 @@ namespace culm::analysis {
 
 /// Remembers the levels at which load steps failed. Before a limit point each failure follows the
 /// one before it sooner: what is gained between them shrinks like a geometric series, whose sum is
-/// a level that load control cannot pass. A structure that recovers gains more again.
+/// a level that load control cannot pass; the faster they shrink, the fewer of them tell. A
+/// structure that recovers gains more again.
 class FailureTrend {
  public:
   /// A step from this level failed; several from the same level count once.

@@ -11,8 +11,13 @@ namespace culm::shell {
 /// throw InputError for impossible geometry, FileError for files.
 using MeshRegistry = Registry<Facets, int>;
 
-/// How many facets a mesh of these types will have without refinement; 0 where only its file knows.
-double count_facets(const Options& mesh);
+/// How many facets a mesh will have without refinement.
+struct FacetCount {
+  double all = 0.0;
+  double narrow = 1.0;  ///< across the narrow side; 1 where that is not known
+};
+/// For a mesh of these types; of none where only its file knows.
+FacetCount count_facets(const Options& mesh);
 
 /// Adds Plane, Cylinder, Sphere, Cone, Annulus, Hypar, Twisted Strip, I Section,
 /// Airfoil, Quads and Gmsh.
