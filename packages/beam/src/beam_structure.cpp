@@ -1,12 +1,13 @@
 #include <culm/beam/axis_types.hpp>
-#include <culm/beam/beam_elements.hpp>
 #include <culm/beam/beam_structure.hpp>
-#include <culm/beam/helical_beam.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/model/velocity_dissipation.hpp>
 
+#include "element_families.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -20,23 +21,45 @@ AxisRegistry axes() {
   return registry;
 }
 
-ElementKind read_kind(const Options& options) {
-  if (options.text("Element") == "Helical") return ElementKind::helical;
-  switch (options.integer("Order")) {
-    case 1:
-      return ElementKind::director_1;
-    case 2:
-      return ElementKind::director_2;
-    default:
-      return ElementKind::director_3;
-  }
+// Elements of one order need not name it.
+int read_order(const ElementFamilies& families, const Options& options) {
+  const std::vector<int> orders = families.orders(options.text("Element"));
+  return orders.size() == 1 ? orders.front() : options.integer("Order");
 }
 
-Fidelity read_fidelity(const Options& options) {
-  const std::string& name = options.text("Fidelity");
-  if (name == "Kirchhoff") return Fidelity::kirchhoff;
-  if (name == "Linear") return Fidelity::linear;
-  return name == "Rigid" ? Fidelity::rigid : Fidelity::full;
+const ElementFamily* find_family(const ElementFamilies& families, const Options& options) {
+  return families.find(options.text("Element"), read_order(families, options),
+                       options.text("Fidelity"), options.flag("Torsion"));
+}
+
+// What a choice that no family has could be instead, by the parameter that is wrong.
+void check_choice(const ElementFamilies& families, const Options& beam, InputIssues& issues) {
+  const std::string& element = beam.text("Element");
+  const std::vector<int> orders = families.orders(element);
+  if (beam.given("Order") && std::ranges::find(orders, beam.integer("Order")) == orders.end()) {
+    issues.add(beam.where("Order"), fmt::format("must be {} for '{}' elements: leave it out",
+                                                fmt::join(orders, ", "), element));
+  }
+  if (find_family(families, beam) != nullptr) return;
+  const int order = read_order(families, beam);
+  std::vector<std::string> fidelities;
+  std::vector<std::string> untwisted;
+  for (const ElementFamily& family : families.all()) {
+    if (family.element != element || family.order != order) continue;
+    (family.twists ? fidelities : untwisted).push_back(family.fidelity);
+  }
+  const auto quoted = [](const std::vector<std::string>& names) {
+    return fmt::format("'{}'", fmt::join(names, "', '"));
+  };
+  if (std::ranges::find(fidelities, beam.text("Fidelity")) == fidelities.end()) {
+    issues.add(beam.where("Fidelity"),
+               fmt::format("of '{}' elements must be one of {}", element, quoted(fidelities)));
+  } else if (untwisted.empty()) {
+    issues.add(beam.where("Torsion"), fmt::format("must be true for '{}' elements", element));
+  } else {
+    issues.add(beam.where("Torsion"),
+               fmt::format("false needs a 'Fidelity' of {}", quoted(untwisted)));
+  }
 }
 
 std::vector<int> add_nodes(const Chain& chain, const SectionTable& sections, model::Model& model,
@@ -124,22 +147,22 @@ double count_nodes(const Options& curve, const Density& density) {
   return elements * density.intervals();
 }
 
-void check_turn(ElementKind kind, double turn, const Options& options) {
-  if (kind == ElementKind::helical && turn >= HelicalBeam::max_rotation) {
-    throw InputError(options.list("Curve").where(),
-                     fmt::format("the ends of an element are turned by {:.3g} rad against each "
-                                 "other; helical elements need less than {:g}: take more elements",
-                                 turn, HelicalBeam::max_rotation));
-  }
+void check_turn(const ElementFamily& family, double turn, const Options& options) {
+  if (turn < family.most_turn) return;
+  throw InputError(options.list("Curve").where(),
+                   fmt::format("the ends of an element are turned by {:.3g} rad against each "
+                               "other; '{}' elements need less than {:g}: take more elements",
+                               turn, family.element, family.most_turn));
 }
 
 }  // namespace
 
 Schema beam_schema() {
+  const ElementFamilies families;
   Schema schema("Beam", "Geometrically exact beam along an axis.");
   add_section_fields(schema);
   schema
-      .add(choice("Element", {"Director", "Helical"},
+      .add(choice("Element", families.elements(),
                   "Director: positions and directors are interpolated. Helical: two nodes, exact "
                   "for constant strain.")
                .optional("Director"))
@@ -150,7 +173,7 @@ Schema beam_schema() {
               .between(1, 3)
               .optional(2))
       .add(
-          choice("Fidelity", {"Full", "Kirchhoff", "Linear", "Rigid"},
+          choice("Fidelity", families.fidelities(),
                  "Full: geometrically exact. Kirchhoff: without shear and extension. Linear: small "
                  "displacements seen from the first node, which may move at will. Rigid: all nodes "
                  "follow the first one.")
@@ -182,46 +205,35 @@ Schema beam_schema() {
               .optional(std::vector<double>{}))
       .list("Relaxation", relaxation_schema(6), Presence::defaulted)
       .list_by_type("Curve", axes().variants())
-      .check([](const Options& beam, InputIssues& issues) {
-        const bool is_helical = beam.text("Element") == "Helical";
-        if (is_helical && beam.given("Order") && beam.integer("Order") != 1) {
-          issues.add(beam.where("Order"), "helical elements have two nodes: leave 'Order' out");
-        }
-        const std::string& fidelity = beam.text("Fidelity");
-        if (is_helical && (fidelity == "Kirchhoff" || fidelity == "Linear")) {
-          issues.add(beam.where("Fidelity"), "needs director elements, got helical ones");
-        }
-        if (!beam.flag("Torsion") && (is_helical || fidelity == "Linear" || fidelity == "Rigid")) {
-          issues.add(beam.where("Torsion"),
-                     "false needs director elements whose 'Fidelity' is Full or Kirchhoff");
-        }
+      .check([families](const Options& beam, InputIssues& issues) {
+        check_choice(families, beam, issues);
         const std::size_t factors = beam.numbers("Strain Damping").size();
         if (factors != 0 && factors != 6) {
           issues.add(beam.where("Strain Damping"),
                      fmt::format("must have six values, got {}", factors));
-        } else if (factors == 6 && is_helical) {
-          issues.add(beam.where("Strain Damping"), "needs director elements, got helical ones");
         }
-        if (is_helical && !beam.list("Relaxation").entries().empty()) {
-          issues.add(beam.list("Relaxation").where(), "needs director elements, got helical ones");
-        }
+        const ElementFamily* family = find_family(families, beam);
+        if (family == nullptr || family->damps_strains) return;
+        const std::string needed = fmt::format(
+            "needs elements whose strains are damped one by one, got '{}'", family->element);
+        if (factors != 0) issues.add(beam.where("Strain Damping"), needed);
+        const Options& relaxation = beam.list("Relaxation");
+        if (!relaxation.entries().empty()) issues.add(relaxation.where(), needed);
       });
   return schema;
 }
 
 void add_beam(const Options& options, structure::StructureContext& context) {
-  const ElementKind kind = read_kind(options);
-  const Fidelity fidelity = read_fidelity(options);
-  const bool is_rigid = fidelity == Fidelity::rigid;
-  const ElementChoice choice{
-      kind,
-      fidelity,
-      {options.number("Dissipation"), options.number("Damping"), options.numbers("Strain Damping"),
-       read_relaxation(options.list("Relaxation"), 6)},
-      options.flag("Torsion")};
+  const ElementFamilies families;
+  const ElementFamily* family = find_family(families, options);
+  internal_check(family != nullptr, "the schema refuses beams without a family of elements");
+  const bool is_rigid = family->fidelity == "Rigid";
+  const model::StrainDamping damping{options.number("Dissipation"), options.number("Damping"),
+                                     options.numbers("Strain Damping"),
+                                     read_relaxation(options.list("Relaxation"), 6)};
   const SectionTable sections = read_sections(options, context.sections);
   const Options& curve = options.list("Curve");
-  const Density density{order_of(kind), context.refinement};
+  const Density density{family->order, context.refinement};
   if (context.budget != nullptr) {
     const double nodes = count_nodes(curve, density);
     context.budget->take_beam(nodes / density.order, nodes, curve.where());
@@ -241,9 +253,8 @@ void add_beam(const Options& options, structure::StructureContext& context) {
     } else if (before >= 0) {
       link_corner(before, nodes.front(), context.model, structure);
     }
-    const ReferenceState reference =
-        add_elements(choice, chain, nodes, sections, context.model, structure);
-    largest_turn = std::max(largest_turn, reference.largest_turn);
+    largest_turn = std::max(
+        largest_turn, family->add({chain, nodes, sections, damping, context.model, structure}));
     if (density.refinement > 1) number_as_in_deck(density.refinement, nodes, structure);
   }
   structure.sets["first"] = {structure.nodes.front()};
@@ -253,7 +264,7 @@ void add_beam(const Options& options, structure::StructureContext& context) {
   if (velocity_dissipation > 0.0 && !is_rigid) {
     model::VelocityDissipation::of(context.model).add_body(structure.nodes, velocity_dissipation);
   }
-  if (!is_rigid) check_turn(kind, largest_turn, options);
+  check_turn(*family, largest_turn, options);
 }
 
 }  // namespace culm::beam

@@ -1,13 +1,12 @@
 /// What all ways of modelling a beam share: its elements one by one, from the nodes of a chain.
 #pragma once
 
-#include <culm/beam/beam_elements.hpp>
-#include <culm/beam/director_beam.hpp>
-#include <culm/beam/helical_beam.hpp>
 #include <culm/math/lagrange.hpp>
 #include <culm/math/quadrature.hpp>
 #include <culm/math/rotation.hpp>
-#include <culm/model/batch.hpp>
+#include <culm/model/element_batch.hpp>
+
+#include "element_families.hpp"
 
 #include <algorithm>
 #include <array>
@@ -71,32 +70,6 @@ struct Stretch {
   }
 };
 
-template <int Order>
-DirectorBeam<Order> make_element(const Stretch<DirectorBeam<Order>>& stretch,
-                                 const SectionTable& sections) {
-  std::array<Mat6, Order> stiffness;
-  const auto rule = gauss_legendre(Order);
-  for (std::size_t g = 0; g < stiffness.size(); ++g) {
-    stiffness[g] = stretch.section_at(sections, rule[g].xi).stiffness;
-  }
-  return {stretch.slots, stiffness, stretch.template masses<Order + 1>(sections)};
-}
-
-inline HelicalBeam make_element(const Stretch<HelicalBeam>& stretch, const SectionTable& sections) {
-  return {stretch.slots, stretch.section_at(sections, 0.0).stiffness, stretch.masses<2>(sections)};
-}
-
-// Length that one unit of xi stands for: the elements' own measure, so that loads per length and
-// mass agree.
-template <int Order>
-double jacobian(const DirectorBeam<Order>&, const Stretch<DirectorBeam<Order>>& stretch,
-                double xi) {
-  return stretch.jacobian(xi);
-}
-inline double jacobian(const HelicalBeam& element, const Stretch<HelicalBeam>&, double) {
-  return 0.5 * element.length();
-}
-
 template <class Beam>
 void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
                      model::Structure& structure) {
@@ -110,48 +83,62 @@ void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
   }
 }
 
-// Calls add(element, stretch) for all elements of a chain; what it returns becomes their cell.
-template <class Beam, class Add>
-ReferenceState add_all(const Chain& chain, const std::vector<int>& nodes,
-                       const SectionTable& sections, model::Structure& structure, Add&& add) {
-  ReferenceState reference;
-  constexpr std::size_t order = Beam::num_nodes - 1;
-  for (std::size_t first = 0; first + order < chain.size(); first += order) {
-    const Stretch<Beam> stretch(chain, nodes, first);
-    const Beam element = make_element(stretch, sections);
-    reference.largest_turn = std::max(reference.largest_turn, stretch.turn());
-    add_line_points(element, stretch, structure);
-    const auto [source, item] = add(element, stretch);
-    structure.cells.push_back({{stretch.nodes.begin(), stretch.nodes.end()}, source, item});
-  }
-  return reference;
-}
-
 using Source = std::pair<const model::ResultantSource*, int>;
 
-// Where elements of a chain go.
-struct Place {
-  const Chain& chain;
-  const std::vector<int>& nodes;
-  const SectionTable& sections;
-  const model::StrainDamping& damping;
-  model::Model& model;
-  model::Structure& structure;
-
-  model::NodeSlots first_node() const {
-    return model::NodeTable::slots(model.nodes().reference(), structure.nodes.front());
+// Calls add(element, stretch) for all elements of a chain; what it returns becomes their cell. An
+// element has make_element(stretch, sections) and jacobian(element, stretch, xi) beside it, the
+// length that one unit of xi stands for: its own measure, so that loads per length and mass agree.
+template <class Beam, class Add>
+double add_all(const Place& to, Add&& add) {
+  double largest_turn = 0.0;
+  constexpr std::size_t order = Beam::num_nodes - 1;
+  for (std::size_t first = 0; first + order < to.chain.size(); first += order) {
+    const Stretch<Beam> stretch(to.chain, to.nodes, first);
+    const Beam element = make_element(stretch, to.sections);
+    largest_turn = std::max(largest_turn, stretch.turn());
+    add_line_points(element, stretch, to.structure);
+    const auto [source, item] = add(element, stretch);
+    to.structure.cells.push_back({{stretch.nodes.begin(), stretch.nodes.end()}, source, item});
   }
-};
+  return largest_turn;
+}
 
-/// In files of their own, because each of these elements has a batch of its own to compile.
-/// @param effect  name in the ledger
-template <int Order>
-ReferenceState add_kirchhoff(const std::string& effect, const Place& to);
-template <int Order>
-ReferenceState add_untwisted(const std::string& effect, const Place& to);
-template <int Order>
-ReferenceState add_untwisted_kirchhoff(const std::string& effect, const Place& to);
-template <int Order>
-ReferenceState add_linear(const std::string& effect, const Place& to);
+// All strains of the element are free.
+template <class Beam>
+double add_full(const std::string& effect, const Place& to) {
+  auto& batch = model::elements<Beam>(to.model, effect, to.damping);
+  return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
+    return Source{&batch, batch.add(element, stretch.nodes)};
+  });
+}
+
+// The slots of a node that follows another one, q_s = sum_k t_sk Q_k.
+inline Mat<4, 4> follow(const model::NodeSlots& master, const Slots<4>& slave) {
+  const Mat3 triad = master.rightCols<3>();
+  Mat<4, 4> t = Mat<4, 4>::Zero();
+  t(0, 0) = 1.0;
+  t.row(0).tail<3>() = (triad.transpose() * (slave.col(0) - master.col(0))).transpose();
+  t.bottomRightCorner<3, 3>() = (triad.transpose() * slave.rightCols<3>()).transpose();
+  return t;
+}
+
+// Only the mass of the elements, at the first node of the structure, which all others follow.
+template <class Beam>
+double add_rigid(const Place& to) {
+  const model::NodeSlots master = to.first_node();
+  SlotMatrix<4> mass = SlotMatrix<4>::Zero();
+  const double largest_turn =
+      add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
+        Mat<Beam::num_slots, 4> t;
+        for (int a = 0; a < Beam::num_nodes; ++a) {
+          t.template middleRows<4>(4 * a) =
+              follow(master, stretch.slots.template middleCols<4>(4 * a));
+        }
+        mass += t.transpose() * element.mass() * t;
+        return Source{nullptr, 0};
+      });
+  if (mass(0, 0) > 0.0) to.model.masses("Rigid beams").add(to.structure.nodes.front(), mass);
+  return largest_turn;
+}
 
 }  // namespace culm::beam

@@ -2,13 +2,12 @@
 
 namespace culm::beam {
 
-template <int Order>
-ReferenceState add_kirchhoff(const std::string& effect, const Place& to) {
-  return add_held_elements<KirchhoffBeam<Order>>(effect, to);
+void register_kirchhoff_elements(ElementFamilies& families) {
+  add_director_families(families, {.fidelity = "Kirchhoff"}, "Kirchhoff",
+                        []<int Order>(std::integral_constant<int, Order>, const std::string& effect,
+                                      const Place& to) {
+                          return add_held_elements<KirchhoffBeam<Order>>(effect, to);
+                        });
 }
-
-template ReferenceState add_kirchhoff<1>(const std::string&, const Place&);
-template ReferenceState add_kirchhoff<2>(const std::string&, const Place&);
-template ReferenceState add_kirchhoff<3>(const std::string&, const Place&);
 
 }  // namespace culm::beam

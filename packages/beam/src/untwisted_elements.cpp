@@ -2,13 +2,12 @@
 
 namespace culm::beam {
 
-template <int Order>
-ReferenceState add_untwisted(const std::string& effect, const Place& to) {
-  return add_held_elements<UntwistedBeam<Order>>(effect, to);
+void register_untwisted_elements(ElementFamilies& families) {
+  add_director_families(families, {.fidelity = "Full", .twists = false}, "director without torsion",
+                        []<int Order>(std::integral_constant<int, Order>, const std::string& effect,
+                                      const Place& to) {
+                          return add_held_elements<UntwistedBeam<Order>>(effect, to);
+                        });
 }
-
-template ReferenceState add_untwisted<1>(const std::string&, const Place&);
-template ReferenceState add_untwisted<2>(const std::string&, const Place&);
-template ReferenceState add_untwisted<3>(const std::string&, const Place&);
 
 }  // namespace culm::beam

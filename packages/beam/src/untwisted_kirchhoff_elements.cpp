@@ -2,13 +2,13 @@
 
 namespace culm::beam {
 
-template <int Order>
-ReferenceState add_untwisted_kirchhoff(const std::string& effect, const Place& to) {
-  return add_held_elements<UntwistedKirchhoffBeam<Order>>(effect, to);
+void register_untwisted_kirchhoff_elements(ElementFamilies& families) {
+  add_director_families(families, {.fidelity = "Kirchhoff", .twists = false},
+                        "Kirchhoff without torsion",
+                        []<int Order>(std::integral_constant<int, Order>, const std::string& effect,
+                                      const Place& to) {
+                          return add_held_elements<UntwistedKirchhoffBeam<Order>>(effect, to);
+                        });
 }
-
-template ReferenceState add_untwisted_kirchhoff<1>(const std::string&, const Place&);
-template ReferenceState add_untwisted_kirchhoff<2>(const std::string&, const Place&);
-template ReferenceState add_untwisted_kirchhoff<3>(const std::string&, const Place&);
 
 }  // namespace culm::beam

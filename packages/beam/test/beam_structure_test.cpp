@@ -3,6 +3,7 @@
 #include <culm/beam/director_beam.hpp>
 #include <culm/beam/element_batches.hpp>
 #include <culm/beam/helical_beam.hpp>
+#include <culm/beam/register_beam.hpp>
 #include <culm/model/mass_properties.hpp>
 
 #include <Eigen/Geometry>
@@ -180,7 +181,7 @@ TEST_F(BeamStructure, HelicalElementsHaveNoOrder) {
   GivenValues given = helical;
   given.emplace_back("Order", 2);
   EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
-            std::vector<std::string>{"helical elements have two nodes: leave 'Order' out"});
+            std::vector<std::string>{"must be 1 for 'Helical' elements: leave it out"});
 }
 
 TEST(RegisterBeams, OffersTheBeam) {
@@ -287,12 +288,20 @@ TEST_F(BeamStructure, WhatDoesWithoutTorsionIsChecked) {
   GivenValues rigid = director_1;
   linear.push_back({"Fidelity", std::string("Linear")});
   rigid.push_back({"Fidelity", std::string("Rigid")});
-  for (GivenValues given : {helical, linear, rigid}) {
+  const auto mistakes_without_torsion = [&](GivenValues given) {
     given.push_back({"Torsion", false});
-    EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
-              std::vector<std::string>{
-                  "false needs director elements whose 'Fidelity' is Full or Kirchhoff"});
+    return kit::mistakes_in(schema, kit::deck_list(schema, given));
+  };
+  for (const GivenValues& given : {linear, rigid}) {
+    EXPECT_EQ(mistakes_without_torsion(given),
+              std::vector<std::string>{"false needs a 'Fidelity' of 'Full', 'Kirchhoff'"});
   }
+  EXPECT_EQ(mistakes_without_torsion(helical),
+            std::vector<std::string>{"must be true for 'Helical' elements"});
+  GivenValues unknown = helical;
+  unknown.push_back({"Fidelity", std::string("Linear")});
+  EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, unknown)),
+            std::vector<std::string>{"of 'Helical' elements must be one of 'Full', 'Rigid'"});
 }
 
 TEST_F(BeamStructure, StrainDampingHasSixValuesOfDirectorElements) {
@@ -304,7 +313,8 @@ TEST_F(BeamStructure, StrainDampingHasSixValuesOfDirectorElements) {
   given = helical;
   given.push_back({"Strain Damping", Numbers{1, 2, 3, 4, 5, 6}});
   EXPECT_EQ(kit::mistakes_in(schema, kit::deck_list(schema, given)),
-            std::vector<std::string>{"needs director elements, got helical ones"});
+            std::vector<std::string>{
+                "needs elements whose strains are damped one by one, got 'Helical'"});
 }
 
 }  // namespace
