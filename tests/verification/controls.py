@@ -12,8 +12,8 @@ J, T, P, I, SET_POINT = 2.0, 0.2, 3.0, 4.0, 1.5
 RATED = 12.1 * 2.0 * math.pi / 60.0
 
 
-def poles():
-    return np.roots([J * T, J, P, I])
+def poles(gain=1.0):
+    return np.roots([J * T, J, gain * P, gain * I])
 
 
 def rotor_at(times):
@@ -52,6 +52,20 @@ def verify_rotor(culm, report):
         report.check("order of the step", math.log2(coarse / fine), 2.0, 0.02)
     run = culm.run(ROTOR, quiet=False)
     report.holds("energy balance", run.drift("energy balance"), 1e-11)
+
+
+def verify_schedule(culm, report):
+    report.title("Gains that follow a signal: P and I over 1 + v / 'Halved At'")
+    for halved_at in (0.5, 1.0, 4.0):
+        controller = "Signals/controller"
+        table = culm.table("modes/modes", ROTOR, [f"{controller}/Schedule Signal=Constant", f"{controller}/Halved At={halved_at}"])
+        parts = [table.column(f"eigenvalue {part} [1/s]") for part in ("real", "imaginary")]
+        found = [complex(real, imaginary) for real, imaginary in zip(*parts)]
+        for pole in poles(1.0 / (1.0 + 1.0 / halved_at)):
+            if pole.imag < 0.0:
+                continue
+            apart = min(abs(one - pole) for one in found)
+            report.holds(f"halved at {halved_at:g}: pole {pole:.4f}, relative,", apart / abs(pole), 1e-9)
 
 
 def actuator_at(times, step=1e-4):
@@ -152,6 +166,7 @@ def verify_turbine(culm, report):
 
 def verify(culm, report):
     verify_rotor(culm, report)
+    verify_schedule(culm, report)
     verify_actuator(culm, report)
     verify_delay(culm, report)
     verify_turbine(culm, report)

@@ -79,8 +79,8 @@ TEST_P(Blocks, StatesStandStillInStatics) {
   }
 }
 
-std::unique_ptr<Block> make_pi(const Limits& limits) {
-  return std::make_unique<PiController>(0.7, 1.3, 0.9, 1.4, limits, 2.0);
+std::unique_ptr<Block> make_pi(const Limits& limits, double halved_at = 1.0) {
+  return std::make_unique<PiController>(0.7, 1.3, 0.9, 1.4, limits, 2.0, halved_at);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -94,6 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
                 [] { return std::make_unique<Actuator>(2.0, 0.7, narrow, wide, 0.5); }},
         Subject{"Pi", [] { return make_pi(wide); }, 2},
         Subject{"PiAtItsLimit", [] { return make_pi(narrow); }, 2},
+        Subject{"PiWithSchedule", [] { return make_pi(wide, 0.4); }, 3},
+        Subject{"PiWithScheduleAtItsLimit", [] { return make_pi(narrow, 0.4); }, 3},
         Subject{"Integral", [] { return std::make_unique<Integral>(1.8, 3.0); }},
         Subject{"Sum",
                 [] {
@@ -165,6 +167,37 @@ TEST(Actuator, ItsRateStaysWithinItsLimits) {
   }
   // the rate is 1 / (2 zeta omega) behind
   EXPECT_NEAR(actuator.output(), 0.5 * (1.0 - 1.0 / 14.0), 1e-3);
+}
+
+// At three times the value that halves them gains are a quarter; below zero they are whole.
+TEST(PiController, GainsFollowASignal) {
+  const PiController scheduled(0.7, 1.2, 0.8, 1.4, Limits(), 1.0, 0.2);
+  const auto evaluate = [](const PiController& controller, const Block::Inputs& u) {
+    Block::Values values;
+    values.f.setZero(2);
+    values.by_unknown.setZero(2, 2);
+    values.by_input.setZero(2, u.size());
+    controller.evaluate(Eigen::Vector2d(0.3, -0.1), u, values);
+    return values;
+  };
+  Block::Inputs u = Eigen::Vector3d(0.4, 1.5, 0.6);
+  const Block::Values found = evaluate(scheduled, u);
+  const Block::Inputs fixed = u.head(2);
+  const PiController quarter(0.7, 0.3, 0.2, 1.4, Limits(), 1.0);
+  EXPECT_LT((found.f - evaluate(quarter, fixed).f).norm(), 1e-15);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double h = 1e-5;
+    Block::Inputs ahead = u;
+    Block::Inputs behind = u;
+    ahead[k] += h;
+    behind[k] -= h;
+    const Block::Unknowns difference =
+        (evaluate(scheduled, ahead).f - evaluate(scheduled, behind).f) / (2.0 * h);
+    EXPECT_LT((found.by_input.col(k) - difference).norm(), 1e-8) << k;
+  }
+  u[2] = -0.6;
+  const PiController whole(0.7, 1.2, 0.8, 1.4, Limits(), 1.0);
+  EXPECT_EQ(evaluate(scheduled, u).f, evaluate(whole, fixed).f);
 }
 
 // Without the tracking the integral would be -1000 after as many seconds beyond the limit.
