@@ -5,6 +5,7 @@ usage: run.py --build FOLDER --cmake PROGRAM
 """
 
 import argparse
+import importlib.util
 import os
 import pathlib
 import re
@@ -81,6 +82,16 @@ def check_library(culm):
         sys.exit("the programs do not agree, or the wind did not push the nacelle")
 
 
+def check_history(culm):
+    """A run of the installed program, read as a pandas frame."""
+    if importlib.util.find_spec("pandas") is None:
+        print("no pandas: the frame of a history is not tested")
+        return
+    deck, results = ROOT / "inputs/control/speed_control.xml", culm.folder / "history"
+    run(culm.prefix / "bin/culm", "run", deck, "--output", results)
+    print(culm.run_python((HERE / "history.py").read_text(), "history", results), end="")
+
+
 def check_coupling(culm):
     deck = culm.folder / "mast.xml"
     deck.write_text(block(COUPLING, "xml"))
@@ -140,6 +151,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="culm-consumer-") as path:
         culm = Installed(pathlib.Path(path), options.build, options.cmake)
         check_library(culm)
+        check_history(culm)
         check_coupling(culm)
 
 

@@ -105,6 +105,7 @@ AnalysisReport Stepper::finish() {
 void Stepper::save(Snapshot& snapshot) {
   require(stage_ == Stage::resting || stage_ == Stage::ended, "be saved");
   system().save(state_, snapshot);
+  snapshot.set_text("stepper", kind());
   snapshot.set("steps", steps_);
   do_save(snapshot);
   newton_->save(snapshot);
@@ -114,12 +115,27 @@ void Stepper::save(Snapshot& snapshot) {
 void Stepper::restore(const Snapshot& snapshot) {
   if (stage_ == Stage::tried) discard();
   require(stage_ == Stage::resting, "be restored");
+  refuse_foreign(snapshot);
   system().restore(snapshot, state_);
   steps_ = snapshot.integer("steps");
   do_restore(snapshot);
   newton_->restore(snapshot);
   newton_->keep();
   if (!post_mortem_) post_mortem_.emplace(context_, snapshot);
+}
+
+void Stepper::refuse_foreign(const Snapshot& snapshot) const {
+  if (!snapshot.is_for_memory()) return;  // files say by themselves what they do not fit
+  if (!snapshot.has("stepper")) {
+    throw UsageError("a step cannot be restored from a snapshot that no step was saved to");
+  }
+  const std::string& other = snapshot.text("stepper");
+  if (other != kind()) {
+    throw UsageError("a snapshot of type '" + other + "' does not belong to a step of type '" +
+                     kind() + "'");
+  }
+  if (system().fits(snapshot, state_)) return;
+  throw UsageError("a snapshot does not belong to this model: it has other unknowns or memories");
 }
 
 AnalysisReport run(Stepper& stepper) {

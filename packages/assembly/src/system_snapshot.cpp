@@ -3,6 +3,8 @@
 #include "block_values.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace culm::assembly {
 namespace {
@@ -56,9 +58,7 @@ void System::save(model::State& state, Snapshot& snapshot) {
     snapshot.set("system/carried", gather_carried());
   }
   const model::Items which = snapshot.is_for_memory() ? model::Items::local : model::Items::owned;
-  std::size_t size = 0;
-  for (const model::Batch* batch : batches_) size += batch->memory_size();
-  std::vector<double> memory(size, nothing);
+  std::vector<double> memory(memory_size(), nothing);
   std::span<double> rest = memory;
   for (const model::Batch* batch : batches_) {
     batch->save(which, rest.first(batch->memory_size()));
@@ -66,6 +66,23 @@ void System::save(model::State& state, Snapshot& snapshot) {
   }
   if (!snapshot.is_for_memory()) comm_.sum(memory);
   snapshot.set("system/batches", std::move(memory));
+}
+
+std::size_t System::memory_size() const {
+  std::size_t size = 0;
+  for (const model::Batch* batch : batches_) size += batch->memory_size();
+  return size;
+}
+
+bool System::fits(const Snapshot& snapshot, const model::State& state) const {
+  const std::pair<const char*, std::size_t> sizes[] = {
+      {"state/position", state.next.size()},
+      {"state/multipliers", state.multipliers.size()},
+      {"state/own", state.own.size()},
+      {"system/batches", memory_size()}};
+  return std::all_of(std::begin(sizes), std::end(sizes), [&](const auto& one) {
+    return snapshot.has(one.first) && snapshot.numbers(one.first).size() == one.second;
+  });
 }
 
 void System::restore(const Snapshot& snapshot, model::State& state) {
@@ -86,9 +103,7 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
   } else {
     carried_ = carried;
   }
-  std::size_t size = 0;
-  for (const model::Batch* batch : batches_) size += batch->memory_size();
-  std::span<const double> memory = snapshot.numbers("system/batches", size);
+  std::span<const double> memory = snapshot.numbers("system/batches", memory_size());
   for (model::Batch* batch : batches_) {
     batch->restore(memory.first(batch->memory_size()));
     memory = memory.subspan(batch->memory_size());

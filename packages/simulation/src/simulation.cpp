@@ -106,8 +106,17 @@ Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) 
 
 Simulation Simulation::open(const std::string& path, std::vector<std::string> overrides,
                             const Log& log, const parallel::Comm& comm) {
+  return of(read_source(comm, path, std::move(overrides)), log, comm);
+}
+
+Simulation Simulation::make(std::vector<std::string> assignments, const Log& log,
+                            const parallel::Comm& comm) {
+  return of({{{"assignments", "<ParameterList name=\"culm\"/>"}}, std::move(assignments)}, log,
+            comm);
+}
+
+Simulation Simulation::of(DeckSource source, const Log& log, const parallel::Comm& comm) {
   const auto catalogue = std::make_shared<const Catalogue>();
-  DeckSource source = read_source(comm, path, std::move(overrides));
   const Options deck = read_deck(*catalogue, source);
   return Simulation(std::unique_ptr<Parts>(
       new Parts{comm, catalogue, *catalogue, deck, std::move(source), log, machine_memory()}));

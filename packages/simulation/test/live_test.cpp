@@ -102,6 +102,52 @@ TEST(LiveSimulation, WorkOfALoadThatIsSetIsInTheBalance) {
   }
 }
 
+// A model without a file is that of the deck that says the same.
+TEST(LiveSimulation, AssignmentsMakeTheModelOfADeck) {
+  Live written(cantilever(external));
+  Simulation made = Simulation::make(
+      {"Sections/bar/Type=Stiffness Values", "Sections/bar/EA=100", "Sections/bar/GA1=50",
+       "Sections/bar/GA2=50", "Sections/bar/EI1=2", "Sections/bar/EI2=2", "Sections/bar/GIp=1",
+       "Structures/beam/Type=Beam", "Structures/beam/Section=bar",
+       "Structures/beam/Curve/Type=Line", "Structures/beam/Curve/From={0, 0, 0}",
+       "Structures/beam/Curve/To={1, 0, 0}", "Structures/beam/Curve/Elements=" + std::to_string(3),
+       "Constraints/clamp/Type=Rigid Support", "Constraints/clamp/Node=beam/first",
+       "Loads/push/Type=External", "Loads/push/Node=beam/last", "Analyses/bending/Type=Static",
+       "Analyses/bending/Steps=2"});
+  for (Simulation* one : {&written.simulation, &made}) {
+    analysis::Stepper& stepper = one->begin("bending");
+    one->set_load("push", push);
+    analysis::run(stepper);
+  }
+  const int end = made.nodes("beam/last").front();
+  EXPECT_GT(made.position(end)[1], 0.01);
+  EXPECT_EQ(made.position(end), written.simulation.position(end));
+  EXPECT_THROW(Simulation::make({"Structures/beam/Type=Baem"}), InputError);
+}
+
+// What a snapshot does not belong to stays as it is.
+TEST(LiveSimulation, RefusesSnapshotsOfOtherAnalysesAndModels) {
+  Live live(cantilever(external));
+  analysis::Stepper& bending = live.simulation.begin("bending");
+  Snapshot bent(Snapshot::Use::memory);
+  bending.save(bent);
+  analysis::Stepper& motion = live.simulation.begin("motion");
+  const std::vector<double> before = motion.state().next;
+  EXPECT_THROW(motion.restore(bent), UsageError);
+  EXPECT_THROW(motion.restore(Snapshot(Snapshot::Use::memory)), UsageError);
+  EXPECT_EQ(motion.state().next, before);
+  Snapshot moved(Snapshot::Use::memory);
+  motion.save(moved);
+  std::string text = cantilever(external);
+  const std::string coarse = R"("Elements" value="3")";
+  text.replace(text.find(coarse), coarse.size(), R"("Elements" value="4")");
+  Live finer(text);
+  EXPECT_THROW(finer.simulation.begin("motion").restore(moved), UsageError);
+  Live equal(cantilever(external));
+  equal.simulation.begin("motion").restore(moved);
+  EXPECT_TRUE(motion.attempt(motion.proposal()).accepted);
+}
+
 TEST(LiveSimulation, RefusesWhatItDoesNotKnow) {
   Live live(cantilever(external));
   EXPECT_THROW(live.simulation.begin("modes"), UsageError);

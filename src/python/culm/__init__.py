@@ -13,8 +13,8 @@ def __getattr__(name):
 
 
 def history(folder):
-    """The history of a run as a pandas frame, by time or level."""
+    """The history of a run as a pandas frame, by time or level, number by number as the file has it."""
     import pathlib
 
     import pandas
-    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0)
+    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, float_precision="round_trip")

@@ -49,6 +49,7 @@ class Dynamics final : public Stepper {
   bool do_fail(const StepReport& report) override;
   Stencil failed_stencil() const override { return stencil_; }
   AnalysisReport do_finish() override;
+  const char* kind() const override { return "Dynamic"; }
   void do_save(Snapshot& snapshot) const override;
   void do_restore(const Snapshot& snapshot) override;
   void refuse_other_schemes() const;

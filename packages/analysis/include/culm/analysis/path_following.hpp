@@ -49,6 +49,7 @@ class PathFollowing final : public Stepper {
   void explain_failure() override;
   Stencil failed_stencil() const override { return Stencil::statics(); }
   AnalysisReport do_finish() override;
+  const char* kind() const override { return "Path"; }
   void do_save(Snapshot& snapshot) const override;
   void do_restore(const Snapshot& snapshot) override;
 

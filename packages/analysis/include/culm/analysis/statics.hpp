@@ -47,6 +47,7 @@ class Statics final : public Stepper {
   std::optional<double> dead_end() const override { return trend_.end(settings_.final_level); }
   Stencil failed_stencil() const override { return Stencil::statics(); }
   AnalysisReport do_finish() override;
+  const char* kind() const override { return "Static"; }
   void do_save(Snapshot& snapshot) const override;
   void do_restore(const Snapshot& snapshot) override;
   double next_level(double level, double increment) const;

@@ -63,7 +63,8 @@ class Stepper {
   /// number of ranks, and complete on the root.
   void save(Snapshot& snapshot);
   /// Goes back to what save() wrote into a snapshot for memory, here or in an equal stepper. Steps
-  /// made since are forgotten, but for what observers have seen of them.
+  /// made since are forgotten, but for what observers have seen of them. Throws UsageError, and
+  /// changes nothing, for a snapshot of another kind of analysis or of another model.
   void restore(const Snapshot& snapshot);
 
   /// Of the last attempt if one is open, else the accepted one.
@@ -88,6 +89,8 @@ class Stepper {
   }
 
  private:
+  /// Type of the analysis in a deck; what snapshots of its steppers are known by.
+  virtual const char* kind() const = 0;
   virtual void do_fit() {}
   /// Makes Newton's solver, the post-mortem and all other tools for the present state.
   virtual void do_begin() = 0;
@@ -116,6 +119,7 @@ class Stepper {
   enum class Stage { unbegun, resting, tried, ended };
   static void require(bool holds, const char* verb);
   void go_back();
+  void refuse_foreign(const Snapshot& snapshot) const;
 
   Context& context_;
   model::State& state_;

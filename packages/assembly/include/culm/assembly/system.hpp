@@ -70,6 +70,11 @@ class System {
   void level_gradient(model::State& state, const Stencil& stencil, double step, Vector& gradient);
   /// Residual, and the tangent when wanted.
   Evaluation evaluate(const model::State& state, const Stencil& stencil, Want want);
+  /// Relaxation times of all items, each once, rising [s].
+  std::vector<double> relaxation_times() const;
+  /// In place of the tangent, what all branches of one of these times add to it at state.next if
+  /// their springs follow at once.
+  Verdict evaluate_branches(const model::State& state, double time);
   /// Moves state.next by the solution of the linear system, factor included: nodes
   /// multiplicatively, eliminated nodes after their masters, multipliers additively.
   void move(model::State& state, const Vector& increment, double factor);
@@ -94,6 +99,8 @@ class System {
   void save_matrix(Snapshot& snapshot) const;
   /// Takes them back. @return false with another number of ranks, where they do not fit
   bool restore_matrix(const Snapshot& snapshot);
+  /// Whether a snapshot has as many numbers of each kind as save writes.
+  bool fits(const Snapshot& snapshot, const model::State& state) const;
   /// Goes back to what save wrote; on any number of ranks. Throws FileError if it does not fit.
   void restore(const Snapshot& snapshot, model::State& state);
   /// From now on the impulse that a step leaves unbalanced acts in the next one: what iteration and
@@ -162,6 +169,9 @@ class System {
   const parallel::Comm& comm() const { return comm_; }
 
  private:
+  std::size_t memory_size() const;
+  model::Target target();
+  model::Target target_with_matrix();
   void assemble_alone(model::Batch& load, const model::State& state, std::span<double> residual,
                       std::span<double> taken) const;
   Vec6 equation_reaction(const std::string& constraint, int node, const model::State& state) const;

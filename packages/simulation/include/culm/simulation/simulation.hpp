@@ -51,6 +51,11 @@ class Simulation {
   static Simulation open(const std::string& path, std::vector<std::string> overrides = {},
                          const Log& log = Log(LogLevel::quiet),
                          const parallel::Comm& comm = parallel::Comm());
+  /// The same without a file: all that a deck would say, as assignments such as
+  /// "Structures/beam/Type=Beam". Messages name them as those of the command line.
+  static Simulation make(std::vector<std::string> assignments,
+                         const Log& log = Log(LogLevel::quiet),
+                         const parallel::Comm& comm = parallel::Comm());
   Simulation(Simulation&&) noexcept;
   ~Simulation();
 
@@ -145,6 +150,7 @@ class Simulation {
   void write_last_checkpoint(RunObserver& observer) const;
 
   struct Parts;
+  static Simulation of(DeckSource source, const Log& log, const parallel::Comm& comm);
   explicit Simulation(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
