@@ -11,6 +11,7 @@ from verify import figure, main, mesh_axis, richardson, save
 
 BEAM = "modes/cantilever.xml"
 ROTATING = "modes/rotating_beam.xml"
+RELAXING = "modes/relaxing_blade.xml"
 CURVE = "Structures/beam/Curve/Elements"
 # beta L of uniform beams: roots of cos x cosh x = -1, of cos x cosh x = 1, multiples of pi
 CLAMPED_FREE = (1.87510407, 4.69409113, 7.85475744, 10.9955407, 14.1371684)
@@ -280,6 +281,61 @@ def verify_damping(culm, report):
             report.relative(f"{what}: damped frequency", found, lower, 1e-7)
 
 
+def relaxing(omega, branches):
+    """The root that vibrates of lambda^2 + omega^2 (1 + sum g lambda T / (1 + lambda T)) = 0, of branches (T, g)."""
+    ones = [np.poly1d([time, 1.0]) for time, _ in branches]
+    equation = np.poly1d([1.0, 0.0, omega**2]) * math.prod(ones, start=np.poly1d([1.0]))
+    for k, (time, ratio) in enumerate(branches):
+        others = math.prod(ones[:k] + ones[k + 1 :], start=np.poly1d([1.0]))
+        equation = equation + omega**2 * ratio * np.poly1d([time, 0.0]) * others
+    return max(equation.roots, key=lambda root: root.imag)
+
+
+def loss_factor(omega, branches):
+    stored = 1.0 + sum(g * (omega * t) ** 2 / (1.0 + (omega * t) ** 2) for t, g in branches)
+    return sum(g * omega * t / (1.0 + (omega * t) ** 2) for t, g in branches) / stored
+
+
+def eigenvalues(table):
+    parts = [table.column(f"eigenvalue {part} [1/s]") for part in ("real", "imaginary")]
+    return [complex(real, imaginary) for real, imaginary in zip(*parts)]
+
+
+def relaxation(branches):
+    settings = []
+    for name, (time, ratio) in zip(("resin", "slow", "fast"), branches):
+        entry = f"Structures/blade/Relaxation/{name}"
+        settings += [f"{entry}/Time={time}", f"{entry}/Ratios={{{ratio}}}"]
+    return settings
+
+
+def verify_relaxation(culm, report):
+    report.title("Branches of Maxwell: lambda^2 + omega^2 (1 + sum g lambda T / (1 + lambda T)) = 0")
+    branches = [(0.02, 0.3), (0.5, 1.0), (0.002, 0.2)]
+    lasting = ["Analyses/modes/Damping=false"]
+    for form in ("Null Space", "Multipliers"):
+        for solver in ("Dense", "Spectra"):
+            what = f"{form}, {solver}"
+            settings = [*relaxation(branches), f"Solver/Form={form}", f"Analyses/modes/Solver={solver}"]
+            run = culm.succeed(RELAXING, [*settings, *lasting])
+            report.check(f"{what}: warnings without 'Damping'", run.errors.count("lasting stiffness"), 1, 0)
+            omega = omegas(run.tables["modes/modes"].column("frequency [Hz]"))
+            found = eigenvalues(culm.table("modes/modes", RELAXING, settings))
+            wanted = [relaxing(w, branches) for w in omega]
+            apart = max(abs(f - w) / abs(w) for f, w in zip(found, wanted, strict=True))
+            report.holds(f"{what}: beam, rod and shaft, relative,", apart, 1e-8)
+    weak = [(0.02, 0.002), (0.5, 0.003)]
+    table = culm.table("modes/modes", RELAXING, relaxation(weak))
+    loss = [loss_factor(omega, weak) for omega in omegas(table.column("frequency [Hz]"))]
+    twice = [2.0 * ratio for ratio in table.column("damping ratio")]
+    report.relative("small ratios: twice the damping ratio is the loss factor", twice, loss, 1e-4)
+    one = ["Analyses/motion/End Time=0.002", "Analyses/modes/Type=Modal", "Analyses/modes/Start From=Reference",
+           "Analyses/modes/Damping=true", "Analyses/modes/Modes=6"]
+    found = eigenvalues(culm.table("modes/modes", "beam/relaxing_rod.xml", one))
+    wanted = relaxing(1.0, [(1.0, 0.5)])
+    report.holds("a mass on a massless rod, relative,", min(abs(f - wanted) for f in found) / abs(wanted), 1e-8)
+
+
 def verify_matrices(culm, report):
     import io
 
@@ -341,6 +397,7 @@ def verify(culm, report):
     verify_cylinder(culm, report)
     verify_l_frame(culm, report)
     verify_damping(culm, report)
+    verify_relaxation(culm, report)
     verify_matrices(culm, report)
     verify_campbell(culm, report)
     verify_rounding(culm, report)

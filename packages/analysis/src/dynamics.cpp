@@ -192,7 +192,7 @@ void Dynamics::refuse_other_schemes() const {
     if (!batch->needs_mean_velocity()) continue;
     throw InputError(settings_.scheme, fmt::format("'{}' does not know '{}', which the deck asks "
                                                    "for; allowed: 'Conserving'",
-                                                   scheme_->name(), batch->effect()));
+                                                   scheme_->name(), batch->effect().title()));
   }
 }
 

@@ -1,6 +1,9 @@
 #include <culm/analysis/find_modes.hpp>
+#include <culm/analysis/relaxing_modes.hpp>
 #include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
+
+#include "whole_matrix.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
@@ -9,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace culm::analysis {
 namespace {
@@ -113,8 +117,9 @@ class Finder {
   ModeSet find() {
     const bool counts = settings_.damping || rotor_;  // a rotor keeps gyroscopic forces alone
     rates_ = counts ? linear_.damping : rates_of_signals(context_.system, linear_.damping);
-    set_.is_complex = linear_.asymmetry > largest_asymmetry || !rates_.is_null();
-    if (!linear_.damping.is_null() && !counts) {
+    relaxes_ = settings_.damping && !linear_.branches.empty();
+    set_.is_complex = linear_.asymmetry > largest_asymmetry || !rates_.is_null() || relaxes_;
+    if (!counts && damps_motions(context_.system, linear_.damping)) {
       context_.log.info(
           "note: modes are those without damping and gyroscopic forces; 'Damping' = true counts "
           "them");
@@ -190,11 +195,12 @@ class Finder {
     }
     solver_.shift =
         settings_.near ? 2.0 * std::numbers::pi * *settings_.near : std::sqrt(-lowest_shift());
-    const auto pairs = solver::solve_quadratic({linear_.stiffness, damping, linear_.mass}, solver_,
-                                               context_.system.comm());
+    auto pairs = solver::solve_quadratic({linear_.stiffness, damping, linear_.mass}, solver_,
+                                         context_.system.comm());
+    if (relaxes_) follow_branches(*damping, pairs);
     for (std::size_t i = 0; i < pairs.values.size(); ++i) {
       Mode mode;
-      if (std::norm(pairs.values[i]) > quadratic_zero_bound * pairs.rounding[i]) {
+      if (!is_zero(pairs, i)) {
         mode.eigenvalue = pairs.values[i];
         // a real value has no frequency but for rounding
         if (mode.eigenvalue.imag() < 1e-9 * std::abs(mode.eigenvalue)) mode.eigenvalue.imag(0.0);
@@ -208,6 +214,72 @@ class Finder {
     tell(pairs);
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
+  }
+
+  static bool is_zero(const solver::ComplexPairs& pairs, std::size_t i) {
+    return std::norm(pairs.values[i]) <= quadratic_zero_bound * pairs.rounding[i];
+  }
+
+  RelaxingPencil relaxing_pencil(const assembly::CrsMatrix& damping) const {
+    const parallel::Comm& comm = context_.system.comm();
+    RelaxingPencil pencil{
+        whole(*linear_.stiffness, comm), whole(damping, comm), whole(*linear_.mass, comm), {}};
+    for (const LinearBranches& branch : linear_.branches) {
+      const SparseMatrix stiffness = whole(*branch.stiffness, comm);
+      if (!rotor_) {
+        pencil.terms.push_back({stiffness.cast<Complex>(), branch.time, 0.0});
+        continue;
+      }
+      for (BranchTerm& term : rotor_->terms_of(stiffness, branch.time)) {
+        pencil.terms.push_back(std::move(term));
+      }
+    }
+    return pencil;
+  }
+
+  // From the modes of the lasting stiffness to those with branches, by their size again.
+  void follow_branches(const assembly::CrsMatrix& damping, solver::ComplexPairs& pairs) {
+    const RelaxingPencil pencil = relaxing_pencil(damping);
+    std::vector<ComplexMode> modes;
+    for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+      ComplexMode mode{pairs.values[i], pairs.vectors.col(static_cast<Eigen::Index>(i))};
+      if (!is_zero(pairs, i)) {
+        mode = compute_relaxing_mode(pencil, mode);
+        pairs.worst_residual = std::max(pairs.worst_residual, mode.residual);
+        const double mass = mode.vector.dot(pencil.M * mode.vector).real();
+        if (mass > 0.0) mode.vector /= std::sqrt(mass);
+      }
+      modes.push_back(std::move(mode));
+    }
+    warn_of_doubles(pencil, modes);
+    std::vector<std::size_t> order(modes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::abs(modes[i].value); });
+    const std::vector<double> rounding = pairs.rounding;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      pairs.values[i] = modes[order[i]].value;
+      pairs.vectors.col(static_cast<Eigen::Index>(i)) = modes[order[i]].vector;
+      pairs.rounding[i] = rounding[order[i]];
+    }
+    pairs.solver += ", branches by Newton's method";
+  }
+
+  // Two motions without branches may lead to one with them; the other is missing then.
+  void warn_of_doubles(const RelaxingPencil& pencil, const std::vector<ComplexMode>& modes) const {
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double apart = std::abs(modes[i].value - modes[j].value);
+        if (apart > 1e-8 * std::abs(modes[i].value) || modes[i].value == 0.0) continue;
+        if (std::abs(modes[i].vector.dot(pencil.M * modes[j].vector)) < 1.0 - 1e-6) continue;
+        context_.findings.warn(
+            "relaxation",
+            fmt::format("two modes of the lasting stiffness became the one at {:.6g} Hz; another "
+                        "next to it is missing: leave it out with 'Near', or look at the modes "
+                        "without 'Damping'",
+                        std::abs(modes[i].value.imag()) / (2.0 * std::numbers::pi)),
+            state_.time);
+      }
+    }
   }
 
   // What the eigensolver had to do, and what is missing.
@@ -233,12 +305,12 @@ class Finder {
   }
 
   void warn_of_relaxation() const {
-    const auto batches = context_.system.model().batches();
-    if (std::ranges::none_of(batches, [](const model::Batch* b) { return b->relaxes(); })) return;
-    context_.findings.warn("relaxation",
-                           "modes do not see 'Relaxation': frequencies are those of the lasting "
-                           "stiffness, without the damping of its branches",
-                           state_.time);
+    if (relaxes_ || linear_.branches.empty()) return;
+    context_.findings.warn(
+        "relaxation",
+        "frequencies are those of the lasting stiffness, without the branches of "
+        "'Relaxation'; 'Damping' = true counts them",
+        state_.time);
   }
 
   // Stiff directions leave their rounding in soft ones.
@@ -283,6 +355,7 @@ class Finder {
   std::optional<TurningRotor> rotor_;
   Teuchos::RCP<const assembly::CrsMatrix> rates_;  // what counts of the damping
   solver::EigenSettings solver_;
+  bool relaxes_ = false;  // whether branches count
   ModeSet set_;
   double hidden_ = 0.0;  // frequency that may be nothing but rounding [Hz]
 };

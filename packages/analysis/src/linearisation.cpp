@@ -1,6 +1,7 @@
 #include <culm/analysis/linearisation.hpp>
 #include <culm/assembly/rounding.hpp>
 #include <culm/base/error.hpp>
+#include <culm/model/branch_store.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
 #include <fmt/format.h>
@@ -67,11 +68,45 @@ double largest_entry(const assembly::System& system, const CrsMatrix& matrix) {
   return system.comm().max(largest);
 }
 
+std::vector<LinearBranches> find_branches(assembly::System& system, const model::State& state) {
+  std::vector<LinearBranches> all;
+  for (double time : system.relaxation_times()) {
+    if (system.evaluate_branches(state, time) != Verdict::ok) {
+      throw NonFiniteError("The stiffness of branches of 'Relaxation' is not finite.");
+    }
+    all.push_back({time, Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy))});
+  }
+  return all;
+}
+
+// Takes away what branches gain from one step to another, but for rounding.
+void remove_branches(const assembly::System& system, const std::vector<LinearBranches>& branches,
+                     double before, double after, CrsMatrix& matrix) {
+  if (branches.empty()) return;
+  const double negligible = 1e-13 * largest_entry(system, *system.matrix());
+  const auto values = matrix.getLocalMatrixHost().values;
+  for (const LinearBranches& branch : branches) {
+    const auto weight = [&](double step) {
+      return model::branch_weight(MaxwellStep::of(step, branch.time), 1.0);
+    };
+    const double gained = weight(after) - weight(before);
+    const auto stiffness = branch.stiffness->getLocalMatrixHost().values;
+    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= gained * stiffness(k);
+  }
+  for (std::size_t k = 0; k < values.extent(0); ++k) {
+    if (std::abs(values(k)) <= negligible) values(k) = 0.0;
+  }
+}
+
 // Velocities are differences of coordinates over the step, so the damping is what of the tangent
-// falls as 1 / step. Everything else is the same to the last bit.
-Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::State& state) {
+// falls as 1 / step. Everything else is the same to the last bit, but for branches, which are
+// known.
+Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::State& state,
+                                     const std::vector<LinearBranches>& branches) {
+  constexpr double long_step = 1.0;
+  constexpr double short_step = 0.5;
   Teuchos::RCP<CrsMatrix> damping;
-  for (const double step : {1.0, 0.5}) {
+  for (const double step : {long_step, short_step}) {
     const Stencil stencil{step, 1.0, 1.0, 0.0};
     system.prepare(state, stencil);
     system.evaluate(state, stencil, Want::residual_and_tangent);
@@ -83,12 +118,23 @@ Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::Stat
     const auto values = damping->getLocalMatrixHost().values;
     for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = tangent(k) - values(k);
   }
+  remove_branches(system, branches, long_step, short_step, *damping);
   remove_border(system, Keep::states, *damping);
   if (largest_entry(system, *damping) == 0.0) return Teuchos::null;
   return damping;
 }
 
 }  // namespace
+
+bool damps_motions(const assembly::System& system, const Teuchos::RCP<const CrsMatrix>& damping) {
+  if (damping.is_null()) return false;
+  const std::vector<bool> is_motion = kept_columns(system, Keep::motions);
+  CrsMatrix between(*damping, Teuchos::Copy);
+  erase_unless(between, [&](std::size_t row, std::size_t column) {
+    return is_motion[row] && is_motion[column];
+  });
+  return largest_entry(system, between) > 0.0;
+}
 
 Teuchos::RCP<const CrsMatrix> rates_of_signals(const assembly::System& system,
                                                const Teuchos::RCP<const CrsMatrix>& damping) {
@@ -117,7 +163,8 @@ Linearisation linearise(Context& context, const model::State& state, const Stenc
                                balanced, found.force_scale)
               .share < 1e3;
   linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
-  linear.damping = find_damping(system, state);
+  linear.branches = find_branches(system, state);
+  linear.damping = find_damping(system, state, linear.branches);
   system.prepare(state, stencil);
   const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
   const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));

@@ -98,8 +98,9 @@ ReportMatrix null_space_basis(const model::Model& model, const model::State& sta
 
 Schema Matrices::schema() {
   return Schema("Matrices",
-                "Writes stiffness, mass, damping, constraint Jacobian and null-space basis about "
-                "the present state, as MatrixMarket files and into run.h5.");
+                "Writes stiffness, mass, damping, stiffness of viscoelastic branches by relaxation "
+                "time, constraint Jacobian and null-space basis about the present state, as "
+                "MatrixMarket files and into run.h5.");
 }
 
 std::unique_ptr<Inspection> Matrices::make(const Options&) { return std::make_unique<Matrices>(); }
@@ -110,7 +111,7 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   system.synchronise(state);
   const std::vector<int> numbers = split_unknowns(system.model());
   AnalysisReport report;
-  const auto add = [&](const char* name, const CrsMatrix& matrix) {
+  const auto add = [&](const std::string& name, const CrsMatrix& matrix) {
     const ReportMatrix all = gather(name, matrix, system.comm());
     report.matrices.push_back(part(name, all, numbers, false, 1.0));
     return all;
@@ -118,6 +119,11 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   const ReportMatrix stiffness = add("stiffness", *linear.stiffness);
   add("mass", *linear.mass);
   if (!linear.damping.is_null()) add("damping", *linear.damping);
+  for (std::size_t k = 0; k < linear.branches.size(); ++k) {
+    const std::string name = fmt::format("relaxation_{}", k + 1);
+    add(name, *linear.branches[k].stiffness);
+    report.text += fmt::format("{}: relaxation time {} s\n", name, linear.branches[k].time);
+  }
   if (system.model().unknowns().num_forces() > 0) {
     report.matrices.push_back(
         part("constraint_jacobian", stiffness, numbers, true, system.multiplier_scale()));

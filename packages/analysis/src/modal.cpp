@@ -116,8 +116,9 @@ Schema& add_modal_fields(Schema& schema) {
                .positive()
                .optional())
       .add(flag("Damping",
-                "Count dampers, viscous materials and the gyroscopic forces of a rotating frame; "
-                "modes are complex then.")
+                "Count dampers, viscous materials, branches of 'Relaxation' and the gyroscopic "
+                "forces "
+                "of a rotating frame; modes are complex then.")
                .optional(defaults.damping))
       .add(choice("Solver", solver::eigen_solver_names(),
                   "Of the eigenproblem: Spectra for large models on one process; Anasazi for those "

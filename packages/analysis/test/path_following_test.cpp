@@ -103,7 +103,7 @@ class Push final : public model::Batch {
   Push(int node, const Vec3& force, const Vec3& moment = Vec3::Zero()) : node_(node) {
     load_ << force, moment;
   }
-  const std::string& effect() const override { return effect_; }
+  const model::Effect& effect() const override { return effect_; }
   int size() const override { return 1; }
   std::vector<int> blocks(int, const model::UnknownTable& unknowns) const override {
     return {unknowns.node_block(node_)};
@@ -126,7 +126,7 @@ class Push final : public model::Batch {
   model::StepWork step_work(const model::State&, const Stencil&) const override { return {}; }
 
  private:
-  std::string effect_ = "Push";
+  model::Effect effect_{"Push"};
   int node_;
   Vec6 load_;
   model::Placement placement_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace culm::assembly {
 namespace {
@@ -43,7 +44,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
   const model::UnknownTable& unknowns = model.unknowns();
   for (const model::Batch* batch : batches_) {
     Ledger::Entry entry;
-    entry.name = batch->effect();
+    entry.name = batch->effect().title();
     entry.items = batch->size();
     const long long others = unknowns_beside_nodes(*batch, unknowns);
     if (others > 0) entry.unknowns = others;
@@ -136,7 +137,8 @@ void System::level_gradient(model::State& state, const Stencil& stencil, double 
   change_level(state, stencil);
 }
 
-Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
+// Residual and reactions, set to zero.
+model::Target System::target() {
   model::Target target;
   target.residual = values_of(*residual_);
   target.reactions = reactions_;
@@ -144,11 +146,37 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   target.multiplier_scale = multiplier_scale_;
   std::fill(target.residual.begin(), target.residual.end(), 0.0);
   std::fill(reactions_.begin(), reactions_.end(), 0.0);
-  if (want != Want::residual) {
-    const auto values = matrix_->getLocalMatrixHost().values;
-    target.values = {values.data(), values.extent(0)};
-    std::fill(target.values.begin(), target.values.end(), 0.0);
+  return target;
+}
+
+model::Target System::target_with_matrix() {
+  model::Target with_matrix = target();
+  const auto values = matrix_->getLocalMatrixHost().values;
+  with_matrix.values = {values.data(), values.extent(0)};
+  std::fill(with_matrix.values.begin(), with_matrix.values.end(), 0.0);
+  return with_matrix;
+}
+
+std::vector<double> System::relaxation_times() const {
+  std::set<double> all;
+  for (const model::Batch* batch : batches_) {
+    const std::vector<double> times = batch->relaxation_times();
+    all.insert(times.begin(), times.end());
   }
+  return {all.begin(), all.end()};
+}
+
+Verdict System::evaluate_branches(const model::State& state, double time) {
+  model::Target target = target_with_matrix();
+  Verdict verdict = Verdict::ok;
+  for (model::Batch* batch : batches_) {
+    verdict = worse(verdict, batch->assemble_branches(state, time, target));
+  }
+  return static_cast<Verdict>(static_cast<int>(comm_.max(static_cast<double>(verdict))));
+}
+
+Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
+  model::Target target = want == Want::residual ? this->target() : target_with_matrix();
   Verdict verdict = Verdict::ok;
   std::optional<Ledger::Scope> scope;
   for (std::size_t b = 0; b < batches_.size(); ++b) {

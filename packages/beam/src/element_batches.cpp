@@ -2,13 +2,9 @@
 
 namespace culm::model {
 
-template ElementBatch<beam::DirectorBeam<1>>& elements(Model&, const std::string&,
-                                                       const StrainDamping&);
-template ElementBatch<beam::DirectorBeam<2>>& elements(Model&, const std::string&,
-                                                       const StrainDamping&);
-template ElementBatch<beam::DirectorBeam<3>>& elements(Model&, const std::string&,
-                                                       const StrainDamping&);
-template ElementBatch<beam::HelicalBeam>& elements(Model&, const std::string&,
-                                                   const StrainDamping&);
+template ElementBatch<beam::DirectorBeam<1>>& elements(Model&, const Effect&, const StrainDamping&);
+template ElementBatch<beam::DirectorBeam<2>>& elements(Model&, const Effect&, const StrainDamping&);
+template ElementBatch<beam::DirectorBeam<3>>& elements(Model&, const Effect&, const StrainDamping&);
+template ElementBatch<beam::HelicalBeam>& elements(Model&, const Effect&, const StrainDamping&);
 
 }  // namespace culm::model

@@ -31,8 +31,8 @@ model::Constraint AngularVelocity::constraint(std::string name, const std::strin
 
 void AngularVelocity::add(int node, const TurnAxis& axis, const Prescribed& velocity,
                           std::string constraint) {
-  const int block =
-      model_.add_own_block({effect(), {{"moment", model::UnknownKind::multiplier, 1.0, 0.0}}});
+  const int block = model_.add_own_block(
+      {effect().title(), {{"moment", model::UnknownKind::multiplier, 1.0, 0.0}}});
   items_.push_back({node, axis, velocity, std::move(constraint), model_.signal(block, 0)});
 }
 
@@ -140,7 +140,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
     model::Model& model = context.model;
     const std::vector<int> nodes = model::select_nodes(options, "Node", context);
     if (!have_triads(nodes, "Node", options, context)) return;
-    auto batch = std::make_unique<AngularVelocity>(type + ", " + options.name(), model);
+    auto batch = std::make_unique<AngularVelocity>(model::Effect(type, options.name()), model);
     for (int node : nodes) {
       Vec3 axis = read_direction(options, "Axis");
       model::Constraint constraint =

@@ -116,7 +116,7 @@ TEST_F(Joints, AngularVelocitiesHaveOneMultiplierPerNode) {
   EXPECT_THAT(messages(), ElementsAre());
   ASSERT_EQ(model.loads().size(), 2U);
   EXPECT_EQ(model.loads()[0]->size(), 3);
-  EXPECT_EQ(model.loads()[0]->effect(), "Angular Velocity, clamp");
+  EXPECT_EQ(model.loads()[0]->effect().title(), "Angular Velocity, clamp");
   EXPECT_THAT(model.freeze(model::Form::null_space), ElementsAre());
   EXPECT_EQ(model.unknowns().num_forces(), 4);
   const kit::DenseAssembly dense(model);

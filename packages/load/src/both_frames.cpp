@@ -12,7 +12,7 @@ void add_type(model::BuilderRegistry& registry, const std::string& type, Schema 
     if (!function) return;
     const bool turns = frame == Frame::directors && options.flag("Turning");
     auto load =
-        make({options, context, effect_name(type, options), *std::move(function), frame, turns});
+        make({options, context, effect_of(type, options), *std::move(function), frame, turns});
     if (load) context.model.add_load(std::move(load));
   });
 }
@@ -82,8 +82,8 @@ void refuse_following_moment(const LoadRequest& request, const std::vector<int>&
   }
 }
 
-std::string effect_name(const std::string& type, const Options& options) {
-  return options.name().empty() ? type : type + ", " + options.name();
+model::Effect effect_of(const std::string& type, const Options& options) {
+  return {type, options.name()};
 }
 
 Field offset_field() {

@@ -14,7 +14,7 @@ namespace culm::load {
 struct LoadRequest {
   const Options& options;
   model::BuildContext& context;
-  std::string effect;  ///< name in the ledger
+  model::Effect effect;
   model::Amplitude function;
   Frame frame;         ///< of the components in the deck
   bool turns = false;  ///< with the directors; if not, it keeps the direction of the reference
@@ -56,8 +56,8 @@ void check_components(const Vec3& vector, const Where& where, const std::vector<
 /// axes of the moment.
 void refuse_following_moment(const LoadRequest& request, const std::vector<int>& nodes);
 
-/// Name of a load in the ledger: the type and the name in the deck.
-std::string effect_name(const std::string& type, const Options& options);
+/// What a load is: its type and its name in the deck.
+model::Effect effect_of(const std::string& type, const Options& options);
 
 /// Parameter "Offset" of the point of attack.
 Field offset_field();

@@ -11,7 +11,7 @@ void build(const Options& options, model::BuildContext& context) {
   const auto nodes = model::select_loaded_nodes(options, "Node", context);
   if (!function || nodes.empty()) return;
   const model::NodeTable& table = context.model.nodes();
-  auto load = std::make_unique<SlotLoad>(effect_name("Director Force", options), table, *function);
+  auto load = std::make_unique<SlotLoad>(effect_of("Director Force", options), table, *function);
   model::NodeSlots forces = model::NodeSlots::Zero();
   forces.col(1) = model::vector(options, "Force");
   for (int node : nodes) {

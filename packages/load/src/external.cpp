@@ -37,10 +37,11 @@ void build(const Options& options, model::BuildContext& context) {
   std::vector<int> nodes = model::select_loaded_nodes(options, "Node", context);
   // not constant, so that what it does is work and no potential
   const model::Amplitude always = model::Amplitude::of_time([](double) { return 1.0; });
-  const std::string effect = effect_name("External", options);
+  const model::Effect effect = effect_of("External", options);
   const model::NodeTable& table = context.model.nodes();
   auto forces = std::make_unique<SlotLoad>(effect, table, always);
-  auto moments = std::make_unique<MomentLoad>(effect + ", moments", table, always, Frame::space);
+  auto moments =
+      std::make_unique<MomentLoad>(effect.of_part("moments"), table, always, Frame::space);
   context.model.add_input(options.name(),
                           std::make_unique<ExternalLoad>(std::move(nodes), *forces, *moments));
   context.model.add_load(std::move(forces));

@@ -15,8 +15,8 @@ void build(const Options& options, model::BuildContext& context) {
   const auto points = line_points(options, context);
   if (!function || !field || points.empty()) return;
   check_components("Offset", points.front().marker.nodes, options, context);
-  auto load = std::make_unique<FieldLoad>(effect_name("Field Force", options),
-                                          context.model.nodes(), *function, field);
+  auto load = std::make_unique<FieldLoad>(effect_of("Field Force", options), context.model.nodes(),
+                                          *function, field);
   for (model::LinePoint point : points) {
     point.marker.offset += model::vector(options, "Offset");
     load->add(point.marker, options.number("Factor") * point.length);

@@ -1,9 +1,6 @@
 #include <culm/load/field_load.hpp>
 #include <culm/load/slot_kernel.hpp>
 
-#include <algorithm>
-#include <cmath>
-
 namespace culm::load {
 namespace {
 
@@ -22,6 +19,15 @@ Vec3 place_of(const model::Marker& point, const Motion::Slots& q) {
     place += q.middleCols<4>(4 * static_cast<int>(a)) * factors(point, a);
   }
   return place;
+}
+
+// T_s f
+Motion::Slots slot_forces(const model::Marker& point, const Vec3& force) {
+  Motion::Slots forces(3, 4 * static_cast<int>(point.nodes.size()));
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    forces.middleCols<4>(4 * static_cast<int>(a)) = force * factors(point, a).transpose();
+  }
+  return forces;
 }
 
 double time_of(const model::State& state, const Stencil& stencil) {
@@ -47,7 +53,6 @@ Verdict FieldLoad::assemble(const model::State& state, const Stencil& stencil, W
 template <class Space>
 Verdict FieldLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                  bool tangent, model::Target& target) const {
-  constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const model::Marker& point = item.point;
   const Motion motion(nodes_, point.nodes, state, stencil.theta);
@@ -55,32 +60,21 @@ Verdict FieldLoad::assemble_item(std::size_t i, const model::State& state, const
   const Vec3 place = place_of(point, motion.mid);
   const double time = time_of(state, stencil);
   const Vec3 force = factor * field_->value(place, time);
-  if (!std::isfinite(force.sum())) return Verdict::not_finite;
-  Mat3 gradient = Mat3::Zero();
-  if (tangent) gradient = -stencil.theta * factor * field_->gradient(place, time);
-  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
-    const Vec<4> T = factors(point, a);
-    const Vec<12> slots = Mat<3, 4>(-force * T.transpose()).reshaped();
-    Vec<W> residual;
-    Space::reduce_rows(slots, motion.arms_mid[a], residual);
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement().scatter.add_residual(i, static_cast<int>(a), residual.data(), target);
-    if (!tangent) continue;
-    for (std::size_t b = 0; b < point.nodes.size(); ++b) {
-      const Vec<4> other = factors(point, b);
-      Mat<12, 12> K;
-      for (int s = 0; s < 4; ++s) {
-        for (int t = 0; t < 4; ++t) K.block<3, 3>(3 * s, 3 * t) = T[s] * other[t] * gradient;
-      }
-      RowMat<W, W> block = RowMat<W, W>::Zero();
-      add_slot_tangent<Space>(K, motion.arms_mid[a], motion.arms_next[b], block);
-      if (a == b) {
-        Space::add_turning(slots.reshaped<Eigen::ColMajor>(3, 4), motion.arms_next[a],
-                           stencil.theta, block);
-      }
-      placement().scatter.add_tangent(i, static_cast<int>(a), static_cast<int>(b), block, target);
+  const Motion::Slots r = -slot_forces(point, force);
+  const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
+
+  const Mat3 gradient = -stencil.theta * factor * field_->gradient(place, time);
+  const auto by_slots = [&](int a, int b) {
+    const Vec<4> T = factors(point, static_cast<std::size_t>(a));
+    const Vec<4> other = factors(point, static_cast<std::size_t>(b));
+    Mat<12, 12> K;
+    for (int s = 0; s < 4; ++s) {
+      for (int t = 0; t < 4; ++t) K.block<3, 3>(3 * s, 3 * t) = T[s] * other[t] * gradient;
     }
-  }
+    return K;
+  };
+  add_dense_derivative<Space>(placement(), i, r, motion, stencil.theta, by_slots, target);
   return Verdict::ok;
 }
 
@@ -93,11 +87,7 @@ model::StepWork FieldLoad::step_work(const model::State& state, const Stencil& s
     const Motion motion(nodes_, item.point.nodes, state, stencil.theta);
     const Vec3 force = item.factor * amplitude *
                        field_->value(place_of(item.point, motion.mid), time_of(state, stencil));
-    Motion::Slots forces(3, motion.mid.cols());
-    for (std::size_t a = 0; a < item.point.nodes.size(); ++a) {
-      forces.middleCols<4>(4 * static_cast<int>(a)) = force * factors(item.point, a).transpose();
-    }
-    add_item_work(forces, motion, item.point.nodes, state, true, work);
+    add_item_work(slot_forces(item.point, force), motion, item.point.nodes, state, true, work);
   }
   return work;
 }

@@ -26,7 +26,7 @@ void build(const Options& options, model::BuildContext& context) {
   }
   const auto& nodes = context.model.nodes();
   const auto forces = weight(context.model, model::vector(options, "Acceleration"));
-  auto load = std::make_unique<SlotLoad>(effect_name("Gravity", options), nodes, *function);
+  auto load = std::make_unique<SlotLoad>(effect_of("Gravity", options), nodes, *function);
   for (int node = 0; node < nodes.size(); ++node) {
     const auto force = model::NodeTable::slots(forces, node);
     if (!force.isZero(0.0)) load->add_slot_forces(node, force);

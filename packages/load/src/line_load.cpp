@@ -53,7 +53,7 @@ std::unique_ptr<model::Batch> make_moments(const LoadRequest& request, const Loa
       moment += length * marker.weights[a] * line.intensities[k].tail<3>();
     }
   }
-  auto load = std::make_unique<MomentLoad>(request.effect + ", moments", request.nodes(),
+  auto load = std::make_unique<MomentLoad>(request.effect.of_part("moments"), request.nodes(),
                                            request.function, request.kept_in());
   for (const auto& [node, moment] : moments) {
     load->add_moment(node, request.components(moment, model::marker_at(node)));

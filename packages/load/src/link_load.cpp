@@ -1,5 +1,5 @@
 #include <culm/load/link_load.hpp>
-#include <culm/model/signal_column.hpp>
+#include <culm/load/slot_kernel.hpp>
 
 #include "link_forms.hpp"
 #include "measure.hpp"
@@ -10,6 +10,17 @@
 #include <cmath>
 
 namespace culm::load {
+namespace {
+
+// B S, forces on slots side by side.
+LinkSlots on_slots(const LinkGradient& B, const Vec<2>& stress) {
+  LinkSlots forces(3, B.rows() / 3);
+  Eigen::Map<Eigen::VectorXd>(forces.data(), B.rows()).noalias() = B * stress;
+  return forces;
+}
+
+}  // namespace
+
 void LinkLoad::add(Link link) {
   Item item;
   item.link = std::move(link);
@@ -92,25 +103,23 @@ Verdict LinkLoad::assemble_item(std::size_t i, const model::State& state, const 
   const Response response = respond(item, motion.next, state, stencil);
   item.force = response.force;
   const LinkGradient B = gradient_of(item.link, motion.mid);
-  for (int a = 0; a < static_cast<int>(item.link.nodes.size()); ++a) {
-    const Vec<12> force = B.middleRows<12>(12 * a) * response.stress;
-    Vec<Space::width> residual;
-    Space::reduce_rows(force, motion.arms_mid[static_cast<std::size_t>(a)], residual);
-    if (!std::isfinite(residual.sum())) return Verdict::not_finite;
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement_.scatter.add_residual(i, a, residual.data(), target);
+  const LinkSlots r = on_slots(B, response.stress);
+  const Verdict verdict = add_slot_residual<Space>(placement_, i, r, motion.arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
+  if (const model::Signal* signal = law_->signal()) {
+    add_signal_columns<Space>(placement_, i, on_slots(B, response.by_signal), motion.arms_mid,
+                              *signal, stencil.theta, target);
   }
-  if (tangent) add_tangent<Space>(i, motion, response, stencil.theta, target);
+  add_tangent<Space>(i, motion, response, stencil.theta, target);
   return Verdict::ok;
 }
 
-// R_theta D R_next^T + theta sum_k S_k A_k + the turning of P_theta, with R = P^T B
+// R_theta D R_next^T + theta sum_k S_k A_k, with R = P^T B
 template <class Space>
 void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& response,
                            double theta, model::Target& target) const {
   constexpr int W = Space::width;
   const Item& item = this->item(i);
-  const int n = static_cast<int>(item.link.nodes.size());
   const LinkGradient B_mid = gradient_of(item.link, motion.mid);
   const LinkGradient B_next = gradient_of(item.link, motion.next);
   const Vec<2>& stress = use_predicted_ ? item.predicted_stress : response.stress;
@@ -120,26 +129,15 @@ void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& 
     Space::reduce_rows(B.middleRows<12>(12 * a), arms[static_cast<std::size_t>(a)], R);
     return R;
   };
-  for (int a = 0; a < n; ++a) {
-    const Eigen::Matrix<double, W, 2> R = reduced(B_mid, motion.arms_mid, a);
-    const Eigen::Matrix<double, W, 2> RD = R * response.tangent;
-    if (const model::Signal* signal = law_->signal()) {
-      const Vec<W> derivative = R * response.by_signal;
-      model::add_signal_column(placement_.scatter, i, a, n, *signal, theta, derivative, target);
-    }
-    for (int b = 0; b < n; ++b) {
-      RowMat<W, W> block = RD * reduced(B_next, motion.arms_next, b).transpose();
-      Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
-                       motion.arms_mid[static_cast<std::size_t>(a)],
-                       motion.arms_next[static_cast<std::size_t>(b)], block);
-      if (a == b) {
-        const Vec<12> force = B_mid.middleRows<12>(12 * a) * stress;
-        Space::add_turning(force.template reshaped<Eigen::ColMajor>(3, 4),
-                           motion.arms_next[static_cast<std::size_t>(a)], theta, block);
-      }
-      placement_.scatter.add_tangent(i, a, b, block, target);
-    }
-  }
+  const auto add_block = [&](int a, int b, auto& block) {
+    const Eigen::Matrix<double, W, 2> RD = reduced(B_mid, motion.arms_mid, a) * response.tangent;
+    block = RD * reduced(B_next, motion.arms_next, b).transpose();
+    Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
+                     motion.arms_mid[static_cast<std::size_t>(a)],
+                     motion.arms_next[static_cast<std::size_t>(b)], block);
+  };
+  add_slot_derivative<Space>(placement_, i, on_slots(B_mid, stress), motion, theta, add_block,
+                             target);
 }
 
 void LinkLoad::extrapolate(const model::State& state, const Stencil& stencil,

@@ -123,7 +123,7 @@ void register_link(model::BuilderRegistry& registry, const Schema& schema, MakeL
     std::unique_ptr<LinkLaw> answers = law(options, context);
     std::vector<Link> links = make(options, context);
     if (!answers || links.empty()) return;
-    auto load = std::make_unique<LinkLoad>(effect_name(type, options), context.model.nodes(),
+    auto load = std::make_unique<LinkLoad>(effect_of(type, options), context.model.nodes(),
                                            std::move(answers));
     for (Link& link : links) load->add(std::move(link));
     context.model.add_load(std::move(load));

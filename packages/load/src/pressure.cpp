@@ -11,8 +11,8 @@ void build(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   const auto faces = loaded_faces(options, context);
   if (!function || faces.empty()) return;
-  auto load = std::make_unique<PressureLoad>(effect_name("Pressure", options),
-                                             context.model.nodes(), *function);
+  auto load = std::make_unique<PressureLoad>(effect_of("Pressure", options), context.model.nodes(),
+                                             *function);
   for (const LoadedFace& face : faces) {
     load->add_face(face.nodes, face.zeta, options.number("Pressure"));
   }

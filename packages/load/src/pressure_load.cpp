@@ -1,12 +1,8 @@
 #include <culm/load/pressure_load.hpp>
 #include <culm/load/slot_kernel.hpp>
 #include <culm/math/rotation.hpp>
-#include <culm/model/item_motion.hpp>
 
 #include "face_points.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace culm::load {
 namespace {
@@ -77,36 +73,18 @@ template <class Space>
 Verdict PressureLoad::assemble_item(std::size_t i, const model::State& state,
                                     const Stencil& stencil, double factor, bool tangent,
                                     model::Target& target) const {
-  constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const Corners X = corners(motion.mid, item.zeta);
   const double p = -factor * item.pressure;
   const Motion::Slots r = slot_forces(p * area_vectors(X), item.zeta);
-  if (!std::isfinite(r.sum())) return Verdict::not_finite;
-  for (int a = 0; a < 4; ++a) {
-    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
-    Vec<W> residual;
-    Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement().scatter.add_residual(i, a, residual.data(), target);
-  }
-  if (!tangent) return Verdict::ok;
+  const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
 
   const Mat<12, 12> K = p * stencil.theta * area_derivative(X);
-  for (int a = 0; a < 4; ++a) {
-    const model::Arms<4>& arms = motion.arms_mid[static_cast<std::size_t>(a)];
-    for (int b = 0; b < 4; ++b) {
-      RowMat<W, W> block = RowMat<W, W>::Zero();
-      const model::Arms<4>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
-      add_slot_tangent<Space>(slot_block(K.block<3, 3>(3 * a, 3 * b), item.zeta), arms, arms_next,
-                              block);
-      if (a == b) {
-        Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
-      }
-      placement().scatter.add_tangent(i, a, b, block, target);
-    }
-  }
+  add_dense_derivative<Space>(
+      placement(), i, r, motion, stencil.theta,
+      [&](int a, int b) { return slot_block(K.block<3, 3>(3 * a, 3 * b), item.zeta); }, target);
   return Verdict::ok;
 }
 

@@ -68,7 +68,7 @@ void build(const Options& options, model::BuildContext& context) {
     return;
   }
   auto load = std::make_unique<RotatingFrame>(
-      effect_name("Rotating Frame", options), context.model.nodes(), *function, axis.normalized(),
+      effect_of("Rotating Frame", options), context.model.nodes(), *function, axis.normalized(),
       options.number("Speed"), model::vector(options, "Point"));
   if (options.has("Structures")) {
     std::vector<int> nodes;
@@ -123,43 +123,27 @@ template <class Space>
 Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
                                      const Stencil& stencil, bool tangent,
                                      model::Target& target) const {
-  constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-  const int n = static_cast<int>(item.nodes.size());
   const Vec3 omega = amplitude_.in_step(state, stencil) * speed_ * axis_;
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const Motion::Slots r =
       accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
-  if (!std::isfinite(r.sum())) return Verdict::not_finite;
-  for (int a = 0; a < n; ++a) {
-    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
-    Vec<W> residual;
-    Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement().scatter.add_residual(i, a, residual.data(), target);
-  }
-  if (!tangent) return Verdict::ok;
+  const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
 
   const Mat3 turn = skew(omega);
   Mat3 derivative = stencil.theta * turn * turn;
   if (stencil.step > 0.0) derivative += 2.0 / stencil.step * turn;
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) {
-      Mat<12, 12> K;
-      for (int s = 0; s < 4; ++s) {
-        for (int t = 0; t < 4; ++t) {
-          K.block<3, 3>(3 * s, 3 * t) = item.mass(4 * a + s, 4 * b + t) * derivative;
-        }
+  const auto by_slots = [&](int a, int b) {
+    Mat<12, 12> K;
+    for (int s = 0; s < 4; ++s) {
+      for (int t = 0; t < 4; ++t) {
+        K.block<3, 3>(3 * s, 3 * t) = item.mass(4 * a + s, 4 * b + t) * derivative;
       }
-      RowMat<W, W> block = RowMat<W, W>::Zero();
-      const model::Arms<4>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
-      add_slot_tangent<Space>(K, motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
-      if (a == b) {
-        Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
-      }
-      placement().scatter.add_tangent(i, a, b, block, target);
     }
-  }
+    return K;
+  };
+  add_dense_derivative<Space>(placement(), i, r, motion, stencil.theta, by_slots, target);
   return Verdict::ok;
 }
 

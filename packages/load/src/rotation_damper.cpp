@@ -75,7 +75,7 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
   add_damper_fields(LinkUnits::angles(), schema);
   registry.add(type, schema, [=](const Options& options, model::BuildContext& context) {
     const model::NodeTable& nodes = context.model.nodes();
-    auto damper = std::make_unique<RotationDamper>(effect_name(type, options), nodes,
+    auto damper = std::make_unique<RotationDamper>(effect_of(type, options), nodes,
                                                    read_damper(options, LinkUnits::angles()));
     const auto selected = model::select_loaded_nodes(options, "Node", context);
     if (!joint::have_triads(selected, "Node", options, context)) return;

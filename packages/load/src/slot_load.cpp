@@ -2,10 +2,8 @@
 #include <culm/load/slot_kernel.hpp>
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
-#include <culm/model/signal_column.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace culm::load {
 namespace {
@@ -138,51 +136,30 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
 template <class Space>
 Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                 double factor, bool tangent, model::Target& target) const {
-  constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const int n = static_cast<int>(item.nodes.size());
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const auto& [mid, next, arms_mid, arms_next] = motion;
 
   // r_s = -a (f0_s + sum_t L[s,t] q_t)
   ItemSlots r = -factor * item.constant;
   if (item.follows) r.noalias() -= factor * mid.lazyProduct(item.linear.transpose());
-  if (!std::isfinite(r.sum())) return Verdict::not_finite;
-  for (int a = 0; a < n; ++a) {
-    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
-    Vec<W> residual;
-    Space::reduce_rows(slot_residual, arms_mid[static_cast<std::size_t>(a)], residual);
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement_.scatter.add_residual(i, a, residual.data(), target);
-  }
-  if (!tangent) return Verdict::ok;
+  const Verdict verdict = add_slot_residual<Space>(placement_, i, r, arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
   if (const model::Signal* signal = amplitude_.signal()) {
     ItemSlots unit = -item.constant;
     if (item.follows) unit.noalias() -= mid.lazyProduct(item.linear.transpose());
-    for (int a = 0; a < n; ++a) {
-      const Eigen::Map<const Vec<12>> by_slot(unit.data() + 12 * a);
-      Vec<W> derivative;
-      Space::reduce_rows(by_slot, arms_mid[static_cast<std::size_t>(a)], derivative);
-      model::add_signal_column(placement_.scatter, i, a, n, *signal, stencil.theta, derivative,
-                               target);
-    }
+    add_signal_columns<Space>(placement_, i, unit, arms_mid, *signal, stencil.theta, target);
   }
-
-  // P_theta^T (-a theta L x I3) P_next, and the turning of P_theta
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) {
-      RowMat<W, W> block = RowMat<W, W>::Zero();
-      const SlotMatrix<4> pairs =
-          -factor * stencil.theta * item.linear.template block<4, 4>(4 * a, 4 * b);
-      Space::add_pairs(pairs, arms_mid[static_cast<std::size_t>(a)],
-                       arms_next[static_cast<std::size_t>(b)], block);
-      if (a == b) {
-        Space::add_turning(r.template middleCols<4>(4 * a), arms_next[static_cast<std::size_t>(a)],
-                           stencil.theta, block);
-      }
-      placement_.scatter.add_tangent(i, a, b, block, target);
-    }
-  }
+  // P_theta^T (-a theta L x I3) P_next
+  add_slot_derivative<Space>(
+      placement_, i, r, motion, stencil.theta,
+      [&](int a, int b, auto& block) {
+        const SlotMatrix<4> pairs =
+            -factor * stencil.theta * item.linear.template block<4, 4>(4 * a, 4 * b);
+        Space::add_pairs(pairs, arms_mid[static_cast<std::size_t>(a)],
+                         arms_next[static_cast<std::size_t>(b)], block);
+      },
+      target);
   return Verdict::ok;
 }
 

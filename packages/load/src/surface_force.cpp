@@ -17,7 +17,7 @@ void build(const Options& options, model::BuildContext& context) {
   if (!function || faces.empty()) return;
   const model::NodeTable& nodes = context.model.nodes();
   const Vec3 force = model::vector(options, "Force");
-  auto load = std::make_unique<SlotLoad>(effect_name("Surface Force", options), nodes, *function);
+  auto load = std::make_unique<SlotLoad>(effect_of("Surface Force", options), nodes, *function);
   for (const LoadedFace& face : faces) {
     Mat<3, 16> q;
     for (int a = 0; a < 4; ++a) {

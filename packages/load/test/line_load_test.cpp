@@ -273,8 +273,8 @@ TEST_F(LineLoads, PartsThatAreZeroHaveNoBatch) {
   moments.emplace_back("Moments", numbers_of({moment, moment}));
   build("Line Load", moments);
   ASSERT_EQ(model.loads().size(), 2U);
-  EXPECT_EQ(model.loads()[0]->effect(), "Line Load, push");
-  EXPECT_EQ(model.loads()[1]->effect(), "Line Load, push, moments");
+  EXPECT_EQ(model.loads()[0]->effect().title(), "Line Load, push");
+  EXPECT_EQ(model.loads()[1]->effect().title(), "Line Load, push, moments");
 }
 
 TEST_F(LineLoads, ElementsBeyondTheTableCarryNothing) {

@@ -80,7 +80,7 @@ TEST_F(LinkTypes, SpringPullsAlongItsLine) {
   build("Spring", pair({{"Stiffness", 10.0}}));
   const Vec6 f = force_on_second(Vec3(3.0, 4.0, 0.0), Vec3::Zero());
   EXPECT_LT((f.head<3>() - Vec3(-30.0, -40.0, 0.0)).norm(), 10.0 * round_off);
-  EXPECT_EQ(model.batches().back()->effect(), "Spring, link");
+  EXPECT_EQ(model.batches().back()->effect().title(), "Spring, link");
 }
 
 TEST_F(LinkTypes, FreeLengthPrestresses) {

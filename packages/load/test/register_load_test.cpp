@@ -212,7 +212,7 @@ TEST_F(Loads, EachSelectedNodeCarriesTheWholeForce) {
   build("Force", {{"Node", std::string("line")}, {"Force", numbers}});
   const model::Coordinates q = moved();
   EXPECT_LT((kit::resultant_of(slot_forces(q), q).force - 3.0 * components).norm(), round_off);
-  EXPECT_EQ(model.batches().back()->effect(), "Force, push");
+  EXPECT_EQ(model.batches().back()->effect().title(), "Force, push");
 }
 
 TEST_F(Loads, GravityActsAtTheCentreOfMass) {

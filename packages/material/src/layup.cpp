@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace culm::material {
@@ -189,6 +190,14 @@ double Layup::bottom(int layer) const {
   return zeta;
 }
 
+std::vector<double> Layup::relaxation_times() const {
+  std::set<double> times;
+  for (const Layer& layer : layers) {
+    for (const MaxwellBranch& branch : layer.material.relaxation) times.insert(branch.time);
+  }
+  return {times.begin(), times.end()};
+}
+
 bool Layup::is_linear() const {
   return std::all_of(layers.begin(), layers.end(),
                      [](const Layer& layer) { return layer.material.is_linear(); });
@@ -253,11 +262,9 @@ Layup read_layup(const Options& options, const std::map<std::string, Material>& 
   }
   for (const Layer& layer : layers) {
     if (layer.material.dissipation != layers[0].material.dissipation ||
-        layer.material.damping != layers[0].material.damping ||
-        layer.material.relaxation != layers[0].material.relaxation) {
+        layer.material.damping != layers[0].material.damping) {
       throw InputError(options.where(field),
-                       "the materials of one layup must have the same Dissipation, Damping and "
-                       "Relaxation");
+                       "the materials of one layup must have the same Dissipation and Damping");
     }
   }
   Layup layup{stack(std::move(layers), options.integer("Repeat"), options.text("Symmetric"))};

@@ -9,6 +9,14 @@ const Mat6& small_strain_stiffness(const Material::Law& law) {
                     law);
 }
 
+double Material::ratio_of(double time) const {
+  double sum = 0.0;
+  for (const MaxwellBranch& branch : relaxation) {
+    if (branch.time == time) sum += branch.ratios.front();
+  }
+  return sum;
+}
+
 Schema common_material_schema() {
   Schema schema("Material", "What every material has.");
   schema

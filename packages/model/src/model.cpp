@@ -20,7 +20,7 @@ Structure& Model::add_structure(std::string name) {
   return structures_.back();
 }
 
-MassBatch& Model::masses(const std::string& effect) {
+MassBatch& Model::masses(const Effect& effect) {
   for (const auto& batch : element_batches_) {
     auto* same = dynamic_cast<MassBatch*>(batch.get());
     if (same != nullptr && same->effect() == effect) return *same;

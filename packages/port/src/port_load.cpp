@@ -39,7 +39,7 @@ void add_couple_tangent(const model::Marker& point, const Mat<9, 9>& derivative,
 
 }  // namespace
 
-PortLoad::PortLoad(std::string effect, const model::NodeTable& nodes,
+PortLoad::PortLoad(model::Effect effect, const model::NodeTable& nodes,
                    std::vector<model::Marker> points)
     : MemorylessBatch(std::move(effect)),
       nodes_(nodes),
@@ -112,42 +112,29 @@ Verdict PortLoad::assemble(const model::State& state, const Stencil& stencil, Wa
 template <class Space>
 Verdict PortLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                 bool tangent, model::Target& target) const {
-  constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   if (!item.is_loaded) return Verdict::ok;
   const int n = static_cast<int>(item.nodes.size());
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const SlotForces r = -slot_forces(item, motion);
-  if (!std::isfinite(r.sum())) return Verdict::not_finite;
-  for (int a = 0; a < n; ++a) {
-    const Eigen::Map<const Vec<12>> slot_residual(r.data() + 12 * a);
-    Vec<W> residual;
-    Space::reduce_rows(slot_residual, motion.arms_mid[static_cast<std::size_t>(a)], residual);
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    placement().scatter.add_residual(i, a, residual.data(), target);
-  }
-  if (!tangent) return Verdict::ok;
+  const Verdict verdict =
+      load::add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
 
-  // P_theta^T K P_next of the moments, and the turning of P_theta
+  // P_theta^T K P_next of the moments
   SlotTangent K = SlotTangent::Zero(12 * n, 12 * n);
   for (const std::size_t p : item.points) {
     if (moments_[p].isZero(0.0)) continue;
     const load::Couple couple(directors_at(points_[p], motion.mid), item.kind);
     add_couple_tangent(points_[p], couple.derivative(moments_[p]), stencil.theta, K);
   }
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) {
-      RowMat<W, W> block = RowMat<W, W>::Zero();
-      const model::Arms<4>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
-      if (item.has_moments) {
-        load::add_slot_tangent<Space>(K.block<12, 12>(12 * a, 12 * b),
-                                      motion.arms_mid[static_cast<std::size_t>(a)], arms_next,
-                                      block);
-      }
-      if (a == b) Space::add_turning(r.middleCols<4>(4 * a), arms_next, stencil.theta, block);
-      placement().scatter.add_tangent(i, a, b, block, target);
-    }
-  }
+  const auto add_block = [&](int a, int b, auto& block) {
+    if (!item.has_moments) return;
+    load::add_slot_tangent<Space>(K.block<12, 12>(12 * a, 12 * b),
+                                  motion.arms_mid[static_cast<std::size_t>(a)],
+                                  motion.arms_next[static_cast<std::size_t>(b)], block);
+  };
+  load::add_slot_derivative<Space>(placement(), i, r, motion, stencil.theta, add_block, target);
   return Verdict::ok;
 }
 

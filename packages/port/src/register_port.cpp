@@ -230,7 +230,8 @@ std::unique_ptr<Port> add_port(const std::string& name, std::vector<Place> place
                                model::Model& model) {
   std::vector<model::Marker> points;
   for (const Place& place : places) points.push_back(place.marker);
-  auto load = std::make_unique<PortLoad>("Port, " + name, model.nodes(), std::move(points));
+  auto load =
+      std::make_unique<PortLoad>(model::Effect("Port", name), model.nodes(), std::move(points));
   auto port = std::make_unique<Port>(name, model.nodes(), std::move(places), *load);
   model.add_load(std::move(load));
   return port;

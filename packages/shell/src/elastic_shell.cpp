@@ -16,6 +16,32 @@ const Mat6& modulus(const material::Layer& layer) {
   return std::get<material::StVenantKirchhoff>(layer.material.law).C;
 }
 
+// Integrals over an element of products of the strains L y + M α with a modulus between them.
+struct Integrals {
+  explicit Integrals(int parameters)
+      : forms(ShellForms::Stiffness::Zero()),
+        coupling(Eigen::MatrixXd::Zero(parameters, ShellForms::num_strains)),
+        enhanced(Eigen::MatrixXd::Zero(parameters, parameters)) {}
+
+  void add(const ShellGeometry::Point& point, const Mat6& C) {
+    const ShellGeometry::StrainMap CL = C * point.strain;
+    forms.noalias() += point.strain.transpose() * CL;
+    coupling.noalias() += point.enhanced.transpose() * CL;
+    enhanced.noalias() += point.enhanced.transpose() * C * point.enhanced;
+  }
+  // With parameters that follow the forms, α = P y.
+  ShellForms::Stiffness condensed(const Eigen::MatrixXd& P) const {
+    ShellForms::Stiffness all = forms;
+    all.noalias() += coupling.transpose() * P;
+    all.noalias() += P.transpose() * coupling;
+    all.noalias() += P.transpose() * enhanced * P;
+    return 0.5 * (all + all.transpose());
+  }
+
+  ShellForms::Stiffness forms;
+  Eigen::MatrixXd coupling, enhanced;
+};
+
 }  // namespace
 
 // W = min over α of 1/2 int (L y + M α) . C (L y + M α), eq. (1.21)
@@ -27,28 +53,33 @@ ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const materia
       mass_(shell_mass(wall_.geometry, *layup)) {
   internal_check(layup->is_linear(), "ElasticShell wants a linear layup");
   const int enhanced = options.enhancement.size();
-  Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(enhanced, num_strains);
-  Eigen::MatrixXd enhanced_stiffness = Eigen::MatrixXd::Zero(enhanced, enhanced);
+  Integrals lasting(enhanced);
+  const std::vector<double> times = layup->relaxation_times();
+  std::vector<Integrals> branches(times.size(), Integrals(enhanced));
   visit_volume(
       *layup, 2,
       [&](const material::Layer& layer, double xi, double eta, double zeta, double weight) {
         const ShellGeometry::Point point = wall_.geometry.at(xi, eta, zeta, layer.angle);
         const Mat6 C = weight * point.J * modulus(layer);
-        const ShellGeometry::StrainMap CL = C * point.strain;
-        stiffness_.noalias() += point.strain.transpose() * CL;
-        coupling.noalias() += point.enhanced.transpose() * CL;
-        enhanced_stiffness.noalias() += point.enhanced.transpose() * C * point.enhanced;
+        lasting.add(point, C);
+        for (std::size_t k = 0; k < times.size(); ++k) {
+          const double ratio = layer.material.ratio_of(times[k]);
+          if (ratio > 0.0) branches[k].add(point, ratio * C);
+        }
       });
+  stiffness_ = lasting.forms;
+  Eigen::MatrixXd parameters = Eigen::MatrixXd::Zero(enhanced, num_strains);
   if (enhanced > 0) {
     // Cholesky does not mind that thickness modes are far stiffer than others.
-    const Eigen::LLT<Eigen::MatrixXd> factor(enhanced_stiffness);
-    const Eigen::MatrixXd parameters = -factor.solve(coupling);
-    stiffness_.noalias() += coupling.transpose() * parameters;
+    const Eigen::LLT<Eigen::MatrixXd> factor(lasting.enhanced);
+    parameters = -factor.solve(lasting.coupling);
+    stiffness_.noalias() += lasting.coupling.transpose() * parameters;
     if (options.enhancement.thickness > 0) {
       wall_.thickness_parameter = parameters.row(options.enhancement.membrane);
     }
   }
   stiffness_ = 0.5 * (stiffness_ + stiffness_.transpose()).eval();
+  for (const Integrals& branch : branches) branches_.push_back(branch.condensed(parameters));
 }
 
 Verdict ElasticShell::respond(int, const Strain& prev, const Strain& next, const Stencil& stencil,

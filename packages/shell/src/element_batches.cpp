@@ -2,11 +2,9 @@
 
 namespace culm::model {
 
-template ElementBatch<shell::ElasticShell>& elements(Model&, const std::string&,
-                                                     const StrainDamping&);
-template ElementBatch<shell::HyperelasticShell>& elements(Model&, const std::string&,
+template ElementBatch<shell::ElasticShell>& elements(Model&, const Effect&, const StrainDamping&);
+template ElementBatch<shell::HyperelasticShell>& elements(Model&, const Effect&,
                                                           const StrainDamping&);
-template ElementBatch<shell::LinearShell>& elements(Model&, const std::string&,
-                                                    const StrainDamping&);
+template ElementBatch<shell::LinearShell>& elements(Model&, const Effect&, const StrainDamping&);
 
 }  // namespace culm::model

@@ -57,8 +57,15 @@ LinearShell::LinearShell(const ElasticShell& full, const Nodes& reference)
       mass_(full.mass()) {
   RowMat<ShellForms::num_strains, num_strains> T;
   for (int n = 0; n < num_strains; ++n) T.col(n) = products(Strain::Unit(n));
-  stiffness_ = T.transpose() * full.stiffness(0) * T;
-  stiffness_ = 0.5 * (stiffness_ + stiffness_.transpose()).eval();
+  const auto seen_from_frame = [&T](const ShellForms::Stiffness& C) {
+    const Stiffness product = T.transpose() * C * T;
+    return Stiffness(0.5 * (product + product.transpose()));
+  };
+  stiffness_ = seen_from_frame(full.stiffness(0));
+  const std::size_t branches = wall_.layup->relaxation_times().size();
+  for (std::size_t k = 0; k < branches; ++k) {
+    branches_.push_back(seen_from_frame(full.branch_stiffness(0, k)));
+  }
 }
 
 ShellForms::Strain LinearShell::products(const Strain& y) const noexcept {

@@ -231,18 +231,15 @@ Vec3 centre_of(const ShellMesh& mesh) {
   return sum / static_cast<double>(mesh.positions.size());
 }
 
-// Layers agree in it. All strains of a wall relax alike.
+// Layers agree in it, but for branches, whose stiffnesses elements know.
 template <class E>
 model::StrainDamping damping_of(const material::Layup& layup, const Options& options) {
   const material::Material& material = layup.layers.front().material;
-  if (!HasStiffness<E> && !material.relaxation.empty()) {
+  model::StrainDamping damping{material.dissipation, material.damping, {}};
+  for (double time : layup.relaxation_times()) damping.branches.push_back({time, {}});
+  if (!model::HasBranchStiffness<E> && !damping.branches.empty()) {
     throw InputError(options.where(),
                      "its material relaxes, which needs a law that is linear in the strains");
-  }
-  model::StrainDamping damping{material.dissipation, material.damping, {}};
-  for (const MaxwellBranch& branch : material.relaxation) {
-    damping.branches.push_back(
-        {branch.time, std::vector<double>(E::num_strains, branch.ratios.front())});
   }
   return damping;
 }

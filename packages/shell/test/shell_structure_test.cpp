@@ -249,7 +249,7 @@ TEST_F(ShellStructure, LinearShellHasAFrameAmidItsNodes) {
   fidelity = "Linear";
   add("Cylinder", {{"Radius", 1.0}, {"Length", 2.0}, {"Elements", Integers{8, 3}}});
   ASSERT_EQ(model.element_batches().size(), 1u);
-  EXPECT_EQ(model.element_batches().front()->effect(), "Shell, linear");
+  EXPECT_EQ(model.element_batches().front()->effect().title(), "Shell, linear");
   EXPECT_EQ(model.element_batches().front()->size(), 24);
   EXPECT_EQ(model.find_structure("wall")->layers->layers(), 1);
   ASSERT_EQ(model.select_nodes("wall frame").size(), 1u);

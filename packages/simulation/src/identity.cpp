@@ -53,7 +53,8 @@ std::string identity_of(const model::Model& model) {
     chain.add(std::vector{static_cast<double>(equation.rows.size())});
   }
   for (const model::Batch* batch : model.batches()) {
-    chain.add(batch->effect());
+    const model::Effect& effect = batch->effect();
+    for (const std::string* text : {&effect.type, &effect.name, &effect.part}) chain.add(*text);
     chain.add(std::vector{static_cast<double>(batch->memory_size())});
   }
   for (const auto& [name, function] : model.functions()) {

@@ -45,8 +45,7 @@ std::unique_ptr<Quantity> make_link(const Options& options, model::BuildContext&
   for (const auto& batch : context.model.loads()) {
     const auto* link = dynamic_cast<const load::LinkLoad*>(batch.get());
     if (link == nullptr) continue;
-    // effects are named "type, name"
-    names.push_back(link->effect().substr(link->effect().find(", ") + 2));
+    names.push_back(link->effect().name);
     if (names.back() != name) continue;
     if (link->size() == 1) return std::make_unique<LinkQuantity>(*link);
     context.issues.add(options.where("Load"),

@@ -14,25 +14,12 @@ namespace {
 // What is less of a load than this is rounding.
 constexpr double negligible = 1e-12;
 
-// "Force 'tip force'"
-std::string title(const model::Batch& load) {
-  const auto [type, name] = title_of(load);
-  return name.empty() ? type : type + " '" + name + "'";
-}
-
 }  // namespace
 
 bool is_given(const model::Batch& load) {
   return dynamic_cast<const load::SlotLoad*>(&load) != nullptr ||
          dynamic_cast<const load::MomentLoad*>(&load) != nullptr ||
          dynamic_cast<const load::PressureLoad*>(&load) != nullptr;
-}
-
-std::pair<std::string, std::string> title_of(const model::Batch& load) {
-  const std::string& effect = load.effect();
-  const auto comma = effect.find(", ");
-  if (comma == std::string::npos) return {effect, {}};
-  return {effect.substr(0, comma), effect.substr(comma + 2)};
 }
 
 void LoadWatch::begin(const model::Model& model) {
@@ -69,11 +56,11 @@ void LoadWatch::report(const model::State& state, Findings& findings) const {
       held == 1 ? fmt::format(
                       "{} moves nothing: all of it acts where supports hold the model and "
                       "goes straight into them",
-                      title(*first->batch))
+                      first->batch->effect().quoted())
                 : fmt::format(
                       "{} loads, {} the first of them, move nothing: all of them act where "
                       "supports hold the model and go straight into them",
-                      held, title(*first->batch));
+                      held, first->batch->effect().quoted());
   // shares that consistent loads have at supports belong to loads that act
   if (count(Seen::moving) == 0) {
     findings.broken("idle load", text, state.time);

@@ -3,8 +3,6 @@
 
 #include <culm/analysis/analysis.hpp>
 
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace culm::simulation {
@@ -12,9 +10,6 @@ namespace culm::simulation {
 /// Whether a load acts by given forces. Springs, dampers and what turns act by laws of their own,
 /// and may well act on held nodes.
 bool is_given(const model::Batch& load);
-
-/// Type and name of a load in the deck: effects are named "type, name".
-std::pair<std::string, std::string> title_of(const model::Batch& load);
 
 /// Looks at the dead and follower loads of an analysis until each has moved something. A load that
 /// never did although it acted went straight into the supports.

@@ -34,9 +34,9 @@ std::vector<Vec6> largest_actions(const assembly::System& system, model::Batch& 
 
 void add_load(const model::Model& model, const model::Batch& load, const std::vector<Vec6>& actions,
               std::vector<output::StructureMesh>& meshes) {
-  const auto [type, name] = title_of(load);
+  const model::Effect& effect = load.effect();
   for (std::size_t s = 0; s < meshes.size(); ++s) {
-    output::LoadedNodes loaded{name, type, {}, {}};
+    output::LoadedNodes loaded{effect.name, effect.type, {}, {}};
     const std::vector<int>& nodes = model.structures()[s].nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Vec6& action = actions[static_cast<std::size_t>(nodes[i])];

@@ -38,14 +38,16 @@ Inactive read_inactive(const Options& deck, const Options& analysis) {
 
 // Something that a name occurs several times with, such as the nodes of one support: name and
 // count.
-using Occurrence = std::pair<std::string, int>;
+template <class Name>
+using Occurrence = std::pair<Name, int>;
 
+template <class Name>
 class Occurrences {
  public:
-  Occurrence next(const std::string& name) { return {name, counts_[name]++}; }
+  Occurrence<Name> next(const Name& name) { return {name, counts_[name]++}; }
 
  private:
-  std::map<std::string, int> counts_;
+  std::map<Name, int> counts_;
 };
 
 // The analysis whose last state an analysis starts from, if it is one of this run.
@@ -62,9 +64,12 @@ struct Range {
   std::size_t size = 0;
 };
 
-std::map<Occurrence, Range> multipliers_of(const model::Model& model) {
-  std::map<Occurrence, Range> ranges;
-  Occurrences occurrences;
+template <class Name>
+using Ranges = std::map<Occurrence<Name>, Range>;
+
+Ranges<std::string> multipliers_of(const model::Model& model) {
+  Ranges<std::string> ranges;
+  Occurrences<std::string> occurrences;
   for (std::size_t i = 0; i < model.equations().size(); ++i) {
     const model::UnknownTable& unknowns = model.unknowns();
     const model::Block& block = unknowns.block(unknowns.constraint_block(static_cast<int>(i)));
@@ -74,9 +79,9 @@ std::map<Occurrence, Range> multipliers_of(const model::Model& model) {
   return ranges;
 }
 
-std::map<Occurrence, Range> own_of(const model::Model& model) {
-  std::map<Occurrence, Range> ranges;
-  Occurrences occurrences;
+Ranges<std::string> own_of(const model::Model& model) {
+  Ranges<std::string> ranges;
+  Occurrences<std::string> occurrences;
   for (const model::OwnBlock& block : model.own_blocks()) {
     ranges[occurrences.next(block.name)] = {static_cast<std::size_t>(block.first),
                                             block.unknowns.size()};
@@ -84,9 +89,9 @@ std::map<Occurrence, Range> own_of(const model::Model& model) {
   return ranges;
 }
 
-std::map<Occurrence, Range> memories_of(const model::Model& model) {
-  std::map<Occurrence, Range> ranges;
-  Occurrences occurrences;
+Ranges<model::Effect> memories_of(const model::Model& model) {
+  Ranges<model::Effect> ranges;
+  Occurrences<model::Effect> occurrences;
   std::size_t first = 0;
   for (const model::Batch* batch : model.batches()) {
     ranges[occurrences.next(batch->effect())] = {first, batch->memory_size()};
@@ -95,9 +100,9 @@ std::map<Occurrence, Range> memories_of(const model::Model& model) {
   return ranges;
 }
 
-std::vector<double> move_ranges(const std::vector<double>& values,
-                                const std::map<Occurrence, Range>& from,
-                                const std::map<Occurrence, Range>& to) {
+template <class Name>
+std::vector<double> move_ranges(const std::vector<double>& values, const Ranges<Name>& from,
+                                const Ranges<Name>& to) {
   std::size_t size = 0;
   for (const auto& [name, range] : to) size += range.size;
   std::vector<double> moved(size, 0.0);

@@ -32,7 +32,7 @@ using FillModel = std::function<void(model::Model&)>;
 
 inline model::Batch* find_batch(const model::Model& model, const std::string& effect) {
   for (model::Batch* batch : model.batches()) {
-    if (batch->effect() == effect) return batch;
+    if (batch->effect().title() == effect) return batch;
   }
   return nullptr;
 }

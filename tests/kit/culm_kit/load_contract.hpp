@@ -60,7 +60,7 @@ class LoadContract : public testing::Test {
   static std::string effect() {
     model::Model model;
     fill(model, false);
-    return model.batches().front()->effect();
+    return model.batches().front()->effect().title();
   }
 
   /// External forces on all slots.

@@ -3,7 +3,15 @@
 
 #include <culm/analysis/analysis.hpp>
 
+#include <vector>
+
 namespace culm::analysis {
+
+/// All viscoelastic branches of one relaxation time.
+struct LinearBranches {
+  double time = 0.0;                                  ///< [s]
+  Teuchos::RCP<const assembly::CrsMatrix> stiffness;  ///< if their springs follow at once
+};
 
 /// Tangent and mass about a state, in the unknowns of the system; rows and columns of constraints
 /// border the tangent and are zero in the mass. Those of signals are zero there, too, and in units
@@ -14,9 +22,10 @@ struct Linearisation {
   /// Of dampers, viscous materials and rotating frames, and of what follows signals or has a rate;
   /// null where there is none.
   Teuchos::RCP<const assembly::CrsMatrix> damping;
-  double asymmetry = 0.0;      ///< of the stiffness, as solver::asymmetry
-  bool is_equilibrium = true;  ///< but for rounding
-  double residual = 0.0;       ///< largest force residual over the force scale
+  std::vector<LinearBranches> branches;  ///< by rising times; relaxed where it is linearised
+  double asymmetry = 0.0;                ///< of the stiffness, as solver::asymmetry
+  bool is_equilibrium = true;            ///< but for rounding
+  double residual = 0.0;                 ///< largest force residual over the force scale
 };
 
 /// Below it a tangent counts as symmetric: what static analyses leave unbalanced is less.
@@ -33,6 +42,11 @@ Linearisation linearise(Context& context, const model::State& state,
 /// where there is none. Collective.
 Teuchos::RCP<const assembly::CrsMatrix> rates_of_signals(
     const assembly::System& system, const Teuchos::RCP<const assembly::CrsMatrix>& damping);
+
+/// Whether damping acts between motions, and not only on what follows signals or has a rate.
+/// Collective.
+bool damps_motions(const assembly::System& system,
+                   const Teuchos::RCP<const assembly::CrsMatrix>& damping);
 
 /// Typical squared frequency of the displacement of single nodes, the geometric mean of K_ii / M_ii
 /// [1/s^2]: orders of magnitude above the first of a structure.

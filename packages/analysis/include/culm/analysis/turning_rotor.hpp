@@ -4,6 +4,7 @@
 
 #include <culm/analysis/linearisation.hpp>
 #include <culm/analysis/multi_blade.hpp>
+#include <culm/analysis/relaxing_modes.hpp>
 #include <culm/base/issue.hpp>
 
 #include <string>
@@ -39,6 +40,10 @@ class TurningRotor {
   /// rotor is not the same after an N-th of a turn. Collective.
   /// @param damping whether dampers count; gyroscopic forces do
   Linearisation transform(const Linearisation& linear, bool damping);
+  /// Stiffness of branches in multi-blade coordinates, with shifts: the patterns cos m psi, sin m
+  /// psi of blades are motions lambda + i m Omega and lambda - i m Omega of each. Throws InputError
+  /// if the rotor is not the same after an N-th of a turn.
+  std::vector<BranchTerm> terms_of(const SparseMatrix& stiffness, double time) const;
   /// The unknowns of the system at the azimuth of the state.
   Eigen::VectorXd unknowns(const Eigen::Ref<const Eigen::VectorXd>& z) const {
     return map_.L() * z;

@@ -8,13 +8,13 @@
 
 namespace culm::model {
 
-extern template ElementBatch<beam::DirectorBeam<1>>& elements(Model&, const std::string&,
+extern template ElementBatch<beam::DirectorBeam<1>>& elements(Model&, const Effect&,
                                                               const StrainDamping&);
-extern template ElementBatch<beam::DirectorBeam<2>>& elements(Model&, const std::string&,
+extern template ElementBatch<beam::DirectorBeam<2>>& elements(Model&, const Effect&,
                                                               const StrainDamping&);
-extern template ElementBatch<beam::DirectorBeam<3>>& elements(Model&, const std::string&,
+extern template ElementBatch<beam::DirectorBeam<3>>& elements(Model&, const Effect&,
                                                               const StrainDamping&);
-extern template ElementBatch<beam::HelicalBeam>& elements(Model&, const std::string&,
+extern template ElementBatch<beam::HelicalBeam>& elements(Model&, const Effect&,
                                                           const StrainDamping&);
 
 }  // namespace culm::model

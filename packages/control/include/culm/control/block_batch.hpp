@@ -19,7 +19,7 @@ namespace culm::control {
 class BlockBatch final : public model::MemorylessBatch {
  public:
   /// @param model  gets the unknowns
-  BlockBatch(std::string effect, model::Model& model)
+  BlockBatch(model::Effect effect, model::Model& model)
       : MemorylessBatch(std::move(effect)), model_(model) {}
 
   /// @return the output

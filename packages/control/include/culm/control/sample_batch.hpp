@@ -14,7 +14,7 @@ namespace culm::control {
 /// next step, x = x_prev: one step late, and no part of the tangent.
 class SampleBatch final : public model::MemorylessBatch {
  public:
-  SampleBatch(std::string effect, model::Model& model)
+  SampleBatch(model::Effect effect, model::Model& model)
       : MemorylessBatch(std::move(effect)), model_(model) {}
 
   /// @return the signal; its value is written into State::own and State::own_prev

@@ -24,7 +24,7 @@ enum class Measured {
 /// @source formulation 2.4, 3.1
 class SensorBatch final : public model::MemorylessBatch {
  public:
-  SensorBatch(std::string effect, model::Model& model)
+  SensorBatch(model::Effect effect, model::Model& model)
       : MemorylessBatch(std::move(effect)), model_(model) {}
 
   /// A node and the direction there, of unit length.

@@ -22,7 +22,7 @@ namespace culm::joint {
 class AngularVelocity final : public model::MemorylessBatch, public model::ReactionSource {
  public:
   /// @param model gets an unknown for each item
-  AngularVelocity(std::string effect, model::Model& model)
+  AngularVelocity(model::Effect effect, model::Model& model)
       : MemorylessBatch(std::move(effect)), model_(model) {}
 
   /// What an item says to those who ask the model for its constraints.

@@ -38,6 +38,13 @@ class Couple {
     return inverse_ * sum;
   }
 
+  /// Derivative of the forces by the moment, blocks i of shape (3, 3): -[d_i] J.
+  Mat<9, 3> by_moment() const {
+    Mat<9, 3> K;
+    for (int i = 0; i < 3; ++i) K.block<3, 3>(3 * i, 0) = -skew(d_.col(i)) * inverse_;
+    return K;
+  }
+
   /// Derivative of the forces by the directors, blocks (i, j) of shape (3, 3):
   ///   df_i / dd_j = delta_ij [mh] - [d_i] G_j
   ///   G_j = dmh / dd_j = J ( (d_j . mh) 1 + d_j mh^T - 2 mh d_j^T ),  of a shell J (-2 mh d^T)

@@ -20,7 +20,7 @@ class FieldLoad final : public model::MemorylessBatch {
  public:
   static constexpr int max_nodes = 4;
 
-  FieldLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+  FieldLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
             model::SharedField field)
       : MemorylessBatch(std::move(effect)),
         nodes_(nodes),

@@ -22,12 +22,12 @@ namespace culm::load {
 /// @source formulation 0.3, 3.6, 4.4
 class LinkLoad final : public model::Batch {
  public:
-  LinkLoad(std::string effect, const model::NodeTable& nodes, std::unique_ptr<LinkLaw> law)
+  LinkLoad(model::Effect effect, const model::NodeTable& nodes, std::unique_ptr<LinkLaw> law)
       : effect_(std::move(effect)), nodes_(nodes), law_(std::move(law)) {}
 
   void add(Link link);
 
-  const std::string& effect() const override { return effect_; }
+  const model::Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
@@ -93,7 +93,7 @@ class LinkLoad final : public model::Batch {
     return items_[static_cast<std::size_t>(placement_.items[i])];
   }
 
-  std::string effect_;
+  model::Effect effect_;
   const model::NodeTable& nodes_;
   std::unique_ptr<LinkLaw> law_;
   std::vector<Item> items_;

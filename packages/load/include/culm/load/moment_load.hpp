@@ -21,7 +21,7 @@ namespace culm::load {
 /// in both forms; the part of m along d is not carried. @source formulation 3.1, 3.2
 class MomentLoad final : public model::MemorylessBatch {
  public:
-  MomentLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+  MomentLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
              Frame frame)
       : MemorylessBatch(std::move(effect)),
         nodes_(nodes),
@@ -59,15 +59,14 @@ class MomentLoad final : public model::MemorylessBatch {
   };
 
   Motion motion(const Item& item, const model::State& state, double theta, double factor) const;
-  void assemble_reduced(std::size_t i, const Motion& motion, double theta, bool tangent,
-                        model::Target& target) const;
-  void assemble_full(std::size_t i, const Motion& motion, double theta, bool tangent,
-                     model::Target& target) const;
+  Verdict assemble_reduced(std::size_t i, const Motion& motion, double theta, bool tangent,
+                           model::Target& target) const;
 
   bool on_shell(const Item& item) const { return nodes_.kind(item.node) == NodeKind::node6; }
+  bool follows(const Item& item) const { return frame_ == Frame::directors && !on_shell(item); }
   template <class Space>
-  Verdict assemble_director(std::size_t i, const model::State& state, const Stencil& stencil,
-                            double factor, bool tangent, model::Target& target) const;
+  Verdict assemble_couple(std::size_t i, const model::State& state, const Stencil& stencil,
+                          double factor, bool tangent, model::Target& target) const;
 
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;

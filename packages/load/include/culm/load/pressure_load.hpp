@@ -18,7 +18,7 @@ namespace culm::load {
 /// @source formulation 3.4
 class PressureLoad final : public model::MemorylessBatch {
  public:
-  PressureLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude)
+  PressureLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude)
       : MemorylessBatch(std::move(effect)), nodes_(nodes), amplitude_(std::move(amplitude)) {}
 
   /// @param nodes  counter-clockwise seen from the side the directors point to

@@ -22,7 +22,7 @@ class RotatingFrame final : public model::MemorylessBatch, public model::SteadyR
   static constexpr int max_nodes = 4;
 
   /// @param axis unit vector @param speed at amplitude 1 [rad/s] @param point of the axis [m]
-  RotatingFrame(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+  RotatingFrame(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
                 const Vec3& axis, double speed, const Vec3& point)
       : MemorylessBatch(std::move(effect)),
         nodes_(nodes),

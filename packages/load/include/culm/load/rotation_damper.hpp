@@ -17,7 +17,7 @@ namespace culm::load {
 class RotationDamper final : public model::MemorylessBatch {
  public:
   /// @param moment F, with the sign of omega_n
-  RotationDamper(std::string effect, const model::NodeTable& nodes, PiecewiseLinear moment)
+  RotationDamper(model::Effect effect, const model::NodeTable& nodes, PiecewiseLinear moment)
       : MemorylessBatch(std::move(effect)), nodes_(nodes), moment_(std::move(moment)) {}
 
   void add(int node, const joint::TurnAxis& axis) { items_.push_back({node, axis}); }

@@ -1,11 +1,17 @@
-/// What loads on slots share: tangents of any shape, and the work of the forces of an item.
+/// What loads on slots share, for any number of nodes: from forces on slots to the residual, from
+/// their derivative to the tangent, and the work that they do.
 #pragma once
 
 #include <culm/model/batch.hpp>
 #include <culm/model/item_motion.hpp>
+#include <culm/model/signal_column.hpp>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace culm::load {
@@ -21,6 +27,73 @@ void add_slot_tangent(const Mat<12, 12>& K, const model::Arms<4>& arms_mid,
   Mat<Space::width, Space::width> reduced;
   Space::reduce_rows(columns, arms_next, reduced);
   block += reduced.transpose();
+}
+
+/// Adds the residual r of the slots of local item i, shape (3, 4 n), at theta: minus external
+/// forces there.
+template <class Space, class Slots, std::size_t N>
+Verdict add_slot_residual(const model::Placement& placement, std::size_t i, const Slots& r,
+                          const std::array<model::Arms<4>, N>& arms_mid, model::Target& target) {
+  if (!std::isfinite(r.sum())) return Verdict::not_finite;
+  for (int a = 0; 4 * a < r.cols(); ++a) {
+    const Eigen::Map<const Vec<12>> of_node(r.data() + 12 * a);
+    Vec<Space::width> residual;
+    Space::reduce_rows(of_node, arms_mid[static_cast<std::size_t>(a)], residual);
+    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+    placement.scatter.add_residual(i, a, residual.data(), target);
+  }
+  return Verdict::ok;
+}
+
+/// Adds the derivative of such a residual by the motion of its nodes: add_block(a, b, block) adds
+/// P_theta^T K P_next for the slots of node a by those of node b, zero before; the turning of
+/// P_theta under r follows here.
+template <class Space, class Motion, class Slots, class AddBlock>
+void add_slot_derivative(const model::Placement& placement, std::size_t i, const Slots& r,
+                         const Motion& motion, double theta, AddBlock add_block,
+                         model::Target& target) {
+  constexpr int W = Space::width;
+  const int n = static_cast<int>(r.cols()) / 4;
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      RowMat<W, W> block = RowMat<W, W>::Zero();
+      add_block(a, b, block);
+      if (a == b) {
+        Space::add_turning(r.template middleCols<4>(4 * a),
+                           motion.arms_next[static_cast<std::size_t>(a)], theta, block);
+      }
+      placement.scatter.add_tangent(i, a, b, block, target);
+    }
+  }
+}
+
+/// The same where the derivative of the slots of node a by those of node b is at hand, K(a, b) of
+/// shape (12, 12).
+template <class Space, class Motion, class Slots, class Derivative>
+void add_dense_derivative(const model::Placement& placement, std::size_t i, const Slots& r,
+                          const Motion& motion, double theta, Derivative K, model::Target& target) {
+  add_slot_derivative<Space>(
+      placement, i, r, motion, theta,
+      [&](int a, int b, auto& block) {
+        add_slot_tangent<Space>(K(a, b), motion.arms_mid[static_cast<std::size_t>(a)],
+                                motion.arms_next[static_cast<std::size_t>(b)], block);
+      },
+      target);
+}
+
+/// Adds the derivative of a residual by the signal that it follows. @param unit  by its value; the
+/// block of the signal comes after those of the nodes
+template <class Space, class Slots, std::size_t N>
+void add_signal_columns(const model::Placement& placement, std::size_t i, const Slots& unit,
+                        const std::array<model::Arms<4>, N>& arms_mid, const model::Signal& signal,
+                        double theta, model::Target& target) {
+  const int n = static_cast<int>(unit.cols()) / 4;
+  for (int a = 0; a < n; ++a) {
+    const Eigen::Map<const Vec<12>> of_node(unit.data() + 12 * a);
+    Vec<Space::width> derivative;
+    Space::reduce_rows(of_node, arms_mid[static_cast<std::size_t>(a)], derivative);
+    model::add_signal_column(placement.scatter, i, a, n, signal, theta, derivative, target);
+  }
 }
 
 /// Adds what the external slot forces of an item do in a step; their work only if `works`.

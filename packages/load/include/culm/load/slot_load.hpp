@@ -21,7 +21,7 @@ class SlotLoad final : public model::Batch {
  public:
   static constexpr int max_nodes = 4;
 
-  SlotLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude)
+  SlotLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude)
       : effect_(std::move(effect)), nodes_(nodes), amplitude_(std::move(amplitude)) {}
 
   /// Adds a force at a material point. Points that follow each other on the same nodes share an
@@ -33,7 +33,7 @@ class SlotLoad final : public model::Batch {
   int add_settable_force(int node);
   void set_force(int item, const Vec3& force);
 
-  const std::string& effect() const override { return effect_; }
+  const model::Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   /// Only forces that follow, or that have an arm about a node, change with its rotation.
@@ -63,7 +63,7 @@ class SlotLoad final : public model::Batch {
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;
 
-  std::string effect_;
+  model::Effect effect_;
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
   std::vector<Item> items_;

@@ -20,13 +20,15 @@ struct Layer {
 };
 
 /// Layers from the bottom (ζ = -t/2) upward. All have the same dissipation and damping, which act
-/// on the element as a whole.
+/// on the element as a whole; each relaxes by branches of its own.
 struct Layup {
   std::vector<Layer> layers;
 
   double thickness() const;  ///< [m]
   /// ζ at the bottom of a layer; at the top of the wall for layer = number of layers [m]
   double bottom(int layer) const;
+  /// Relaxation times of all branches of all layers, each once, rising [s].
+  std::vector<double> relaxation_times() const;
   /// Whether all materials answer in proportion to the strain.
   bool is_linear() const;
 };

@@ -22,6 +22,8 @@ struct Material {
   double damping = 0.0;                        ///< time by which stress runs ahead of strain [s]
   std::vector<MaxwellBranch> relaxation = {};  ///< each with one ratio
 
+  /// Stiffness of the branches of one time over the lasting one; 0 if there are none [-]
+  double ratio_of(double time) const;
   /// Whether stress is proportional to strain.
   bool is_linear() const { return std::holds_alternative<StVenantKirchhoff>(law); }
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/mechanics/stencil.hpp>
+#include <culm/model/effect.hpp>
 #include <culm/model/scatter.hpp>
 #include <culm/model/state.hpp>
 
@@ -52,8 +53,8 @@ class Batch {
  public:
   virtual ~Batch() = default;
 
-  /// Name in the ledger of effects.
-  virtual const std::string& effect() const = 0;
+  /// What it is, for the ledger of effects and for those who look for it.
+  virtual const Effect& effect() const = 0;
   virtual int size() const = 0;
   /// Blocks of unknowns that an item couples, in the order its kernel writes them.
   virtual std::vector<int> blocks(int item, const UnknownTable& unknowns) const = 0;
@@ -79,8 +80,12 @@ class Batch {
   virtual void accept(State&) {}
   /// Whether velocities must be those of the conserving scheme, for accept to correct them.
   virtual bool needs_mean_velocity() const { return false; }
-  /// Whether items relax in time, which a linearisation does not see.
-  virtual bool relaxes() const { return false; }
+  /// Times of the branches by which items relax [s]; none where stress follows strain at once. An
+  /// equilibrium, about which equations are linearised, is relaxed.
+  virtual std::vector<double> relaxation_times() const { return {}; }
+  /// Adds to the tangent at state.next what all branches of one of these times have if their
+  /// springs follow at once.
+  virtual Verdict assemble_branches(const State&, double, Target&) { return Verdict::ok; }
   /// Whether an evaluation reads nodes that no item of this rank touches.
   virtual bool needs_all_nodes() const { return false; }
 

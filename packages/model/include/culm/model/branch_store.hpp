@@ -5,15 +5,65 @@
 #include <culm/mechanics/relaxation.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace culm::model {
 
+/// Derivative of the strain of a branch's spring by the change of strain in the step, where in the
+/// step forces act: the mean at theta = 1/2, the end at 1.
+inline double branch_weight(const MaxwellStep& step, double theta) {
+  return step.mean_gained + (theta - 0.5) * step.gained;
+}
+
+/// An element with a stiffness of its own for each branch of its batch, symmetric, positive
+/// semidefinite and with the weight of the point, such as one of layers that relax differently.
+/// Branches of other elements are C with roots of ratios on both sides.
+template <class E>
+concept HasBranchStiffness = requires(const E& e, int point, std::size_t branch) {
+  { e.branch_stiffness(point, branch) }
+  noexcept->std::same_as<const RowMat<E::num_strains, E::num_strains>&>;
+};
+
+/// Stiffnesses of the branches at a point: sqrt(g_I) C_IJ sqrt(g_J).
+template <int M>
+struct ScaledBranches {
+  const RowMat<M, M>& C;
+  const std::vector<Vec<M>>& roots;  ///< of the ratios g, by branch
+
+  Vec<M> stress(std::size_t k, const Vec<M>& d) const {
+    const Vec<M> rooted = roots[k].cwiseProduct(d);
+    return roots[k].cwiseProduct((C * rooted).eval());
+  }
+  RowMat<M, M> stiffness(std::size_t k) const {
+    return roots[k].asDiagonal() * C * roots[k].asDiagonal();
+  }
+  /// a . C_k b
+  double product(std::size_t k, const Vec<M>& a, const Vec<M>& b) const {
+    const Vec<M> rooted = roots[k].cwiseProduct(b);
+    return roots[k].cwiseProduct(a).dot(C * rooted);
+  }
+};
+
+/// The same where the element states them.
+template <HasBranchStiffness E>
+struct OwnBranches {
+  static constexpr int M = E::num_strains;
+  const E& element;
+  int point;
+
+  Vec<M> stress(std::size_t k, const Vec<M>& d) const { return stiffness(k) * d; }
+  const RowMat<M, M>& stiffness(std::size_t k) const { return element.branch_stiffness(point, k); }
+  double product(std::size_t k, const Vec<M>& a, const Vec<M>& b) const {
+    return a.dot(stiffness(k) * b);
+  }
+};
+
 /// The strains of the springs of all branches at all points of a batch, as they were accepted, with
 /// M strains. Steps without length, as in statics, end relaxed. Empty, and without work, where
-/// there are no branches.
+/// there are no branches. `Law` is one of the two above.
 template <int M>
 class BranchStore {
  public:
@@ -22,120 +72,100 @@ class BranchStore {
 
   explicit BranchStore(const std::vector<MaxwellBranch>& branches) {
     for (const MaxwellBranch& branch : branches) {
-      Branch& made = branches_.emplace_back();
-      made.time = branch.time;
-      made.roots = Eigen::Map<const Strain>(branch.ratios.data()).cwiseSqrt();
+      times_.push_back(branch.time);
+      if (branch.ratios.empty()) continue;
+      roots_.push_back(Eigen::Map<const Strain>(branch.ratios.data()).cwiseSqrt());
     }
+    steps_.resize(times_.size());
   }
 
-  bool empty() const { return branches_.empty(); }
-  /// Whether all strains relax alike, in each branch.
-  bool is_uniform() const {
-    return std::ranges::all_of(
-        branches_, [](const Branch& b) { return (b.roots.array() == b.roots[0]).all(); });
-  }
-  void resize(std::size_t points) { strains_.assign(points * branches_.size(), Strain::Zero()); }
+  bool empty() const { return times_.empty(); }
+  std::size_t size() const { return times_.size(); }
+  /// Relaxation times by branch [s].
+  const std::vector<double>& times() const { return times_; }
+  /// Roots of ratios by branch; none where elements have stiffnesses of branches.
+  const std::vector<Strain>& roots() const { return roots_; }
+  void resize(std::size_t points) { strains_.assign(points * size(), Strain::Zero()); }
   /// Before an attempt of a step [s].
   void prepare(double step) {
     acts_ = step > 0.0 && !empty();
     if (!acts_) return;
-    for (Branch& branch : branches_) branch.step = MaxwellStep::of(step, branch.time);
+    for (std::size_t k = 0; k < size(); ++k) steps_[k] = MaxwellStep::of(step, times_[k]);
   }
   /// Whether the step has branches that act.
   bool acts() const { return acts_; }
 
   /// Adds the stress of all branches for the change of strain De. @param theta where in the step:
   /// the mean at 1/2
-  template <class Matrix>
-  void add_stress(std::size_t point, const Matrix& C, const Strain& De, double theta,
+  template <class Law>
+  void add_stress(std::size_t point, const Law& law, const Strain& De, double theta,
                   Strain& stress) const {
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      const Branch& b = branches_[k];
-      const Strain d = (b.step.mean_kept + (theta - 0.5) * (b.step.kept - 1.0)) * at(point, k) +
-                       weight(b, theta) * De;
-      const Strain rooted = b.roots.cwiseProduct(d);
-      stress += b.roots.cwiseProduct((C * rooted).eval());
+    for (std::size_t k = 0; k < size(); ++k) {
+      const MaxwellStep& s = steps_[k];
+      const Strain d = (s.mean_kept + (theta - 0.5) * (s.kept - 1.0)) * at(point, k) +
+                       branch_weight(s, theta) * De;
+      stress += law.stress(k, d);
     }
   }
   /// Adds the derivative of that by De.
-  template <class Matrix>
-  void add_stiffness(const Matrix& C, double theta, Stiffness& sum) const {
-    for (const Branch& b : branches_) {
-      sum += weight(b, theta) * (b.roots.asDiagonal() * C * b.roots.asDiagonal());
+  template <class Law>
+  void add_stiffness(const Law& law, double theta, Stiffness& sum) const {
+    for (std::size_t k = 0; k < size(); ++k) {
+      sum += branch_weight(steps_[k], theta) * law.stiffness(k);
     }
-  }
-  /// The same over C, where all strains relax alike.
-  double stiffness_weight(double theta) const {
-    double sum = 0.0;
-    for (const Branch& b : branches_) sum += weight(b, theta) * b.roots[0] * b.roots[0];
-    return sum;
   }
 
   /// Energy of the springs as accepted.
-  template <class Matrix>
-  double energy(std::size_t point, const Matrix& C) const {
+  template <class Law>
+  double energy(std::size_t point, const Law& law) const {
     double sum = 0.0;
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      sum += energy(branches_[k], C, at(point, k));
-    }
+    for (std::size_t k = 0; k < size(); ++k) sum += energy(law, k, at(point, k));
     return sum;
   }
   /// What the dashpots take in the step, >= 0.
-  template <class Matrix>
-  double taken(std::size_t point, const Matrix& C, const Strain& De) const {
+  template <class Law>
+  double taken(std::size_t point, const Law& law, const Strain& De) const {
     double sum = 0.0;
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      const Branch& b = branches_[k];
+    for (std::size_t k = 0; k < size(); ++k) {
       const Strain& prev = at(point, k);
-      const Strain mean = b.roots.cwiseProduct(b.step.mean_kept * prev + b.step.mean_gained * De);
-      const Strain rooted = b.roots.cwiseProduct(De);
-      sum += mean.dot(C * rooted) - energy(b, C, next(b, prev, De)) + energy(b, C, prev);
+      const Strain mean = steps_[k].mean_kept * prev + steps_[k].mean_gained * De;
+      sum += law.product(k, mean, De) - energy(law, k, next(k, prev, De)) + energy(law, k, prev);
     }
     return sum;
   }
   /// Ends the step of a point.
   void accept(std::size_t point, const Strain& De) {
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      Strain& d = strains_[point * branches_.size() + k];
-      d = acts_ ? next(branches_[k], d, De) : Strain(Strain::Zero());
+    for (std::size_t k = 0; k < size(); ++k) {
+      Strain& d = strains_[point * size() + k];
+      d = acts_ ? next(k, d, De) : Strain(Strain::Zero());
     }
   }
 
-  std::size_t point_memory() const { return branches_.size() * M; }
+  std::size_t point_memory() const { return size() * M; }
   void save(std::size_t point, std::span<double> memory) const {
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
+    for (std::size_t k = 0; k < size(); ++k) {
       std::copy_n(at(point, k).data(), M, memory.data() + k * M);
     }
   }
   void restore(std::size_t point, std::span<const double> memory) {
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      std::copy_n(memory.data() + k * M, M, strains_[point * branches_.size() + k].data());
+    for (std::size_t k = 0; k < size(); ++k) {
+      std::copy_n(memory.data() + k * M, M, strains_[point * size() + k].data());
     }
   }
 
  private:
-  struct Branch {
-    double time = 0.0;
-    Strain roots;  ///< of the ratios
-    MaxwellStep step;
-  };
-
-  const Strain& at(std::size_t point, std::size_t k) const {
-    return strains_[point * branches_.size() + k];
+  const Strain& at(std::size_t point, std::size_t k) const { return strains_[point * size() + k]; }
+  Strain next(std::size_t k, const Strain& prev, const Strain& De) const {
+    return steps_[k].kept * prev + steps_[k].gained * De;
   }
-  static double weight(const Branch& b, double theta) {
-    return b.step.mean_gained + (theta - 0.5) * b.step.gained;
-  }
-  static Strain next(const Branch& b, const Strain& prev, const Strain& De) {
-    return b.step.kept * prev + b.step.gained * De;
-  }
-  template <class Matrix>
-  static double energy(const Branch& b, const Matrix& C, const Strain& d) {
-    const Strain rooted = b.roots.cwiseProduct(d);
-    return 0.5 * rooted.dot(C * rooted);
+  template <class Law>
+  static double energy(const Law& law, std::size_t k, const Strain& d) {
+    return 0.5 * law.product(k, d, d);
   }
 
-  std::vector<Branch> branches_;
+  std::vector<double> times_;
+  std::vector<Strain> roots_;
+  std::vector<MaxwellStep> steps_;
   std::vector<Strain> strains_;  ///< by point, branch after branch
   bool acts_ = false;
 };

@@ -16,13 +16,13 @@ class ConstraintBatch final : public Batch {
   static constexpr int max_rows = 12;
 
   /// @param length length of the model [m], the measure for rows that hold positions
-  ConstraintBatch(std::string effect, const NodeTable& nodes, double length)
+  ConstraintBatch(Effect effect, const NodeTable& nodes, double length)
       : effect_(std::move(effect)), nodes_(nodes), length_(length) {}
 
   /// @param number the constraint's number in the UnknownTable
   void add(Constraint constraint, int number);
 
-  const std::string& effect() const override { return effect_; }
+  const Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   bool has_tangent() const override { return true; }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
@@ -69,7 +69,7 @@ class ConstraintBatch final : public Batch {
   template <class Space>
   void assemble_jacobian(std::size_t i, const State& state, Target& target) const;
 
-  std::string effect_;
+  Effect effect_;
   const NodeTable& nodes_;
   double length_;
   std::vector<Item> items_;

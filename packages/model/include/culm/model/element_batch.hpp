@@ -1,17 +1,13 @@
 /// All elements of one type: the mechanics every element shares, written once.
 #pragma once
 
-#include <culm/math/small_product.hpp>
-#include <culm/mechanics/element.hpp>
 #include <culm/model/batch.hpp>
-#include <culm/model/branch_store.hpp>
 #include <culm/model/element_contribution.hpp>
 #include <culm/model/element_motion.hpp>
 #include <culm/model/inertia.hpp>
-#include <culm/model/internal_store.hpp>
 #include <culm/model/model.hpp>
+#include <culm/model/point_laws.hpp>
 #include <culm/model/projection.hpp>
-#include <culm/model/strain_damping.hpp>
 #include <culm/model/turn_source.hpp>
 
 #include <algorithm>
@@ -22,10 +18,6 @@
 #include <utility>
 
 namespace culm::model {
-
-/// What a batch can hold.
-template <class E>
-concept BatchElement = Element<E> || ElementWithInternals<E>;
 
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
 /// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
@@ -41,16 +33,8 @@ class ElementBatch final : public Batch,
   using ItemSlots = Slots<S>;
   using Strain = Vec<M>;
 
-  ElementBatch(std::string effect, const NodeTable& nodes, const StrainDamping& damping = {})
-      : effect_(std::move(effect)), nodes_(nodes), damping_(damping), branches_(damping.branches) {
-    internal_check(branches_.empty() || HasStiffness<E>, "these elements do not relax");
-    internal_check(!ActsOnUnknowns<E> || branches_.is_uniform(),
-                   "these elements do not relax strain by strain");
-    if (damping.viscosities.empty()) return;
-    internal_check(damps_each_strain && damping.viscosities.size() == M,
-                   "these elements do not damp strains one by one");
-    roots_ = Eigen::Map<const Strain>(damping.viscosities.data()).cwiseSqrt();
-  }
+  ElementBatch(Effect effect, const NodeTable& nodes, const StrainDamping& damping = {})
+      : effect_(std::move(effect)), nodes_(nodes), laws_(damping) {}
 
   /// Adds an element. @return item number
   int add(E element, const std::array<int, N>& nodes) {
@@ -64,8 +48,8 @@ class ElementBatch final : public Batch,
     return connectivity_[static_cast<std::size_t>(item)];
   }
 
-  const StrainDamping& damping() const { return damping_; }
-  const std::string& effect() const override { return effect_; }
+  const StrainDamping& damping() const { return laws_.damping(); }
+  const Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(elements_.size()); }
   bool has_tangent() const override { return true; }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override {
@@ -77,10 +61,9 @@ class ElementBatch final : public Batch,
   void place(Placement placement, Form form) override {
     placement_ = std::move(placement);
     form_ = form;
-    strain_prev_.assign(placement_.items.size() * E::num_points, Strain::Zero());
-    predicted_stress_.resize(strain_prev_.size());
-    if constexpr (has_internals) internals_.resize(strain_prev_.size());
-    branches_.resize(strain_prev_.size());
+    const std::size_t points = placement_.items.size() * E::num_points;
+    laws_.resize(points);
+    predicted_stress_.resize(points);
     use_predicted_ = false;
   }
 
@@ -89,30 +72,41 @@ class ElementBatch final : public Batch,
     if (stencil.inertia != 0.0 && masses_.empty()) {
       for (int item : placement_.items) masses_.push_back(element(item).mass());
     }
-    if constexpr (has_internals) internals_.prepare();
-    branches_.prepare(stencil.step);
-    // in statics the old strain has no weight
-    if (stencil.step == 0.0 && !has_internals) return;
+    if (!laws_.prepare(stencil)) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.prev);
       const E& element = this->element(placement_.items[i]);
       for (int p = 0; p < E::num_points; ++p) {
-        element.strain(p, q, strain_prev_[at(i, p)]);
+        element.strain(p, q, laws_.prev(at(i, p)));
       }
     }
   }
 
-  bool relaxes() const override { return !branches_.empty(); }
+  std::vector<double> relaxation_times() const override { return laws_.branches().times(); }
 
-  void accept([[maybe_unused]] State& state) override {
-    if constexpr (has_internals) internals_.accept();
-    if (branches_.empty()) return;
+  Verdict assemble_branches(const State& state, double time, Target& target) override {
+    const std::vector<double>& times = laws_.branches().times();
+    Verdict verdict = Verdict::ok;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (times[k] != time) continue;
+      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+        verdict = worse(verdict, in_space([&](auto space) {
+                          return assemble_branch<decltype(space)>(i, k, state, target);
+                        }));
+      }
+    }
+    return verdict;
+  }
+
+  void accept(State& state) override {
+    laws_.accept();
+    if (laws_.branches().empty()) return;
     Strain y;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.next);
       for (int p = 0; p < E::num_points; ++p) {
         element(placement_.items[i]).strain(p, q, y);
-        branches_.accept(at(i, p), y - strain_prev_[at(i, p)]);
+        laws_.accept(at(i, p), y);
       }
     }
   }
@@ -122,40 +116,33 @@ class ElementBatch final : public Batch,
   }
 
   void save(Items which, std::span<double> memory) const override {
-    if (point_memory() == 0) return;
+    if (!laws_.remembers()) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (which == Items::owned && !placement_.owned[i]) continue;
       for (int p = 0; p < E::num_points; ++p) {
-        const std::span<double> mine = memory.subspan(memory_place(i, p));
-        if constexpr (has_internals) internals_.save(at(i, p), mine);
-        branches_.save(at(i, p), mine.subspan(internal_memory));
+        laws_.save(at(i, p), memory.subspan(memory_place(i, p)));
       }
     }
   }
 
   void restore(std::span<const double> memory) override {
-    if (point_memory() == 0) return;
+    if (!laws_.remembers()) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       for (int p = 0; p < E::num_points; ++p) {
-        const std::span<const double> mine = memory.subspan(memory_place(i, p));
-        if constexpr (has_internals) internals_.restore(at(i, p), mine);
-        branches_.restore(at(i, p), mine.subspan(internal_memory));
+        laws_.restore(at(i, p), memory.subspan(memory_place(i, p)));
       }
     }
   }
 
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
-    const Stencil damped = with_damping(stencil);
-    // shell nodes have the same six unknowns in both forms
-    if constexpr (E::node_kind == NodeKind::node12) {
-      if (form_ == Form::multipliers) return assemble_as<FullSpace>(state, damped, want, target);
-    }
-    return assemble_as<NullSpace>(state, damped, want, target);
+    const Stencil damped = laws_.damped(stencil);
+    return in_space(
+        [&](auto space) { return assemble_as<decltype(space)>(state, damped, want, target); });
   }
 
   void extrapolate(const State& state, const Stencil& stencil,
                    const Coordinates& increment) override {
-    const Stencil damped = with_damping(stencil);
+    const Stencil damped = laws_.damped(stencil);
     Response<M> response;
     Strain y, ahead, behind;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -168,7 +155,7 @@ class ElementBatch final : public Batch,
         element.strain(p, q + du, ahead);
         element.strain(p, q - du, behind);
         const Strain dy = 0.5 * (ahead - behind);
-        respond(i, p, y, damped, response, &dy);
+        laws_.respond(element, p, at(i, p), y, damped, response, &dy);
         predicted_stress_[at(i, p)] = response.stress;
       }
     }
@@ -184,10 +171,7 @@ class ElementBatch final : public Batch,
       const E& element = this->element(placement_.items[i]);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, slots, y);
-        Internals internals{};
-        if constexpr (has_internals) internals = internals_.at(at(i, p), y);
-        energy += energy_of(i, p, y, internals);
-        if constexpr (HasStiffness<E>) energy += branches_.energy(at(i, p), element.stiffness(p));
+        energy += laws_.energy(element, p, at(i, p), y);
       }
     }
     return energy;
@@ -227,49 +211,24 @@ class ElementBatch final : public Batch,
   }
 
   StepWork step_work(const State& state, const Stencil& stencil) const override {
-    const Stencil damped = with_damping(stencil);
-    if constexpr (HasStiffness<E>) {
-      // the mean stress of a linear law does just what changes the stored energy
-      if (damped.theta_strain == 0.5 && !roots_ && !branches_.acts()) return {};
-    }
-    double taken = 0.0;
-    double taken_by_strains = 0.0;  // by the damping of each
+    const Stencil damped = laws_.damped(stencil);
+    if (!laws_.takes(damped)) return {};
+    typename PointLaws<E>::Taken taken;
     Strain y;
-    [[maybe_unused]] Response<M> response;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
-      const int item = placement_.items[i];
-      const ItemSlots q = gather(item, state.next);
+      const E& element = this->element(placement_.items[i]);
+      const ItemSlots q = gather(placement_.items[i], state.next);
       for (int p = 0; p < E::num_points; ++p) {
-        const Strain& prev = strain_prev_[at(i, p)];
-        element(item).strain(p, q, y);
-        // what the stress takes beyond the change of the stored energy
-        if constexpr (HasStiffness<E>) {
-          taken += (2.0 * damped.theta_strain - 1.0) * element(item).energy(p, y - prev);
-          if (roots_) {
-            taken_by_strains +=
-                2.0 / stencil.step * element(item).energy(p, roots_->cwiseProduct(y - prev));
-          }
-          if (branches_.acts()) {
-            taken_by_strains += branches_.taken(at(i, p), element(item).stiffness(p), y - prev);
-          }
-        } else {
-          Internals before{}, after{};
-          if constexpr (has_internals) {
-            before = internals_.prev(at(i, p));
-            after = internals_.next(at(i, p));
-          }
-          respond(i, p, y, damped, after, response);
-          taken += response.stress.dot(y - prev) -
-                   (energy_of(i, p, y, after) - energy_of(i, p, prev, before));
-        }
+        element.strain(p, q, y);
+        laws_.add_taken(element, p, at(i, p), y, damped, taken);
       }
     }
     StepWork work;
-    const double physical = damping_.viscosity / stencil.step;
-    const double share = physical > 0.0 ? physical / damping_.weight(stencil.step) : 0.0;
-    work.damping = share * taken + taken_by_strains;
-    work.dissipation = (1.0 - share) * taken;
+    const double physical = damping().viscosity / stencil.step;
+    const double share = physical > 0.0 ? physical / damping().weight(stencil.step) : 0.0;
+    work.damping = share * taken.by_law + taken.by_strains;
+    work.dissipation = (1.0 - share) * taken.by_law;
     return work;
   }
 
@@ -284,9 +243,9 @@ class ElementBatch final : public Batch,
     Strain y;
     for (int p = 0; p < E::num_points; ++p) {
       element(item).strain(p, slots, y);
-      if constexpr (has_internals) {
+      if constexpr (ElementWithInternals<E>) {
         // the item may be evaluated elsewhere: internals as at rest in this configuration
-        Internals internals = Internals::Zero();
+        Vec<E::num_internals> internals = Vec<E::num_internals>::Zero();
         Response<M> response;
         element(item).respond(p, y, y, internals, Stencil::statics(), internals, response);
         mean += element(item).resultants(p, y, internals) / E::num_points;
@@ -332,44 +291,20 @@ class ElementBatch final : public Batch,
 
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
-  static constexpr bool has_internals = ElementWithInternals<E>;
   using Motion = ElementMotion<E>;
   template <class Space>
   using Contribution = ElementContribution<Space, E>;
-  struct Nothing {};
-  template <class T, bool wanted>
-  struct InternalTypes {
-    using Store = InternalStore<T>;
-    using Values = typename Store::Internals;
-  };
-  template <class T>
-  struct InternalTypes<T, false> {
-    using Store = Nothing;
-    using Values = Nothing;
-  };
-  using Internals = typename InternalTypes<E, has_internals>::Values;
-  static constexpr std::size_t internal_memory = [] {
-    if constexpr (has_internals) return InternalStore<E>::point_memory;
-    return std::size_t{0};
-  }();
 
   // numbers that an item remembers, and where those of a point of a local item are in the array of
   // all items
   std::size_t item_memory() const {
-    return static_cast<std::size_t>(E::num_points) * point_memory();
+    return static_cast<std::size_t>(E::num_points) * laws_.point_memory();
   }
-  std::size_t point_memory() const { return internal_memory + branches_.point_memory(); }
   std::size_t memory_place(std::size_t i, int p) const {
     return static_cast<std::size_t>(placement_.items[i]) * item_memory() +
-           static_cast<std::size_t>(p) * point_memory();
+           static_cast<std::size_t>(p) * laws_.point_memory();
   }
 
-  static constexpr bool damps_each_strain = HasStiffness<E> && !ActsOnUnknowns<E>;
-
-  Stencil with_damping(Stencil stencil) const {
-    if (stencil.step > 0.0) stencil.theta_strain += damping_.weight(stencil.step);
-    return stencil;
-  }
   static std::size_t at(std::size_t item, int point) {
     return item * E::num_points + static_cast<std::size_t>(point);
   }
@@ -384,6 +319,15 @@ class ElementBatch final : public Batch,
   }
   Motion motion_of(std::size_t i, const State& state, double theta) const {
     return Motion(nodes_, nodes(placement_.items[i]), state, theta, form_);
+  }
+
+  // Calls action(space) with the space of the form; shell nodes have the same six unknowns in both.
+  template <class Action>
+  Verdict in_space(Action action) const {
+    if constexpr (E::node_kind == NodeKind::node12) {
+      if (form_ == Form::multipliers) return action(FullSpace{});
+    }
+    return action(NullSpace{});
   }
 
   template <class Space>
@@ -414,64 +358,6 @@ class ElementBatch final : public Batch,
     return verdict;
   }
 
-  // The stress of a point at the strain y, moved on by dy where that is given: to first order.
-  Verdict respond(std::size_t i, int p, const Strain& y, const Stencil& stencil,
-                  Response<M>& response, const Strain* dy = nullptr) {
-    if constexpr (has_internals) {
-      return respond(i, p, y, stencil, internals_.solve_at(at(i, p), y), response, dy);
-    } else {
-      Internals none;
-      return respond(i, p, y, stencil, none, response, dy);
-    }
-  }
-
-  Verdict respond(std::size_t i, int p, const Strain& y, const Stencil& stencil,
-                  Internals& internals, Response<M>& response, const Strain* dy = nullptr) const {
-    const E& element = this->element(placement_.items[i]);
-    const Strain& prev = strain_prev_[at(i, p)];
-    const double weight = stencil.theta_strain;
-    if constexpr (HasStiffness<E>) {
-      Strain e = (1.0 - weight) * prev + weight * y;
-      if (dy != nullptr) e += weight * *dy;
-      response.stress.noalias() = element.stiffness(p) * e;
-      if constexpr (damps_each_strain) {
-        if (roots_ && stencil.step > 0.0) {
-          Strain rate = y - prev;
-          if (dy != nullptr) rate += *dy;
-          rate = roots_->cwiseProduct(rate) / stencil.step;
-          response.stress += roots_->cwiseProduct((element.stiffness(p) * rate).eval());
-        }
-      }
-      if (branches_.acts()) {
-        Strain change = y - prev;
-        if (dy != nullptr) change += *dy;
-        branches_.add_stress(at(i, p), element.stiffness(p), change, stencil.theta,
-                             response.stress);
-      }
-      return Verdict::ok;
-    } else {
-      Verdict verdict = Verdict::ok;
-      if constexpr (has_internals) {
-        verdict =
-            element.respond(p, prev, y, internals_.prev(at(i, p)), stencil, internals, response);
-      } else {
-        verdict = element.respond(p, prev, y, stencil, response);
-      }
-      if (dy != nullptr) response.stress += response.tangent * *dy;
-      return verdict;
-    }
-  }
-
-  double energy_of(std::size_t i, int p, const Strain& y,
-                   [[maybe_unused]] const Internals& internals) const {
-    const E& element = this->element(placement_.items[i]);
-    if constexpr (has_internals) {
-      return element.energy(p, y, internals);
-    } else {
-      return element.energy(p, y);
-    }
-  }
-
   // B(q_theta)^T S and its derivative
   template <class Space>
   Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil,
@@ -486,7 +372,7 @@ class ElementBatch final : public Batch,
     for (int p = 0; p < E::num_points; ++p) {
       element.strain(p, motion.next, y);
       element.gradient(p, motion.mid, B);
-      verdict = worse(verdict, respond(i, p, y, stencil, response));
+      verdict = worse(verdict, laws_.respond(element, p, at(i, p), y, stencil, response));
       reduce<Space>(B, motion.arms_mid, R);
       c.residual.noalias() += R.lazyProduct(response.stress);
       if (!c.with_tangent) continue;
@@ -497,22 +383,7 @@ class ElementBatch final : public Batch,
       element.add_curvature(p, stress, curvature);
       c.scalars += stencil.theta * curvature;
       RowMat<W, M> RD;
-      if constexpr (HasStiffness<E>) {
-        multiply(R, element.stiffness(p), RD);
-        RD *= stencil.theta_strain;
-        if constexpr (damps_each_strain) {
-          if (roots_ && stencil.step > 0.0) add_damping(R, element.stiffness(p), stencil, RD);
-        }
-        if (branches_.acts()) {
-          RowMat<M, M> stiffness = RowMat<M, M>::Zero();
-          branches_.add_stiffness(element.stiffness(p), stencil.theta, stiffness);
-          RowMat<W, M> product;
-          multiply(R, stiffness, product);
-          RD += product;
-        }
-      } else {
-        multiply(R, response.tangent, RD);
-      }
+      laws_.multiply_tangent(element, p, stencil, response, R, RD);
       if (stencil.theta != 1.0) {
         element.gradient(p, motion.next, B);
         reduce<Space>(B, motion.arms_next, R);
@@ -521,16 +392,6 @@ class ElementBatch final : public Batch,
       multiply_add(RD, R_next, c.tangent);
     }
     return verdict;
-  }
-
-  // RD += R sqrt(eta) C sqrt(eta) / step
-  template <int W>
-  void add_damping(const RowMat<W, M>& R, const RowMat<M, M>& C, const Stencil& stencil,
-                   RowMat<W, M>& RD) const {
-    const RowMat<M, M> damping = roots_->asDiagonal() * C * (*roots_ / stencil.step).asDiagonal();
-    RowMat<W, M> product;
-    multiply(R, damping, product);
-    RD += product;
   }
 
   // The same by products that the element knows how to do faster.
@@ -544,7 +405,7 @@ class ElementBatch final : public Batch,
     ItemSlots force = ItemSlots::Zero();
     for (int p = 0; p < E::num_points; ++p) {
       element.strain(p, motion.next, y);
-      verdict = worse(verdict, respond(i, p, y, stencil, response));
+      verdict = worse(verdict, laws_.respond(element, p, at(i, p), y, stencil, response));
       E::add_force(motion.mid, response.stress, force);
       if (!c.with_tangent) continue;
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
@@ -555,17 +416,42 @@ class ElementBatch final : public Batch,
       SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
       element.add_curvature(p, stress, curvature);
       c.scalars += stencil.theta * curvature;
-      if constexpr (HasStiffness<E>) {
-        double weight = stencil.theta_strain;
-        if (branches_.acts()) weight += branches_.stiffness_weight(stencil.theta);
-        E::add_stiffness(motion.mid, motion.next, element.stiffness(p), weight, c.tangent);
-      } else {
-        E::add_stiffness(motion.mid, motion.next, response.tangent, 1.0, c.tangent);
-      }
+      laws_.with_tangent(element, p, stencil, response, [&](const auto& C, double factor) {
+        E::add_stiffness(motion.mid, motion.next, C, factor, c.tangent);
+      });
     }
     c.add_slot_force(force, motion);
     if (c.with_tangent) c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
     return verdict;
+  }
+
+  // R C_k R^T of one branch at the end of the step
+  template <class Space>
+  Verdict assemble_branch(std::size_t i, std::size_t branch, const State& state, Target& target) {
+    constexpr int W = Space::width * N;
+    const E& element = this->element(placement_.items[i]);
+    const Motion motion = motion_of(i, state, 1.0);
+    Contribution<Space> c(true);
+    for (int p = 0; p < E::num_points; ++p) {
+      const RowMat<M, M> C = laws_.branch_stiffness(element, p, branch);
+      if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
+        E::add_stiffness(motion.next, motion.next, C, 1.0, c.tangent);
+      } else {
+        Gradient<S, M> B;
+        RowMat<W, M> R, RC;
+        element.gradient(p, motion.next, B);
+        reduce<Space>(B, motion.arms_next, R);
+        multiply(R, C, RC);
+        const RowMat<M, W> R_transposed = R.transpose();
+        multiply_add(RC, R_transposed, c.tangent);
+      }
+    }
+    if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
+      c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
+    }
+    if (!std::isfinite(c.tangent.sum())) return Verdict::not_finite;
+    c.scatter(i, motion, 1.0, placement_.scatter, target);
+    return Verdict::ok;
   }
 
   // M a with a = inertia (q_next - q_prev) + offset
@@ -603,27 +489,22 @@ class ElementBatch final : public Batch,
     }
   }
 
-  std::string effect_;
+  Effect effect_;
   const NodeTable& nodes_;
-  StrainDamping damping_;
+  PointLaws<E> laws_;
   std::vector<E> elements_;
   std::vector<std::array<int, N>> connectivity_;
   Placement placement_;
   Form form_ = Form::null_space;
   std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia is wanted
-  std::vector<Strain> strain_prev_;
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
-  std::optional<Strain> roots_;  // sqrt(eta) of the strains that are damped each by itself
-  [[no_unique_address]] typename InternalTypes<E, has_internals>::Store internals_;
-  BranchStore<M> branches_;
 };
 
 /// The batch of elements E of a model with this ledger name and damping, made when it is first
 /// asked for.
 template <BatchElement E>
-ElementBatch<E>& elements(Model& model, const std::string& effect,
-                          const StrainDamping& damping = {}) {
+ElementBatch<E>& elements(Model& model, const Effect& effect, const StrainDamping& damping = {}) {
   for (const auto& batch : model.element_batches()) {
     auto* same = dynamic_cast<ElementBatch<E>*>(batch.get());
     if (same != nullptr && same->effect() == effect && same->damping() == damping) return *same;

@@ -14,13 +14,12 @@ namespace culm::model {
 /// [[m, S^T], [S, J]] with the Euler tensor J. @source formulation 1.2, eq. (1.1)
 class MassBatch final : public Batch, public MassSource {
  public:
-  MassBatch(std::string effect, const NodeTable& nodes)
-      : effect_(std::move(effect)), nodes_(nodes) {}
+  MassBatch(Effect effect, const NodeTable& nodes) : effect_(std::move(effect)), nodes_(nodes) {}
 
   /// @param mass symmetric positive semidefinite [kg, kg m, kg m^2]
   void add(int node, const SlotMatrix<4>& mass) { items_.push_back({node, mass}); }
 
-  const std::string& effect() const override { return effect_; }
+  const Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
@@ -45,7 +44,7 @@ class MassBatch final : public Batch, public MassSource {
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) const;
 
-  std::string effect_;
+  Effect effect_;
   const NodeTable& nodes_;
   std::vector<Item> items_;
   Placement placement_;

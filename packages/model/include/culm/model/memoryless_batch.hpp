@@ -15,7 +15,7 @@ namespace culm::model {
 /// moments, pressures and dampers. Derived classes hold the items and say what each one adds.
 class MemorylessBatch : public Batch {
  public:
-  const std::string& effect() const override { return effect_; }
+  const Effect& effect() const override { return effect_; }
   void place(Placement placement, Form form) override {
     placement_ = std::move(placement);
     form_ = form;
@@ -25,7 +25,7 @@ class MemorylessBatch : public Batch {
   double stored_energy(const Coordinates&) const override { return 0.0; }
 
  protected:
-  explicit MemorylessBatch(std::string effect) : effect_(std::move(effect)) {}
+  explicit MemorylessBatch(Effect effect) : effect_(std::move(effect)) {}
 
   const Placement& placement() const { return placement_; }
   /// Until placed, the form with more entries.
@@ -50,7 +50,7 @@ class MemorylessBatch : public Batch {
   }
 
  private:
-  std::string effect_;
+  Effect effect_;
   Placement placement_;
   Form form_ = Form::multipliers;
 };

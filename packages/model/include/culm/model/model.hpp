@@ -53,7 +53,7 @@ class Model {
     element_batches_.push_back(std::move(batch));
   }
   /// The batch of masses with this ledger name, made when it is first asked for.
-  MassBatch& masses(const std::string& effect);
+  MassBatch& masses(const Effect& effect);
   /// Sets the velocity that a node has at the start of a dynamic analysis, v + omega x (p - about)
   /// for every point p of the node; constraints are imposed later.
   void add_initial_velocity(InitialVelocity velocity) { initial_velocities_.push_back(velocity); }

@@ -17,7 +17,9 @@ struct StrainDamping {
   /// Stress sqrt(eta_I) C_IJ sqrt(eta_J) de_J/dt: eta_I C_II on the diagonal, and for any C it
   /// takes energy.
   std::vector<double> viscosities;
-  std::vector<MaxwellBranch> branches = {};  ///< viscoelasticity, with a ratio for each strain
+  /// Viscoelasticity: with a ratio for each strain, or with none where elements have a stiffness of
+  /// their own for each branch. @see HasBranchStiffness
+  std::vector<MaxwellBranch> branches = {};
 
   bool operator==(const StrainDamping&) const = default;
   /// The same for `count` strains from the place `first` on.

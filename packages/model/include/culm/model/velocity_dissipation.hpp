@@ -27,7 +27,7 @@ class VelocityDissipation final : public Batch {
   /// @param chi in (0, 1]
   void add_body(std::vector<int> nodes, double chi);
 
-  const std::string& effect() const override { return effect_; }
+  const Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override;
   bool has_tangent() const override { return false; }
@@ -72,7 +72,7 @@ class VelocityDissipation final : public Batch {
   static void set_turns(Body& body, int first, const Pair& pair);
   static void orthonormalise(Body& body, int first, int last);
 
-  std::string effect_ = "Velocity dissipation";
+  Effect effect_{"Velocity dissipation"};
   const Model& model_;
   std::vector<const MassSource*> masses_;
   std::vector<Body> bodies_;

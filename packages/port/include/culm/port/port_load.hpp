@@ -22,7 +22,7 @@ class PortLoad final : public model::MemorylessBatch {
   static constexpr int max_nodes = 4;
 
   /// @param points  of at most max_nodes nodes each
-  PortLoad(std::string effect, const model::NodeTable& nodes, std::vector<model::Marker> points);
+  PortLoad(model::Effect effect, const model::NodeTable& nodes, std::vector<model::Marker> points);
 
   const std::vector<model::Marker>& points() const { return points_; }
   /// What acts from now on. @param forces, moments  one per point [N, N m]

@@ -6,6 +6,7 @@
 #include <culm/shell/shell_results.hpp>
 
 #include <memory>
+#include <vector>
 
 namespace culm::shell {
 
@@ -47,6 +48,12 @@ class ElasticShell : public ShellForms {
   const SlotMatrix<num_slots>& mass() const noexcept { return mass_; }
   /// The constant C of the law: symmetric, stress = C y at rest.
   const Stiffness& stiffness(int point) const noexcept;
+  /// What the layers' branches of one relaxation time add to it if their springs follow at once, in
+  /// the order of Layup::relaxation_times. Enhanced parameters follow the forms as at rest, so
+  /// where all layers relax alike it is C times their ratio, and else an upper bound.
+  const Stiffness& branch_stiffness(int, std::size_t branch) const noexcept {
+    return branches_[branch];
+  }
 
   ShellResultants resultants(int, const Strain& y) const noexcept { return wall_.resultants(y); }
   static constexpr const auto& resultant_names() { return shell_resultant_names; }
@@ -60,6 +67,7 @@ class ElasticShell : public ShellForms {
  private:
   ElasticWall wall_;
   Stiffness stiffness_;
+  std::vector<Stiffness> branches_;
   SlotMatrix<num_slots> mass_;
 };
 

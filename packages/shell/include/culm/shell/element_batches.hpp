@@ -9,11 +9,11 @@
 
 namespace culm::model {
 
-extern template ElementBatch<shell::ElasticShell>& elements(Model&, const std::string&,
+extern template ElementBatch<shell::ElasticShell>& elements(Model&, const Effect&,
                                                             const StrainDamping&);
-extern template ElementBatch<shell::HyperelasticShell>& elements(Model&, const std::string&,
+extern template ElementBatch<shell::HyperelasticShell>& elements(Model&, const Effect&,
                                                                  const StrainDamping&);
-extern template ElementBatch<shell::LinearShell>& elements(Model&, const std::string&,
+extern template ElementBatch<shell::LinearShell>& elements(Model&, const Effect&,
                                                            const StrainDamping&);
 
 }  // namespace culm::model

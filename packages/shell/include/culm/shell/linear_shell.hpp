@@ -3,6 +3,8 @@
 
 #include <culm/shell/elastic_shell.hpp>
 
+#include <vector>
+
 namespace culm::shell {
 
 /// ElasticShell whose strains are linear in the displacements seen from a frame node: with its
@@ -45,6 +47,10 @@ class LinearShell {
                   Response<num_strains>& response) const noexcept;
   /// The constant C of the law: symmetric, stress = C y at rest.
   const Stiffness& stiffness(int) const noexcept { return stiffness_; }
+  /// As of the full shell.
+  const Stiffness& branch_stiffness(int, std::size_t branch) const noexcept {
+    return branches_[branch];
+  }
   double energy(int point, const Strain& y) const noexcept;
   SlotMatrix<num_slots> mass() const noexcept;
 
@@ -65,6 +71,7 @@ class LinearShell {
   ShellForms::Modes reference_;  // P, seen from the frame
   ElasticWall wall_;
   Stiffness stiffness_;
+  std::vector<Stiffness> branches_;
   SlotMatrix<ShellForms::num_slots> mass_;
 };
 

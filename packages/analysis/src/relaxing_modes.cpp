@@ -1,0 +1,96 @@
+#include <culm/analysis/relaxing_modes.hpp>
+#include <culm/base/error.hpp>
+
+#include <Eigen/SparseLU>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace culm::analysis {
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexMatrix = Eigen::SparseMatrix<Complex>;
+
+constexpr int most_iterations = 50;
+constexpr double converged = 1e-13;  // change of the value, over its size
+
+struct Follows {
+  Complex value, derivative;  // of f, by lambda
+};
+
+Follows follows(const BranchTerm& term, Complex lambda) {
+  const Complex s = lambda + term.shift;
+  const Complex resists = 1.0 + s * term.time;
+  return {s * term.time / resists, term.time / (resists * resists)};
+}
+
+ComplexMatrix at(const RelaxingPencil& pencil, Complex lambda) {
+  ComplexMatrix T = lambda * lambda * pencil.M.cast<Complex>();
+  T += lambda * pencil.C.cast<Complex>();
+  T += pencil.K.cast<Complex>();
+  for (const BranchTerm& term : pencil.terms) T += follows(term, lambda).value * term.stiffness;
+  return T;
+}
+
+// T'(lambda) x
+Eigen::VectorXcd derivative(const RelaxingPencil& pencil, Complex lambda,
+                            const Eigen::VectorXcd& x) {
+  Eigen::VectorXcd y = pencil.M * x;
+  y *= 2.0 * lambda;
+  y += pencil.C * x;
+  for (const BranchTerm& term : pencil.terms) {
+    y += follows(term, lambda).derivative * (term.stiffness * x);
+  }
+  return y;
+}
+
+[[noreturn]] void give_up(Complex start) {
+  throw NumericalError(
+      fmt::format("The mode at {:.6g} Hz of the lasting stiffness was not found with its branches "
+                  "of 'Relaxation'.\nTry: other modes ('Near'), or 'Damping' = false, which leaves "
+                  "branches out.",
+                  std::abs(start) / (2.0 * std::numbers::pi)));
+}
+
+// The zero of x^H T(lambda) x next to a value: exact where branches do not change the shape.
+Complex value_along(const RelaxingPencil& pencil, Complex lambda, const Eigen::VectorXcd& x) {
+  const Complex start = lambda;
+  for (int i = 0; i < most_iterations; ++i) {
+    const Complex change = x.dot(at(pencil, lambda) * x) / x.dot(derivative(pencil, lambda, x));
+    lambda -= change;
+    if (!std::isfinite(std::abs(lambda))) give_up(start);
+    if (std::abs(change) <= converged * std::abs(lambda)) break;
+  }
+  return lambda;
+}
+
+}  // namespace
+
+ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMode& start) {
+  ComplexMode mode{value_along(pencil, start.value, start.vector), start.vector};
+  const Eigen::VectorXcd v = start.vector;  // x is kept at v^H x = v^H v
+  const double size = v.squaredNorm();
+  Eigen::SparseLU<ComplexMatrix> factors;
+  for (int i = 0;; ++i) {
+    if (i == most_iterations) give_up(start.value);
+    ComplexMatrix T = at(pencil, mode.value);
+    T.makeCompressed();
+    factors.compute(T);
+    // at an eigenvalue to the last digit
+    if (factors.info() != Eigen::Success) break;
+    const Eigen::VectorXcd u = factors.solve(derivative(pencil, mode.value, mode.vector));
+    const Complex along = v.dot(u) / size;
+    const Complex change = 1.0 / along;
+    if (!u.allFinite() || !std::isfinite(std::abs(change))) give_up(start.value);
+    mode.value -= change;
+    mode.vector = u / along;
+    if (std::abs(change) <= converged * std::abs(mode.value)) break;
+  }
+  const Eigen::VectorXd terms = pencil.K.cwiseAbs() * mode.vector.cwiseAbs();
+  mode.residual = (at(pencil, mode.value) * mode.vector).cwiseAbs().maxCoeff() / terms.maxCoeff();
+  return mode;
+}
+
+}  // namespace culm::analysis
