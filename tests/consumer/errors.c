@@ -26,7 +26,7 @@ int main(int argc, char **argv) {
   culm_snapshot *start = NULL;
   if (argc < 2) return 1;
 
-  EXPECT(culm_open(CULM_API_VERSION + 1000, CULM_WORLD, argv[1], NULL, 0, &mast), CULM_USAGE, "version 2001");
+  EXPECT(culm_open(CULM_API_VERSION + 1000, CULM_WORLD, argv[1], NULL, 0, &mast), CULM_USAGE, "version 2002");
   EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, "missing.xml", NULL, 0, &mast), CULM_FILE, "missing.xml");
   EXPECT(culm_begin(NULL, NULL), CULM_USAGE, "NULL");
   EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, argv[1], overrides, 1, &mast), CULM_OK, "");
