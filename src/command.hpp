@@ -3,6 +3,7 @@
 
 #include <culm/openfast/import.hpp>
 #include <culm/parallel/comm.hpp>
+#include <culm/simulation/simulation.hpp>
 
 #include <filesystem>
 #include <string>
@@ -76,10 +77,18 @@ struct ReferenceArguments {
   bool relax_ng = false;  ///< as a grammar
 };
 
+/// A deck whose steps another program makes.
+struct ServeArguments : RunArguments {
+  std::string address;  ///< where it comes to
+  std::string port;     ///< the only one of the deck if empty
+  double patience = 600.0;
+};
+
 /// Runs a deck.
 /// @param replay  a record whose loads act in place of those of the partner; empty for none
+/// @param serve   another program that leads; nobody if it has no address
 void run(const parallel::Comm& comm, RunArguments& arguments,
-         const std::filesystem::path& replay = {});
+         const std::filesystem::path& replay = {}, const simulation::ServeSettings& serve = {});
 /// Goes on with a run from its last checkpoint.
 void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
@@ -88,6 +97,8 @@ void check(const parallel::Comm& comm, CheckArguments& arguments);
 void couple(const parallel::Comm& comm, CoupleArguments& arguments);
 /// Runs a deck with the loads of a record, and compares how it moves.
 void replay(const parallel::Comm& comm, ReplayArguments& arguments);
+/// Runs a deck as another program asks for it.
+void serve(const parallel::Comm& comm, ServeArguments& arguments);
 /// Makes a deck from files of OpenFAST, and a report beside it; replaces nothing.
 void import_openfast(const parallel::Comm& comm, const ImportArguments& arguments);
 /// Prints the input reference, the part of it that has a name, or its grammar.

@@ -38,6 +38,7 @@ using culm::app::ReferenceArguments;
 using culm::app::ReplayArguments;
 using culm::app::ResumeArguments;
 using culm::app::RunArguments;
+using culm::app::ServeArguments;
 
 // What the user gives, by verb.
 struct Arguments {
@@ -45,10 +46,12 @@ struct Arguments {
   CheckArguments check;
   CoupleArguments couple;
   ReplayArguments replay;
+  ServeArguments serve;
 
   /// The run that was asked for, with or without a partner.
   const RunArguments& any_run() const {
     if (!couple.deck.empty()) return couple;
+    if (!serve.deck.empty()) return serve;
     return replay.deck.empty() ? run : replay;
   }
 
@@ -167,6 +170,18 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   add_run_options(*replay, arguments.replay);
   replay->callback(
       [&] { action = [&](const Comm& comm) { culm::app::replay(comm, arguments.replay); }; });
+  CLI::App* serve = app.add_subcommand(
+      "serve", "Run a deck whose steps another program makes, by the loads at a port");
+  add_run_options(*serve, arguments.serve);
+  serve
+      ->add_option("--at", arguments.serve.address,
+                   "Where it comes to: unix:PATH, tcp:PORT, tcp:ADDRESS:PORT, or mpi:RANK")
+      ->required();
+  serve->add_option("--port", arguments.serve.port, "The only port of the deck if not given");
+  serve->add_option("--patience", arguments.serve.patience, "How long it may be silent [s]; 600")
+      ->check(CLI::PositiveNumber);
+  serve->callback(
+      [&] { action = [&](const Comm& comm) { culm::app::serve(comm, arguments.serve); }; });
   CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");
   import->require_subcommand(1);
   CLI::App* openfast =

@@ -8,16 +8,20 @@
 
 namespace culm::app {
 
-void run(const parallel::Comm& comm, RunArguments& arguments, const std::filesystem::path& replay) {
+void run(const parallel::Comm& comm, RunArguments& arguments, const std::filesystem::path& replay,
+         const simulation::ServeSettings& serve) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
   const double memory = simulation::find_memory(arguments.memory);
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const std::filesystem::path by_name =
       std::filesystem::path("results") / std::filesystem::path(arguments.deck).stem();
-  const simulation::RunSettings settings{
-      arguments.folder.empty() ? by_name : arguments.folder, arguments.quiet,
-      comm.is_root() && isatty(STDOUT_FILENO) != 0, arguments.strict, replay};
+  const simulation::RunSettings settings{arguments.folder.empty() ? by_name : arguments.folder,
+                                         arguments.quiet,
+                                         comm.is_root() && isatty(STDOUT_FILENO) != 0,
+                                         arguments.strict,
+                                         replay,
+                                         serve};
   const simulation::Catalogue catalogue;
   const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
   const Options deck = simulation::read_deck(catalogue, source);

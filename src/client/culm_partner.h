@@ -13,6 +13,17 @@
  *   if (kind < 0) fail(it.error);
  *   culm_partner_close(&it);
  *
+ * Where the program shall lead, culm follows (culm serve DECK --at unix:/tmp/wind):
+ *
+ *   if (culm_partner_open(&it, "unix:/tmp/wind", 600.0)) fail(it.error);
+ *   if (culm_structure_begin(&it, "wind", CULM_MOTION)) fail(it.error);
+ *   while (it.proposal > it.time) {
+ *     ... fill loads ...
+ *     if (culm_structure_attempt(&it, it.proposal, loads, &window) < 0) fail(it.error);   1 converged, 0 not; again and again
+ *     if (culm_structure_accept(&it)) fail(it.error);
+ *   }
+ *   culm_structure_end(&it);
+ *
  * culm listens and leads. Each attempt is answered as if it were the first of its window. Functions return 0, or -1 and
  * say in `error` why. Link with zlib (-lz). With CULM_PARTNER_MPI defined, culm_partner_open_mpi speaks with a culm
  * in the same mpiexec. For long answers call culm_partner_alive from time to time, once in a second at least as often as
@@ -26,6 +37,7 @@
 #endif
 
 #include <errno.h>
+#include <math.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -69,10 +81,13 @@ typedef struct {
   const char* port;
   double start;    /* [s] */
   uint32_t window; /* above 0: the run goes on from what was saved under this number */
+  /* where culm follows: accepted time, where it would go next, equal at the end, and where that is [s] */
+  double time, proposal, final_time;
+  double step_work, work; /* of the loads in the last step, and so far [J] */
   /* inside */
   int socket;
   double patience;
-  uint32_t wanted;
+  uint32_t wanted, steps, attempts;
   char *hello, *payload;
   size_t room;
   unsigned char header[64];
@@ -285,13 +300,38 @@ static int culm_partner_begin(culm_partner* it, const char* name, uint32_t wante
   return culm_partner_send(it, 1, hello, 16 + length);
 }
 
-/* What culm wants next: CULM_ATTEMPT, CULM_ACCEPT, CULM_SAVE, CULM_BYE; -1 for an error. */
-static int culm_partner_next(culm_partner* it, culm_window* window) {
+/* Numbers of each point that are wanted. */
+static uint64_t culm_partner_width(const culm_partner* it) {
+  static const int widths[5] = {3, 9, 6, 6, 6};
+  uint64_t count = 0;
+  int i;
+  for (i = 0; i < 5; ++i) count += (it->wanted >> i & 1) ? (uint64_t)widths[i] : 0;
+  return count;
+}
+
+/* Finds what is wanted in a payload; returns what comes behind. */
+static const double* culm_partner_quantities(const culm_partner* it, const double* at, culm_window* window) {
   static const int widths[5] = {3, 9, 6, 6, 6};
   const double** places[5];
+  int i;
+  places[0] = &window->position;
+  places[1] = &window->rotation;
+  places[2] = &window->velocity;
+  places[3] = &window->acceleration;
+  places[4] = &window->motion;
+  for (i = 0; i < 5; ++i) {
+    if (!(it->wanted >> i & 1)) continue;
+    *places[i] = at;
+    at += (size_t)widths[i] * it->points;
+  }
+  return at;
+}
+
+/* What culm wants next: CULM_ATTEMPT, CULM_ACCEPT, CULM_SAVE, CULM_BYE; -1 for an error. */
+static int culm_partner_next(culm_partner* it, culm_window* window) {
   const double* at;
-  uint64_t count = 0;
-  int i, kind = culm_partner_receive(it);
+  uint64_t count;
+  int kind = culm_partner_receive(it);
   memset(window, 0, sizeof *window);
   if (kind < 0) return -1;
   if (kind == 9 || kind == 10) {
@@ -304,20 +344,10 @@ static int culm_partner_next(culm_partner* it, culm_window* window) {
   memcpy(&window->end, it->header + 24, 8);
   if (kind == CULM_SAVE) return kind;
   if (kind != CULM_ATTEMPT && kind != CULM_ACCEPT) return culm_partner_fail(it, "culm says what has no meaning here");
-  for (i = 0; i < 5; ++i) count += (it->wanted >> i & 1) ? (uint64_t)widths[i] : 0;
+  count = culm_partner_width(it);
   if (kind == CULM_ACCEPT) count += 6;
   if (culm_partner_size(it) != 8 * count * it->points) return culm_partner_fail(it, "a frame has another length than it must");
-  places[0] = &window->position;
-  places[1] = &window->rotation;
-  places[2] = &window->velocity;
-  places[3] = &window->acceleration;
-  places[4] = &window->motion;
-  at = (const double*)it->payload;
-  for (i = 0; i < 5; ++i) {
-    if (!(it->wanted >> i & 1)) continue;
-    *places[i] = at;
-    at += (size_t)widths[i] * it->points;
-  }
+  at = culm_partner_quantities(it, (const double*)it->payload, window);
   if (kind == CULM_ACCEPT) window->loads = at;
   return kind;
 }
@@ -340,6 +370,95 @@ static int culm_partner_alive(culm_partner* it) { return culm_partner_send(it, 8
 
 /* It cannot go on; culm ends with this text. */
 static int culm_partner_give_up(culm_partner* it, const char* why) { return culm_partner_send(it, 10, why, strlen(why)); }
+
+/* --- culm follows --------------------------------------------------------------------------------- */
+
+/* What the next frame is about: window of time (or a number to save under), attempt, start, end. */
+static void culm_structure_about(culm_partner* it, uint32_t number, uint32_t attempt, double end) {
+  memcpy(it->header + 8, &number, 4);
+  memcpy(it->header + 12, &attempt, 4);
+  memcpy(it->header + 16, &it->time, 8);
+  memcpy(it->header + 24, &end, 8);
+}
+
+/* Hears one answer; its text, where culm cannot go on. */
+static int culm_structure_answer(culm_partner* it, int expected, uint32_t number) {
+  uint32_t answered;
+  const int kind = culm_partner_receive(it);
+  if (kind == 10) snprintf(it->error, sizeof it->error, "culm says: %.240s", it->payload);
+  if (kind < 0 || kind == 10) return -1;
+  memcpy(&answered, it->header + 8, 4);
+  if (kind != expected || answered != number) return culm_partner_fail(it, "culm answered something else");
+  return 0;
+}
+
+/* The same, of all but attempts: where the run is. */
+static int culm_structure_state(culm_partner* it, int expected, uint32_t number) {
+  if (culm_structure_answer(it, expected, number)) return -1;
+  if (culm_partner_size(it) != 16) return culm_partner_fail(it, "a frame has another length than it must");
+  memcpy(&it->time, it->header + 16, 8);
+  memcpy(&it->proposal, it->header + 24, 8);
+  memcpy(&it->step_work, it->payload, 8);
+  memcpy(&it->work, it->payload + 8, 8);
+  return 0;
+}
+
+static int culm_structure_do(culm_partner* it, uint16_t kind, uint32_t number) {
+  culm_structure_about(it, number, it->attempts, it->time);
+  if (culm_partner_send(it, kind, NULL, 0)) return -1;
+  return culm_structure_state(it, kind + 1, number);
+}
+
+/* Meets culm serve and says what shall be known of the points after attempts. */
+static int culm_structure_begin(culm_partner* it, const char* name, uint32_t wanted) {
+  if (culm_partner_begin(it, name, wanted, INFINITY)) return -1;
+  memcpy(&it->final_time, it->header + 24, 8);
+  it->steps = it->attempts = 0;
+  if (it->final_time <= it->start) return culm_partner_fail(it, "culm leads here: start it by 'culm serve'");
+  return culm_structure_state(it, 5, 0);
+}
+
+/* Tries a step to `end` under mean forces and moments, 6 per point [N, N m]. 1: converged, and the window says how the
+ * points moved; 0: not; -1: an error. */
+static int culm_structure_attempt(culm_partner* it, double end, const double* loads, culm_window* window) {
+  double converged;
+  culm_structure_about(it, it->steps, it->attempts, end);
+  if (culm_partner_send(it, 2, loads, 48 * (uint64_t)it->points)) return -1;
+  memset(window, 0, sizeof *window);
+  window->number = it->steps;
+  window->attempt = it->attempts++;
+  window->start = it->time;
+  window->end = end;
+  if (culm_structure_answer(it, 3, it->steps)) return -1;
+  memcpy(&converged, it->payload, 8);
+  if (converged == 0.0) return 0;
+  if (culm_partner_size(it) != 8 + 8 * culm_partner_width(it) * it->points) {
+    return culm_partner_fail(it, "a frame has another length than it must");
+  }
+  culm_partner_quantities(it, (const double*)it->payload + 1, window);
+  return 1;
+}
+
+/* Makes the last attempt, which converged, the accepted state. */
+static int culm_structure_accept(culm_partner* it) {
+  if (culm_structure_do(it, 4, it->steps)) return -1;
+  ++it->steps;
+  it->attempts = 0;
+  return 0;
+}
+
+/* Forgets the last attempt. */
+static int culm_structure_discard(culm_partner* it) { return culm_structure_do(it, 11, it->steps); }
+
+/* Forgets it because it was not good: the proposal is nearer. An error where none is left. */
+static int culm_structure_fail(culm_partner* it) { return culm_structure_do(it, 13, it->steps); }
+
+/* Keeps the accepted state in culm's memory under a number, and goes back to it, results as well. */
+static int culm_structure_save(culm_partner* it, uint32_t number) { return culm_structure_do(it, 6, number); }
+static int culm_structure_restore(culm_partner* it, uint32_t number) { return culm_structure_do(it, 15, number); }
+
+/* The end; then culm_partner_close. */
+static int culm_structure_end(culm_partner* it) { return culm_partner_send(it, 9, NULL, 0); }
 
 static void culm_partner_close(culm_partner* it) {
   if (it->socket >= 0) close(it->socket);

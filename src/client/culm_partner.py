@@ -11,7 +11,14 @@
     culm_partner.run("unix:/tmp/wind", Wind())
 
 culm listens (partner of type 'Socket') and leads: for each window of time it sends how the points of a port move, as
-often as it takes, and then says that the window is over. doc/developer/wire_format.md describes the bytes.
+often as it takes, and then says that the window is over. Where the program shall lead, `culm serve` follows:
+
+    with culm_partner.Structure("unix:/tmp/wind") as mast:
+        while not mast.is_at_end:
+            converged = mast.attempt(loads_of(mast), mast.proposal)  # as often as it takes
+            mast.accept()
+
+doc/developer/wire_format.md describes the bytes.
 """
 
 import math
@@ -27,6 +34,7 @@ import numpy
 
 QUANTITIES = (("position", 3), ("rotation", 9), ("velocity", 6), ("acceleration", 6), ("motion", 6))
 HELLO, ATTEMPT, ANSWER, ACCEPT, ACCEPTED, SAVE, SAVED, ALIVE, BYE, ERROR = range(1, 11)
+DISCARD, DISCARDED, FAIL, FAILED, RESTORE, RESTORED = range(11, 17)  # of programs that lead
 HEADER = struct.Struct("<4sHHIIddQI20x")  # magic, version, kind, window, attempt, start, end, payload, checksum
 CHECKED = 40  # bytes of the header that the checksum covers
 VERSION = 1
@@ -174,19 +182,146 @@ def run(address, partner, patience=600.0):
         connection.close()
 
 
-def _serve(connection, partner):
+class Structure:
+    """culm as it follows: `culm serve DECK --at ADDRESS`. Steps are tried under loads at a port as often as wanted, then
+    accepted; each attempt begins from the last accepted state, whatever was tried before.
+
+    port, points, reference, final_time   the port, its points [m], where the analysis ends [s]
+    time, proposal     of the accepted state, and where culm would go next [s]
+    work, step_work    of the loads on the structure: so far, and in the last step [J]
+    position, …        what `wants` names, of the attempt that converged last: arrays with a row for each point
+    """
+
+    def __init__(self, address, wants=("position",), patience=600.0, name="partner"):
+        self._wanted = _bits(wants)
+        self._connection = Connection(address, patience)
+        self._step, self._attempts = 0, 0
+        kind, _, _, start, end, payload = self._connection.receive()
+        if kind != HELLO or end <= start:
+            raise PartnerError("culm leads here: start it by 'culm serve'")
+        self.port, self.reference, self.velocity = _hello(payload)
+        self.points, self.final_time = len(self.reference), end
+        hello = struct.pack("<IId", self.points, self._wanted, math.inf) + name.encode()
+        self._connection.send(HELLO, payload=hello)
+        self._take(self._connection.receive(), ACCEPTED)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, trace):
+        try:
+            if error is None:
+                self._connection.send(BYE)
+            elif not isinstance(error, PartnerError):
+                self._connection.send(ERROR, payload=f"{kind.__name__}: {error}".encode())
+        except OSError:
+            pass  # culm has left before
+        finally:
+            self._connection.close()
+
+    @property
+    def is_at_end(self):
+        return self.proposal == self.time
+
+    def attempt(self, loads, end):
+        """Tries a step to `end` [s] under these mean loads, (points, 6) [N, N m]. Returns whether it converged."""
+        loads = numpy.ascontiguousarray(loads, "<f8")
+        if loads.shape != (self.points, 6):
+            raise ValueError(f"loads have the shape {loads.shape} instead of {(self.points, 6)}")
+        about = (self._step, self._attempts, self.time, end)
+        self._attempts += 1
+        payload = self._ask(ATTEMPT, ANSWER, about, loads.tobytes())[5]
+        converged = struct.unpack_from("<d", payload)[0] == 1.0
+        if converged:
+            _read(self, payload, 8, self.points, self._wanted)
+        return converged
+
+    def accept(self):
+        """Makes the last attempt, which converged, the accepted state; culm writes its results."""
+        self._do(ACCEPT, ACCEPTED)
+        self._step, self._attempts = self._step + 1, 0
+
+    def discard(self):
+        """Forgets the last attempt."""
+        self._do(DISCARD, DISCARDED)
+
+    def fail(self):
+        """Forgets an attempt that did not converge, or was not good: `proposal` is nearer. culm ends if none is left."""
+        self._do(FAIL, FAILED)
+
+    def save(self, number):
+        """Keeps the accepted state in culm's memory under a number, in place of what it was for before."""
+        self._do(SAVE, SAVED, number)
+
+    def restore(self, number):
+        """Goes back to what was saved under this number, with results as they were then."""
+        self._do(RESTORE, RESTORED, number)
+
+    def close(self):
+        """The end: culm closes its results."""
+        self._connection.send(BYE)
+        self._connection.close()
+
+    def _do(self, kind, expected, number=None):
+        about = (self._step if number is None else number, self._attempts, self.time, self.time)
+        self._take(self._ask(kind, expected, about), expected)
+
+    def _ask(self, kind, expected, about, payload=b""):
+        try:
+            self._connection.send(kind, *about, payload=payload)
+        except OSError:
+            pass  # its last word may say why it is gone
+        frame = self._connection.receive()
+        if frame[0] == ERROR:
+            raise PartnerError("culm says: " + frame[5].decode())
+        if frame[0] != expected or frame[1:3] != about[:2]:
+            raise PartnerError(f"culm answered {frame[:3]} to {(kind, *about[:2])}")
+        return frame
+
+    def _take(self, frame, expected):
+        if frame[0] != expected:
+            raise PartnerError(f"culm sent a frame of kind {frame[0]}")
+        self.time, self.proposal = frame[3], frame[4]
+        self.step_work, self.work = struct.unpack("<dd", frame[5])
+
+
+def _bits(wants):
     names = [name for name, _ in QUANTITIES]
-    for name in partner.wants:
+    for name in wants:
         if name not in names:
             raise ValueError(f"there is no quantity '{name}' to want; allowed: {', '.join(names)}")
-    kind, window, _, start, _, payload = connection.receive()
-    if kind != HELLO:
-        raise PartnerError(f"culm began with a frame of kind {kind}")
+    return sum(1 << i for i, name in enumerate(names) if name in (*wants, "motion"))
+
+
+def _hello(payload):
+    """Port, reference positions, velocities."""
     points = struct.unpack_from("<I", payload)[0]
     numbers = numpy.frombuffer(payload, "<f8", 9 * points, 4)
     reference, velocity = numbers[: 3 * points].reshape(-1, 3), numbers[3 * points :].reshape(-1, 6)
-    partner.begin(payload[4 + 72 * points :].decode(), reference, velocity, start, window)
-    wanted = sum(1 << i for i, (name, _) in enumerate(QUANTITIES) if name in (*partner.wants, "motion"))
+    return payload[4 + 72 * points :].decode(), reference, velocity
+
+
+def _read(target, payload, at, points, wanted):
+    """Sets the quantities of a payload as attributes. Returns where they end."""
+    for i, (name, width) in enumerate(QUANTITIES):
+        if not wanted >> i & 1:
+            continue
+        values = numpy.frombuffer(payload, "<f8", width * points, at)
+        setattr(target, name, values.reshape(-1, 3, 3) if name == "rotation" else values.reshape(-1, width))
+        at += 8 * width * points
+    return at
+
+
+def _serve(connection, partner):
+    wanted = _bits(partner.wants)
+    kind, window, _, start, end, payload = connection.receive()
+    if kind != HELLO:
+        raise PartnerError(f"culm began with a frame of kind {kind}")
+    if end > start:
+        raise PartnerError("culm follows here: it is to be led by a Structure, or to be started by 'culm couple'")
+    port, reference, velocity = _hello(payload)
+    points = len(reference)
+    partner.begin(port, reference, velocity, start, window)
     hello = struct.pack("<IId", points, wanted, partner.longest_window) + partner.name.encode()
     connection.send(HELLO, payload=hello)
     while True:
@@ -212,16 +347,20 @@ def _serve(connection, partner):
 
 def _window(about, payload, points, wanted):
     window = Window(*about)
-    at = 0
-    for i, (name, width) in enumerate(QUANTITIES):
-        if not wanted >> i & 1:
-            continue
-        values = numpy.frombuffer(payload, "<f8", width * points, at)
-        setattr(window, name, values.reshape(-1, 3, 3) if name == "rotation" else values.reshape(-1, width))
-        at += 8 * width * points
+    at = _read(window, payload, 0, points, wanted)
     if at < len(payload):
         window.loads = numpy.frombuffer(payload, "<f8", 6 * points, at).reshape(-1, 6)
     return window
+
+
+def _connect_unix(path):
+    channel = socket.socket(socket.AF_UNIX)
+    try:
+        channel.connect(path)
+    except OSError:
+        channel.close()
+        raise
+    return channel
 
 
 def _connect(address, patience):
@@ -231,8 +370,7 @@ def _connect(address, patience):
     while True:
         try:
             if kind == "unix":
-                channel = socket.socket(socket.AF_UNIX)
-                channel.connect(place)
+                channel = _connect_unix(place)
             elif kind == "tcp":
                 host, _, port = place.rpartition(":")
                 channel = socket.create_connection((host or "127.0.0.1", int(port)))

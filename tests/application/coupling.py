@@ -2,7 +2,8 @@
 """Couplings with another program over a socket: equal to one in the same process bit by bit, killed and resumed,
 recorded and replayed, and with partners that die in all ways.
 
-usage: coupling.py --culm PROGRAM [--mpiexec PROGRAM --ranks N --socket-partner PROGRAM --mpi-partner PROGRAM]
+usage: coupling.py --culm PROGRAM [--mpiexec PROGRAM --ranks N --socket-partner PROGRAM --mpi-partner PROGRAM
+                   --socket-leader PROGRAM --mpi-leader PROGRAM]
 """
 
 import argparse
@@ -397,6 +398,112 @@ connection.receive()
         partner.wait(TIME_LIMIT)
 
 
+class Leaders(CouplingTest):
+    """Programs that lead. The reference is culm's own explicit scheme: the answer to a step acts in the next one."""
+
+    MASS = 0.1
+
+    def setUp(self):
+        super().setUp()
+        text = re.sub(r'<Parameter name="Window" value="0.02"/>', "", self.deck.read_text())
+        text = text.replace('<Parameter name="Mass" value="20"/>', f'<Parameter name="Mass" value="{self.MASS}"/>')
+        text = text.replace("Quasi Newton", "Explicit")
+        deck = self.write("explicit.xml", text)
+        self.culm("run", deck, "--output", "here", "--quiet", code=8)  # it loses energy, and says so
+        self.led = self.write("led.xml", re.sub(r'  <ParameterList name="Coupling">.*?\n  </ParameterList>\n', "", text,
+                                                flags=re.S))
+
+    def serve(self, *words):
+        return self.start("serve", self.led, "--at", self.address, "--port", "wet", "--output", "there", "--quiet", *words)
+
+    def step(self, mast, loads, velocity):
+        h = mast.proposal - mast.time
+        self.assertTrue(mast.attempt(loads, mast.proposal))
+        moved = mast.motion[:, :3]
+        loads = numpy.zeros((mast.points, 6))
+        loads[:, :3] = -2.0 * self.MASS / h * (moved / h - velocity)
+        velocity = 2.0 / h * moved - velocity
+        mast.accept()
+        return loads, velocity
+
+    def test_in_python(self):
+        process = self.serve()
+        with culm_partner.Structure(self.address, patience=20.0) as mast:
+            self.assertEqual((mast.points, mast.port, mast.time, mast.final_time), (5, "wet", 0.0, 0.5))
+            loads, velocity = numpy.zeros((5, 6)), mast.velocity[:, :3].copy()
+            while not mast.is_at_end:
+                if abs(mast.time - 0.15) < 1e-9:
+                    mast.save(7)
+                    mast.attempt(1e3 * loads, mast.time + 0.001)
+                    mast.discard()
+                    there = loads, velocity
+                    for _ in range(12):
+                        there = self.step(mast, *there)
+                    mast.restore(7)
+                    self.assertLess(abs(mast.time - 0.15), 1e-9)
+                loads, velocity = self.step(mast, loads, velocity)
+            self.assertNotEqual(mast.work, 0.0)
+        self.finish(process)
+        self.same("here", "there")
+
+    def test_in_c(self):
+        process = self.serve()
+        leader = subprocess.run([os.path.abspath(OPTIONS.socket_leader), self.address], timeout=TIME_LIMIT)
+        self.assertEqual(leader.returncode, 0)
+        self.finish(process)
+        self.same("here", "there")
+
+    def test_over_mpi(self):
+        process = subprocess.Popen(
+            [OPTIONS.mpiexec, "-n", str(OPTIONS.ranks), os.path.abspath(OPTIONS.culm), "serve", self.led, "--at",
+             f"mpi:{OPTIONS.ranks}", "--port", "wet", "--output", "there", "--quiet", "--ranks", str(OPTIONS.ranks), ":",
+             "-n", "1", os.path.abspath(OPTIONS.mpi_leader), "mpi"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, **MPI_ENVIRONMENT},
+            cwd=self.folder)
+        self.finish(process)
+        self.same("here", "there")
+
+    def fails(self, said, lead, *words):
+        process = self.serve(*words)
+        with self.assertRaisesRegex((culm_partner.PartnerError, KeyboardInterrupt), said):
+            with culm_partner.Structure(self.address, patience=20.0) as mast:
+                self.step(mast, numpy.zeros((5, 6)), numpy.zeros((5, 3)))
+                lead(mast)
+        errors = self.finish(process, FAILED_PARTNER)
+        self.assertIn("the partner 'partner' at port 'wet' failed after 1 steps: ", re.sub(r"\s+", " ", errors))
+        self.assertRegex(re.sub(r"\s+", " ", errors), said)
+        self.assertEqual(self.rows("there"), 1)
+
+    def test_that_fail(self):
+        def leave(mast):
+            mast._connection.socket.shutdown(2)
+            raise KeyboardInterrupt("gone without a word")
+
+        def give_up(mast):
+            raise KeyboardInterrupt("no more wind")
+
+        self.fails("gone without a word", leave)
+        self.fails("no more wind", give_up)
+
+    def test_that_ask_what_makes_no_sense(self):
+        self.fails("it asked for 'accept'", lambda mast: mast.accept())
+        self.fails("nothing was saved under the number 3", lambda mast: mast.restore(3))
+        self.fails("it answered nan for component 0 at point 0", lambda mast: mast.attempt(numpy.full((5, 6), numpy.nan), 1.0))
+        self.fails("cannot end at 0 s", lambda mast: mast.attempt(numpy.zeros((5, 6)), 0.0))
+
+    def test_that_are_silent(self):
+        self.fails("said nothing", lambda mast: (mast._connection.ended.set(), time.sleep(3), mast.accept()),
+                   "--patience", "1.5")
+
+    def test_of_decks_that_cannot_be_led(self):
+        for words, said in ((("--port", "wett"), "did you mean 'wet'"), ((), "the deck has 2 ports: say which by --port")):
+            errors = self.culm("serve", self.led, "--at", self.address, *words, "--output", "no", code=2)
+            self.assertIn(said, errors)
+        errors = self.culm("serve", self.deck, "--at", self.address, "--port", "wet", "--output", "no", code=3)
+        self.assertIn("culm leads these partners", errors)
+        self.assertFalse((self.folder / "no").exists())
+
+
 @unittest.skipIf("--ranks" in sys.argv, "one rank reads the deck for all")
 class Decks(CouplingTest):
     def says(self, text, deck, *settings, code=3):
@@ -450,5 +557,7 @@ if __name__ == "__main__":
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--socket-partner")
     parser.add_argument("--mpi-partner")
+    parser.add_argument("--socket-leader")
+    parser.add_argument("--mpi-leader")
     OPTIONS, rest = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest])

@@ -105,6 +105,8 @@ def check_coupling(culm):
     print(culm.run_python((HERE / "arrays.py").read_text(), "arrays", deck), end="")
     check_couple(culm, deck)
     check_socket(culm, deck, work)
+    check_wing(culm)
+    check_leader(culm, deck, texts[0])
     culm.check_symbols()
 
 
@@ -141,6 +143,40 @@ def check_socket(culm, deck, work):
     print(f"over a socket: {found} J")
     if abs(found - work) > 1e-6 * abs(work):
         sys.exit("the wind over a socket does another work")
+
+
+def start(culm, script, address):
+    return subprocess.Popen([sys.executable, str(script), address], stdout=subprocess.PIPE, text=True,
+                            env={**os.environ, "PYTHONPATH": str(culm.prefix / "share/culm/client")})
+
+
+def check_wing(culm):
+    """A flexible wing in an air stream comes to rest where its bending has taken a part of the lift away."""
+    deck, script, address = culm.folder / "wing.xml", culm.folder / "air.py", f"unix:{culm.folder}/air"
+    deck.write_text(block(COUPLING, "xml", 1))
+    script.write_text(block(COUPLING, "python", 2))
+    air = start(culm, script, address)
+    text = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "socket", "--address", address, "--output",
+               culm.folder / "flown")
+    air.communicate(timeout=60)
+    last = (culm.folder / "flown/history.csv").read_text().splitlines()[-1].split(",")
+    attempts = float(re.search(r"([.\d]+) attempts per window", text).group(1))
+    print(f"wing: tip at {last[3]} m, {attempts} attempts per window")
+    # under the lift of a wing that does not turn the beam would bend by q L^4 / 8 EI = 0.34 m
+    if air.returncode != 0 or not 0.15 < float(last[3]) < 0.3 or not 2.0 < attempts < 10.0:
+        sys.exit("the wing does not fly as it should")
+
+
+def check_leader(culm, deck, expected):
+    """The wind that leads gives the digits of the one that holds culm in its own process."""
+    script, address = culm.folder / "leading_wind.py", f"unix:{culm.folder}/leader"
+    script.write_text(block(COUPLING, "python", 3))
+    wind = start(culm, script, address)
+    run(culm.prefix / "bin/culm", "serve", deck, "--at", address, "--output", culm.folder / "led", "--quiet")
+    found = wind.communicate(timeout=60)[0]
+    print(f"leading over a socket: {found}", end="")
+    if wind.returncode != 0 or found != expected:
+        sys.exit("the wind that leads does not agree")
 
 
 def main():

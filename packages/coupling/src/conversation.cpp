@@ -41,7 +41,7 @@ void Conversation::say(const Frame& frame) {
   channel_->send(bytes);
 }
 
-Frame Conversation::listen() {
+Frame Conversation::hear() {
   listens_ = true;
   const auto start = std::chrono::steady_clock::now();
   Frame frame = decode(channel_->receive(patience_));
@@ -54,6 +54,11 @@ Frame Conversation::listen() {
     frame = decode(channel_->receive(patience_));
   }
   listens_ = false;
+  return frame;
+}
+
+Frame Conversation::listen() {
+  Frame frame = hear();
   if (frame.kind == FrameKind::error || frame.kind == FrameKind::bye) {
     throw PartnerError(frame.payload.empty() ? "it said good-bye" : "it says: " + frame.payload);
   }

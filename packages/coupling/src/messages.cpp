@@ -139,6 +139,16 @@ Eigen::VectorXd read_answer(const Frame& frame, int points) {
   return loads;
 }
 
+Frame found(const Frame& attempt, const Window* motion, Quantities wanted) {
+  Writer writer;
+  writer.add(motion == nullptr ? 0.0 : 1.0);
+  for (const port::Quantity q : all_quantities) {
+    if (motion != nullptr && (wanted & bit(q)) != 0) writer.add(std::span(motion->of(q)));
+  }
+  return {FrameKind::answer, attempt.window, attempt.attempt,
+          attempt.start,     attempt.end,    writer.take()};
+}
+
 Frame accepted(const Window& window, const Books& books) {
   Frame frame = about(FrameKind::accepted, window);
   Writer writer;

@@ -36,6 +36,14 @@ double size_of(const std::vector<double>& points) {
   return size > 0.0 ? size : 1.0;
 }
 
+void set_loads(port::Port& port, const VectorXd& loads) {
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> table = loads.reshaped(6, loads.size() / 6);
+  const VectorXd forces = table.topRows<3>().reshaped();
+  const VectorXd moments = table.bottomRows<3>().reshaped();
+  port.set_loads({forces.data(), static_cast<std::size_t>(forces.size())},
+                 {moments.data(), static_cast<std::size_t>(moments.size())});
+}
+
 VectorXd CoupledSide::loads(const VectorXd& all) const {
   VectorXd own = all.segment(first, count());
   own.reshaped(6, count() / 6).bottomRows<3>() *= size;
@@ -47,14 +55,7 @@ void CoupledSide::put(VectorXd own, VectorXd& all) const {
   all.segment(first, count()) = own;
 }
 
-void CoupledSide::set(const VectorXd& all) const {
-  const VectorXd own = loads(all);
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> table = own.reshaped(6, count() / 6);
-  const VectorXd forces = table.topRows<3>().reshaped();
-  const VectorXd moments = table.bottomRows<3>().reshaped();
-  port->set_loads({forces.data(), static_cast<std::size_t>(forces.size())},
-                  {moments.data(), static_cast<std::size_t>(moments.size())});
-}
+void CoupledSide::set(const VectorXd& all) const { set_loads(*port, loads(all)); }
 
 namespace {
 

@@ -51,6 +51,8 @@ struct CoupledSide {
   void set(const Eigen::VectorXd& all) const;
 };
 
+/// Sets loads at a port, three forces and three moments per point [N, N m].
+void set_loads(port::Port& port, const Eigen::VectorXd& loads);
 /// The first three of six numbers per point.
 Eigen::VectorXd translations(const std::vector<double>& values);
 Eigen::VectorXd as_vector(const std::vector<double>& values);

@@ -74,6 +74,10 @@ class MpiChannel final : public coupling::Channel {
 
 }  // namespace
 
+std::unique_ptr<coupling::Channel> open_mpi_channel(int rank) {
+  return std::make_unique<MpiChannel>(rank);
+}
+
 void register_mpi_partner(coupling::PartnerRegistry& registry) {
   Schema schema("MPI", "Another program in the same mpiexec, which speaks the wire format.");
   schema.add(text("Port", "Where it acts; the only port of the deck if absent.").optional())
@@ -82,7 +86,7 @@ void register_mpi_partner(coupling::PartnerRegistry& registry) {
   coupling::add_patience_fields(schema);
   registry.add("MPI", std::move(schema), [](const Options& o) {
     return coupling::make_remote_partner(
-        o, [rank = o.integer("Rank")] { return std::make_unique<MpiChannel>(rank); });
+        o, [rank = o.integer("Rank")] { return open_mpi_channel(rank); });
   });
 }
 

@@ -1,9 +1,15 @@
 #pragma once
 
+#include <culm/coupling/channel.hpp>
 #include <culm/coupling/register_coupling.hpp>
+
+#include <memory>
 
 namespace culm::simulation {
 
+/// Frames to and from a rank of all that were started together, one message each. Throws UsageError
+/// where there are fewer.
+std::unique_ptr<coupling::Channel> open_mpi_channel(int rank);
 /// Adds the partner of type 'MPI': a program in the same mpiexec.
 void register_mpi_partner(coupling::PartnerRegistry& registry);
 

@@ -74,16 +74,28 @@ output::RecordMark restore_mark(const Snapshot& snapshot) {
 ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
                          ResultSettings settings, const std::vector<WatchedQuantity>& watched,
                          const Snapshot* from)
-    : system_(&system), settings_(std::move(settings)), watched_(&watched) {
-  if (from != nullptr) {
-    frames_ = static_cast<std::size_t>(from->integer("output/states"));
-    rows_ = static_cast<std::size_t>(from->integer("output/rows"));
-    const std::vector<double>& memories = from->numbers("output/memories", watched.size());
-    for (std::size_t i = 0; i < watched.size(); ++i) watched[i].quantity->restore(memories[i]);
-  }
+    : system_(&system), drawn_(&drawn), settings_(std::move(settings)), watched_(&watched) {
+  if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
     const auto meshes = meshes_of(drawn, settings_.layers);
     from == nullptr ? open(meshes) : reopen(meshes, restore_mark(*from));
+  });
+}
+
+void ResultFiles::restore_counts(const Snapshot& saved) {
+  frames_ = static_cast<std::size_t>(saved.integer("output/states"));
+  rows_ = static_cast<std::size_t>(saved.integer("output/rows"));
+  const std::vector<double>& memories = saved.numbers("output/memories", watched_->size());
+  for (std::size_t i = 0; i < memories.size(); ++i) {
+    (*watched_)[i].quantity->restore(memories[i]);
+  }
+}
+
+void ResultFiles::go_back(const Snapshot& saved) {
+  restore_counts(saved);
+  on_root(system_->comm(), [&] {
+    files_.reset();
+    reopen(meshes_of(*drawn_, settings_.layers), restore_mark(saved));
   });
 }
 

@@ -212,6 +212,19 @@ void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set("run/numbers", std::move(values));
 }
 
+void RunObserver::keep(Snapshot& snapshot) const {
+  save(snapshot);
+  files_.save(snapshot);
+}
+
+void RunObserver::go_back(const Snapshot& kept) {
+  steps_.rows.clear();
+  numbers_.clear();
+  restore(kept);
+  resume(kept);
+  files_.go_back(kept);
+}
+
 void RunObserver::restore(const Snapshot& snapshot) {
   has_started_ = true;
   const std::vector<double>& counts = snapshot.numbers("run/counts", 9);

@@ -58,6 +58,10 @@ class RunObserver final : public analysis::Observer {
   void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
+  /// What has been seen so far, for go_back; between steps.
+  void keep(Snapshot& snapshot) const;
+  /// Forgets what was seen since, also in the files. But findings stay.
+  void go_back(const Snapshot& kept);
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
   void write_checkpoint();
   void finish_analysis(const analysis::AnalysisReport& report, const model::State& state);

@@ -16,6 +16,7 @@
 #include "other_run.hpp"
 #include "port_picture.hpp"
 #include "run_observer.hpp"
+#include "served_run.hpp"
 #include "simulation_parts.hpp"
 
 #include <fmt/format.h>
@@ -84,13 +85,13 @@ void Simulation::Parts::tell_of(const port::Port& port) {
   for (const std::string& doubt : port::doubts(port, model)) findings.warn("port", doubt, 0.0);
 }
 
-std::unique_ptr<CoupledRun> Simulation::Parts::make_coupling(CoupledFiles files) {
+std::unique_ptr<CoupledRun> Simulation::Parts::make_coupling(const CoupledFiles& files) {
   if (!deck.has_list("Coupling")) {
     if (files.replay.empty()) return nullptr;
     throw UsageError("a replay needs a deck with a list 'Coupling'");
   }
-  return std::make_unique<CoupledRun>(deck, catalogue.partners, std::move(files),
-                                      phases.of(present).ports, comm, findings);
+  return std::make_unique<CoupledRun>(deck, catalogue.partners, files, phases.of(present).ports,
+                                      comm, findings);
 }
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
@@ -140,6 +141,10 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   const LayerSettings layers = read_layer_settings(output.list("Shell"), *phase.model);
   const output::RunInfo info = describe_run(p.deck, *p.phases.of(0).model, p.comm, from);
   const std::unique_ptr<CoupledRun> coupled = p.make_coupling({settings.folder, settings.replay});
+  const std::unique_ptr<ServedRun> served =
+      settings.serve.address.empty()
+          ? nullptr
+          : std::make_unique<ServedRun>(p.deck, settings.serve, phase.ports, p.comm);
   // from here on there is something on the disk
   const auto lock = take_folder(p.comm, settings.folder, p.log);
   ResultFiles files(
@@ -156,6 +161,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   }
   for (const auto& port : phase.ports) {
     if (coupled != nullptr && coupled->serves(port->name())) continue;
+    if (served != nullptr && served->serves(port->name())) continue;
     p.findings.warn("port",
                     "port '" + port->name() +
                         "' has no loads: only partners, and programs that make the steps, set "
@@ -173,10 +179,12 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
       p.earlier.restore(*from);
       if (coupled != nullptr) coupled->restore(*from);
     }
-    run_analyses(state, observer, files, coupled.get(), from);
+    run_analyses(state, observer, files, coupled.get(), served.get(), from);
     if (coupled != nullptr) coupled->end("");
+    if (served != nullptr) served->end("");
   } catch (const Error& error) {
     if (coupled != nullptr) coupled->end(error.what());
+    if (served != nullptr) served->end(error.what());
     try {
       observer.end(state, error.what());
     } catch (const Error& second) {
@@ -192,7 +200,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
 }
 
 void Simulation::run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
-                              CoupledRun* coupled, const Snapshot* from) {
+                              CoupledRun* coupled, ServedRun* served, const Snapshot* from) {
   Parts& p = *parts_;
   const std::vector<Options>& entries = p.deck.list("Analyses").entries();
   const std::size_t first = p.present;
@@ -204,8 +212,8 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
-    const auto report =
-        run_analysis(entries[i], context, state, observer, coupled, resumes ? from : nullptr);
+    const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
+                                     resumes ? from : nullptr);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
     keep_state(entries[i].name(), state);
   }
@@ -213,7 +221,8 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
 
 analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis::Context& context,
                                                   model::State& state, RunObserver& observer,
-                                                  CoupledRun* coupled, const Snapshot* from) {
+                                                  CoupledRun* coupled, ServedRun* served,
+                                                  const Snapshot* from) {
   const analysis::AnalysisRegistry& known = parts_->catalogue.analyses;
   const std::string& type = entry.text("Type");
   if (known.inspections.contains(type)) {
@@ -225,8 +234,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     return report;
   }
   const auto stepper = known.steppers.make(type, entry, context, state);
-  const bool is_coupled =
-      coupled != nullptr && dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
+  const bool is_motion = dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
   observer.follow(stepper.get(), coupled);
   if (from != nullptr) {
     stepper->resume(*from);
@@ -236,10 +244,17 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     stepper->begin();
   }
   try {
-    const analysis::AnalysisReport report =
-        is_coupled ? coupled->run(*stepper, context.system,
-                                  parts_->phases.of(parts_->present).ports, observer)
-                   : analysis::run(*stepper, observer);
+    const Ports& ports = parts_->phases.of(parts_->present).ports;
+    const auto make_steps = [&] {
+      if (is_motion && served != nullptr) {
+        return served->run(*stepper, context.system, ports, observer);
+      }
+      if (is_motion && coupled != nullptr) {
+        return coupled->run(*stepper, context.system, ports, observer);
+      }
+      return analysis::run(*stepper, observer);
+    };
+    const analysis::AnalysisReport report = make_steps();
     observer.finish_analysis(report, state);
     return report;
   } catch (const Error& error) {

@@ -40,7 +40,7 @@ struct Simulation::Parts {
   void warn_of_reference();
   void tell_of(const port::Port& port);
   /// With its partners; null if the deck has none. @param files  for a run
-  std::unique_ptr<CoupledRun> make_coupling(CoupledFiles files);
+  std::unique_ptr<CoupledRun> make_coupling(const CoupledFiles& files);
 };
 
 }  // namespace culm::simulation

@@ -29,6 +29,8 @@ class Conversation {
 
   void say(const Frame& frame);
   /// The next word that is more than a sign of life.
+  Frame hear();
+  /// The same; throws PartnerError where it is the last one.
   Frame listen();
   /// The answer to a question: of this kind, and about the same window and attempt.
   Frame ask(const Frame& question, FrameKind expected);

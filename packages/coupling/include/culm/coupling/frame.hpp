@@ -18,9 +18,16 @@ enum class FrameKind : std::uint16_t {
   accepted = 5,  ///< energy and heat so far
   save = 6,      ///< keep what you are: the run may go on from here one day
   saved = 7,
-  alive = 8,  ///< still busy
-  bye = 9,    ///< the end; a reason if it is none to be glad about
-  error = 10  ///< cannot go on; the reason
+  alive = 8,   ///< still busy
+  bye = 9,     ///< the end; a reason if it is none to be glad about
+  error = 10,  ///< cannot go on; the reason
+  // of programs that lead, beside attempt, accept and save
+  discard = 11,  ///< forget the attempt
+  discarded = 12,
+  fail = 13,  ///< forget it because it was not good
+  failed = 14,
+  restore = 15,  ///< be again what was saved
+  restored = 16
 };
 
 /// One message.

@@ -32,6 +32,9 @@ std::string objection_to(const Eigen::VectorXd& answer, int points);
 /// Throws PartnerError for another number of loads and for what is no number.
 Eigen::VectorXd read_answer(const Frame& frame, int points);
 
+/// @param motion  of the port, if the structure converged; null if it did not
+Frame found(const Frame& attempt, const Window* motion, Quantities wanted);
+
 Frame accepted(const Window& window, const Books& books);
 Books read_accepted(const Frame& frame);
 

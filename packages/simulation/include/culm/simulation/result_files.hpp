@@ -55,6 +55,9 @@ class ResultFiles {
   /// How much there is, under "output/" with checksums, and whose it is, under "run/".
   void save(Snapshot& snapshot) const;
 
+  /// Cuts the files back to what there was when this was saved, by this object.
+  void go_back(const Snapshot& saved);
+
   /// The columns of the history.
   std::vector<output::HistoryColumn> columns() const;
   /// The watched quantities of a state.
@@ -84,10 +87,12 @@ class ResultFiles {
     std::optional<output::Pictures> pictures;
   };
 
+  void restore_counts(const Snapshot& saved);
   void open(const std::vector<output::StructureMesh>& meshes);
   void reopen(const std::vector<output::StructureMesh>& meshes, const output::RecordMark& mark);
 
   assembly::System* system_;
+  const model::Model* drawn_;
   ResultSettings settings_;
   const std::vector<WatchedQuantity>* watched_;
   std::unique_ptr<Files> files_;

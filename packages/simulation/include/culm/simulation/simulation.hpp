@@ -25,6 +25,14 @@ struct Phase;
 class CoupledRun;
 class ResultFiles;
 class RunObserver;
+class ServedRun;
+
+/// Where another program comes to that leads the run.
+struct ServeSettings {
+  std::string address;      ///< as of coupling::listen, or 'mpi:RANK'; nobody leads if empty
+  std::string port;         ///< the only one of the deck if empty
+  double patience = 600.0;  ///< how long it may be silent [s]
+};
 
 /// How a run talks and where it writes.
 struct RunSettings {
@@ -33,6 +41,7 @@ struct RunSettings {
   bool terminal = false;              ///< standard output is a terminal
   bool strict = false;                ///< warnings count as broken promises
   std::filesystem::path replay = {};  ///< record of a coupling, whose loads act instead
+  ServeSettings serve = {};           ///< whom the run follows
 };
 
 /// Builds the model of a deck and runs its analyses. The same on all ranks.
@@ -137,11 +146,12 @@ class Simulation {
 
  private:
   void run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
-                    CoupledRun* coupled, const Snapshot* from);
+                    CoupledRun* coupled, ServedRun* served, const Snapshot* from);
   /// @param from  checkpoint to go on with, within this analysis
   analysis::AnalysisReport run_analysis(const Options& entry, analysis::Context& context,
                                         model::State& state, RunObserver& observer,
-                                        CoupledRun* coupled, const Snapshot* from);
+                                        CoupledRun* coupled, ServedRun* served,
+                                        const Snapshot* from);
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void keep_state(const std::string& name, model::State& state);
