@@ -2,11 +2,14 @@
 
 import desio_samples
 import gmsh_samples
+import nastran_samples
 import samples
 
 WHOLE_FILES = {
     "plate.inp": ("abaqus", {"plate.inp": samples.plate(2)}),
     "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
+    "panel.bdf": ("nastran", {"panel.bdf": nastran_samples.panel()}),
+    "frame.bdf": ("nastran", {"frame.bdf": nastran_samples.frame()}),
     "cantilever of DeSiO": ("desio", desio_samples.cantilever()),
     "rotor of DeSiO": ("desio", desio_samples.rotor()),
     "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),

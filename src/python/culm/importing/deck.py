@@ -170,7 +170,7 @@ class Deck:
     def _add_bodies(self):
         """Rigid bodies for nodes that lead others, or have inertia, and have no triad of a beam."""
         bodies = List("bodies")
-        inertia = {mass.node: mass for mass in self.model.masses if mass.inertia is not None}
+        inertia = {mass.node: mass for mass in self.model.masses if mass.inertia is not None or any(mass.offset)}
         weights = collections.Counter()
         for mass in self.model.masses:
             weights[mass.node] += mass.mass
@@ -186,7 +186,9 @@ class Deck:
             name = self.places.unique_structure(f"node {name_of(node)}")
             body = bodies.list(name, f"{place}", "Rigid Body").add("Position", self.model.nodes[node])
             mass = weights[node]
-            tensor = numpy.array(inertia[node].inertia if node in inertia else numpy.zeros(6), float)
+            tensor = numpy.zeros(6)
+            if node in inertia and inertia[node].inertia is not None:
+                tensor += inertia[node].inertia
             if mass <= 0.0:
                 mass = FAINT * scale
                 self.model.findings.assume(f"reference nodes without mass get {mass:.3g} kg", place)
@@ -195,6 +197,8 @@ class Deck:
                 tensor[:3] += faint
                 self.model.findings.assume("point masses that turn get a small inertia", place)
             body.add("Mass", mass).add("Inertia", tensor)
+            if node in inertia and any(inertia[node].offset):
+                body.add("Centre", numpy.array(inertia[node].offset, float))
             del weights[node]
             self.places.add_body(node, name)
         self._weights = weights

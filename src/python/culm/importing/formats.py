@@ -9,6 +9,7 @@ import importlib
 
 FORMATS = {
     "abaqus": "A model of Abaqus or CalculiX, .inp",
+    "nastran": "A model of Nastran, .bdf: SOL 101, 103, 105, 106",
     "gmsh": "A mesh of Gmsh, .msh 2.2 or 4.1, text or binary, first or second order",
     "desio": "A model of DeSiO-Structure, a folder of text files",
 }

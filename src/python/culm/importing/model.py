@@ -61,6 +61,7 @@ class ShellElement:
     nodes: tuple
     wall: str
     place: Place
+    axis: typing.Optional[tuple] = None  # in place of that of the wall
 
 
 @dataclasses.dataclass
@@ -79,7 +80,8 @@ class PointMass:
     node: object
     mass: float
     place: Place
-    inertia: typing.Optional[tuple] = None  # 11, 22, 33, 23, 13, 12 about the node, in space
+    inertia: typing.Optional[tuple] = None  # 11, 22, 33, 23, 13, 12 about its centre, in space
+    offset: tuple = (0.0, 0.0, 0.0)  # of the centre from the node, in space
 
 
 @dataclasses.dataclass

@@ -194,11 +194,15 @@ def _by_layers(model, quads, members):
 
 def _axis_on(wall, normal, model, quads, q):
     """The axis of the wall, or the one that stands in its place where it is normal to the surface."""
-    axis = numpy.array(wall.axis, float)
+    element = model.shells[quads.elements[q]]
+    given = element.axis or wall.axis
+    if given is None:
+        refuse(element.place, "layers with directions need an axis that their angles count from")
+    axis = numpy.array(given, float)
     if numpy.linalg.norm(numpy.cross(axis, normal)) > PARALLEL * numpy.linalg.norm(axis):
         return axis
     if wall.fallback is None:
-        refuse(model.shells[quads.elements[q]].place, f"the axis of the material, {wall.axis}, is normal to this element")
+        refuse(element.place, f"the axis of the material, {given}, is normal to this element")
     return numpy.array(wall.fallback, float)
 
 

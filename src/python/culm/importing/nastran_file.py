@@ -1,0 +1,142 @@
+"""Cards of Nastran: free, small and large fields, continuations, includes; and its case control."""
+
+import dataclasses
+import pathlib
+import re
+
+from .findings import Place, refuse
+from .keyword_file import DEEPEST, read_text
+
+REAL = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([ED]?[+-]?[0-9]+)?"
+
+
+@dataclasses.dataclass
+class Card:
+    """@param fields  after the name, as they stand; fields of lines that go on follow"""
+
+    name: str
+    fields: list
+    place: Place
+
+    def text(self, i):
+        """Field i, from 1; empty if it is not there."""
+        return self.fields[i - 1].strip() if 0 < i <= len(self.fields) else ""
+
+    def integer(self, i, what="a whole number", default=None):
+        text = self.text(i)
+        if not text and default is not None:
+            return default
+        if not re.fullmatch(r"[+-]?[0-9]{1,10}", text):
+            refuse(self.place, f"{self.name}, field {i}: expected {what}, found '{text[:20]}'")
+        return int(text)
+
+    def real(self, i, what="a number", default=None):
+        text = self.text(i).upper()
+        if not text and default is not None:
+            return default
+        found = re.fullmatch(REAL, text)
+        if not found:
+            refuse(self.place, f"{self.name}, field {i}: expected {what}, found '{text[:20]}'")
+        exponent = (found[2] or "").lstrip("ED")
+        value = float(found[1] if not found[2] else f"{found[1]}E{exponent}")
+        if not abs(value) < float("inf"):
+            refuse(self.place, f"{self.name}, field {i}: {text} is too large")
+        return -value if text.startswith("-") else value
+
+    def numbers(self, first):
+        """Whole numbers from field `first` on, with `THRU` and `BY`."""
+        words = [self.text(i) for i in range(first, len(self.fields) + 1)]
+        words = [word for word in words if word]
+        found, i = [], 0
+        while i < len(words):
+            if i + 2 < len(words) and words[i + 1].upper() == "THRU":
+                a, b = (self._whole(words[k]) for k in (i, i + 2))
+                step = 1
+                if i + 4 < len(words) and words[i + 3].upper() == "BY":
+                    step = self._whole(words[i + 4])
+                    i += 2
+                if step < 1 or not a <= b <= a + 10**7:
+                    refuse(self.place, f"{self.name}: {a} THRU {b} BY {step} cannot be")
+                found += range(a, b + 1, step)
+                i += 3
+            else:
+                found.append(self._whole(words[i]))
+                i += 1
+        return found
+
+    def has_thru(self, first):
+        return any(self.text(i).upper() == "THRU" for i in range(first, len(self.fields) + 1))
+
+    def _whole(self, text):
+        if not re.fullmatch(r"[0-9]{1,10}", text):
+            refuse(self.place, f"{self.name}: expected a whole number, found '{text[:20]}'")
+        return int(text)
+
+
+@dataclasses.dataclass
+class Deck:
+    """@param control  (place, words) of the lines before BEGIN BULK
+    @param is_closed  whether ENDDATA ends it, or it has cards alone"""
+
+    control: list
+    cards: list
+    is_closed: bool
+
+
+def read_deck(path):
+    lines = list(_lines(pathlib.Path(path), 0))
+    begin = next((i for i, (_, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK", text.strip(), re.I)), None)
+    control = [] if begin is None else [(place, text.strip()) for place, text in lines[:begin]]
+    bulk = lines if begin is None else lines[begin + 1 :]
+    end = next((i for i, (_, text) in enumerate(bulk) if text.strip().upper().startswith("ENDDATA")), None)
+    if begin is not None and end is None:
+        refuse(lines[-1][0], "the file ends without ENDDATA")
+    return Deck(control, _cards(bulk[:end]), end is not None)
+
+
+def _lines(path, depth):
+    waiting = None
+    for number, raw in enumerate(read_text(path).split("\n"), 1):
+        place = Place(str(path), number)
+        text = raw.split("$")[0].rstrip().expandtabs(8)
+        if not text.strip():
+            continue
+        if waiting is not None:
+            text, waiting = waiting + text.strip(), None
+        if re.match(r"\s*INCLUDE\b", text, re.I):
+            name = re.sub(r"^\s*INCLUDE\s*", "", text, flags=re.I).strip()
+            if name[:1] in "'\"" and (len(name) < 2 or name[-1] != name[0]):
+                waiting = text
+                continue
+            if depth == DEEPEST:
+                refuse(place, f"files include each other more than {DEEPEST} deep")
+            yield from _lines(path.parent / name.strip("'\""), depth + 1)
+            continue
+        yield place, text
+
+
+def _cards(lines):
+    cards = []
+    for place, text in lines:
+        name, fields = _fields(text)
+        if name == "":
+            if not cards:
+                refuse(place, "a line that goes on, without a card before it")
+            cards[-1].fields += fields
+        else:
+            cards.append(Card(name, fields, place))
+    return cards
+
+
+def _fields(text):
+    """(name or empty, fields) of a line."""
+    if "," in text:
+        first, *rest = [cell.strip() for cell in text.split(",")]
+        size = 4 if first.endswith("*") else 8
+        rest = rest[:size] + [""] * (size - len(rest))
+    else:
+        first = text[:8].strip()
+        width, size = (16, 4) if first.endswith("*") or first.startswith("*") else (8, 8)
+        rest = [text[8 + i * width : 8 + (i + 1) * width].strip() for i in range(size)]
+    name = first.rstrip("*").upper()
+    return ("" if not name or name[0] in "+*" else name), rest
