@@ -44,4 +44,6 @@ def made_of_text(format, data, name="sample.inp"):
         for one, content in files.items():
             content = content.encode() if isinstance(content, str) else content
             (pathlib.Path(folder) / one).write_bytes(content)
-        return Made(format, pathlib.Path(folder) / next(iter(files)))
+        made = Made(format, pathlib.Path(folder) / next(iter(files)))
+        made.text = made.text.replace(folder, "")  # in the places of comments
+        return made

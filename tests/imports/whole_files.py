@@ -4,12 +4,16 @@ import desio_samples
 import gmsh_samples
 import nastran_samples
 import samples
+import turbine_samples
 
 WHOLE_FILES = {
     "plate.inp": ("abaqus", {"plate.inp": samples.plate(2)}),
     "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
     "panel.bdf": ("nastran", {"panel.bdf": nastran_samples.panel()}),
     "frame.bdf": ("nastran", {"frame.bdf": nastran_samples.frame()}),
+    "turbine of windIO": ("windio", {"turbine.yaml": turbine_samples.windio()}),
+    "blade of HAWC2": ("hawc2", turbine_samples.hawc2()),
+    "table of sections": ("csv", {"bar.csv": turbine_samples.table()}),
     "cantilever of DeSiO": ("desio", desio_samples.cantilever()),
     "rotor of DeSiO": ("desio", desio_samples.rotor()),
     "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),

@@ -11,9 +11,16 @@ FORMATS = {
     "abaqus": "A model of Abaqus or CalculiX, .inp",
     "nastran": "A model of Nastran, .bdf: SOL 101, 103, 105, 106",
     "gmsh": "A mesh of Gmsh, .msh 2.2 or 4.1, text or binary, first or second order",
+    "windio": "A turbine in windIO, .yaml: blade, or tower with monopile",
+    "hawc2": "A body of HAWC2: sections of a st file, along the axis of a .htc",
+    "csv": "Sections of a beam from a table",
     "desio": "A model of DeSiO-Structure, a folder of text files",
 }
 
 
+# the word is that of a module of Python's own
+MODULES = {"csv": "section_csv"}
+
+
 def module_of(name):
-    return importlib.import_module(f".{name}", __package__)
+    return importlib.import_module(f".{MODULES.get(name, name)}", __package__)

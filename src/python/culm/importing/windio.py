@@ -1,0 +1,212 @@
+"""Turbines in the windIO ontology: the blade by its 6x6 matrices, tower and monopile by their walls.
+
+The matrices, the reference axis and the twist are those of BeamDyn's conventions.
+"""
+
+import numpy
+import yaml
+
+from .findings import Findings, Place, did_you_mean, refuse
+from .keyword_file import read_text
+from .line_deck import LineDeck, stations_in_order
+from .ready_deck import ReadyDeck
+
+FILE = "ontology, .yaml"
+DEEPEST = 100
+SYMMETRY = 21  # values of an upper triangle
+
+
+def declare(parser):
+    parser.add_argument(
+        "--component", choices=("blade", "tower"), default="blade", help="blade, or tower with what is below; blade if not given"
+    )
+
+
+def read(path, arguments):
+    """@return the ReadyDeck of a blade or a tower"""
+    root = _load(path)
+    findings = Findings()
+    findings.look_at_end(path)
+    component = getattr(arguments, "component", "blade")
+    parts = _mapping(root, "components", path)
+    findings.read["turbine"] = str(root.get("name", path.stem))
+    if component == "blade":
+        return _blade(root, parts, path, findings)
+    return _tower(root, parts, path, findings)
+
+
+class _Loader(yaml.SafeLoader):
+    """Aliases would make copies without end; depth is that of any real file."""
+
+
+def _load(path):
+    text = read_text(path)
+    try:
+        root = yaml.load(text, Loader=_Loader)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = mark.line + 1 if mark is not None else 1
+        refuse(Place(str(path), line), f"is no YAML: {getattr(error, 'problem', None) or error}")
+    except (RecursionError, ValueError) as error:
+        refuse(Place(str(path), 1), f"is no YAML: {error}")
+    if not isinstance(root, dict):
+        refuse(Place(str(path), 1), "expected names with values, as a turbine has them")
+    return root
+
+
+def _at(path, *names):
+    return Place(str(path), 1), " / ".join(map(str, names))
+
+
+def _mapping(parent, name, path, *before):
+    if name not in parent:
+        place, where = _at(path, *before)
+        refuse(place, f"{where or 'the file'} has no '{name}'{did_you_mean(name, parent)}")
+    if not isinstance(parent[name], dict):
+        refuse(_at(path)[0], f"{' / '.join([*map(str, before), name])} must hold names with values")
+    return parent[name]
+
+
+def _table(parent, name, path, *before):
+    """grid and values, of equal length."""
+    table = _mapping(parent, name, path, *before)
+    where = " / ".join([*map(str, before), name])
+    place = Place(str(path), 1)
+    found = []
+    for key in ("grid", "values"):
+        if not isinstance(table.get(key), list):
+            refuse(place, f"{where} has no list '{key}'")
+        try:
+            array = numpy.array(table[key], dtype=float)
+        except (TypeError, ValueError, OverflowError):
+            refuse(place, f"{where} / {key} holds something that is no number, or rows of different length")
+        if not numpy.isfinite(array).all():
+            refuse(place, f"{where} / {key} holds a number that is not finite")
+        found.append(array)
+    grid, values = found
+    if grid.ndim != 1 or len(grid) != len(values):
+        refuse(place, f"{where}: {len(grid)} places and {len(values)} values")
+    stations_in_order(grid, lambda text: refuse(place, f"{where} / grid: {text}"))
+    if grid[0] < -1e-9 or grid[-1] > 1.0 + 1e-9:
+        refuse(place, f"{where} / grid must lie between 0 and 1")
+    return grid, values
+
+
+def _axis(parent, path, *before):
+    """Points of the reference axis, and where they lie on it."""
+    axis = _mapping(parent, "reference_axis", path, *before)
+    tables = [_table(axis, name, path, *before, "reference_axis") for name in "xyz"]
+    grid = numpy.unique(numpy.concatenate([table[0] for table in tables]))
+    return grid, numpy.stack([numpy.interp(grid, *table) for table in tables], axis=1)
+
+
+def _arc(points):
+    """Share of the length up to each point."""
+    lengths = numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(points, axis=0), axis=1))])
+    return lengths / lengths[-1], lengths[-1]
+
+
+def _distinct(grid, points, path):
+    """Points of the axis without those that lie on their neighbour."""
+    keep = [0] + [i for i in range(1, len(points)) if numpy.linalg.norm(points[i] - points[i - 1]) > 1e-9]
+    if len(keep) < 2:
+        refuse(Place(str(path), 1), "the reference axis has no length")
+    return grid[keep], points[keep]
+
+
+def _blade(root, parts, path, findings):
+    blade = _mapping(parts, "blade", path, "components")
+    matrices = _mapping(blade, "elastic_properties_mb", path, "components", "blade")
+    where = ("components", "blade", "elastic_properties_mb", "six_x_six")
+    six = _mapping(matrices, "six_x_six", path, *where[:-1])
+    grid, points = _distinct(*_axis(six, path, *where), path)
+    share, length = _arc(points)
+    stiff_grid, stiffness = _table(six, "stiff_matrix", path, *where)
+    mass_grid, mass = _table(six, "inertia_matrix", path, *where)
+    place = Place(str(path), 1)
+    for name, values in (("stiff_matrix", stiffness), ("inertia_matrix", mass)):
+        if values.ndim != 2 or values.shape[1] != SYMMETRY:
+            refuse(place, f"{name} must have {SYMMETRY} values at each place: the upper triangle of 6x6 by rows")
+    if len(stiff_grid) != len(mass_grid) or abs(stiff_grid - mass_grid).max() > 1e-9:
+        mass = numpy.stack([numpy.interp(stiff_grid, mass_grid, column) for column in mass.T], axis=1)
+        findings.assume("the inertia is interpolated to the places of the stiffness")
+    twist_grid, twist = _table(six, "twist", path, *where)
+    # places of the grid are fractions of the arc length of the axis in the ontology
+    stations = [
+        (at, "Stiffness Matrix", {"Stiffness": k, "Mass": m}, m[0])
+        for at, k, m in zip(numpy.interp(stiff_grid, grid, share), stiffness, mass)
+    ]
+    deck = LineDeck(f"{root.get('name', path.stem)}: blade")
+    weight = deck.add_beam("blade", points, stations, (numpy.interp(twist_grid, grid, share), -twist), place=place)
+    deck.clamp("blade/first", "the root; hub and pitch are not in the deck")
+    findings.read["blade"] = f"{len(stations)} stations, {length:.6g} m, {weight:.6g} kg"
+    findings.assume("axes and twist are those of BeamDyn: x to the suction side, z to the tip, twist about -z")
+    findings.leave_out("everything of the turbine but the blade")
+    return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
+
+
+def _material(root, name, path):
+    for one in root.get("materials") or []:
+        if isinstance(one, dict) and one.get("name") == name:
+            found = []
+            for key in ("E", "G", "rho"):
+                value = one.get(key)
+                if not isinstance(value, (int, float)) or isinstance(value, bool) or not 0.0 < value < 1e30:
+                    refuse(Place(str(path), 1), f"materials / {name} / {key} must be a number > 0, got {value!r}")
+                found.append(float(value))
+            return found
+    names = [one.get("name") for one in root.get("materials") or [] if isinstance(one, dict)]
+    refuse(Place(str(path), 1), f"there is no material '{name}'{did_you_mean(name, names)}")
+
+
+def _tower(root, parts, path, findings):
+    deck = LineDeck(f"{root.get('name', path.stem)}: tower")
+    below = "monopile" if "monopile" in parts else None
+    for name in [one for one in (below, "tower") if one]:
+        _tube(root, parts, name, path, deck, findings)
+    if below:
+        ends = deck.lines["monopile"][-1], deck.lines["tower"][0]
+        gap = numpy.linalg.norm(ends[1] - ends[0])
+        if gap > 1e-3:
+            findings.assume(f"tower and monopile are joined rigidly over a gap of {gap:.3g} m")
+        joint = deck.lists["Constraints"].list("transition", type="Rigid Connection")
+        joint.add("Node", "tower/first").add("Master", "monopile/last")
+        extra = parts["monopile"].get("transition_piece_mass", 0.0)
+        if isinstance(extra, (int, float)) and 0.0 < extra < 1e12:
+            deck.lists["Masses"].list("transition piece", type="Point Mass").add("Node", "tower/first").add("Mass", float(extra))
+            deck.mass += extra
+    deck.clamp(f"{below or 'tower'}/first", "the foot: put springs of the soil in its place")
+    findings.leave_out("nacelle and rotor, the soil and the water")
+    return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
+
+
+def _tube(root, parts, name, path, deck, findings):
+    part = _mapping(parts, name, path, "components")
+    where = ("components", name)
+    shape = _mapping(part, "outer_shape_bem", path, *where)
+    inside = _mapping(part, "internal_structure_2d_fem", path, *where)
+    grid, points = _distinct(*_axis(shape, path, *where, "outer_shape_bem"), path)
+    share, length = _arc(points)
+    if numpy.linalg.norm(points[-1] - points[0]) < length * (1.0 - 1e-9):
+        refuse(Place(str(path), 1), f"{name}: the reference axis must be straight")
+    layers = inside.get("layers")
+    if not isinstance(layers, list) or len(layers) != 1 or not isinstance(layers[0], dict):
+        refuse(Place(str(path), 1), f"{name}: one layer is read, there are {len(layers) if isinstance(layers, list) else 0}")
+    E, G, rho = _material(root, layers[0].get("material"), path)
+    factor = inside.get("outfitting_factor", 1.0)
+    if not isinstance(factor, (int, float)) or not 0.0 < factor < 100.0:
+        refuse(Place(str(path), 1), f"{name} / outfitting_factor must be a number > 0, got {factor!r}")
+    diameters = _table(shape, "outer_diameter", path, *where)
+    walls = _table(layers[0], "thickness", path, *where, "layers")
+    places = numpy.unique(numpy.concatenate([diameters[0], walls[0]]))
+    stations = []
+    for at in places:
+        radius, wall = numpy.interp(at, *diameters) / 2, numpy.interp(at, *walls)
+        if not 0.0 < wall < radius:
+            refuse(Place(str(path), 1), f"{name}: at {at:g} of its length the wall is {wall:g} m, the radius {radius:g} m")
+        solid = {"Young Modulus": E, "Shear Modulus": G, "Density": rho * factor}
+        area = numpy.pi * (radius**2 - (radius - wall) ** 2)
+        values = {**solid, "Outer Radius": float(radius), "Wall Thickness": float(wall)}
+        stations.append((numpy.interp(at, grid, share), "Tube", values, rho * factor * area))
+    mass = deck.add_beam(name, points[[0, -1]], stations, elements=20, place=Place(str(path), 1))
+    findings.read[name] = f"{len(stations)} stations, {length:.6g} m, {mass:.6g} kg"
