@@ -120,7 +120,8 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
     worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
     steps_.rows.push_back({report.time, static_cast<double>(outcome.iterations),
-                           outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0});
+                           outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0,
+                           static_cast<double>(number_), static_cast<double>(report.step)});
     balance_.scale = std::max(balance_.scale, outcome.last.force_scale);
     if (outcome.held_unknown) add_held(report);
     watch_turns(report.time, state);

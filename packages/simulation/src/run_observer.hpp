@@ -111,9 +111,12 @@ class RunObserver final : public analysis::Observer {
   std::string certificates_;
   std::optional<analysis::ElementTurns> turns_;  // of the analysis
   std::vector<output::NamedScalar> numbers_;
-  // the accepted steps, for the report
+  // the accepted steps, for the report; analyses by number in the deck
   output::NamedTable steps_{
-      "steps", {"time", "iterations", "force residual", "held by rounding"}, {}, {}};
+      "steps",
+      {"time", "iterations", "force residual", "held by rounding", "analysis", "step"},
+      {},
+      {}};
   int accepted_ = 0;
   int rejected_ = 0;
   int iterations_ = 0;

@@ -1,4 +1,4 @@
-"""culm from Python: simulations step by step, results as tables, and the verbs written in Python."""
+"""culm from Python: simulations step by step, results as frames and arrays, and the verbs written in Python."""
 
 _LIBRARY = ("Simulation", "Stepper", "Snapshot", "Port", "Error", "UsageError", "InputError", "NumericalError",
             "NonFiniteError", "FileError")
@@ -18,3 +18,9 @@ def history(folder):
 
     import pandas
     return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, float_precision="round_trip")
+
+
+def read(folder):
+    """The results of a run: history, states, modes and tables as frames and arrays; see culm.reading.Run."""
+    from .reading import Run
+    return Run(folder)

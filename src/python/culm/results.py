@@ -41,6 +41,8 @@ class Step:
     iterations: int
     residual: float  # of the forces, relative
     held: bool  # above the tolerance, because rounding lets it fall no further
+    analysis: int  # its number in the deck, from 0
+    step: int  # in the analysis, from 1
 
 
 @dataclasses.dataclass
@@ -122,8 +124,8 @@ class Results:
             if "report/steps" not in file:
                 return []
             return [
-                Step(time, int(iterations), residual, held != 0.0)
-                for time, iterations, residual, held in file["report/steps"][()]
+                Step(time, int(iterations), residual, held != 0.0, int(analysis), int(step))
+                for time, iterations, residual, held, analysis, step in file["report/steps"][()]
             ]
 
     def meshes(self):

@@ -1,0 +1,184 @@
+"""Results of a run for people who work in Python: pandas frames and numpy arrays by the names of the deck."""
+
+import dataclasses
+import pathlib
+import xml.etree.ElementTree as ElementTree
+
+import h5py
+import numpy
+import pandas
+
+from .errors import CulmError
+from .results import Results, _text
+
+
+@dataclasses.dataclass
+class State:
+    """A recorded state. Arrays by the name of a structure, one row per node or element."""
+
+    path: pathlib.Path
+    index: int  # number of the record
+    time: float  # [s], or level
+    analysis: str  # that made it; "" of the state at the start, and where the run does not tell
+
+    def position(self, structure):
+        """(nodes, 3) [m]"""
+        return self._array(structure, "position")
+
+    def displacement(self, structure):
+        """From the reference, (nodes, 3) [m]"""
+        return self._array(structure, "displacement")
+
+    def directors(self, structure):
+        """(nodes, 3, 3): element [node, :, k] is the director d_{k+1}."""
+        return numpy.stack([self._array(structure, f"director{k}") for k in (1, 2, 3)], axis=2)
+
+    def resultants(self, structure):
+        """A frame with the stress resultants of the elements, in the directors of their sections."""
+        with h5py.File(self.path) as file:
+            names = [_text(name) for name in _group(file["mesh"], structure).attrs["resultant_names"]]
+        return pandas.DataFrame(self._array(structure, "resultants"), columns=names)
+
+    def _array(self, structure, name):
+        with h5py.File(self.path) as file:
+            link = _group(file["mesh"], structure).name.rsplit("/", 1)[1]
+            group = file[f"steps/{self.index:06}/{link}"]
+            if name not in group:
+                raise KeyError(f"'{structure}' has no {name}")
+            return group[name][()]
+
+
+@dataclasses.dataclass
+class Modes:
+    """What a modal or buckling analysis found."""
+
+    table: pandas.DataFrame  # a row per mode, as in its CSV file, and remarks
+    shapes: dict  # by structure: (modes, nodes, 6), displacement and rotation
+
+
+class Run:
+    """A run by its folder.
+
+    history   frame of all quantities, with the analysis, its step, and the time or level as index
+    analyses  names of the analyses in the deck
+    states    recorded states
+    tables    frames by name, such as tables["modes/modes"]
+    scalars   numbers of the report by name
+    findings  broken promises and warnings
+    report    how the run ended, in words
+    """
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        path = self.folder / "run.h5"
+        if not path.exists():
+            raise CulmError(f"there is no run.h5 in '{folder}'", 6)
+        self._path = path
+        results = Results(path)
+        self.analyses = _analyses(results.deck())
+        self.scalars = results.scalars()
+        self.findings = results.findings()
+        self.report = results.report()
+        self.history = self._read_history(results)
+        self.states = self._read_states()
+        self.tables = {
+            name.replace(": ", "/"): _frame(columns, rows, remarks)
+            for name, columns, rows, remarks in results.tables()
+        }
+
+    def __repr__(self):
+        return f"<culm run '{self.folder}': {len(self.history)} rows, {len(self.states)} states>"
+
+    def structures(self):
+        """Names of the structures, and of each the mesh in the reference."""
+        return Results(self._path).meshes()
+
+    def modes(self, analysis):
+        """What a modal or buckling analysis found."""
+        table = next((t for name, t in self.tables.items() if name.startswith(f"{analysis}/")), None)
+        if table is None:
+            raise KeyError(f"no table of an analysis '{analysis}' among: {', '.join(self.tables)}")
+        with h5py.File(self._path) as file:
+            shapes = _group(file["analyses"], analysis).get("shapes", {})
+            return Modes(table, {_unescaped(link): data[()] for link, data in shapes.items()})
+
+    def columns(self, quantity):
+        """The part of the history that shows one quantity of the deck, by the names of components."""
+        found = [c for c in self.history.columns if c.split(" [")[0] == quantity]
+        found += [c for c in self.history.columns if c.split(" [")[0].rsplit(" ", 1)[0] == quantity]
+        if not found:
+            known = dict.fromkeys(c.split(" [")[0].rsplit(" ", 1)[0] for c in self.history.columns)
+            raise KeyError(f"no quantity '{quantity}' among: {', '.join(known)}")
+        return self.history[list(dict.fromkeys(found))]
+
+    def plot(self, quantity, axes=None):
+        """Draws a quantity over time or level, a line for each component and analysis. Returns the axes."""
+        import matplotlib.pyplot as pyplot
+
+        axes = axes if axes is not None else pyplot.subplots(layout="constrained")[1]
+        for (name, part), style in zip(_by_analysis(self.columns(quantity)), _STYLES * len(self.analyses)):
+            times = part.index.get_level_values("time")
+            for number, column in enumerate(part.columns):
+                axes.plot(times, part[column], style, color=f"C{number}", label=f"{column}, {name}" if name else column)
+        axes.set(xlabel="time [s] or level", title=quantity)
+        axes.legend(fontsize="small")
+        return axes
+
+    def _read_history(self, results):
+        frame = pandas.read_csv(self.folder / "history.csv", float_precision="round_trip")
+        names, numbers = [""], [0]  # of the start
+        for step in results.steps():
+            names.append(self.analyses[step.analysis])
+            numbers.append(step.step)
+        if len(names) != len(frame):  # a run that was killed, or has not ended
+            names, numbers = [""] * len(frame), range(len(frame))
+        index = pandas.MultiIndex.from_arrays([names, numbers, frame["time"]], names=["analysis", "step", "time"])
+        return frame.drop(columns="time").set_index(index)
+
+    def _read_states(self):
+        """The last state of each analysis is recorded, so times in their order tell the steps."""
+        with h5py.File(self._path) as file:
+            stamps = sorted((int(s.attrs["index"]), float(s.attrs["time"])) for s in file["steps"].values())
+        rows = iter([(analysis, time) for analysis, _, time in self.history.index])
+        states = []
+        for index, time in stamps:
+            analysis = next((name for name, at in rows if at == time), "")
+            states.append(State(self._path, index, time, analysis))
+        return states
+
+
+_STYLES = ["-", "--", ":", "-."]
+
+
+def _by_analysis(frame):
+    """Name and rows of each analysis, in the order of the run."""
+    names = frame.index.get_level_values("analysis")
+    for name in dict.fromkeys(names):
+        part = frame[names == name]
+        if name or len(part) > 1:  # the start alone is a point
+            yield name, part
+
+
+def _analyses(deck):
+    lists = ElementTree.fromstring(deck).findall("ParameterList[@name='Analyses']/ParameterList")
+    return [one.get("name") for one in lists]
+
+
+def _frame(columns, rows, remarks):
+    frame = pandas.DataFrame(rows, columns=columns)
+    return frame.assign(remark=remarks) if remarks else frame
+
+
+def _unescaped(link):
+    """The name of which a link in the file is made: / : % | are written as %XX."""
+    import urllib.parse
+
+    return urllib.parse.unquote(link)
+
+
+def _group(parent, name):
+    """The group of a structure or analysis by its name."""
+    for link, group in parent.items():
+        if _unescaped(link) == name:
+            return group
+    raise KeyError(f"no '{name}' among: {', '.join(map(_unescaped, parent))}")

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""What `culm.read` makes of a run agrees with the files; the notebook of the guide runs as it stands.
+
+usage: reading.py --culm PROGRAM
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import sys
+import tempfile
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "src/python"), str(ROOT / "tests/kit")]
+import numpy  # noqa: E402
+from culm_runs import MPI_ENVIRONMENT  # noqa: E402
+
+import culm  # noqa: E402
+from culm.history import History  # noqa: E402
+
+
+def run_notebook(path):
+    """Executes the cells one after the other; what they defined."""
+    names = {}
+    for cell in json.loads(path.read_text())["cells"]:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), path.name, "exec"), names)
+    return names
+
+
+def check_history(run, history):
+    assert run.analyses == ["weight", "modes", "start-up", "emergency stop"], run.analyses
+    counts = run.history.groupby("analysis", sort=False).size().to_dict()
+    assert counts == {"": 1, "weight": 2, "start-up": 300, "emergency stop": 200}, counts
+    assert list(run.history.index.get_level_values("step")[:5]) == [0, 1, 2, 1, 2]
+    for name in history.names:
+        assert numpy.allclose(run.history[name], history.columns[name], rtol=0, atol=0, equal_nan=True), name
+
+
+def check_states(run):
+    """The history knows the position of the tip in every recorded state."""
+    found = [state.analysis for state in run.states]
+    # every hundredth step of all, and the last of each analysis
+    assert found == ["", "weight"] + ["start-up"] * 4 + ["emergency stop"] * 3, found
+    for state in run.states[1:]:
+        row = run.history.loc[state.analysis].xs(state.time, level="time")
+        moved = row[[f"blade 1 tip u{x} [m]" for x in "xyz"]].to_numpy()[-1]
+        assert numpy.abs(state.displacement("blade 1")[-1] - moved).max() < 1e-12, state
+        directors = state.directors("hub")[0]
+        assert numpy.abs(directors.T @ directors - numpy.eye(3)).max() < 1e-9
+        assert state.resultants("tower").shape == (10, 6)
+
+
+def check_refusals(run):
+    for ask, word in ((lambda: run.columns("blade"), "blade 1 tip"), (lambda: run.modes("stop"), "modes/modes"),
+                      (lambda: run.states[0].position("mast"), "tower")):
+        try:
+            ask()
+        except KeyError as error:
+            assert word in str(error), error
+        else:
+            raise AssertionError("nothing was raised")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--culm", required=True, type=pathlib.Path)
+    program = parser.parse_args().culm.resolve()
+    os.environ.update(MPI_ENVIRONMENT, CULM_PROGRAM=str(program))
+    with tempfile.TemporaryDirectory(prefix="culm") as name:
+        os.chdir(name)
+        pathlib.Path("inputs").symlink_to(ROOT / "inputs")
+        names = run_notebook(ROOT / "doc/guide/reading_results.ipynb")
+        run = names["run"]
+        check_history(run, History("results/notebook/history.csv"))
+        check_states(run)
+        check_refusals(run)
+        assert len(names["axes"].lines) == 9, "three components in three analyses"
+        assert names["modes"].shapes["tower"].shape == (15, 11, 6)
+        assert isinstance(repr(culm.read("results/notebook")), str)
+    print("the notebook runs, and what it read is right")
+
+
+main()
