@@ -4,7 +4,7 @@
 usage: tutorial.py --culm PROGRAM PAGE.md
 
 Blocks fenced as `sh` are commands, run one block after the other in an empty folder in which
-`inputs` is that of the repository and `culm` is the program. Each line of a block fenced as `output`
+`inputs` and `src` are those of the repository and `culm` is the program. Each line of a block fenced as `output`
 must be printed by the block of commands before it: words alike, numbers to three digits, and … stands
 for any word.
 """
@@ -56,8 +56,10 @@ def main():
     commands = 0
     with tempfile.TemporaryDirectory(prefix="culm") as name:
         folder = pathlib.Path(name)
-        (folder / "inputs").symlink_to(ROOT / "inputs")
+        for part in ("inputs", "src"):
+            (folder / part).symlink_to(ROOT / part)
         (folder / "bin").mkdir()
+        (folder / "bin/python3").symlink_to(sys.executable)
         (folder / "bin/culm").symlink_to(pathlib.Path(arguments.culm).resolve())
         path = f"{folder / 'bin'}:{os.environ['PATH']}"
         printed = []
