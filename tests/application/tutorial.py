@@ -48,7 +48,7 @@ def same_line(shown, printed):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--culm", required=True)
+    parser.add_argument("--culm", required=True, type=pathlib.Path)
     parser.add_argument("page", type=pathlib.Path)
     arguments = parser.parse_args()
     found = blocks(arguments.page.read_text())
@@ -60,15 +60,21 @@ def main():
             (folder / part).symlink_to(ROOT / part)
         (folder / "bin").mkdir()
         (folder / "bin/python3").symlink_to(sys.executable)
-        (folder / "bin/culm").symlink_to(pathlib.Path(arguments.culm).resolve())
-        path = f"{folder / 'bin'}:{os.environ['PATH']}"
+        (folder / "bin/culm").symlink_to(arguments.culm.resolve())
+        environment = {
+            **os.environ,
+            **MPI_ENVIRONMENT,
+            "PATH": f"{folder / 'bin'}:{os.environ['PATH']}",
+            "PYTHONPATH": str(arguments.culm.resolve().parents[1] / "share/culm/python"),
+            "MPLBACKEND": "Agg",
+        }
         printed = []
         for kind, line, text in found:
             if kind == "sh":
                 run = subprocess.run(
                     ["bash", "-euo", "pipefail", "-c", text],
                     cwd=folder,
-                    env={**os.environ, **MPI_ENVIRONMENT, "PATH": path},
+                    env=environment,
                     capture_output=True,
                     text=True,
                     timeout=TIME_LIMIT,
