@@ -56,6 +56,13 @@ def check_states(run):
         assert state.resultants("tower").shape == (10, 6)
 
 
+def check_columns(run):
+    """Quantities whose names begin alike are told apart."""
+    assert list(run.columns("rotor").columns) == ["rotor [rad]"]
+    assert list(run.columns("rotor speed").columns) == ["rotor speed [rad/s]"]
+    assert len(run.columns("blade 1 root").columns) == 6
+
+
 def check_refusals(run):
     for ask, word in ((lambda: run.columns("blade"), "blade 1 tip"), (lambda: run.modes("stop"), "modes/modes"),
                       (lambda: run.states[0].position("mast"), "tower")):
@@ -79,6 +86,7 @@ def main():
         run = names["run"]
         check_history(run, History("results/notebook/history.csv"))
         check_states(run)
+        check_columns(run)
         check_refusals(run)
         assert len(names["axes"].lines) == 9, "three components in three analyses"
         assert names["modes"].shapes["tower"].shape == (15, 11, 6)

@@ -62,18 +62,45 @@ def _frame(axes, points):
     axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
 
 
-def histories(groups, label):
+def shapes(meshes, shapes, titles):
+    """Shapes beside each other, the reference in grey; the largest displacement is a tenth of the model.
+
+    @param shapes  (shapes, nodes, 6) by structure
+    """
+    everything = numpy.vstack([mesh.position for mesh in meshes.values()])
+    size = float(numpy.linalg.norm(everything.max(axis=0) - everything.min(axis=0))) or 1.0
+    columns = min(3, len(titles))
+    rows = (len(titles) + columns - 1) // columns
+    figure = pyplot.figure(figsize=(3.3 * columns, 3.4 * rows))
+    figure.subplots_adjust(left=0.02, right=0.98, bottom=0.04, top=0.92, wspace=0.05, hspace=0.2)
+    for number, title in enumerate(titles):
+        axes = figure.add_subplot(rows, columns, number + 1, projection="3d", proj_type="ortho")
+        moved = {name: shape[number, :, :3].real for name, shape in shapes.items() if name in meshes}
+        largest = max(float(numpy.abs(one).max()) for one in moved.values()) or 1.0
+        for name, mesh in meshes.items():
+            _draw(axes, mesh, mesh.position, REFERENCE, 0.15)
+            if name in moved:
+                _draw(axes, mesh, mesh.position + 0.1 * size / largest * moved[name], DEFORMED, 0.5)
+        _frame(axes, everything)
+        axes.set(xticklabels=[], yticklabels=[], zticklabels=[], xlabel="x", ylabel="y", zlabel="z")
+        axes.set_title(title, fontsize=8)
+    return figure
+
+
+def histories(groups, label, is_path=False):
     """One plot per group of columns with the same unit.
 
-    @param groups  (title, unit, levels, {component: values})
+    @param groups   (title, unit, levels, {component: values})
+    @param is_path  whether the levels are drawn over the values, as paths are
     """
     columns = 2 if len(groups) > 1 else 1
     rows = (len(groups) + columns - 1) // columns
     figure, axes = plot(columns, rows, height=2.6)
     for ax, (title, unit, levels, curves) in zip(axes.flat, groups):
         for name, values in curves.items():
-            ax.plot(levels, values, label=name)
-        ax.set(title=title, xlabel=label, ylabel=f"[{unit}]")
+            ax.plot(*((values, levels) if is_path else (levels, values)), label=name)
+        ax.set(title=title)
+        ax.set(**dict(zip(("xlabel", "ylabel"), (f"[{unit}]", label) if is_path else (label, f"[{unit}]"))))
         if len(curves) > 1:
             ax.legend(fontsize=7)
     for ax in axes.flat[len(groups) :]:

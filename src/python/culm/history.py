@@ -4,6 +4,19 @@ import csv
 import math
 
 
+def quantity_of(column, quantities):
+    """The quantity that a column shows, and its component.
+
+    @param quantities  names of all entries of the history in the deck
+    """
+    name = column.split(" [")[0]
+    fitting = [one for one in quantities if name == one or name.startswith(f"{one} ")]
+    if not fitting:
+        return name, ""
+    longest = max(fitting, key=len)
+    return longest, name[len(longest) :].strip()
+
+
 class History:
     """Columns of history.csv by name, such as 'tip ux [m]', and the levels of its rows. Where a cell is
     empty, because the quantity does not exist there, stands nan."""

@@ -2,14 +2,14 @@
 
 import dataclasses
 import pathlib
-import xml.etree.ElementTree as ElementTree
 
 import h5py
 import numpy
 import pandas
 
 from .errors import CulmError
-from .results import Results, _text
+from .history import quantity_of
+from .results import Results, _text, _without_escapes
 
 
 @dataclasses.dataclass
@@ -53,7 +53,7 @@ class Modes:
     """What a modal or buckling analysis found."""
 
     table: pandas.DataFrame  # a row per mode, as in its CSV file, and remarks
-    shapes: dict  # by structure: (modes, nodes, 6), displacement and rotation
+    shapes: dict  # by structure: (modes, nodes, 6), displacement and rotation; complex of complex modes
 
 
 class Run:
@@ -61,6 +61,7 @@ class Run:
 
     history   frame of all quantities, with the analysis, its step, and the time or level as index
     analyses  names of the analyses in the deck
+    quantities  names of what the history watches
     states    recorded states
     tables    frames by name, such as tables["modes/modes"]
     scalars   numbers of the report by name
@@ -75,7 +76,8 @@ class Run:
             raise CulmError(f"there is no run.h5 in '{folder}'", 6)
         self._path = path
         results = Results(path)
-        self.analyses = _analyses(results.deck())
+        self.analyses = [name for name, _ in results.analyses()]
+        self.quantities = results.quantities()
         self.scalars = results.scalars()
         self.findings = results.findings()
         self.report = results.report()
@@ -98,18 +100,13 @@ class Run:
         table = next((t for name, t in self.tables.items() if name.startswith(f"{analysis}/")), None)
         if table is None:
             raise KeyError(f"no table of an analysis '{analysis}' among: {', '.join(self.tables)}")
-        with h5py.File(self._path) as file:
-            shapes = _group(file["analyses"], analysis).get("shapes", {})
-            return Modes(table, {_unescaped(link): data[()] for link, data in shapes.items()})
+        return Modes(table, Results(self._path).shapes(analysis))
 
     def columns(self, quantity):
         """The part of the history that shows one quantity of the deck, by the names of components."""
-        found = [c for c in self.history.columns if c.split(" [")[0] == quantity]
-        found += [c for c in self.history.columns if c.split(" [")[0].rsplit(" ", 1)[0] == quantity]
-        if not found:
-            known = dict.fromkeys(c.split(" [")[0].rsplit(" ", 1)[0] for c in self.history.columns)
-            raise KeyError(f"no quantity '{quantity}' among: {', '.join(known)}")
-        return self.history[list(dict.fromkeys(found))]
+        if quantity not in self.quantities:
+            raise KeyError(f"no quantity '{quantity}' among: {', '.join(self.quantities)}")
+        return self.history[[c for c in self.history.columns if quantity_of(c, self.quantities)[0] == quantity]]
 
     def plot(self, quantity, axes=None):
         """Draws a quantity over time or level, a line for each component and analysis. Returns the axes."""
@@ -128,9 +125,11 @@ class Run:
         frame = pandas.read_csv(self.folder / "history.csv", float_precision="round_trip")
         names, numbers = [""], [0]  # of the start
         for step in results.steps():
+            if step.analysis is None:
+                break
             names.append(self.analyses[step.analysis])
             numbers.append(step.step)
-        if len(names) != len(frame):  # a run that was killed, or has not ended
+        if len(names) != len(frame):  # a run that was killed, or has not ended, or of an earlier version
             names, numbers = [""] * len(frame), range(len(frame))
         index = pandas.MultiIndex.from_arrays([names, numbers, frame["time"]], names=["analysis", "step", "time"])
         return frame.drop(columns="time").set_index(index)
@@ -159,26 +158,14 @@ def _by_analysis(frame):
             yield name, part
 
 
-def _analyses(deck):
-    lists = ElementTree.fromstring(deck).findall("ParameterList[@name='Analyses']/ParameterList")
-    return [one.get("name") for one in lists]
-
-
 def _frame(columns, rows, remarks):
     frame = pandas.DataFrame(rows, columns=columns)
     return frame.assign(remark=remarks) if remarks else frame
 
 
-def _unescaped(link):
-    """The name of which a link in the file is made: / : % | are written as %XX."""
-    import urllib.parse
-
-    return urllib.parse.unquote(link)
-
-
 def _group(parent, name):
     """The group of a structure or analysis by its name."""
     for link, group in parent.items():
-        if _unescaped(link) == name:
+        if _without_escapes(link) == name:
             return group
-    raise KeyError(f"no '{name}' among: {', '.join(map(_unescaped, parent))}")
+    raise KeyError(f"no '{name}' among: {', '.join(map(_without_escapes, parent))}")

@@ -5,9 +5,13 @@ import pathlib
 
 from . import effects_table
 from .errors import CulmError
-from .history import History
+from .history import History, quantity_of
+from .mode_names import name_modes
 from .page import Page
 from .results import Results
+
+
+MOST_ROWS = 40  # of a table
 
 
 def declare(parser):
@@ -46,9 +50,9 @@ def write_page(results, folder, output):
     for finding in results.findings():
         page.paragraph(str(finding), "broken" if finding.is_broken else "warning")
     _add_model(page, results, drawing)
-    _add_histories(page, folder, drawing)
+    _add_histories(page, results, folder, drawing)
     _add_steps(page, results, drawing)
-    _add_tables(page, results)
+    _add_tables(page, results, drawing)
     _add_effects(page, results, drawing)
     page.heading("Report")
     page.code(outcome or "The run did not come to the end of its report.")
@@ -70,24 +74,46 @@ def _add_model(page, results, drawing):
     page.paragraph(f"Grey: reference. Blue: last recorded state, at {time:.6g}, without magnification.")
 
 
-def _add_histories(page, folder, drawing):
+def _add_histories(page, results, folder, drawing):
     path = folder / "history.csv"
     history = History(path) if path.exists() else None
     if history is None or not history.names or len(history.levels) < 2:
         return
     page.heading("Histories")
-    groups = []
-    for (title, unit), names in itertools.groupby(history.names, key=_quantity):
-        curves = {name.split(" [")[0][len(title) :].strip() or title: history.columns[name] for name in names}
-        groups.append((title, unit, history.levels, curves))
-    figure = drawing.histories(groups, "time [s] or level")
-    _add_figure(page, drawing, figure, "histories of the quantities of the deck")
+    parts = _parts(results, len(history.levels))
+    quantities = results.quantities()
+
+    def title_and_unit(column):
+        return quantity_of(column, quantities)[0], column.rstrip("]").split(" [")[1]
+
+    for name, kind, rows in parts:
+        if len(parts) > 1:
+            page.paragraph(f"{name}, {kind}:")
+        groups = []
+        for (title, unit), columns in itertools.groupby(history.names, key=title_and_unit):
+            curves = {
+                quantity_of(column, quantities)[1] or title: history.columns[column][rows] for column in columns
+            }
+            groups.append((title, unit, history.levels[rows], curves))
+        label = "time [s]" if kind == "Dynamic" else "level" if kind else "time [s] or level"
+        figure = drawing.histories(groups, label, is_path=kind == "Path")
+        _add_figure(page, drawing, figure, f"histories of the quantities of the deck, {name}")
 
 
-def _quantity(column):
-    """Name without its component, and unit."""
-    name, unit = column.rstrip("]").split(" [")
-    return name.rsplit(" ", 1)[0] if " " in name else name, unit
+def _parts(results, count):
+    """Name and type of each analysis that made steps, and its rows of the history, of the first one with the start. The
+    history as a whole where a run does not tell."""
+    steps = results.steps()
+    if len(steps) + 1 != count or any(step.analysis is None for step in steps):
+        return [("", "", slice(0, count))]
+    analyses = results.analyses()
+    parts = []
+    first = 0
+    for number, own in itertools.groupby(steps, key=lambda step: step.analysis):
+        last = max(first, 1) + len(list(own))
+        parts.append((*analyses[number], slice(first, last)))
+        first = last
+    return parts
 
 
 def _add_steps(page, results, drawing):
@@ -110,10 +136,35 @@ def _add_steps(page, results, drawing):
     _add_figure(page, drawing, figure, "iterations and residuals of the steps")
 
 
-def _add_tables(page, results):
-    for name, columns, rows, remarks in results.tables():
+def _add_modes(page, results, drawing, table):
+    """Of the modes what people look for first, and pictures of the lowest ones."""
+    name, columns, rows, remarks = table
+    analysis = name.split(": ")[0]
+    meshes, shapes = results.meshes(), results.shapes(analysis)
+    moves = name_modes(meshes, shapes, remarks)
+    chosen = [columns.index(one) for one in ("mode", "frequency [Hz]", "damping ratio")]
+    shown = [[f"{row[i]:.6g}" for i in chosen] for row in rows[:MOST_ROWS]]
+    page.table(
+        [*(columns[i] for i in chosen), "moves most", "kinetic energy"],
+        [[*row, how, remark] for row, how, remark in zip(shown, moves, remarks)],
+    )
+    page.paragraph(
+        "The structure with most of the kinetic energy, and along which axes it moves against its first node: d1 and d2 of "
+        f"its sections, or those of space. Masses and participations: analyses/{analysis}/modes.csv."
+    )
+    if shapes:
+        titles = [f"{row[0]}: {row[1]} Hz\n{how}" for row, how in zip(shown, moves)][:6]
+        _add_figure(page, drawing, drawing.shapes(meshes, shapes, titles), f"shapes of the modes of {analysis}")
+
+
+def _add_tables(page, results, drawing):
+    for table in results.tables():
+        name, columns, rows, remarks = table
         page.heading(name)
-        shown = [["" if value is None else f"{value:.6g}" for value in row] for row in rows[:40]]
+        if {"mode", "frequency [Hz]", "damping ratio"} <= set(columns) and remarks and rows:
+            _add_modes(page, results, drawing, table)
+            continue
+        shown = [["" if value is None else f"{value:.6g}" for value in row] for row in rows[:MOST_ROWS]]
         if remarks:
             columns = [*columns, "remark"]
             shown = [[*row, remark] for row, remark in zip(shown, remarks)]

@@ -1,6 +1,8 @@
 """The result file of a run, run.h5."""
 
 import dataclasses
+import urllib.parse
+import xml.etree.ElementTree as ElementTree
 
 import h5py
 import numpy
@@ -41,8 +43,8 @@ class Step:
     iterations: int
     residual: float  # of the forces, relative
     held: bool  # above the tolerance, because rounding lets it fall no further
-    analysis: int  # its number in the deck, from 0
-    step: int  # in the analysis, from 1
+    analysis: int | None = None  # its number in the deck, from 0; None in files of earlier versions
+    step: int | None = None  # in the analysis, from 1
 
 
 @dataclasses.dataclass
@@ -52,6 +54,7 @@ class Mesh:
     position: numpy.ndarray  # (nodes, 3) [m]
     cells: list  # tuples of nodes
     is_surface: bool
+    directors: numpy.ndarray | None = None  # (nodes, 3, 3), by columns; None of shells, which have one
 
 
 class Results:
@@ -124,8 +127,8 @@ class Results:
             if "report/steps" not in file:
                 return []
             return [
-                Step(time, int(iterations), residual, held != 0.0, int(analysis), int(step))
-                for time, iterations, residual, held, analysis, step in file["report/steps"][()]
+                Step(time, int(iterations), residual, held != 0.0, *map(int, place))
+                for time, iterations, residual, held, *place in file["report/steps"][()]
             ]
 
     def meshes(self):
@@ -142,6 +145,29 @@ class Results:
                 names[link]: group["position"][()] for link, group in last.items() if link in names
             }
 
+    def analyses(self):
+        """Names and types of the analyses of the deck."""
+        lists = ElementTree.fromstring(self.deck()).findall("ParameterList[@name='Analyses']/ParameterList")
+        types = [one.find("Parameter[@name='Type']").get("value") for one in lists]
+        return [(one.get("name"), type) for one, type in zip(lists, types)]
+
+    def quantities(self):
+        """Names of the entries of the history in the deck."""
+        path = "ParameterList[@name='Output']/ParameterList[@name='History']/ParameterList"
+        return [one.get("name") for one in ElementTree.fromstring(self.deck()).findall(path)]
+
+    def shapes(self, analysis):
+        """Shapes that an analysis found, by structure: (shapes, nodes, 6), complex where they are."""
+        with h5py.File(self.path) as file:
+            for link, group in file.get("analyses", {}).items():
+                if _without_escapes(link) == analysis:
+                    imaginary = group.get("shapes_imaginary", {})
+                    return {
+                        _without_escapes(name): data[()] + (1j * imaginary[name][()] if name in imaginary else 0.0)
+                        for name, data in group.get("shapes", {}).items()
+                    }
+        return {}
+
     def tables(self):
         """Tables of analyses: (name, columns, rows, remarks); None in a row where there is no number."""
         tables = []
@@ -155,12 +181,21 @@ class Results:
         return tables
 
 
+def _without_escapes(link):
+    """The name of which a link is made: / : % | are written as %XX."""
+    return urllib.parse.unquote(link)
+
+
 def _mesh(group):
     ends = group["cell_offsets"][()].tolist()
     nodes = group["connectivity"][()].tolist()
     starts = [0, *ends[:-1]]
     cells = [tuple(nodes[a:b]) for a, b in zip(starts, ends)]
-    return Mesh(group["position"][()], cells, _text(group.attrs["type"]) == "Shell")
+    is_surface = _text(group.attrs["type"]) == "Shell"
+    directors = None
+    if not is_surface:
+        directors = numpy.stack([group[f"director{k}"][()] for k in (1, 2, 3)], axis=2)
+    return Mesh(group["position"][()], cells, is_surface, directors)
 
 
 def _text(value):
