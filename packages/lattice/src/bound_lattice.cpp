@@ -7,10 +7,6 @@
 namespace culm::lattice {
 namespace {
 
-// Radius of the cores of bound segments over the chord: far below any distance that matters, and
-// enough to keep points on a segment, or on its continuation, free of rounding.
-constexpr double bound_core = 1e-4;
-
 Vec3 reflect(const Vec3& normal, const Vec3& p) { return p - 2.0 * normal.dot(p) * normal; }
 
 Segments images(const Segments& segments, const Vec3& normal) {
@@ -161,7 +157,7 @@ Segments BoundLattice::segments(const Points& corners) const {
   Segments result;
   for_each_segment(surfaces_,
                    [&](const Panelling& s, std::size_t, std::size_t from, std::size_t to) {
-                     result.push_back(corners.at(from), corners.at(to), bound_core * s.chord);
+                     result.push_back(corners.at(from), corners.at(to), s.bound_core());
                    });
   return result;
 }

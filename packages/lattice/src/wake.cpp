@@ -51,8 +51,8 @@ void Wake::advance(double step, const Points& edges, const Points& edge_velociti
   circulation_.resize(ages_.size() * num_strips_);
 }
 
-double Wake::core(double width, double age) const {
-  const double start = core_.width * width;
+double Wake::core(const Panelling& surface, double age) const {
+  const double start = core_.width * surface.side();
   return std::sqrt(start * start + 4.0 * lamb * core_.growth * age);
 }
 
@@ -64,9 +64,10 @@ Wake::Sheet Wake::near_part(const Points& edges) const {
   Sheet sheet;
   if (rows() == 0) return sheet;
   for (const Panelling& s : surfaces_) {
-    const double radius = core(s.width, 0.0);
+    const double radius = core(s, 0.0);
     for (int j = 0; j < s.panels.span; ++j) {
-      sheet.segments.push_back(edges.at(s.edge_point(j)), edges.at(s.edge_point(j + 1)), radius);
+      sheet.segments.push_back(edges.at(s.edge_point(j)), edges.at(s.edge_point(j + 1)),
+                               s.bound_core());
       sheet.strengths.push_back(strength(0, s.strip(j)));
     }
     for (int j = 0; j <= s.panels.span; ++j) {
@@ -83,7 +84,7 @@ Wake::Sheet Wake::far_part() const {
   Sheet sheet;
   for (const Panelling& s : surfaces_) {
     for (int line = 0; line < rows(); ++line) {
-      const double radius = core(s.width, ages_[static_cast<std::size_t>(line)]);
+      const double radius = core(s, ages_[static_cast<std::size_t>(line)]);
       const auto place = [&](int at, int j) { return lines_.at(line_point(at, s.edge_point(j))); };
       for (int j = 0; j < s.panels.span; ++j) {
         sheet.segments.push_back(place(line, j), place(line, j + 1), radius);

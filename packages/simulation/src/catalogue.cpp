@@ -2,6 +2,7 @@
 #include <culm/body/register_body.hpp>
 #include <culm/hybrid/tube.hpp>
 #include <culm/joint/register_joint.hpp>
+#include <culm/lattice/register_lattice.hpp>
 #include <culm/load/register_load.hpp>
 #include <culm/model/initial_motion.hpp>
 #include <culm/output/file_part.hpp>
@@ -37,6 +38,7 @@ Catalogue::Catalogue() {
   flow::register_flows(flows);
   strip::register_airfoils(airfoils);
   strip::register_strips(strips);
+  lattice::register_lattice(fluid_loads);
   port::register_ports(ports);
   coupling::register_partners(partners);
   register_mpi_partner(partners);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -26,6 +27,12 @@ struct Panelling {
   std::size_t first_edge_point = 0, first_strip = 0;  ///< of the trailing edge
   double chord = 0.0;                                 ///< mean in the reference [m]
   double width = 0.0;                                 ///< mean span of a panel [m]
+
+  /// Radius of the cores of bound segments: far below any distance that matters, and enough to keep
+  /// points on a segment, or on its continuation, free of rounding [m].
+  double bound_core() const { return 1e-4 * chord; }
+  /// The smaller side of a panel [m].
+  double side() const { return std::min(width, chord / panels.chord); }
 
   std::size_t point(int i, int j) const { return first_point + at(i, panels.span + 1, j); }
   std::size_t ring(int i, int j) const { return first_ring + at(i, panels.span, j); }

@@ -11,7 +11,7 @@ namespace culm::lattice {
 
 /// Radii of the cores of wakes.
 struct WakeCore {
-  double width = 0.1;   ///< at the trailing edge, over the span of a panel
+  double width = 0.1;   ///< at the trailing edge, over the smaller side of a panel
   double growth = 0.0;  ///< delta nu in r_c^2 = r_0^2 + 4 1.25643 delta nu t [m^2/s]
 };
 
@@ -42,7 +42,8 @@ class Wake {
     Segments segments;
     std::vector<double> strengths;
   };
-  /// Segments that touch the edges, of the newest row; none if there is no row.
+  /// Segments that touch the edges, of the newest row; none if there is no row. Those on the edges
+  /// have the core of the bound ones that they meet.
   Sheet near_part(const Points& edges) const;
   /// All others.
   Sheet far_part() const;
@@ -52,7 +53,7 @@ class Wake {
   void restore(std::span<const double> memory);
 
  private:
-  double core(double width, double age) const;
+  double core(const Panelling& surface, double age) const;
   double strength(int row, std::size_t strip) const;
   std::size_t line_point(int line, std::size_t edge_point) const {
     return static_cast<std::size_t>(line) * num_edge_points_ + edge_point;

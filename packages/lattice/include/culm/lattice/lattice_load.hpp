@@ -1,0 +1,87 @@
+/// Forces of a vortex lattice on the structures that carry it.
+#pragma once
+
+#include <culm/lattice/lattice.hpp>
+#include <culm/model/memoryless_batch.hpp>
+#include <culm/model/structure.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace culm::lattice {
+
+/// The grid of a surface on a structure, points as Panelling numbers them.
+struct SurfaceGrid {
+  Panels panels;
+  std::vector<model::Marker> points;
+};
+
+/// A lattice whose grid points are material points of structures. Statics take the steady flow,
+/// dynamics one step of the unsteady one per time step. Each evaluation solves the lattice for the
+/// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it.
+class LatticeLoad final : public model::MemorylessBatch {
+ public:
+  LatticeLoad(std::string effect, const model::NodeTable& nodes, std::vector<SurfaceGrid> surfaces,
+              std::optional<Vec3> mirror, flow::SharedFlow flow, LatticeSetting setting);
+
+  /// One per group of grid points on the same nodes.
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  bool has_tangent() const override { return true; }
+  /// The step needs velocities at its end.
+  bool needs_mean_velocity() const override { return true; }
+  bool needs_all_nodes() const override { return true; }
+
+  void prepare(const model::State& state, const Stencil& stencil) override;
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void accept(model::State& state) override;
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+
+  std::size_t memory_size() const override;
+  void save(model::Items which, std::span<double> memory) const override;
+  void restore(std::span<const double> memory) override;
+
+  const Lattice& lattice() const { return lattice_; }
+  /// The flow at the end of the last accepted step.
+  const FluidState& fluid() const { return accepted_; }
+  /// Forces at grid points in it [N].
+  const Points& forces() const { return accepted_forces_; }
+  /// Grid points in a configuration.
+  Points grid(const model::Coordinates& q) const;
+
+ private:
+  /// Grid points that hang on the same nodes.
+  struct Item {
+    std::vector<int> nodes;
+    std::vector<std::size_t> points;
+    std::vector<Eigen::VectorXd> factors;  ///< T_s of each point, four per node
+  };
+
+  void add_items(const std::vector<SurfaceGrid>& surfaces);
+  void find_apparent_masses();
+  const FluidResult& result_at(const model::State& state) const;
+  Vec3 normal_at(std::size_t point, const Points& grid) const;
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
+                        bool tangent, const Points& forces, model::Target& target) const;
+
+  const model::NodeTable& nodes_;
+  std::vector<Item> items_;
+  Lattice lattice_;
+  double density_ = 0.0;
+  std::vector<double> apparent_mass_;  ///< half of that of strips, by grid point [kg]
+
+  FluidState accepted_;
+  Points accepted_forces_;
+
+  // of the step that is tried
+  double step_ = 0.0;
+  Points start_, start_velocity_;
+  Lattice::ComingWake coming_;
+  mutable model::Coordinates evaluated_;  ///< where result_ was computed; empty: nowhere
+  mutable FluidResult result_;
+};
+
+}  // namespace culm::lattice

@@ -1,0 +1,92 @@
+#include <culm/lattice/lattice_load.hpp>
+#include <culm/lattice/register_lattice.hpp>
+
+#include "surfaces.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace culm::lattice {
+namespace {
+
+Schema wake_schema() {
+  return Schema("Wake", "The vortex sheets behind the trailing edges, in dynamics.")
+      .add(choice("Motion", {"Prescribed", "Free"},
+                  "Moves with the undisturbed flow, or with all that is induced as well.")
+               .optional("Prescribed"))
+      .add(integer("Rows", "Largest number of rows; one is shed per step, the oldest is lost.")
+               .at_least(1)
+               .optional(200))
+      .add(number("Core", "1", "Radius of the vortex cores, over the smaller side of a panel.")
+               .non_negative()
+               .optional(0.1))
+      .add(number("Core Growth", "m^2/s",
+                  "Effective viscosity by which the square of the radius grows with age.")
+               .non_negative()
+               .optional(0.0));
+}
+
+Schema schema() {
+  return Schema("Vortex Lattice",
+                "Lifting surfaces on beams and shells by vortex rings: steady in statics, with a "
+                "wake that grows by a row per step in dynamics.")
+      .add(flow::flow_field())
+      .add(model::vector_field("Mirror", "1",
+                               "Normal of a plane of symmetry through the origin, such as the "
+                               "middle of an aircraft or the ground.")
+               .optional())
+      .add(choice("Forces", {"Joukowski", "Bernoulli"},
+                  "On vortex segments, with suction at leading edges, or by pressure jumps, "
+                  "normal to the panels.")
+               .optional("Joukowski"))
+      .list("Surfaces", Schema("Surfaces", "Lifting surfaces by name. Wakes act on all of them.")
+                            .entries(surface_schema())
+                            .check([](const Options& list, InputIssues& issues) {
+                              if (list.entries().empty()) {
+                                issues.add(list.where(), "must hold at least one surface");
+                              }
+                            }))
+      .list("Wake", wake_schema(), Presence::defaulted);
+}
+
+LatticeSetting setting_of(const Options& options) {
+  const Options& wake = options.list("Wake");
+  LatticeSetting setting;
+  if (options.text("Forces") == "Bernoulli") setting.forces = ForceRule::bernoulli;
+  if (wake.text("Motion") == "Free") setting.wake = WakeMotion::free;
+  setting.rows = wake.integer("Rows");
+  setting.core = {wake.number("Core"), wake.number("Core Growth")};
+  return setting;
+}
+
+void build(const Options& options, flow::FluidContext& context) {
+  const flow::SharedFlow flow = flow::find_flow(options, context);
+  std::optional<Vec3> mirror;
+  if (options.has("Mirror")) {
+    mirror = model::vector(options, "Mirror");
+    if (mirror->norm() == 0.0) {
+      context.build.issues.add(options.where("Mirror"), "must not be zero");
+      return;
+    }
+    mirror->normalize();
+  }
+  std::vector<SurfaceGrid> surfaces;
+  bool is_sound = flow != nullptr;
+  for (const Options& entry : options.list("Surfaces").entries()) {
+    auto surface = read_surface(entry, context.build);
+    is_sound = is_sound && surface;
+    if (surface) surfaces.push_back(std::move(*surface));
+  }
+  if (!is_sound) return;
+  context.build.model.add_load(std::make_unique<LatticeLoad>(
+      "Vortex Lattice, " + options.name(), context.build.model.nodes(), std::move(surfaces), mirror,
+      flow, setting_of(options)));
+}
+
+}  // namespace
+
+void register_lattice(flow::FluidLoadRegistry& registry) {
+  registry.add("Vortex Lattice", schema(), build);
+}
+
+}  // namespace culm::lattice

@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""Vortex lattice: steady wings, a wing that rests, flutter in time. Page: doc/verification/lattice.md."""
+
+import cmath
+import math
+
+import numpy as np
+from verify import figure, main, save
+
+CHORD = 1.8288
+# lattice in the frequency domain with a flat wake of 12 chords, the tip inset, 8 x 12 panels
+FLUTTER = {8: 161.67, 16: 160.65, 24: 160.27}
+
+
+def poles(times, values, order=6):
+    """Exponents of a sum of decaying oscillations, by a matrix pencil of the given order."""
+    columns = len(values) // 3
+    hankel = np.lib.stride_tricks.sliding_window_view(values, columns + 1)
+    _, _, right = np.linalg.svd(hankel, full_matrices=False)
+    basis = right[:order].conj().T
+    shift = np.linalg.lstsq(basis[:-1], basis[1:], rcond=None)[0]
+    return [cmath.log(z) / (times[1] - times[0]) for z in np.linalg.eigvals(shift)]
+
+
+def oscillation(culm, speed, overrides=(), periods=8.0):
+    """Growth [1/s] and circular frequency [rad/s] of the mode that flutters."""
+    history = culm.history("air/goland.xml", [f"U={speed}", "Analyses/motion/End Time="
+                                              f"{0.02 + periods * 0.09}", *overrides])
+    times = np.array(history.levels)
+    values = np.array(history.column("tip uz [m]"))
+    free = times > 0.06  # after the pulse and what decays at once
+    found = [p for p in poles(times[free], values[free]) if 55.0 < p.imag < 85.0]
+    best = max(found, key=lambda p: p.real)
+    return best.real, best.imag
+
+
+def flutter(culm, low, high, overrides=()):
+    """Speed and frequency at which the growth is zero, linear between two speeds near it."""
+    (g0, w0), (g1, w1) = (oscillation(culm, u, overrides) for u in (low, high))
+    share = -g0 / (g1 - g0)
+    return low + share * (high - low), w0 + share * (w1 - w0)
+
+
+def verify_flutter(culm, report):
+    report.title("Goland's wing: flutter in time, 8 x 12 panels, wake of 12 chords")
+    speed, omega = flutter(culm, 157.0, 166.0)
+    report.relative("speed of flutter [m/s]", speed, FLUTTER[8], 0.005)
+    report.relative("frequency [rad/s]", omega, 68.8, 0.01)
+
+
+def verify_rest(culm, report):
+    report.title("A wing in equilibrium goes on resting when time begins")
+    history = culm.history("air/wing_at_rest.xml")
+    uz = history.column("tip uz [m]")
+    at_rest = next(i for i, level in enumerate(history.levels) if level >= 1.0)
+    report.relative("deflection of the tip in time [m]", uz[-1], uz[at_rest], 1e-3)
+
+
+def verify_steady(culm, report):
+    report.title("Rectangular wings, lift over incidence, 8 x 26 panels with the tip inset")
+    for aspect, slope in ((4.0, 3.6108), (8.0, 4.5843), (20.0, 5.4296)):
+        history = culm.history("air/rigid_wing.xml", [f"ratio={aspect}"])
+        lift = -history.column("wall Fz [N]")[-1]
+        report.relative(f"aspect ratio {aspect:g}: lift slope [1/rad]",
+                        lift / (0.5 * 1.225 * 10.0**2 * 0.5 * aspect * math.radians(1.0)), slope,
+                        5e-4)
+
+
+def verify(culm, report):
+    verify_steady(culm, report)
+    verify_rest(culm, report)
+    verify_flutter(culm, report)
+
+
+def fine(culm, report):
+    report.title("Goland's wing: the same with more panels along the chord")
+    for m in (16, 24):
+        speed, _ = flutter(culm, 156.0, 165.0, [f"m={m}"])
+        report.relative(f"{m} x 12: speed of flutter [m/s]", speed, FLUTTER[m], 0.01)
+
+
+def plot(culm, path):
+    fig, axes = figure()
+    axes = np.atleast_1d(axes)[0]
+    for speed in (150.0, 161.0, 170.0):
+        history = culm.history("air/goland.xml", [f"U={speed}", "Analyses/motion/End Time=0.75"])
+        axes.plot(history.levels, [1e3 * u for u in history.column("tip uz [m]")],
+                  label=f"{speed:g} m/s")
+    axes.set(title="Goland's wing", xlabel="time [s]", ylabel="deflection of the tip [mm]")
+    axes.legend()
+    save(fig, path)
+
+
+if __name__ == "__main__":
+    main(verify, plot, fine)
