@@ -47,7 +47,7 @@ bool is_finite(const Points& points) {
 
 }  // namespace
 
-LatticeLoad::LatticeLoad(std::string effect, const model::NodeTable& nodes,
+LatticeLoad::LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
                          std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror,
                          flow::SharedFlow flow, LatticeSetting setting)
     : MemorylessBatch(std::move(effect)),

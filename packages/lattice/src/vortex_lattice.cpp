@@ -79,8 +79,8 @@ void build(const Options& options, flow::FluidContext& context) {
   }
   if (!is_sound) return;
   context.build.model.add_load(std::make_unique<LatticeLoad>(
-      "Vortex Lattice, " + options.name(), context.build.model.nodes(), std::move(surfaces), mirror,
-      flow, setting_of(options)));
+      model::Effect("Vortex Lattice", options.name()), context.build.model.nodes(),
+      std::move(surfaces), mirror, flow, setting_of(options)));
 }
 
 }  // namespace

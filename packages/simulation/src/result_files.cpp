@@ -6,6 +6,7 @@
 #include "analysis_files.hpp"
 #include "checkpoints.hpp"
 #include "finite.hpp"
+#include "fluid_pictures.hpp"
 #include "on_root.hpp"
 #include "picture_frames.hpp"
 
@@ -120,6 +121,12 @@ void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantit
   watched_ = &watched;
 }
 
+std::optional<output::Pictures> ResultFiles::open_fluid() const {
+  auto meshes = fluid_meshes(system_->model());
+  if (!settings_.pictures || meshes.empty()) return {};
+  return output::Pictures(settings_.folder, "run_fluid", std::move(meshes));
+}
+
 void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   const std::filesystem::path& folder = settings_.folder;
   std::error_code failure;
@@ -132,8 +139,8 @@ void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   output::HistoryCsv history(folder / "history.csv", columns());
   std::optional<output::Pictures> pictures;
   if (settings_.pictures) pictures.emplace(folder, "run", meshes);
-  files_ = std::make_unique<Files>(
-      Files{std::move(recorder), std::move(xdmf), std::move(history), std::move(pictures)});
+  files_ = std::make_unique<Files>(Files{std::move(recorder), std::move(xdmf), std::move(history),
+                                         std::move(pictures), open_fluid()});
 }
 
 // The result file is cut to the time of the checkpoint; the others are made again from it.
@@ -146,12 +153,14 @@ void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
   output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
   std::optional<output::Pictures> pictures;
   if (settings_.pictures) pictures.emplace(folder, "run", meshes);
+  std::optional<output::Pictures> fluid = open_fluid();
   for (const auto& step : recorded.steps) {
     xdmf.add_step(step.index, step.time);
     if (pictures) pictures->add_earlier(step.index, step.time);
+    if (fluid) fluid->add_earlier(step.index, step.time);
   }
-  files_ = std::make_unique<Files>(
-      Files{std::move(recorder), std::move(xdmf), std::move(history), std::move(pictures)});
+  files_ = std::make_unique<Files>(Files{std::move(recorder), std::move(xdmf), std::move(history),
+                                         std::move(pictures), std::move(fluid)});
 }
 
 std::vector<output::HistoryColumn> ResultFiles::columns() const { return columns_of(*watched_); }
@@ -179,8 +188,18 @@ void ResultFiles::record(double time, model::State& state) {
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
     if (files_->pictures) files_->pictures->add(f);
+    if (files_->fluid) add_fluid(f.index, time, state);
   });
   ++frames_;
+}
+
+// Analyses without the loads that show something have no such picture.
+void ResultFiles::add_fluid(int index, double time, const model::State& state) {
+  output::Frame frame = fluid_frame(system_->model(), state.next);
+  if (frame.structures.empty()) return;
+  frame.index = index;
+  frame.time = time;
+  files_->fluid->add(frame);
 }
 
 void ResultFiles::add_results(const std::string& name, const analysis::AnalysisReport& report,
@@ -204,6 +223,7 @@ void ResultFiles::finish(const std::string& report, const std::vector<output::Na
     files_->recorder.close();
     files_->xdmf.write();
     if (files_->pictures) files_->pictures->write();
+    if (files_->fluid) files_->fluid->write();
     // whole files of an earlier analysis, which nobody looked at since
     for (const auto& name : analysis_files_) output::FileIdentity(settings_.folder / name);
   });
@@ -211,8 +231,8 @@ void ResultFiles::finish(const std::string& report, const std::vector<output::Na
 
 std::vector<std::filesystem::path> ResultFiles::paths() const {
   std::vector<std::filesystem::path> paths;
-  std::vector<std::filesystem::path> names = {"run.h5", "run.xdmf", "history.csv", "run.pvd",
-                                              "run_skin.pvd"};
+  std::vector<std::filesystem::path> names = {"run.h5",  "run.xdmf",     "history.csv",
+                                              "run.pvd", "run_skin.pvd", "run_fluid.pvd"};
   names.insert(names.end(), analysis_files_.begin(), analysis_files_.end());
   for (const auto& name : names) {
     const std::filesystem::path path = settings_.folder / name;

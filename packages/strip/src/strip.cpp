@@ -247,8 +247,8 @@ void make(const Options& options, StripContext& context) {
     }
     if (sine < 0.0) suction = -suction;
   }
-  auto load = std::make_unique<StripLoad>("Strip, " + options.name(), build.model.nodes(),
-                                          *function, flow, model_of(options));
+  auto load = std::make_unique<StripLoad>(model::Effect("Strip", options.name()),
+                                          build.model.nodes(), *function, flow, model_of(options));
   for (const Place& place : places) {
     Station station{place.point, place.length, chord.at(place.s), axis_at.at(place.s)};
     const double turn = twist.at(place.s);

@@ -22,8 +22,9 @@ struct SurfaceGrid {
 /// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it.
 class LatticeLoad final : public model::MemorylessBatch {
  public:
-  LatticeLoad(std::string effect, const model::NodeTable& nodes, std::vector<SurfaceGrid> surfaces,
-              std::optional<Vec3> mirror, flow::SharedFlow flow, LatticeSetting setting);
+  LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
+              std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror, flow::SharedFlow flow,
+              LatticeSetting setting);
 
   /// One per group of grid points on the same nodes.
   int size() const override { return static_cast<int>(items_.size()); }

@@ -85,9 +85,12 @@ class ResultFiles {
     output::XdmfFile xdmf;
     output::HistoryCsv history;
     std::optional<output::Pictures> pictures;
+    std::optional<output::Pictures> fluid;  ///< what loads in flows show
   };
 
   void restore_counts(const Snapshot& saved);
+  std::optional<output::Pictures> open_fluid() const;
+  void add_fluid(int index, double time, const model::State& state);
   void open(const std::vector<output::StructureMesh>& meshes);
   void reopen(const std::vector<output::StructureMesh>& meshes, const output::RecordMark& mark);
 

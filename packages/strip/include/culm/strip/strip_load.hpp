@@ -54,7 +54,7 @@ class StripLoad final : public model::MemorylessBatch {
  public:
   static constexpr int max_nodes = 4;
 
-  StripLoad(std::string effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+  StripLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
             flow::SharedFlow flow, StripModel model)
       : MemorylessBatch(std::move(effect)),
         nodes_(nodes),
@@ -79,7 +79,6 @@ class StripLoad final : public model::MemorylessBatch {
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void accept(model::State& state) override;
-  bool relaxes() const override { return model_.lag.states > 0; }
   std::size_t memory_size() const override;
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;
