@@ -1,5 +1,6 @@
 """Small files of all formats, of our own, that tests damage: name -> (format, {file name: text})."""
 
+import ansys_samples
 import desio_samples
 import gmsh_samples
 import nastran_samples
@@ -9,6 +10,7 @@ import turbine_samples
 WHOLE_FILES = {
     "plate.inp": ("abaqus", {"plate.inp": samples.plate(2)}),
     "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
+    "plate.cdb": ("ansys", {"plate.cdb": ansys_samples.model()}),
     "panel.bdf": ("nastran", {"panel.bdf": nastran_samples.panel()}),
     "frame.bdf": ("nastran", {"frame.bdf": nastran_samples.frame()}),
     "turbine of windIO": ("windio", {"turbine.yaml": turbine_samples.windio()}),

@@ -8,7 +8,7 @@ import numpy
 
 from ..errors import CulmError
 from .findings import FILE_ERROR, Place, refuse
-from .keyword_file import MOST_BYTES, NUMBER
+from .keyword_file import MOST_BYTES, NUMBER, is_integer
 
 # type of an element -> its number of nodes; others are refused where they are on surfaces
 NODES = {1: 2, 2: 3, 3: 4, 8: 3, 9: 6, 10: 9, 15: 1, 16: 8, 4: 4, 5: 8, 6: 6, 7: 5, 11: 10, 12: 27, 17: 20}
@@ -162,13 +162,13 @@ class _Reader:
     def physical_names(self):
         for _ in range(self._count(self.line())):
             words = self.line().split(None, 2)
-            if len(words) != 3 or not words[0].isdigit() or not words[1].isdigit() or words[2][:1] != '"':
+            if len(words) != 3 or not is_integer(words[0]) or not is_integer(words[1]) or words[2][:1] != '"':
                 self.fail("expected dimension, number and name of a physical group")
             self.names[(int(words[0]), int(words[1]))] = words[2].strip('"')
         self.mesh.groups = [(dimension, name) for (dimension, _), name in self.names.items()]
 
     def _count(self, text):
-        if not text.isdigit() or int(text) > MOST:
+        if not is_integer(text) or not 0 <= int(text) <= MOST:
             self.fail(f"expected a count, found '{text[:40]}'")
         return int(text)
 
