@@ -11,6 +11,7 @@ is what the file then says.
 import argparse
 import random
 import sys
+import warnings
 
 from reading import made_of_text
 from whole_files import WHOLE_FILES
@@ -63,6 +64,7 @@ def damage(format, name, files, whole, count, complaints, outcomes):
 
 
 def main():
+    warnings.simplefilter("error")  # numbers that are none must be found before they are used
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--only")

@@ -138,6 +138,26 @@ def frame(n=6, height=3.0, width=4.0):
     )
 
 
+def parts():
+    """Abaqus alone: a strip of two elements as two instances, the second turned up by 90 degrees about y at the end of
+    the first, their edges coupled to a point with a mass, which is pushed."""
+    strip = "*Part, name=Strip\n*Node\n"
+    strip += "".join(f"{i + 1 + 3 * j}, {i:g}., {j:g}., 0.\n" for j in (0, 1) for i in (0, 1, 2))
+    strip += "*Element, type=S4R\n1, 1, 2, 5, 4\n2, 2, 3, 6, 5\n*Nset, nset=Near\n1, 4\n*Nset, nset=Far\n3, 6\n"
+    strip += "*Elset, elset=All, generate\n1, 2, 1\n*Shell Section, elset=All, material=Steel\n0.1, 5\n*End Part\n"
+    text = "*Heading\nTwo strips at a corner\n" + strip + "*Assembly, name=Assembly\n"
+    text += "*Instance, name=Flat, part=Strip\n*End Instance\n"
+    text += "*Instance, name=Up, part=Strip\n2.5, 0., 0.\n2.5, 0., 0., 2.5, 1., 0., -90.\n*End Instance\n"
+    text += "*Node, nset=Corner\n1, 2.5, 0.5, 0.\n*Element, type=MASS, elset=Weight\n1, 1\n*Mass, elset=Weight\n50.,\n"
+    text += "*Nset, nset=Rim, instance=Flat\n3, 6\n*Nset, nset=Rim, instance=Up\n1, 4\n"
+    text += "*Surface, type=NODE, name=Rim_surface\nRim, 1.\n*Elset, elset=Wall, instance=Up\n1, 2\n"
+    text += "*Surface, type=ELEMENT, name=Outside\nWall, SPOS\n"
+    text += "*Coupling, constraint name=Joint, ref node=Corner, surface=Rim_surface\n*Kinematic\n*End Assembly\n"
+    text += "*Material, name=Steel\n*Density\n7850.,\n*Elastic\n2.1e11, 0.3\n*Boundary\nFlat.Near, ENCASTRE\n"
+    text += "*Step, name=Push, nlgeom=YES\n*Static\n0.1, 1.\n*Cload\nCorner, 2, 300.\nUp.Far, 3, -20.\n"
+    return text + "*Dsload\nOutside, P, 1000.\n*End Step\n*Step, name=Vibrate\n*Frequency\n5,\n*End Step\n"
+
+
 SAMPLES = {"plate": plate, "panel": panel, "frame": frame}
 
 if __name__ == "__main__":

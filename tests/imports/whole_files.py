@@ -10,6 +10,7 @@ import turbine_samples
 WHOLE_FILES = {
     "plate.inp": ("abaqus", {"plate.inp": samples.plate(2)}),
     "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
+    "parts.inp": ("abaqus", {"parts.inp": samples.parts()}),
     "plate.cdb": ("ansys", {"plate.cdb": ansys_samples.model()}),
     "panel.bdf": ("nastran", {"panel.bdf": nastran_samples.panel()}),
     "frame.bdf": ("nastran", {"frame.bdf": nastran_samples.frame()}),

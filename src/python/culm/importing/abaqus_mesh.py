@@ -65,6 +65,8 @@ def _placed(reader, position):
     if len(lines) > 1:
         values = _numbers(lines[1], 7, place)
         start, axis, angle = values[:3], values[3:6] - values[:3], numpy.radians(values[6])
+        if numpy.linalg.norm(axis) == 0.0:
+            refuse(place, "the two points of the axis that the instance turns about are one")
         axis = axis / numpy.linalg.norm(axis)
         arm = position - start
         turned = arm * numpy.cos(angle) + numpy.cross(axis, arm) * numpy.sin(angle)
