@@ -24,6 +24,9 @@ import culm  # noqa: E402
 from culm.history import History  # noqa: E402
 
 
+AXIS = numpy.array([0.996194698092, 0.0, -0.0871557427477])  # of the shaft
+
+
 def run_notebook(path):
     """Executes the cells one after the other; what they defined."""
     names = {}
@@ -54,6 +57,12 @@ def check_states(run):
         directors = state.directors("hub")[0]
         assert numpy.abs(directors.T @ directors - numpy.eye(3)).max() < 1e-9
         assert state.resultants("tower").shape == (10, 6)
+        spin = state.angular_velocity("hub")[0] - state.angular_velocity("nacelle")[0]
+        axis = AXIS @ run.states[0].directors("nacelle")[0] @ state.directors("nacelle")[0].T
+        assert abs(axis @ spin - row["rotor speed [rad/s]"].iloc[-1]) < 1e-12
+        arm = state.position("blade 1")[0] - state.position("hub")[0]
+        carried = state.velocity("hub")[0] + numpy.cross(state.angular_velocity("hub")[0], arm)
+        assert numpy.abs(state.velocity("blade 1")[0] - carried).max() < 1e-4, "the hub carries the root"
 
 
 def check_columns(run):

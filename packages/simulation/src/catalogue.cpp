@@ -103,6 +103,10 @@ Schema output_schema(const QuantityRegistry& quantities) {
   return Schema("Output", "What is written.")
       .add(integer("Every", "Steps from one recorded state to the next.").at_least(1).optional(1))
       .add(flag("Pictures", "Write VTU files beside run.h5.").optional(true))
+      .add(flag("Velocities",
+                "Record velocities of nodes, and angular velocities of those with directors, with "
+                "each state.")
+               .optional(false))
       .add(flag("Checkpoints", "Write checkpoints, from which 'culm resume' goes on.")
                .optional(true))
       .add(number("Checkpoint Interval", "s",

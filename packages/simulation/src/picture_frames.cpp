@@ -2,6 +2,8 @@
 
 #include <culm/model/layer_source.hpp>
 
+#include "place.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -155,6 +157,33 @@ output::Frame frame_of(const model::Model& model, const LayerSettings& layers,
     frame.structures.push_back(std::move(s));
   }
   return frame;
+}
+
+void show_velocities(std::vector<output::StructureMesh>& meshes) {
+  for (output::StructureMesh& mesh : meshes) {
+    mesh.node_arrays.push_back({"velocity", 3});
+    if (mesh.directors == output::Directors::triad) {
+      mesh.node_arrays.push_back({"angular velocity", 3});
+    }
+  }
+}
+
+void add_velocities(const model::Model& model, const model::State& state, output::Frame& frame) {
+  for (std::size_t i = 0; i < frame.structures.size(); ++i) {
+    const model::Structure& structure = model.structures()[i];
+    std::vector<double> velocities;
+    std::vector<double> spins;
+    for (int node : structure.nodes) {
+      const Vec3 velocity = Place{.node = node}.seen_velocity(state);
+      velocities.insert(velocities.end(), velocity.begin(), velocity.end());
+      if (!structure.faces.empty()) continue;
+      const Vec3 own = spin(node, state);
+      spins.insert(spins.end(), own.begin(), own.end());
+    }
+    auto& values = frame.structures[i].node_values;
+    values.push_back(std::move(velocities));
+    if (!spins.empty()) values.push_back(std::move(spins));
+  }
 }
 
 }  // namespace culm::simulation

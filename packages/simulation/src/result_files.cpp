@@ -78,7 +78,7 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
     : system_(&system), drawn_(&drawn), settings_(std::move(settings)), watched_(&watched) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
-    const auto meshes = meshes_of(drawn, settings_.layers);
+    const auto meshes = meshes_in(drawn);
     from == nullptr ? open(meshes) : reopen(meshes, restore_mark(*from));
   });
 }
@@ -125,6 +125,12 @@ std::optional<output::Pictures> ResultFiles::open_fluid() const {
   auto meshes = fluid_meshes(system_->model());
   if (!settings_.pictures || meshes.empty()) return {};
   return output::Pictures(settings_.folder, "run_fluid", std::move(meshes));
+}
+
+std::vector<output::StructureMesh> ResultFiles::meshes_in(const model::Model& model) const {
+  std::vector<output::StructureMesh> meshes = meshes_of(model, settings_.layers);
+  if (settings_.velocities) show_velocities(meshes);
+  return meshes;
 }
 
 void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
@@ -182,9 +188,10 @@ void ResultFiles::record(double time, model::State& state) {
   system_->synchronise(state);
   on_root(system_->comm(), [&] {
     output::Frame f = frame_of(system_->model(), settings_.layers, state.next);
+    if (settings_.velocities) add_velocities(system_->model(), state, f);
     f.index = static_cast<int>(frames_);
     f.time = time;
-    if (!is_finite(f)) refuse_infinite(meshes_of(system_->model(), settings_.layers), f);
+    if (!is_finite(f)) refuse_infinite(meshes_in(system_->model()), f);
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
     if (files_->pictures) files_->pictures->add(f);

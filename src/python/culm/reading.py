@@ -33,6 +33,14 @@ class State:
         """(nodes, 3, 3): element [node, :, k] is the director d_{k+1}."""
         return numpy.stack([self._array(structure, f"director{k}") for k in (1, 2, 3)], axis=2)
 
+    def velocity(self, structure):
+        """(nodes, 3) [m/s], where Output / Velocities asks for them"""
+        return self._array(structure, "velocity")
+
+    def angular_velocity(self, structure):
+        """(nodes, 3) [rad/s], likewise"""
+        return self._array(structure, "angular velocity")
+
     def resultants(self, structure):
         """A frame with the stress resultants of the elements, in the directors of their sections."""
         with h5py.File(self.path) as file:

@@ -38,6 +38,7 @@ struct ResultSettings {
   int every = 1;
   bool pictures = true;
   LayerSettings layers = {};
+  bool velocities = false;  ///< in each recorded state
 };
 
 /// Gathers states and writes them on rank 0. All functions are called on all ranks, and throw
@@ -88,6 +89,7 @@ class ResultFiles {
     std::optional<output::Pictures> fluid;  ///< what loads in flows show
   };
 
+  std::vector<output::StructureMesh> meshes_in(const model::Model& model) const;
   void restore_counts(const Snapshot& saved);
   std::optional<output::Pictures> open_fluid() const;
   void add_fluid(int index, double time, const model::State& state);
