@@ -2,6 +2,12 @@
 
 namespace culm::flow {
 
-void register_flows(FlowRegistry& registry) { register_uniform(registry); }
+void register_flows(FlowRegistry& registry) {
+  register_uniform(registry);
+  register_power_law(registry);
+  register_log_law(registry);
+  register_table(registry);
+  register_gust(registry);
+}
 
 }  // namespace culm::flow

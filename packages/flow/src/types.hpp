@@ -11,5 +11,9 @@ inline Field density_field() {
 }
 
 void register_uniform(FlowRegistry& registry);
+void register_power_law(FlowRegistry& registry);
+void register_log_law(FlowRegistry& registry);
+void register_table(FlowRegistry& registry);
+void register_gust(FlowRegistry& registry);
 
 }  // namespace culm::flow

@@ -1,0 +1,189 @@
+#include <culm/flow/flow.hpp>
+
+#include <culm_kit/deck_list.hpp>
+#include <culm_kit/temporary_folder.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace culm::flow {
+namespace {
+
+using std::numbers::pi;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Winds with a reference height, at places in deck coordinates.
+class Winds : public testing::Test {
+ protected:
+  Winds() { register_flows(registry_); }
+
+  Schema schema(const std::string& type) const { return registry_.variants().at(type); }
+
+  SharedFlow make(const std::string& type, const kit::GivenValues& values) {
+    const Options options = kit::deck_list(schema(type), values, "wind");
+    EXPECT_THAT(kit::mistakes_in(schema(type), options), ElementsAre());
+    model::BuildContext context{model_, functions_, issues_};
+    return registry_.make(type, options, context);
+  }
+
+  std::vector<std::string> mistakes(const std::string& type, const kit::GivenValues& values) {
+    return kit::mistakes_in(schema(type), kit::deck_list(schema(type), values, "wind"));
+  }
+
+  SharedFlow gust(const std::string& shape, const kit::GivenValues& more = {}) {
+    kit::GivenValues values = {{"Density", 1.225},  {"Speed", 11.4},  {"Height", 90.0},
+                               {"Exponent", 0.0},   {"Shape", shape}, {"Class", std::string("1A")},
+                               {"Diameter", 126.0}, {"Start", 5.0}};
+    values.insert(values.end(), more.begin(), more.end());
+    return make("Gust", values);
+  }
+
+  SharedFlow table(const std::string& lines) {
+    std::ofstream(folder_ / "wind.csv") << lines;
+    return make("Table", {{"Density", 1.225},
+                          {"File Name", (folder_ / "wind.csv").string()},
+                          {"Height", 90.0},
+                          {"Length", 126.0}});
+  }
+
+  const Vec3 hub = Vec3(0.0, 0.0, 90.0);
+
+ private:
+  FlowRegistry registry_;
+  kit::TemporaryFolder folder_;
+  model::Model model_;
+  std::map<std::string, model::Amplitude> functions_;
+  InputIssues issues_;
+};
+
+// What rounding of a handful of products leaves of winds of 10 m/s.
+void expect_near(const Vec3& actual, const Vec3& expected) {
+  EXPECT_LT((actual - expected).norm(), 1e-13) << actual.transpose();
+}
+
+TEST_F(Winds, PowerLawGrowsWithHeightAndStopsAtTheGround) {
+  const SharedFlow wind =
+      make("Power Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 90.0}, {"Exponent", 0.5}});
+  expect_near(wind->velocity(hub, 0.0), Vec3(8.0, 0.0, 0.0));
+  expect_near(wind->velocity(Vec3(7.0, -3.0, 22.5), 9.0), Vec3(4.0, 0.0, 0.0));
+  expect_near(wind->velocity(Vec3(0.0, 0.0, -1.0), 0.0), Vec3::Zero());
+}
+
+TEST_F(Winds, DirectionsNeedNotBeUnitVectors) {
+  const SharedFlow wind = make("Power Law", {{"Density", 1.2},
+                                             {"Speed", 10.0},
+                                             {"Height", 40.0},
+                                             {"Exponent", 1.0},
+                                             {"Direction", std::vector{0.0, 6.0, 8.0}},
+                                             {"Up", std::vector{5.0, 0.0, 0.0}}});
+  expect_near(wind->velocity(Vec3(20.0, 1.0, 2.0), 0.0), Vec3(0.0, 3.0, 4.0));
+  EXPECT_THAT(mistakes("Power Law", {{"Density", 1.2},
+                                     {"Speed", 10.0},
+                                     {"Height", 40.0},
+                                     {"Exponent", 1.0},
+                                     {"Direction", std::vector{0.0, 0.0, -2.0}}}),
+              ElementsAre(HasSubstr("must not be parallel")));
+}
+
+TEST_F(Winds, LogLawVanishesAtTheRoughness) {
+  const SharedFlow wind =
+      make("Log Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 100.0}, {"Roughness", 0.01}});
+  expect_near(wind->velocity(Vec3(0.0, 0.0, 100.0), 0.0), Vec3(8.0, 0.0, 0.0));
+  expect_near(wind->velocity(Vec3(0.0, 0.0, 1.0), 0.0), Vec3(4.0, 0.0, 0.0));
+  expect_near(wind->velocity(Vec3(0.0, 0.0, 0.005), 0.0), Vec3::Zero());
+  EXPECT_THAT(
+      mistakes("Log Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 1.0}, {"Roughness", 2.0}}),
+      ElementsAre(HasSubstr("less than 'Height'")));
+}
+
+TEST_F(Winds, TablesAreLinearInTimeHeldOutsideAndJumpAtEqualTimes) {
+  const SharedFlow wind = table(
+      "# a step at 4 s\n0, 6, 0, 0, 0, 0, 0, 0\n4, 8, 0, 0, 0, 0, 0, 0\n"
+      "4, 12, 0, 0, 0, 0, 0, 0\n8, 12, 0, 2, 0, 0, 0, 1\n");
+  EXPECT_EQ(wind->velocity(hub, -1.0), Vec3(6.0, 0.0, 0.0));
+  EXPECT_EQ(wind->velocity(hub, 1.0), Vec3(6.5, 0.0, 0.0));
+  EXPECT_EQ(wind->velocity(hub, 4.0), Vec3(12.0, 0.0, 0.0));
+  EXPECT_EQ(wind->velocity(hub, 6.0), Vec3(12.5, 0.0, 1.0));
+  EXPECT_EQ(wind->velocity(hub, 99.0), Vec3(13.0, 0.0, 2.0));
+}
+
+TEST_F(Winds, DirectionsOfTablesTurnClockwiseFromAbove) {
+  const SharedFlow wind = table("0, 10, 90, 0, 0.5, 0, 0, 0\n");
+  // blows to -y; across it, to the left, is +x, where the shear adds
+  expect_near(wind->velocity(Vec3(63.0, 5.0, 90.0), 0.0), Vec3(0.0, -12.5, 0.0));
+}
+
+TEST_F(Winds, TablesShearWithHeight) {
+  const SharedFlow wind = table("0, 10, 0, 0, 0, 1, 0.2, 0\n");
+  expect_near(wind->velocity(Vec3(0.0, 0.0, 153.0), 0.0),
+              Vec3(10.0 * 153.0 / 90.0 + 1.0, 0.0, 0.0));
+}
+
+TEST_F(Winds, BadTablesNameFileAndLine) {
+  const auto objection = [&](const std::string& lines) {
+    try {
+      table(lines);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(objection("0, 6, 0\n"), HasSubstr("wind.csv:1: must be 8 numbers"));
+  EXPECT_THAT(objection("1,6,0,0,0,0,0,0\n0,6,0,0,0,0,0,0\n"), HasSubstr("wind.csv:2: times must"));
+  EXPECT_THAT(objection("# nothing\n"), HasSubstr("at least one line"));
+}
+
+// Class 1A, 11.4 m/s, hub 90 m, diameter 126 m: sigma = 0.16 (0.75 11.4 + 5.6) = 2.264 m/s, and
+// Lambda = 42 m, so that diameter and length are as 3 to 1.
+constexpr double deviation = 2.264;
+
+TEST_F(Winds, OperatingGustDipsRisesAndEnds) {
+  const SharedFlow wind = gust("EOG");
+  const double size = 3.3 * deviation / 1.3;
+  expect_near(wind->velocity(hub, 5.0 + 5.25), Vec3(11.4 + 0.74 * size, 0.0, 0.0));
+  expect_near(wind->velocity(hub, 5.0 + 10.5 / 6.0), Vec3(11.4 - 0.185 * size, 0.0, 0.0));
+  for (const double time : {4.0, 5.0, 15.5, 20.0})
+    expect_near(wind->velocity(hub, time), Vec3(11.4, 0.0, 0.0));
+}
+
+TEST_F(Winds, DirectionChangeIsKept) {
+  const double full = 4.0 * std::atan(deviation / (11.4 * 1.3));
+  const auto turned = [](double angle) {
+    return Vec3(11.4 * std::cos(angle), -11.4 * std::sin(angle), 0.0);
+  };
+  expect_near(gust("EDC")->velocity(hub, 5.0 + 3.0), turned(0.5 * full));
+  expect_near(gust("EDC")->velocity(hub, 99.0), turned(full));
+  expect_near(gust("EDC", {{"Reversed", true}})->velocity(hub, 99.0), turned(-full));
+}
+
+TEST_F(Winds, CoherentGustRisesBy15MetresPerSecondAndTurns) {
+  const double angle = 4.0 * pi / 11.4;
+  expect_near(gust("ECD")->velocity(hub, 15.0),
+              Vec3(26.4 * std::cos(angle), -26.4 * std::sin(angle), 0.0));
+  const SharedFlow weak = gust("ECD", {{"Speed", 3.0}});
+  expect_near(weak->velocity(hub, 15.0), Vec3(-18.0, 0.0, 0.0));
+}
+
+TEST_F(Winds, ShearGustActsUpwardsOrAcross) {
+  const double size = 2.5 + 1.28 * deviation * std::pow(3.0, 0.25);
+  const Vec3 above = hub + Vec3(0.0, 0.0, 63.0);
+  const Vec3 left = hub + Vec3(0.0, 63.0, 0.0);
+  const Vec3 more(11.4 + size, 0.0, 0.0);
+  const Vec3 same(11.4, 0.0, 0.0);
+  expect_near(gust("EWS")->velocity(above, 11.0), more);
+  expect_near(gust("EWS")->velocity(left, 11.0), same);
+  const SharedFlow across = gust("EWS", {{"Shear", std::string("Horizontal")}});
+  expect_near(across->velocity(left, 11.0), more);
+  expect_near(across->velocity(above, 11.0), same);
+  expect_near(across->velocity(left, 17.0), same);
+}
+
+}  // namespace
+}  // namespace culm::flow
