@@ -82,6 +82,7 @@ void StripLoad::add(Station station) {
   stations_.push_back(std::move(station));
   states_.emplace_back();
   owned_.push_back(false);
+  induced_.push_back(Vec3::Zero());
   lag_.emplace_back();
   next_lag_.emplace_back();
 }
@@ -95,6 +96,25 @@ void StripLoad::place(model::Placement placement, model::Form form) {
     owned_[static_cast<std::size_t>(placement.items[i])] = placement.owned[i];
   }
   MemorylessBatch::place(std::move(placement), form);
+}
+
+StationFlow StripLoad::flow_at(int number, const model::State& state,
+                               const Stencil& stencil) const {
+  const Station& station = stations_[static_cast<std::size_t>(number)];
+  const Columns prev = vectors_of(station, state.prev);
+  const Columns next = vectors_of(station, state.next);
+  const Columns middle = (1.0 - stencil.theta) * prev + stencil.theta * next;
+  const double eta = (0.25 - station.axis_at) * station.chord;
+  StationFlow found;
+  found.place = middle.col(0) + eta * middle.col(1);
+  found.along = middle.col(1).normalized();
+  found.across = (middle.col(2) - middle.col(2).dot(found.along) * found.along).normalized();
+  if (stencil.step > 0.0) {
+    const Columns moved = next - prev;
+    found.velocity = (moved.col(0) + eta * moved.col(1)) / stencil.step;
+  }
+  found.wind = flow_->velocity(found.place, time_of(state, stencil));
+  return found;
 }
 
 template <class Number>
@@ -126,8 +146,8 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
       middle.col(0) + (0.75 - station.axis_at) * station.chord * middle.col(1)};
   std::array<Vec3, 2> winds;
   flow_->velocities(places, time_of(state, stencil), winds);
-  around.wind_at_quarter = winds[0];
-  around.wind_at_three_quarters = winds[1];
+  around.wind_at_quarter = winds[0] + induced_[station_number];
+  around.wind_at_three_quarters = winds[1] + induced_[station_number];
 
   const SectionLoads<Number> loads = section_loads<Number>(station, model_, motion, around);
   Evaluation result;

@@ -37,6 +37,17 @@ struct StationState {
   double tangential = 0.0;  ///< and towards the tail [N/m]
 };
 
+/// Where a station is in a step, and what it meets there. @source fluids B2, B3
+struct StationFlow {
+  Vec3 place = Vec3::Zero();     ///< of the quarter chord [m]
+  Vec3 along = Vec3::Zero();     ///< unit vector from nose to tail
+  Vec3 across = Vec3::Zero();    ///< unit vector towards the suction side
+  Vec3 wind = Vec3::Zero();      ///< of the flow there, without induction [m/s]
+  Vec3 velocity = Vec3::Zero();  ///< of the quarter chord; zero in statics [m/s]
+  /// What the structure feels [m/s].
+  Vec3 relative() const { return wind - velocity; }
+};
+
 /// Which effects the loads have.
 struct StripModel {
   Lag lag;
@@ -47,9 +58,9 @@ struct StripModel {
 /// chord, with the lag of the circulation and apparent mass. Points of a section are linear in the
 /// coordinates, x + eta c with the axis x and the unit vector c along the chord; forces come in by
 /// the transpose of the same map, so that their work over a step is F . Dx of their points. The
-/// wind is that without the structure. In statics the structure stands still, and lags have ended.
-/// States of the lag start at zero, as after a sudden start from rest, unless a static analysis was
-/// before. @source fluids B0, B2
+/// wind is that without the structure, and what others induce. In statics the structure stands
+/// still, and lags have ended. States of the lag start at zero, as after a sudden start from rest,
+/// unless a static analysis was before. @source fluids B0, B2
 class StripLoad final : public model::MemorylessBatch {
  public:
   static constexpr int max_nodes = 4;
@@ -69,6 +80,17 @@ class StripLoad final : public model::MemorylessBatch {
   const StationState& state(int station) const {
     return states_[static_cast<std::size_t>(station)];
   }
+  /// The flow that a station meets in the step from state.prev to state.next, before anything is
+  /// induced; of any station of the model, if all ranks know all nodes.
+  StationFlow flow_at(int station, const model::State& state, const Stencil& stencil) const;
+  const flow::Flow& flow() const { return *flow_; }
+  /// Sets what others induce at a station, such as a rotor: it adds to the wind of both of its
+  /// points until it is set anew, and is constant in an iteration. Zero at first. Whoever sets it
+  /// does so on all ranks, and keeps what it needs of accepted states [m/s].
+  void set_induced(int station, const Vec3& velocity) {
+    induced_[static_cast<std::size_t>(station)] = velocity;
+  }
+  const Vec3& induced(int station) const { return induced_[static_cast<std::size_t>(station)]; }
   /// Whether this rank counts a station in sums.
   bool owns(int station) const { return owned_[static_cast<std::size_t>(station)]; }
 
@@ -101,6 +123,7 @@ class StripLoad final : public model::MemorylessBatch {
   std::vector<Station> stations_;
   std::vector<StationState> states_;
   std::vector<bool> owned_;
+  std::vector<Vec3> induced_;
   std::vector<LagStates> lag_, next_lag_;  // of the accepted state, and of the trial
 };
 
