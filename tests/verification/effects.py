@@ -53,12 +53,39 @@ DECK = """<ParameterList name="culm">
     <Parameter name="Type" value="Rigid Support"/>
     <Parameter name="Node" value="beam/first"/>
   </ParameterList></ParameterList>
-  <ParameterList name="Analyses"><ParameterList name="modes">
-    <Parameter name="Type" value="Modal"/>
-    <Parameter name="Modes" value="6"/>
-  </ParameterList></ParameterList>
+  {rest}
 </ParameterList>
 """
+
+MODES = """<ParameterList name="Analyses"><ParameterList name="modes">
+    <Parameter name="Type" value="Modal"/>
+    <Parameter name="Modes" value="6"/>
+  </ParameterList></ParameterList>"""
+MOTION = """<ParameterList name="Loads"><ParameterList name="kick">
+    <Parameter name="Type" value="Force"/>
+    <Parameter name="Node" value="beam/last"/>
+    <Parameter name="Force" value="{{100, 60, 0}}"/>
+    <Parameter name="Function" value="swing"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="Functions"><ParameterList name="swing">
+    <Parameter name="Type" value="Expression"/>
+    <Parameter name="Expression" value="(1 - cos(2*pi*t/({end})))^2"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="Analyses"><ParameterList name="motion">
+    <Parameter name="Type" value="Dynamic"/>
+    <Parameter name="End Time" value="{end}"/>
+    <Parameter name="Step" value="{step}"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="Output"><ParameterList name="History">
+    <ParameterList name="tip">
+      <Parameter name="Type" value="Rotation"/>
+      <Parameter name="Node" value="beam/last"/>
+    </ParameterList>
+    <ParameterList name="root">
+      <Parameter name="Type" value="Reaction"/>
+      <Parameter name="Node" value="beam/first"/>
+    </ParameterList>
+  </ParameterList></ParameterList>"""
 
 
 def skew(v):
@@ -127,6 +154,13 @@ def frequencies(compliance, rotary, count=6):
     return found
 
 
+def sawtooth(values):
+    """Share of what changes its sign from step to step in a history; fourth differences let nothing else through."""
+    v = np.asarray(values)
+    fourth = (v[:-4] - 4.0 * v[1:-3] + 6.0 * v[2:-2] - 4.0 * v[3:-1] + v[4:]) / 16.0
+    return np.sqrt(np.mean(fourth**2) / np.mean((v - v.mean()) ** 2))
+
+
 def text(values):
     return "{" + ", ".join(repr(float(v)) for v in np.ravel(values)) + "}"
 
@@ -139,14 +173,18 @@ class Decks:
         self.folder = tempfile.TemporaryDirectory(prefix="culm")
 
     def modes(self, stiffness, settings=()):
+        path = self.write(stiffness, MODES)
+        return self.culm.table("modes/modes", path, settings).column("frequency [Hz]")
+
+    def write(self, stiffness, rest):
         m, first, second = mass_entries(1.0)
         values = {"rhoA": m, "rhoS2": first[0], "rhoS1": first[1], "rhoI2": second[0, 0],
                   "rhoI1": second[1, 1], "rhoI12": second[0, 1]}
         mass = "".join(f'<Parameter name="{key}" value="{float(v)!r}"/>' for key, v in values.items())
         path = pathlib.Path(self.folder.name) / "beam.xml"
         symmetric = 0.5 * (stiffness + stiffness.T)
-        path.write_text(DECK.format(stiffness=text(symmetric), mass=mass, length=LENGTH))
-        return self.culm.table("modes/modes", path, settings).column("frequency [Hz]")
+        path.write_text(DECK.format(stiffness=text(symmetric), mass=mass, length=LENGTH, rest=rest))
+        return path
 
 
 def verify_exact(decks, report, title, stiffness):
@@ -175,11 +213,35 @@ def verify_limits(decks, report):
             report.check(f"{name}: differences fall by", coarse / fine, 10.0, 0.5)
 
 
+def verify_motion(decks, report):
+    """A load that swells and goes; steps are 1/40 of the first period, far too long for torsion of 1e4 times the stiffness."""
+    report.title("Profile, loaded at its end: what changes its sign from step to step, over the whole")
+    whole = np.linalg.inv(profile_compliance())
+    stiff = np.linalg.inv(profile_compliance(torsion=1e-4))
+    period = 1.0 / frequencies(profile_compliance(), 1.0)[0]
+    rest = MOTION.format(end=5.0 * period, step=period / 40.0)
+    columns = ("tip rz [rad]", "root Mz [N m]")
+    shares, moments = {}, {}
+    for name, stiffness, settings in (("whole", whole, []), ("without torsion", whole, SETTINGS["without torsion"]),
+                                      ("torsion times 1e4", stiff, [])):
+        history = decks.culm.run(decks.write(stiffness, rest), settings).history
+        shares[name] = max(sawtooth(history.column(column)) for column in columns)
+        moments[name] = np.array(history.column("root Mz [N m]"))
+        report.note(f"{name}: {shares[name]:.1e}")
+    report.holds("without torsion, over that of the whole", shares["without torsion"] / shares["whole"], 1.1)
+    held, limit = moments["without torsion"], moments["torsion times 1e4"]
+    away = np.linalg.norm(held - limit) / np.linalg.norm(held)
+    report.holds("moment at the root without torsion and with 1e4 times the stiffness", away, 1e-3)
+    changes = np.linalg.norm(moments["whole"] - held) / np.linalg.norm(held)
+    report.note(f"largest change by it {changes:.2e}")
+
+
 def verify(culm, report):
     decks = Decks(culm)
     verify_exact(decks, report, "Profile with its centres apart", np.linalg.inv(profile_compliance()))
     verify_exact(decks, report, "Laminate that couples all strains", ROOT @ ROOT.T)
     verify_limits(decks, report)
+    verify_motion(decks, report)
 
 
 if __name__ == "__main__":
