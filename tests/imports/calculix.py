@@ -26,12 +26,13 @@ from culm.program import Program  # noqa: E402
 CALCULIX = {
     "plate": (2.133549e-05, [48.91502, 122.6319, 122.6319, 196.3561], [75.12489, 117.9326]),
     "panel": (3.425564e-05, [105.6998, 110.2508, 177.9731, 244.9959], [72.68649, 78.95344]),
+    "corner": (1.785751e-03, [5.758807, 11.05724, 15.79517, 37.75198], [110.4728, 332.8957]),
     "frame": (2.332597e-04, [4.274676, 9.969504, 11.20765, 27.20820], [7.333303]),
 }
 # Both have errors of their meshes, culm's quadrilaterals of half the size more than the quadratic ones;
 # of plates and panels they fall to less than half with twice the elements (doc/verification/imports.md). CalculiX makes
 # solids of beams and holds their corners rigidly, which stiffens a frame.
-AGREEMENT = {"plate": (0.02, 0.02, 0.025), "panel": (0.02, 0.02, 0.06), "frame": (0.04, 0.05, 0.03)}
+AGREEMENT = {"plate": (0.02, 0.02, 0.025), "panel": (0.02, 0.02, 0.06), "corner": (0.01, 0.01, 0.02), "frame": (0.04, 0.05, 0.03)}
 
 
 def calculix(program, name, text, folder):
@@ -86,6 +87,9 @@ def mass_of_file(text):
         lengths = {e: numpy.linalg.norm(nodes[row[2]] - nodes[row[0]]) for e, row in rows.items()}
         third = len(rows) // 3
         return sum(7850 * l * (0.02 if third < e <= 2 * third else 0.015) for e, l in lengths.items())
+    if len(next(iter(rows.values()))) == 4:
+        diagonals = [(nodes[row[2]] - nodes[row[0]], nodes[row[3]] - nodes[row[1]]) for row in rows.values()]
+        return 7850 * 0.02 * sum(0.5 * numpy.linalg.norm(numpy.cross(*pair)) for pair in diagonals)
     area = 0.0
     for row in rows.values():
         # the eight nodes on the rim, about their middle as the quadratic element has it

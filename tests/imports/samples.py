@@ -1,6 +1,7 @@
-"""Input files that CalculiX and culm both read: a plate, a layered cylinder panel, a frame.
+"""Input files that CalculiX and culm both read: a plate, a layered cylinder panel, a frame, two
+plates at a corner.
 
-usage: samples.py FOLDER      (writes plate.inp, panel.inp, frame.inp)
+usage: samples.py FOLDER      (writes plate.inp, panel.inp, frame.inp, corner.inp)
 """
 
 import math
@@ -138,6 +139,31 @@ def frame(n=6, height=3.0, width=4.0):
     )
 
 
+def corner(n=12):
+    """Two plates of 1 m that meet at a right angle, each a section of its own, clamped at one end; pushed at the far corner
+    and on the fold, pressed on the upper edge in the step of buckling."""
+    nodes, elements = {}, {}
+    for i in range(2 * n + 1):
+        for j in range(n + 1):
+            nodes[100 * i + j + 1] = (min(i / n, 1.0), j / n, max(i / n - 1.0, 0.0))
+    for i in range(2 * n):
+        for j in range(n):
+            a = 100 * i + j + 1
+            elements[n * i + j + 1] = [a, a + 100, a + 101, a + 1]
+    tip, fold = 200 * n + 1, 100 * n + n + 1
+    top = [200 * n + j + 1 for j in range(n + 1)]
+    shares = [0.5 if node in (top[0], top[-1]) else 1.0 for node in top]
+    text = "*HEADING\nTwo plates at a corner\n" + mesh(nodes, elements, "S4", "PLATES")
+    text += f"*ELSET, ELSET=FLOOR, GENERATE\n1, {n * n}, 1\n*ELSET, ELSET=WALL, GENERATE\n{n * n + 1}, {2 * n * n}, 1\n"
+    text += f"*NSET, NSET=ROOT\n{lines(range(1, n + 2))}\n*NSET, NSET=WATCHED\n{tip}\n"
+    text += "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7850.\n"
+    for name in ("FLOOR", "WALL"):
+        text += f"*SHELL SECTION, ELSET={name}, MATERIAL=STEEL\n0.02\n"
+    pressed = "\n".join(f"{node}, 3, {-1e3 * share / n:.12g}" for node, share in zip(top, shares))
+    text += "*BOUNDARY\nROOT, 1, 6\n"
+    return text + STEPS.format(kind="CLOAD", static=f"{tip}, 1, 100.\n{fold}, 3, -200.", buckling=pressed)
+
+
 def parts():
     """Abaqus alone: a strip of two elements as two instances, the second turned up by 90 degrees about y at the end of
     the first, their edges coupled to a point with a mass, which is pushed."""
@@ -158,7 +184,7 @@ def parts():
     return text + "*Dsload\nOutside, P, 1000.\n*End Step\n*Step, name=Vibrate\n*Frequency\n5,\n*End Step\n"
 
 
-SAMPLES = {"plate": plate, "panel": panel, "frame": frame}
+SAMPLES = {"plate": plate, "panel": panel, "frame": frame, "corner": corner}
 
 if __name__ == "__main__":
     for name, make in SAMPLES.items():

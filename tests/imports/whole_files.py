@@ -19,6 +19,7 @@ WHOLE_FILES = {
     "table of sections": ("csv", {"bar.csv": turbine_samples.table()}),
     "cantilever of DeSiO": ("desio", desio_samples.cantilever()),
     "rotor of DeSiO": ("desio", desio_samples.rotor()),
+    "corner.inp": ("abaqus", {"corner.inp": samples.corner(2)}),
     "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),
     **{
         name: ("gmsh", {"sheet.msh": data})

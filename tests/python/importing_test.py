@@ -100,6 +100,24 @@ class FoldTest(unittest.TestCase):
         self.assertAlmostEqual(Deck(self.model, "deck").mass(), 0.1 * 2.0 * 2.0, 14)
 
 
+class RimTest(unittest.TestCase):
+    def part(self, nodes):
+        model = sheet([(1, 2, 3, 4), (2, 5, 6, 3)], {**SQUARE, 5: (2, 0, 0), 6: (2, 1, 0)})
+        model.supports = [Support(nodes, {3: 0.0}, HERE, "held")]
+        deck = Deck(model, "deck")
+        deck.write()
+        return deck.parts[0]
+
+    def test_supports_along_the_rim_are_lines_that_a_finer_mesh_keeps(self):
+        part = self.part([1, 2, 5])
+        self.assertEqual((part.point_sets, len(part.line_sets["held"])), ({}, 2))
+
+    def test_supports_inside_or_of_single_points_are_points(self):
+        for nodes in ([2, 3], [1], [1, 4, 6]):
+            part = self.part(nodes)
+            self.assertEqual((part.line_sets, len(part.point_sets["held"])), ({}, len(nodes)))
+
+
 class SupportTest(unittest.TestCase):
     def held(self, freedoms, values=None):
         model = sheet([(1, 2, 3, 4)], SQUARE)

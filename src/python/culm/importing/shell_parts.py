@@ -102,9 +102,24 @@ class ShellPart:
             director /= length if length > 0.0 else 1.0
         self.size = len(directors)
 
+    def _draw_rims(self):
+        """Sets of points that lie along the rim become its lines, so that a finer mesh is held between them."""
+        users = collections.Counter()
+        for quad in self.corners.tolist():
+            users.update(frozenset((quad[c], quad[(c + 1) % 4])) for c in range(4))
+        rim = [tuple(sorted(edge)) for edge, count in users.items() if count == 1 and len(edge) == 2]
+        alone = {self.points[node] for node, copies in self.nodes.items() if len(copies) == 1}
+        for name, points in list(self.point_sets.items()):
+            chosen = set(points)
+            lines = sorted(edge for edge in rim if chosen >= set(edge))
+            if name not in self.line_sets and chosen <= alone and {end for line in lines for end in line} == chosen:
+                self.line_sets[name] = lines
+                del self.point_sets[name]
+
     def mesh_text(self, comment):
         """The mesh as a Gmsh file (MSH 2.2), with physical points and surfaces for sets."""
         # an element has one physical group, so one that is in several sets stands for each
+        self._draw_rims()
         points, lines, quads = sorted(self.point_sets), sorted(self.line_sets), sorted(self.quad_sets)
         text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Comments", comment, "$EndComments"]
         names = [(0, points), (1, lines), (2, quads)]
