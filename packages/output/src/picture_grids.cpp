@@ -2,6 +2,10 @@
 
 #include "mesh_tables.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
 namespace culm::output {
 
 namespace {
@@ -67,10 +71,25 @@ std::vector<VtuArray> node_data(const StructureMesh& mesh, const StructureState&
   return arrays;
 }
 
+// Lines as VTK's curves of two, three and four nodes, which have both ends first. Readers other
+// than those of VTK know these, but no polylines.
+CellTable curve_table(const std::vector<Cell>& cells) {
+  constexpr std::array curves = {3, 21, 35};
+  CellTable table = cell_table(cells);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].type != CellType::line) continue;
+    const std::size_t nodes = cells[c].nodes.size();
+    table.types[c] = curves.at(nodes - 2);
+    const auto end = table.connectivity.begin() + table.offsets[c];
+    std::rotate(end - static_cast<std::ptrdiff_t>(nodes) + 1, end - 1, end);
+  }
+  return table;
+}
+
 }  // namespace
 
 VtuGrid centre_grid(const StructureMesh& mesh, const StructureState& state, int number) {
-  const CellTable table = cell_table(mesh.cells);
+  const CellTable table = curve_table(mesh.cells);
   std::vector<int> cells;
   for (int c = 0; c < mesh.cell_count(); ++c) cells.push_back(c);
   return {.points = flatten(state.positions),

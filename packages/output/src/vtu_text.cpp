@@ -42,17 +42,16 @@ std::string data_array(const VtuArray& array) {
   return data_array("Float64", attributes, array.values);
 }
 
-// VTK writes texts as character codes, each ended by zero.
-std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
-  std::string codes;
-  for (const std::string& text : texts) {
-    for (const char c : text) codes += fmt::format("{} ", static_cast<unsigned char>(c));
-    codes += "0 ";
+// Numbers of structures under their names: of texts in a grid, other readers than those of VTK
+// know nothing.
+std::string numbers_of(const std::vector<std::string>& names) {
+  std::string arrays;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string attributes =
+        fmt::format(R"(Name="structure {}" NumberOfTuples="1")", xml_escape(names[i]));
+    arrays += data_array("Int32", attributes, std::vector{static_cast<int>(i)});
   }
-  return fmt::format(
-      "<DataArray type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">{}"
-      "</DataArray>\n",
-      name, texts.size(), codes);
+  return arrays;
 }
 
 std::string cells_text(const VtuGrid& grid) {
@@ -69,7 +68,7 @@ std::string vtu_text(const VtuGrid& grid, double time, const std::vector<std::st
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
   text += data_array("Float64", R"(Name="TimeValue" NumberOfTuples="1")", std::vector{time});
-  text += text_array("structure_names", names);
+  text += numbers_of(names);
   text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                       grid.points.size() / 3, grid.types.size());
   text += "<PointData>\n";

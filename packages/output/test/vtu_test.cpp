@@ -66,12 +66,30 @@ print(coordinates[:3], coordinates[8] - point_data['displacement'][8])
 )",
                                       folder / "run_vtu/beam_000002.vtu");
   EXPECT_EQ(text,
-            "3 2 [0, 1, 1, 2] [2, 4] [4, 4]\n"
+            "3 2 [0, 1, 1, 2] [2, 4] [3, 3]\n"
             "['director1', 'director2', 'director3', 'displacement', 'reaction', 'temperature'] "
             "['M', 'M1', 'M2', 'M3', 'N', 'N1', 'N2', 'N3', 'structure']\n"
             "[0.0, 10.0] [3.0, 4.0, 5.0, 13.0, 14.0, 15.0] [0, 0]\n"
             "[300.0, 301.0, 302.0] [0.0, 0.0, 1.0]\n"
             "[0.0, 0.0, 0.0] 2.0\n");
+}
+
+TEST(Vtu, CurvesOfHigherOrderHaveBothEndsFirst) {
+  if (!has_python("xml")) GTEST_SKIP() << "no python";
+  const TemporaryFolder folder;
+  StructureMesh mesh = patch_mesh();
+  mesh.type = "Beam";
+  mesh.cells = {{CellType::line, {0, 1, 2}}, {CellType::line, {3, 2, 1, 0}}};
+  mesh.resultant_names.clear();
+  mesh.cell_arrays.clear();
+  Frame frame;
+  frame.structures.push_back({mesh.positions, mesh.triads, {{}, {}}, {}, {}});
+  Pictures(folder.path(), "run", {mesh}).add(frame);
+  const std::string text =
+      run_python(std::string(decoder) +
+                     "print(topology['connectivity'], topology['offsets'], topology['types'])\n",
+                 folder / "run_vtu/beam_000000.vtu");
+  EXPECT_EQ(text, "[0, 2, 1, 3, 0, 2, 1] [3, 7] [21, 35]\n");
 }
 
 TEST(Vtu, SkinIsDisplacedFromTheReferenceSkin) {
