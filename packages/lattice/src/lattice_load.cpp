@@ -156,9 +156,26 @@ const FluidResult& LatticeLoad::result_at(const model::State& state) const {
 
 void LatticeLoad::accept(model::State& state) {
   const FluidResult& result = result_at(state);
+  const Points end = grid(state.next);
   accepted_forces_ = result.forces;
-  accepted_ = step_ == 0.0 ? lattice_.steady_state(result, grid(state.next), state.time)
-                           : Lattice::state_after(result, coming_.wake);
+  if (step_ == 0.0) {
+    resultant_ = resultant_of(result.forces, end);
+    accepted_ = lattice_.steady_state(result, end, state.time);
+    return;
+  }
+  Points middle = start_;
+  for (std::size_t i = 0; i < middle.size(); ++i) middle.set(i, 0.5 * (start_.at(i) + end.at(i)));
+  resultant_ = resultant_of(result.forces, middle);
+  accepted_ = Lattice::state_after(result, coming_.wake);
+}
+
+flow::FluidForce::Resultant LatticeLoad::resultant_of(const Points& forces, const Points& places) {
+  Resultant sum;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    sum.force += forces.at(i);
+    sum.moment += places.at(i).cross(forces.at(i));
+  }
+  return sum;
 }
 
 Verdict LatticeLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -259,19 +276,17 @@ model::StepWork LatticeLoad::step_work(const model::State& state, const Stencil&
 
 std::size_t LatticeLoad::memory_size() const {
   return static_cast<std::size_t>(accepted_.circulation.size()) + 3 * accepted_.induced.size() +
-         3 * accepted_forces_.size() + accepted_.wake.memory_size();
+         3 * accepted_forces_.size() + 6 + accepted_.wake.memory_size();
 }
 
-// All of it belongs to all items, so the rank that owns the first one writes it.
+bool LatticeLoad::counts() const {
+  const auto& items = placement().items;
+  const auto first = std::ranges::find(items, 0);
+  return first != items.end() && placement().owned[static_cast<std::size_t>(first - items.begin())];
+}
+
 void LatticeLoad::save(model::Items which, std::span<double> memory) const {
-  if (which == model::Items::owned) {
-    const auto& items = placement().items;
-    const auto first = std::ranges::find(items, 0);
-    if (first == items.end() ||
-        !placement().owned[static_cast<std::size_t>(first - items.begin())]) {
-      return;
-    }
-  }
+  if (which == model::Items::owned && !counts()) return;
   auto out = memory.begin();
   const auto put = [&out](const auto& values) {
     out = std::copy(values.begin(), values.end(), out);
@@ -282,6 +297,8 @@ void LatticeLoad::save(model::Items which, std::span<double> memory) const {
     put(points->y);
     put(points->z);
   }
+  put(resultant_.force);
+  put(resultant_.moment);
   accepted_.wake.save(memory.last(accepted_.wake.memory_size()));
 }
 
@@ -298,6 +315,8 @@ void LatticeLoad::restore(std::span<const double> memory) {
     take(points->y);
     take(points->z);
   }
+  take(resultant_.force);
+  take(resultant_.moment);
   accepted_.wake.restore(memory.last(accepted_.wake.memory_size()));
 }
 

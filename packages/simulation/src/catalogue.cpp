@@ -10,6 +10,7 @@
 #include <culm/simulation/catalogue.hpp>
 
 #include "earlier_states.hpp"
+#include "fluid_quantities.hpp"
 #include "imperfections.hpp"
 #include "mpi_partner.hpp"
 #include "sampled_signals.hpp"
@@ -46,6 +47,7 @@ Catalogue::Catalogue() {
   register_node_quantities(quantities);
   register_signal_quantity(quantities);
   register_link_quantities(quantities);
+  register_fluid_quantities(quantities);
   register_element_quantities(quantities);
   register_section_loads(quantities);
   register_distance_quantity(quantities);

@@ -1,6 +1,7 @@
 /// Forces of a vortex lattice on the structures that carry it.
 #pragma once
 
+#include <culm/flow/fluid_force.hpp>
 #include <culm/lattice/lattice.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/structure.hpp>
@@ -20,7 +21,7 @@ struct SurfaceGrid {
 /// A lattice whose grid points are material points of structures. Statics take the steady flow,
 /// dynamics one step of the unsteady one per time step. Each evaluation solves the lattice for the
 /// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it.
-class LatticeLoad final : public model::MemorylessBatch {
+class LatticeLoad final : public model::MemorylessBatch, public flow::FluidForce {
  public:
   LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
               std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror, flow::SharedFlow flow,
@@ -49,6 +50,7 @@ class LatticeLoad final : public model::MemorylessBatch {
   const FluidState& fluid() const { return accepted_; }
   /// Forces at grid points in it [N].
   const Points& forces() const { return accepted_forces_; }
+  Resultant resultant() const override { return counts() ? resultant_ : Resultant{}; }
   /// Grid points in a configuration.
   Points grid(const model::Coordinates& q) const;
 
@@ -62,6 +64,9 @@ class LatticeLoad final : public model::MemorylessBatch {
 
   void add_items(const std::vector<SurfaceGrid>& surfaces);
   void find_apparent_masses();
+  /// Whether this rank counts what belongs to all items: the one that owns the first.
+  bool counts() const;
+  static Resultant resultant_of(const Points& forces, const Points& places);
   const FluidResult& result_at(const model::State& state) const;
   Vec3 normal_at(std::size_t point, const Points& grid) const;
   template <class Space>
@@ -76,6 +81,7 @@ class LatticeLoad final : public model::MemorylessBatch {
 
   FluidState accepted_;
   Points accepted_forces_;
+  Resultant resultant_;
 
   // of the step that is tried
   double step_ = 0.0;

@@ -1,0 +1,113 @@
+#include "fluid_quantities.hpp"
+
+#include <culm/base/nearest.hpp>
+#include <culm/flow/fluid_force.hpp>
+
+#include <Eigen/Geometry>
+
+#include <optional>
+#include <utility>
+
+namespace culm::simulation {
+namespace {
+
+using output::HistoryColumn;
+
+// What coefficients are related to.
+struct Reference {
+  double pressure_area = 0.0;  // dynamic pressure times area [N]
+  Vec3 lift, drag;             // unit vectors
+};
+
+class FluidForceQuantity final : public Quantity {
+ public:
+  FluidForceQuantity(const flow::FluidForce& load, Vec3 point, std::optional<Reference> reference)
+      : load_(load), point_(std::move(point)), reference_(std::move(reference)) {}
+
+  std::vector<HistoryColumn> columns() const override {
+    std::vector<HistoryColumn> columns{{"Fx", "N"},   {"Fy", "N"},   {"Fz", "N"},
+                                       {"Mx", "N m"}, {"My", "N m"}, {"Mz", "N m"}};
+    if (reference_) columns.insert(columns.end(), {{"CL", "1"}, {"CD", "1"}});
+    return columns;
+  }
+  void evaluate(const assembly::System& system, const model::State&,
+                std::vector<double>& numbers) const override {
+    const flow::FluidForce::Resultant own = load_.resultant();
+    Vec6 sum;
+    sum << own.force, own.moment - point_.cross(own.force);
+    system.comm().sum({sum.data(), 6});
+    numbers.insert(numbers.end(), sum.begin(), sum.end());
+    if (!reference_) return;
+    const Vec3 force = sum.head<3>();
+    numbers.push_back(force.dot(reference_->lift) / reference_->pressure_area);
+    numbers.push_back(force.dot(reference_->drag) / reference_->pressure_area);
+  }
+
+ private:
+  const flow::FluidForce& load_;
+  Vec3 point_;
+  std::optional<Reference> reference_;
+};
+
+// Coefficients want all three of their parameters.
+std::optional<Reference> read_reference(const Options& options, InputIssues& issues) {
+  const bool wanted = options.has("Area") || options.has("Dynamic Pressure");
+  if (!wanted) return {};
+  if (!options.has("Area") || !options.has("Dynamic Pressure")) {
+    issues.add(options.where(), "coefficients need both 'Area' and 'Dynamic Pressure'");
+    return {};
+  }
+  const Vec3 drag = model::vector(options, "Drag Direction");
+  const Vec3 up = model::vector(options, "Lift Direction");
+  if (drag.cross(up).norm() <= 1e-9 * drag.norm() * up.norm()) {
+    issues.add(options.where("Drag Direction"),
+               "must not be zero, nor parallel to 'Lift Direction'");
+    return {};
+  }
+  const Vec3 along = drag.normalized();
+  return Reference{options.number("Area") * options.number("Dynamic Pressure"),
+                   (up - up.dot(along) * along).normalized(), along};
+}
+
+std::unique_ptr<Quantity> make_force(const Options& options, model::BuildContext& context) {
+  const std::string& name = options.text("Load");
+  auto reference = read_reference(options, context.issues);
+  std::vector<std::string> names;
+  for (const auto& batch : context.model.loads()) {
+    const auto* load = dynamic_cast<const flow::FluidForce*>(batch.get());
+    if (load == nullptr) continue;
+    // effects are named "type, name"
+    names.push_back(batch->effect().substr(batch->effect().find(", ") + 2));
+    if (names.back() != name) continue;
+    return std::make_unique<FluidForceQuantity>(*load, model::vector(options, "Point"),
+                                                std::move(reference));
+  }
+  context.issues.add(options.where("Load"),
+                     "no load of a flow '" + name + "'" + did_you_mean(name, names));
+  return nullptr;
+}
+
+}  // namespace
+
+void register_fluid_quantities(QuantityRegistry& registry) {
+  registry.add(
+      "Fluid Force",
+      Schema("Fluid Force",
+             "Resultant of a load of a flow on the structures, in the step, and its moment about a "
+             "point; with a reference, coefficients of lift and drag.")
+          .add(text("Load", "Its name in the list Loads."))
+          .add(model::vector_field("Point", "m", "Point of the moment.").optional({0.0, 0.0, 0.0}))
+          .add(number("Area", "m^2", "Reference of the coefficients; none without it.")
+                   .positive()
+                   .optional())
+          .add(number("Dynamic Pressure", "Pa", "Reference of the coefficients.")
+                   .positive()
+                   .optional())
+          .add(model::vector_field("Drag Direction", "1", "Of the wind.").optional({1.0, 0.0, 0.0}))
+          .add(model::vector_field("Lift Direction", "1",
+                                   "Upwards; its part across the wind is taken.")
+                   .optional({0.0, 0.0, 1.0})),
+      make_force);
+}
+
+}  // namespace culm::simulation
