@@ -316,7 +316,9 @@ def verify_relaxation(culm, report):
     for form in ("Null Space", "Multipliers"):
         for solver in ("Dense", "Spectra"):
             what = f"{form}, {solver}"
-            settings = [*relaxation(branches), f"Solver/Form={form}", f"Analyses/modes/Solver={solver}"]
+            # shear is soft enough for its rounding to be less than what is allowed
+            settings = [*relaxation(branches), "Sections/bar/GA1=1e6", "Sections/bar/GA2=1e6",
+                        f"Solver/Form={form}", f"Analyses/modes/Solver={solver}"]
             run = culm.succeed(RELAXING, [*settings, *lasting])
             report.check(f"{what}: warnings without 'Damping'", run.errors.count("lasting stiffness"), 1, 0)
             omega = omegas(run.tables["modes/modes"].column("frequency [Hz]"))
@@ -328,7 +330,8 @@ def verify_relaxation(culm, report):
     table = culm.table("modes/modes", RELAXING, relaxation(weak))
     loss = [loss_factor(omega, weak) for omega in omegas(table.column("frequency [Hz]"))]
     twice = [2.0 * ratio for ratio in table.column("damping ratio")]
-    report.relative("small ratios: twice the damping ratio is the loss factor", twice, loss, 1e-4)
+    first_order = sum(ratio for _, ratio in weak)
+    report.relative("small ratios: twice the damping ratio is the loss factor", twice, loss, first_order)
     one = ["Analyses/motion/End Time=0.002", "Analyses/modes/Type=Modal", "Analyses/modes/Start From=Reference",
            "Analyses/modes/Damping=true", "Analyses/modes/Modes=6"]
     found = eigenvalues(culm.table("modes/modes", "beam/relaxing_rod.xml", one))

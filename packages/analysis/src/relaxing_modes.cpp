@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace culm::analysis {
@@ -15,6 +16,7 @@ using ComplexMatrix = Eigen::SparseMatrix<Complex>;
 
 constexpr int most_iterations = 50;
 constexpr double converged = 1e-13;  // change of the value, over its size
+constexpr double settled = 1e-6;     // where a change that falls no more is rounding
 
 struct Follows {
   Complex value, derivative;  // of f, by lambda
@@ -72,6 +74,7 @@ ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMod
   ComplexMode mode{value_along(pencil, start.value, start.vector), start.vector};
   const Eigen::VectorXcd v = start.vector;  // x is kept at v^H x = v^H v
   const double size = v.squaredNorm();
+  double last = std::numeric_limits<double>::infinity();
   Eigen::SparseLU<ComplexMatrix> factors;
   for (int i = 0;; ++i) {
     if (i == most_iterations) give_up(start.value);
@@ -86,8 +89,11 @@ ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMod
     if (!u.allFinite() || !std::isfinite(std::abs(change))) give_up(start.value);
     mode.value -= change;
     mode.vector = u / along;
-    if (std::abs(change) <= converged * std::abs(mode.value)) break;
+    const double moved = std::abs(change) / std::abs(mode.value);
+    if (moved <= converged || (moved <= settled && moved > 0.5 * last)) break;
+    last = moved;
   }
+  mode.value = value_along(pencil, mode.value, mode.vector);
   const Eigen::VectorXd terms = pencil.K.cwiseAbs() * mode.vector.cwiseAbs();
   mode.residual = (at(pencil, mode.value) * mode.vector).cwiseAbs().maxCoeff() / terms.maxCoeff();
   return mode;
