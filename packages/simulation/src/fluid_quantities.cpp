@@ -76,8 +76,7 @@ std::unique_ptr<Quantity> make_force(const Options& options, model::BuildContext
   for (const auto& batch : context.model.loads()) {
     const auto* load = dynamic_cast<const flow::FluidForce*>(batch.get());
     if (load == nullptr) continue;
-    // effects are named "type, name"
-    names.push_back(batch->effect().substr(batch->effect().find(", ") + 2));
+    names.push_back(batch->effect().name);
     if (names.back() != name) continue;
     return std::make_unique<FluidForceQuantity>(*load, model::vector(options, "Point"),
                                                 std::move(reference));
