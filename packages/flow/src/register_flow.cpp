@@ -8,6 +8,7 @@ void register_flows(FlowRegistry& registry) {
   register_log_law(registry);
   register_table(registry);
   register_gust(registry);
+  register_turbsim_box(registry);
 }
 
 }  // namespace culm::flow

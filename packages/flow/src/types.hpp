@@ -15,5 +15,6 @@ void register_power_law(FlowRegistry& registry);
 void register_log_law(FlowRegistry& registry);
 void register_table(FlowRegistry& registry);
 void register_gust(FlowRegistry& registry);
+void register_turbsim_box(FlowRegistry& registry);
 
 }  // namespace culm::flow

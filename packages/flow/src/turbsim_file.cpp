@@ -1,0 +1,123 @@
+#include "turbsim_file.hpp"
+
+#include <culm/base/error.hpp>
+#include <culm/base/read_file.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+namespace culm::flow {
+namespace {
+
+// files are little endian, and are copied as they are
+static_assert(std::endian::native == std::endian::little);
+
+// Values one after the other.
+class Reader {
+ public:
+  Reader(const std::string& bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
+
+  template <class Number>
+  Number take() {
+    need(sizeof(Number));
+    Number number;
+    std::memcpy(&number, bytes_.data() + at_, sizeof(Number));
+    at_ += sizeof(Number);
+    return number;
+  }
+  void skip(std::size_t bytes) {
+    need(bytes);
+    at_ += bytes;
+  }
+  std::size_t left() const { return bytes_.size() - at_; }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError({path_, 0, {}}, what); }
+
+  int count(const char* what, int least) {
+    const auto number = take<std::int32_t>();
+    if (number < least) fail(fmt::format("{} must be at least {}, got {}", what, least, number));
+    return number;
+  }
+  double positive(const char* what) {
+    const double number = finite(what);
+    if (number <= 0.0) fail(fmt::format("{} must be > 0, got {:g}", what, number));
+    return number;
+  }
+  // A number that must not be infinite or not a number.
+  double finite(const char* what) {
+    const auto number = static_cast<double>(take<float>());
+    if (!std::isfinite(number)) fail(fmt::format("{} is not a number", what));
+    return number;
+  }
+
+ private:
+  void need(std::size_t bytes) const {
+    if (bytes > left())
+      fail(fmt::format("ends in its header, after {} bytes: it is truncated", bytes_.size()));
+  }
+
+  const std::string& bytes_;
+  std::string path_;
+  std::size_t at_ = 0;
+};
+
+constexpr std::int16_t single = 7;
+constexpr std::int16_t periodic = 8;
+
+}  // namespace
+
+TurbulenceGrid read_turbsim(const std::string& name, const Where& where) {
+  const std::string path = (std::filesystem::path(where.file).parent_path() / name).string();
+  const std::string bytes = read_file(path, where);
+  Reader reader(bytes, path);
+  TurbulenceGrid grid;
+
+  const auto kind = reader.take<std::int16_t>();
+  if (kind != single && kind != periodic)
+    reader.fail(fmt::format("is no box of TurbSim: it begins with {}, not with 7 or 8", kind));
+  grid.periodic = kind == periodic;
+  grid.points[1] = reader.count("number of points upwards", 2);
+  grid.points[0] = reader.count("number of points across", 2);
+  const int tower = reader.count("number of points of the tower", 0);
+  grid.planes = reader.count("number of times", 2);
+  grid.spacing[1] = reader.positive("spacing upwards");
+  grid.spacing[0] = reader.positive("spacing across");
+  grid.interval = reader.positive("step of time");
+  grid.speed = reader.positive("mean speed");
+  reader.finite("height of the hub");
+  reader.finite("height of the lowest points");
+  std::array<double, 3> slope{};
+  std::array<double, 3> intercept{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    slope[c] = reader.finite("slope");
+    intercept[c] = reader.finite("intercept");
+    if (slope[c] == 0.0) reader.fail("a slope must not be zero");
+  }
+  reader.skip(static_cast<std::size_t>(reader.count("length of the description", 0)));
+
+  // in floating point, because the product of damaged numbers may exceed all integers
+  const double plane = 3.0 * grid.points[0] * grid.points[1];
+  const double expected = 2.0 * grid.planes * (plane + 3.0 * tower);
+  if (expected != static_cast<double>(reader.left())) {
+    reader.fail(fmt::format("must hold {:.0f} bytes of velocities by its header, got {}", expected,
+                            reader.left()));
+  }
+  const auto per_plane = static_cast<std::size_t>(plane);
+  grid.values.reserve(per_plane * static_cast<std::size_t>(grid.planes));
+  for (int t = 0; t < grid.planes; ++t) {
+    for (std::size_t i = 0; i < per_plane; ++i) {
+      const double value = reader.take<std::int16_t>();
+      grid.values.push_back(static_cast<float>((value - intercept[i % 3]) / slope[i % 3]));
+    }
+    reader.skip(static_cast<std::size_t>(tower) * 3 * sizeof(std::int16_t));
+  }
+  return grid;
+}
+
+}  // namespace culm::flow

@@ -1,0 +1,184 @@
+// Boxes of turbulence, from small files of known values.
+#include <culm/flow/flow.hpp>
+
+#include <culm_kit/deck_list.hpp>
+#include <culm_kit/temporary_folder.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace culm::flow {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// 3 points across, 2 upwards, 4 times; what stands there is a number of its own for each value.
+constexpr int ny = 3, nz = 2, nt = 4;
+constexpr double dy = 10.0, dz = 20.0, dt = 0.5, speed = 8.0;
+
+int written(int t, int z, int y, int c) { return 1000 * t + 100 * z + 10 * y + c; }
+
+// What culm should make of it: value minus intercept over slope.
+Vec3 known(int t, int z, int y) {
+  Vec3 u;
+  for (int c = 0; c < 3; ++c) u[c] = (written(t, z, y, c) - 50.0 * c) / (100.0 * (c + 1));
+  return u;
+}
+
+template <class Number>
+void put(std::string& bytes, Number number) {
+  char raw[sizeof(Number)];
+  std::memcpy(raw, &number, sizeof(Number));
+  bytes.append(raw, sizeof(Number));
+}
+
+std::string turbsim(std::int16_t kind, std::int32_t tower = 0) {
+  std::string bytes;
+  put(bytes, kind);
+  for (const std::int32_t n : {nz, ny, tower, nt}) put(bytes, n);
+  for (const double x : {dz, dy, dt, speed, 90.0, 80.0}) put(bytes, static_cast<float>(x));
+  for (int c = 0; c < 3; ++c) {
+    put(bytes, 100.0F * static_cast<float>(c + 1));
+    put(bytes, 50.0F * static_cast<float>(c));
+  }
+  put(bytes, std::int32_t{4});
+  bytes += "test";
+  for (int t = 0; t < nt; ++t) {
+    for (int z = 0; z < nz; ++z)
+      for (int y = 0; y < ny; ++y)
+        for (int c = 0; c < 3; ++c) put(bytes, static_cast<std::int16_t>(written(t, z, y, c)));
+    for (int i = 0; i < 3 * tower; ++i) put(bytes, std::int16_t{-7});
+  }
+  return bytes;
+}
+
+class Boxes : public testing::Test {
+ protected:
+  Boxes() { register_flows(registry_); }
+
+  SharedFlow box(const std::string& bytes, const kit::GivenValues& more = {}) {
+    std::ofstream(folder_ / "wind.bts", std::ios::binary) << bytes;
+    kit::GivenValues values = {{"Density", 1.225},
+                               {"File Name", (folder_ / "wind.bts").string()},
+                               {"Centre", std::vector{0.0, 0.0, 90.0}},
+                               {"Delay", 0.0}};
+    values.insert(values.end(), more.begin(), more.end());
+    const Schema schema = registry_.variants().at("TurbSim Box");
+    const Options options = kit::deck_list(schema, values, "wind");
+    EXPECT_THAT(kit::mistakes_in(schema, options), ElementsAre());
+    model::BuildContext context{model_, functions_, issues_};
+    return registry_.make("TurbSim Box", options, context);
+  }
+
+  std::string objection(const std::string& bytes) {
+    try {
+      box(bytes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+ private:
+  FlowRegistry registry_;
+  kit::TemporaryFolder folder_;
+  model::Model model_;
+  std::map<std::string, model::Amplitude> functions_;
+  InputIssues issues_;
+};
+
+// Velocities are kept in single precision.
+void expect_near(const Vec3& actual, const Vec3& expected) {
+  EXPECT_LT((actual - expected).norm(), 1e-5)
+      << actual.transpose() << " : " << expected.transpose();
+}
+
+// The place of a point of the grid, in the plane of the centre.
+Vec3 point(int z, int y) { return {0.0, -10.0 + dy * y, 80.0 + dz * z}; }
+
+TEST_F(Boxes, PointsHaveTheirValues) {
+  for (const std::int32_t tower : {0, 2}) {
+    const SharedFlow wind = box(turbsim(7, tower));
+    for (int t = 0; t < nt; ++t)
+      for (int z = 0; z < nz; ++z)
+        for (int y = 0; y < ny; ++y)
+          expect_near(wind->velocity(point(z, y), t * dt), known(t, z, y));
+  }
+}
+
+TEST_F(Boxes, BetweenPointsTheyAreLinear) {
+  const SharedFlow wind = box(turbsim(7));
+  Vec3 mean = Vec3::Zero();
+  for (int t : {1, 2})
+    for (int z : {0, 1})
+      for (int y : {1, 2}) mean += 0.125 * known(t, z, y);
+  expect_near(wind->velocity(Vec3(0.0, 5.0, 90.0), 1.5 * dt), mean);
+}
+
+TEST_F(Boxes, PlanesTravelWithTheMeanWind) {
+  const SharedFlow wind = box(turbsim(7));
+  expect_near(wind->velocity(point(0, 1) + Vec3(speed * dt, 0.0, 0.0), 2.0 * dt), known(1, 0, 1));
+  const SharedFlow delayed = box(turbsim(7), {{"Delay", dt}});
+  expect_near(delayed->velocity(point(0, 1), dt), known(2, 0, 1));
+}
+
+TEST_F(Boxes, TheyTurnWithTheWind) {
+  const SharedFlow wind = box(turbsim(7), {{"Direction", std::vector{0.0, 1.0, 0.0}}});
+  const Vec3 u = known(0, 1, 2);
+  // left of a wind to +y is -x
+  expect_near(wind->velocity(Vec3(-10.0, 0.0, 100.0), 0.0), Vec3(-u[1], u[0], u[2]));
+}
+
+TEST_F(Boxes, PeriodicOnesRepeat) {
+  const SharedFlow wind = box(turbsim(8));
+  expect_near(wind->velocity(point(1, 0), -dt), known(3, 1, 0));
+  expect_near(wind->velocity(point(1, 0), (4 * 7 + 2) * dt), known(2, 1, 0));
+  expect_near(wind->velocity(point(1, 0), 3.5 * dt), 0.5 * (known(3, 1, 0) + known(0, 1, 0)));
+}
+
+TEST_F(Boxes, OutsideIsAnErrorThatNamesPlaceAndTimeOrHeld) {
+  const SharedFlow strict = box(turbsim(7));
+  const auto refusal = [&](const Vec3& place, double time) {
+    try {
+      strict->velocity(place, time);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(refusal(Vec3(0.0, 12.0, 90.0), 0.25),
+              HasSubstr("the place {0, 12, 90} m at 0.25 s is outside of the box across the wind"));
+  EXPECT_THAT(refusal(Vec3(0.0, 0.0, 101.0), 0.0), HasSubstr("upwards"));
+  EXPECT_THAT(refusal(Vec3(0.0, 0.0, 90.0), 1.75), HasSubstr("in time"));
+  const SharedFlow held = box(turbsim(7), {{"Outside", std::string("Hold")}});
+  expect_near(held->velocity(Vec3(0.0, 99.0, 999.0), 99.0), known(3, 1, 2));
+}
+
+TEST_F(Boxes, BrokenFilesGiveOneClearError) {
+  const std::string whole = turbsim(7);
+  EXPECT_THAT(objection(whole.substr(0, 30)), HasSubstr("ends in its header"));
+  EXPECT_THAT(objection(whole.substr(0, whole.size() - 1)), HasSubstr("got 143"));
+  EXPECT_THAT(objection(whole + "x"), HasSubstr("must hold 144 bytes"));
+  EXPECT_THAT(objection(turbsim(9)), HasSubstr("begins with 9, not with 7 or 8"));
+  std::string flat = whole;
+  std::memset(flat.data() + 2, 0, 4);
+  EXPECT_THAT(objection(flat), HasSubstr("number of points upwards must be at least 2, got 0"));
+  std::string huge = whole;
+  std::memset(huge.data() + 14, 0x7e, 4);
+  EXPECT_THAT(objection(huge), HasSubstr("must hold"));
+  std::string still = whole;
+  std::memset(still.data() + 30, 0, 4);
+  EXPECT_THAT(objection(still), HasSubstr("mean speed must be > 0"));
+}
+
+}  // namespace
+}  // namespace culm::flow
