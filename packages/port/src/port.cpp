@@ -14,30 +14,6 @@ namespace {
 
 using model::Coordinates;
 
-// All coordinates by a formula of both ends of the step and the velocity at its start.
-template <class Formula>
-Coordinates combine(const model::State& state, Formula formula) {
-  Coordinates result(state.next.size(), 0.0);
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const double v = state.velocity.empty() ? 0.0 : state.velocity[i];
-    result[i] = formula(state.next[i] - state.prev[i], v);
-  }
-  return result;
-}
-
-// Rates at the end of the step, 2 Dq / h - v; at the start where no step is open.
-Coordinates end_velocity(const model::State& state) {
-  const double h = state.velocity.empty() ? 0.0 : state.time - state.time_prev;
-  return combine(state, [h](double moved, double v) { return h > 0.0 ? 2.0 / h * moved - v : v; });
-}
-
-// Dv / h = 2 (Dq / h - v) / h
-Coordinates mean_acceleration(const model::State& state) {
-  const double h = state.velocity.empty() ? 0.0 : state.time - state.time_prev;
-  return combine(state,
-                 [h](double moved, double v) { return h > 0.0 ? 2.0 / h * (moved / h - v) : 0.0; });
-}
-
 Coordinates mean(const model::State& state) {
   Coordinates result = state.next;
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (state.prev[i] + result[i]);
@@ -74,12 +50,13 @@ std::vector<double> Port::read(Quantity quantity, const model::State& state) con
     for (std::size_t p = 0; p < places_.size(); ++p) append_one(places_[p].marker, kinds_[p]);
   };
   // rates of a point, and of its directors as the rotation that loads work on
-  const auto append_rates = [&](const Coordinates& rates, const Coordinates& at) {
-    each([&](const model::Marker& point, NodeKind kind) {
-      append(values, position(point, rates));
-      append(values, load::Couple(directors(point, at), kind).rotation(directors(point, rates)));
-    });
+  const auto append_rates = [&](const Vec3& rate, const Mat3& director_rates, const Mat3& at,
+                                NodeKind kind) {
+    append(values, rate);
+    append(values, load::Couple(at, kind).rotation(director_rates));
   };
+  const bool has_rates = !state.velocity.empty();
+  const double h = has_rates ? state.time - state.time_prev : 0.0;
   switch (quantity) {
     case Quantity::position:
       each([&](const model::Marker& point, NodeKind) {
@@ -88,24 +65,45 @@ std::vector<double> Port::read(Quantity quantity, const model::State& state) con
       break;
     case Quantity::rotation:
       each([&](const model::Marker& point, NodeKind kind) {
-        const Mat3 R = rotation(point, kind, nodes_.reference(), state.next);
+        const Mat3 R =
+            rotation(kind, directors(point, nodes_.reference()), directors(point, state.next));
         for (int i = 0; i < 3; ++i) append(values, R.row(i));
       });
       break;
     case Quantity::velocity:
-      append_rates(end_velocity(state), state.next);
+      if (!has_rates) return zeros(quantity);
+      // at the end of the open step 2 Dq / h - v, or now
+      each([&](const model::Marker& point, NodeKind kind) {
+        const Vec3 v = position(point, state.velocity);
+        const Mat3 w = directors(point, state.velocity), at = directors(point, state.next);
+        if (h <= 0.0) return append_rates(v, w, at, kind);
+        const Change moved = change(point, state.prev, state.next);
+        append_rates(2.0 / h * moved.x - v, 2.0 / h * moved.d - w, at, kind);
+      });
       break;
     case Quantity::acceleration:
-      append_rates(mean_acceleration(state), mean(state));
+      if (h <= 0.0) return zeros(quantity);
+      // Dv / h = 2 (Dq / h - v) / h
+      each([&](const model::Marker& point, NodeKind kind) {
+        const Change moved = change(point, state.prev, state.next);
+        append_rates(2.0 / h * (moved.x / h - position(point, state.velocity)),
+                     2.0 / h * (moved.d / h - directors(point, state.velocity)),
+                     directors(point, state.prev) + 0.5 * moved.d, kind);
+      });
       break;
     case Quantity::motion:
       each([&](const model::Marker& point, NodeKind kind) {
-        append(values, displacement(point, state.prev, state.next));
-        append(values, turn(point, kind, state.prev, state.next));
+        const PointMotion moved = motion(point, kind, state.prev, state.next);
+        append(values, moved.displacement);
+        append(values, moved.turn);
       });
       break;
   }
   return values;
+}
+
+std::vector<double> Port::zeros(Quantity quantity) const {
+  return std::vector<double>(places_.size() * static_cast<std::size_t>(components(quantity)), 0.0);
 }
 
 std::vector<Vec3> Port::read_loads(const char* kind, std::span<const double> values) const {
@@ -143,8 +141,8 @@ Exchange Port::exchange(const model::State& state) const {
   const Coordinates middle = mean(state);
   for (std::size_t p = 0; p < places_.size(); ++p) {
     const model::Marker& point = places_[p].marker;
-    sum.work += forces_[p].dot(displacement(point, state.prev, state.next)) +
-                moments_[p].dot(turn(point, kinds_[p], state.prev, state.next));
+    const PointMotion moved = motion(point, kinds_[p], state.prev, state.next);
+    sum.work += forces_[p].dot(moved.displacement) + moments_[p].dot(moved.turn);
     sum.force += forces_[p];
     sum.moment += position(point, middle).cross(forces_[p]) + moments_[p];
     if (kinds_[p] == NodeKind::node12) continue;

@@ -66,6 +66,7 @@ class Port {
   Exchange exchange(const model::State& state) const;
 
  private:
+  std::vector<double> zeros(Quantity quantity) const;
   std::vector<Vec3> read_loads(const char* kind, std::span<const double> values) const;
 
   std::string name_;
