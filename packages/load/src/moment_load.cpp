@@ -28,7 +28,8 @@ bool MomentLoad::has_tangent() const {
 }
 
 std::vector<int> MomentLoad::blocks(int item, const model::UnknownTable& unknowns) const {
-  std::vector<int> result = {unknowns.node_block(items_[static_cast<std::size_t>(item)].node)};
+  std::vector<int> result = {
+      unknowns.node_block(items_[static_cast<std::size_t>(item)].nodes.front())};
   if (const model::Signal* signal = amplitude_.signal()) {
     result.push_back(unknowns.own_block(signal->block));
   }
@@ -52,9 +53,10 @@ Verdict MomentLoad::assemble(const model::State& state, const Stencil& stencil, 
 MomentLoad::Motion MomentLoad::motion(const Item& item, const model::State& state, double theta,
                                       double factor) const {
   Motion motion;
-  motion.next = model::NodeTable::slots(state.next, item.node).rightCols<3>();
-  motion.mid = (1.0 - theta) * model::NodeTable::slots(state.prev, item.node).rightCols<3>() +
-               theta * motion.next;
+  motion.next = model::NodeTable::slots(state.next, item.nodes.front()).rightCols<3>();
+  motion.mid =
+      (1.0 - theta) * model::NodeTable::slots(state.prev, item.nodes.front()).rightCols<3>() +
+      theta * motion.next;
   motion.components = factor * item.components;
   motion.unit = follows(item) ? Vec3(motion.mid * item.components) : item.components;
   motion.moment = factor * motion.unit;
@@ -89,8 +91,8 @@ Verdict MomentLoad::assemble_couple(std::size_t i, const model::State& state,
                                     model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const Motion now = motion(item, state, stencil.theta, factor);
-  const NodeMotion motion(nodes_, {item.node}, state, stencil.theta);
-  const Couple couple(now.mid, nodes_.kind(item.node));
+  const NodeMotion motion(nodes_, item.nodes, state, stencil.theta);
+  const Couple couple(now.mid, nodes_.kind(item.nodes.front()));
   const NodeMotion::Slots r = on_slots(-couple.forces(now.moment));
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
@@ -118,15 +120,15 @@ model::StepWork MomentLoad::step_work(const model::State& state, const Stencil& 
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     if (on_shell(item)) {
-      const NodeMotion now(nodes_, {item.node}, state, stencil.theta);
+      const NodeMotion now(nodes_, item.nodes, state, stencil.theta);
       const Couple couple(now.mid.rightCols<3>(), NodeKind::node6);
-      add_item_work(on_slots(couple.forces(factor * item.components)), now, {item.node}, state,
-                    true, work);
+      add_item_work(on_slots(couple.forces(factor * item.components)), now, item.nodes, state, true,
+                    work);
       continue;
     }
     const Vec3 moment = motion(item, state, stencil.theta, factor).moment;
-    const Mat3 prev = model::NodeTable::slots(state.prev, item.node).rightCols<3>();
-    const Mat3 next = model::NodeTable::slots(state.next, item.node).rightCols<3>();
+    const Mat3 prev = model::NodeTable::slots(state.prev, item.nodes.front()).rightCols<3>();
+    const Mat3 next = model::NodeTable::slots(state.next, item.nodes.front()).rightCols<3>();
     work.external += moment.dot(cayley_vector(prev, next));
     work.moment += moment;
   }

@@ -29,7 +29,7 @@ class MomentLoad final : public model::MemorylessBatch {
         frame_(frame) {}
 
   /// @param components  of the moment [N m]; in space where the node is one of a shell
-  void add_moment(int node, const Vec3& components) { items_.push_back({node, components}); }
+  void add_moment(int node, const Vec3& components) { items_.push_back({{node}, components}); }
 
   /// Changes one of them, by its place in the order of adding.
   void set_moment(int item, const Vec3& components) {
@@ -47,7 +47,7 @@ class MomentLoad final : public model::MemorylessBatch {
 
  private:
   struct Item {
-    int node = -1;
+    std::vector<int> nodes;  ///< one
     Vec3 components = Vec3::Zero();
   };
   /// The directors of an item, and its moment there.
@@ -62,7 +62,9 @@ class MomentLoad final : public model::MemorylessBatch {
   Verdict assemble_reduced(std::size_t i, const Motion& motion, double theta, bool tangent,
                            model::Target& target) const;
 
-  bool on_shell(const Item& item) const { return nodes_.kind(item.node) == NodeKind::node6; }
+  bool on_shell(const Item& item) const {
+    return nodes_.kind(item.nodes.front()) == NodeKind::node6;
+  }
   bool follows(const Item& item) const { return frame_ == Frame::directors && !on_shell(item); }
   template <class Space>
   Verdict assemble_couple(std::size_t i, const model::State& state, const Stencil& stencil,
