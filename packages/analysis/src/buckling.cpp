@@ -225,16 +225,21 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   warn_of_rounding(pairs, state.time, context.findings);
   warn_of_walls(pairs, find_wall_limits(system, state.next, motion), state.time, context.findings);
   if (!pairs.note.empty()) context.log.info("note: " + pairs.note);
-  if (!pairs.values.empty() && static_cast<int>(pairs.values.size()) < settings_.modes) {
-    const std::string missing =
-        fmt::format("{} factors were asked for, but {}{}", settings_.modes,
-                    pairs.are_all ? "there are " : "only ", pairs.values.size());
-    report.text += missing + (pairs.are_all ? " only\n" : " real ones were found\n");
-    if (!pairs.are_all) {
-      context.findings.warn("eigenvalues", missing + " real ones were found", state.time);
-    }
+  // of an unsymmetric tangent that has no real factors complex ones may be left
+  const bool are_all = pairs.are_all && (is_symmetric || !pairs.values.empty());
+  if (static_cast<int>(pairs.values.size()) < settings_.modes && !are_all) {
+    const std::string missing = fmt::format(
+        "{} factors were asked for, but only {} real ones were "
+        "found",
+        settings_.modes, pairs.values.size());
+    report.text += missing + '\n';
+    context.findings.warn("eigenvalues", missing, state.time);
+  } else if (pairs.values.empty()) {
+    report.text += "  none: the load cannot make the structure buckle\n";
+  } else if (static_cast<int>(pairs.values.size()) < settings_.modes) {
+    report.text += fmt::format("{} factors were asked for, but there are {} only\n",
+                               settings_.modes, pairs.values.size());
   }
-  if (pairs.values.empty()) report.text += "  none: the load cannot make the structure buckle\n";
   report.text +=
       fmt::format("eigensolver: {}, largest residual {:.1e}\n", pairs.solver, pairs.worst_residual);
   report.tables.push_back(std::move(table));

@@ -1,6 +1,8 @@
 #include <culm/analysis/modal.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
+#include "shear_range.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -170,6 +172,7 @@ AnalysisReport Modal::inspect(Context& context, model::State& state) {
   AnalysisReport report;
   report.tables.push_back(make_table(set, context.system.model()));
   report.text = make_text(set, report.tables.back());
+  warn_of_shear(context, state, set);
   for (Mode& mode : set.modes) report.shapes.push_back(std::move(mode.shape));
   return report;
 }

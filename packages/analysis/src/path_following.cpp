@@ -3,6 +3,7 @@
 #include <culm/base/text.hpp>
 
 #include "mirrored_faces.hpp"
+#include "shear_range.hpp"
 
 #include <fmt/format.h>
 
@@ -348,6 +349,7 @@ AnalysisReport PathFollowing::do_finish() {
   }
   tell_events();
   if (!known_.is_ended) report_early_end();
+  warn_of_shear(context(), state());
   return report();
 }
 

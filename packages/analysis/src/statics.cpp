@@ -2,6 +2,7 @@
 #include <culm/analysis/statics.hpp>
 
 #include "mirrored_faces.hpp"
+#include "shear_range.hpp"
 
 #include <fmt/format.h>
 
@@ -164,6 +165,7 @@ void Statics::watch_stability(const StepReport& report) {
 }
 
 AnalysisReport Statics::do_finish() {
+  warn_of_shear(context(), state());
   AnalysisReport report;
   for (const double level : crossings_) {
     report.text += fmt::format(

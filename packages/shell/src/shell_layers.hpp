@@ -3,6 +3,7 @@
 
 #include <culm/model/element_batch.hpp>
 #include <culm/model/layer_source.hpp>
+#include <culm/model/shear_source.hpp>
 #include <culm/shell/shell_results.hpp>
 
 #include <utility>
@@ -12,11 +13,21 @@ namespace culm::shell {
 
 /// Elements of type E of one layup, one per cell.
 template <class E>
-class ShellLayers final : public model::LayerSource {
+class ShellLayers final : public model::LayerSource, public model::ShearSource {
  public:
-  /// @param items  of the batch, which must outlive this, one or more
-  ShellLayers(const model::ElementBatch<E>& batch, std::vector<int> items)
-      : batch_(batch), items_(std::move(items)) {}
+  /// @param items     of the batch, which must outlive this, one or more
+  /// @param left_out  see ShearSource
+  ShellLayers(const model::ElementBatch<E>& batch, std::vector<int> items, const Vec<2>& left_out)
+      : batch_(batch), items_(std::move(items)), left_out_(left_out) {}
+
+  std::vector<Layer> shear_layers() const override {
+    std::vector<Layer> layers;
+    for (const material::Layer& layer : batch_.element(items_.front()).layup().layers) {
+      layers.push_back({layer.thickness, layer.angle});
+    }
+    return layers;
+  }
+  Vec<2> left_out() const override { return left_out_; }
 
   int layers() const override {
     return static_cast<int>(batch_.element(items_.front()).layup().layers.size());
@@ -59,6 +70,7 @@ class ShellLayers final : public model::LayerSource {
 
   const model::ElementBatch<E>& batch_;
   std::vector<int> items_;
+  Vec<2> left_out_;
 };
 
 }  // namespace culm::shell

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <variant>
 
 namespace culm::shell {
 
@@ -244,6 +245,19 @@ model::StrainDamping damping_of(const material::Layup& layup, const Options& opt
   return damping;
 }
 
+// What 'Shear Correction' would add to the flexibility in transverse shear. Laws of large strains
+// have no such factors; and where a layer has next to no stiffness in shear, somebody has left it
+// out by hand and settled the matter.
+Vec<2> left_out(const material::Layup& layup, const Options& options) {
+  constexpr double by_hand = 1e-4;
+  if (options.text("Shear Correction") != "None" || !layup.is_linear()) return Vec<2>::Zero();
+  for (const material::Layer& layer : layup.layers) {
+    const Mat6& C = std::get<material::StVenantKirchhoff>(layer.material.law).C;
+    if (std::min(C(3, 3), C(4, 4)) < by_hand * std::max(C(0, 0), C(1, 1))) return Vec<2>::Zero();
+  }
+  return material::shear_factors(layup).cwiseInverse() - Vec<2>::Ones();
+}
+
 template <class E>
 void add_elements(const std::string& effect, const ShellMesh& mesh,
                   const std::shared_ptr<const material::Layup>& layup, const Options& options,
@@ -263,7 +277,8 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
     structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
     structure.faces.push_back({nodes, layup->thickness()});
   }
-  structure.layers = std::make_shared<ShellLayers<E>>(batch, std::move(items));
+  structure.layers =
+      std::make_shared<ShellLayers<E>>(batch, std::move(items), left_out(*layup, options));
 }
 
 // Elements that all see one frame besides their own nodes.
@@ -287,7 +302,8 @@ void add_linear(const ShellMesh& mesh, const std::shared_ptr<const material::Lay
     structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
     structure.faces.push_back({nodes, layup->thickness()});
   }
-  structure.layers = std::make_shared<ShellLayers<LinearShell>>(batch, std::move(items));
+  structure.layers = std::make_shared<ShellLayers<LinearShell>>(batch, std::move(items),
+                                                                left_out(*layup, options));
 }
 
 // Walls that meet keep their place and their angle: one joint from each node of a fold to the next.
