@@ -1,0 +1,102 @@
+"""Makes a box of turbulence with the Kaimal spectrum of IEC 61400-1, as a file of TurbSim (.bts).
+
+Each component is a sum of waves with random phases. Those of the component along the wind are coherent as the standard
+has it, exp(-12 sqrt((f r / U)^2 + (0.12 r / L)^2)), those of the others are not (P. S. Veers, SAND88-0152). The same seed
+makes the same box.
+
+    python3 -m culm.turbulence wind.bts --speed 12 --deviation 2 --height 90 --size 140 140 --points 15 15
+"""
+
+import argparse
+import struct
+
+import numpy as np
+
+# of the components along, across and upwards, in deviations and scales of length of the first
+DEVIATIONS = (1.0, 0.8, 0.5)
+LENGTHS = (8.1, 2.7, 0.66)
+
+
+def scale(height):
+    """Lambda of the standard [m]."""
+    return 0.7 * min(height, 60.0)
+
+
+def spectrum(frequency, deviation, length, speed):
+    """One-sided Kaimal spectrum [m^2/s]; its integral is the square of the deviation."""
+    time = length / speed
+    return deviation**2 * 4.0 * time / (1.0 + 6.0 * frequency * time) ** (5.0 / 3.0)
+
+
+def coherence(frequency, distance, height, speed):
+    """Of the component along the wind at two points."""
+    return np.exp(-12.0 * np.hypot(frequency * distance / speed, 0.12 * distance / (8.1 * scale(height))))
+
+
+def fluctuations(arguments):
+    """Velocities without the mean, by time, height, place across and component [m/s]."""
+    ny, nz = arguments.points
+    count = int(round(arguments.duration / arguments.step))
+    y, z = np.meshgrid(np.linspace(0.0, arguments.size[0], ny), np.linspace(0.0, arguments.size[1], nz))
+    place = np.stack([y.ravel(), z.ravel()], axis=1)
+    distance = np.linalg.norm(place[:, None] - place[None, :], axis=2)
+    random = np.random.default_rng(arguments.seed)
+    waves = np.zeros((count // 2 + 1, len(place), 3), complex)
+    # neither the mean nor the highest frequency, which has no phase
+    for m in range(1, (count + 1) // 2):
+        frequency = m / (count * arguments.step)
+        for component in range(3):
+            power = spectrum(frequency, arguments.deviation * DEVIATIONS[component],
+                             LENGTHS[component] * scale(arguments.height), arguments.speed)
+            wave = np.exp(2j * np.pi * random.random(len(place)))
+            if component == 0:
+                wave = np.linalg.cholesky(coherence(frequency, distance, arguments.height, arguments.speed)) @ wave
+            waves[m, :, component] = np.sqrt(0.5 * power / (count * arguments.step)) * wave
+    return np.fft.irfft(waves * count, count, axis=0).reshape(count, nz, ny, 3)
+
+
+def write(path, velocities, arguments):
+    """Writes a periodic box; velocities by time, height, place across and component [m/s]."""
+    count, nz, ny, _ = velocities.shape
+    low, high = velocities.min(axis=(0, 1, 2)), velocities.max(axis=(0, 1, 2))
+    slope = 65535.0 / np.maximum(high - low, 1e-6)
+    intercept = -32768.0 - slope * low
+    slope, intercept = slope.astype("<f4"), intercept.astype("<f4")
+    bottom = arguments.height - 0.5 * arguments.size[1]
+    text = b"Kaimal spectrum, made by culm"
+    with open(path, "wb") as file:
+        file.write(struct.pack("<hiiii", 8, nz, ny, 0, count))
+        file.write(struct.pack("<6f", arguments.size[1] / (nz - 1), arguments.size[0] / (ny - 1), arguments.step,
+                               arguments.speed, arguments.height, bottom))
+        file.write(np.stack([slope, intercept], axis=1).tobytes())
+        file.write(struct.pack("<i", len(text)) + text)
+        values = np.rint(velocities * slope.astype(float) + intercept.astype(float))
+        file.write(np.clip(values, -32768, 32767).astype("<i2").tobytes())
+
+
+def parser():
+    result = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    result.add_argument("file")
+    result.add_argument("--speed", type=float, required=True, help="mean wind [m/s]")
+    result.add_argument("--deviation", type=float, required=True, help="standard deviation along the wind [m/s]")
+    result.add_argument("--height", type=float, required=True, help="of the middle of the box above the ground [m]")
+    result.add_argument("--size", type=float, nargs=2, required=True, help="across and upwards [m]")
+    result.add_argument("--points", type=int, nargs=2, required=True, help="across and upwards")
+    result.add_argument("--duration", type=float, default=600.0, help="[s]")
+    result.add_argument("--step", type=float, default=0.1, help="of time [s]")
+    result.add_argument("--seed", type=int, default=1)
+    return result
+
+
+def main():
+    arguments = parser().parse_args()
+    positive = (arguments.speed, arguments.height, arguments.step, arguments.duration, *arguments.size)
+    if min(positive) <= 0.0 or arguments.deviation < 0.0 or min(arguments.points) < 2:
+        parser().error("sizes, speeds and times must be positive, points at least 2")
+    velocities = fluctuations(arguments)
+    velocities[..., 0] += arguments.speed
+    write(arguments.file, velocities, arguments)
+
+
+if __name__ == "__main__":
+    main()
