@@ -190,8 +190,8 @@ TEST_F(Nrel5MW, DragMayBeLeftOutOfTheMomentumBalance) {
 
 // Tilted by 5 and coned by 2.5 degrees, in a mean over 8 azimuths. The first pair is a prototype's;
 // the second is that of Jonkman et al., NREL/TP-500-38060 (2009), the thrust without the weight of
-// the rotor along its axis. Their rotor is elastic and theirs an older model, so both are compared
-// where that matters least.
+// the rotor along its axis. At other winds than those compared the difference exceeds 1.5 %, see
+// doc/verification/rotor.md.
 struct Operation {
   double speed, rpm, pitch, thrust, torque, printed_thrust, printed_torque;
 };
