@@ -3,6 +3,7 @@
 #include <culm/base/schema.hpp>
 #include <culm/base/text.hpp>
 
+#include "polar_row.hpp"
 #include "types.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,31 +24,32 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double closing_angle = 1e-3;
 constexpr double closing_coefficient = 0.05;
 
-struct Row {
-  double alpha;  // [rad]
-  Coefficients coefficients;
-};
-
 // Linear between the rows of a table.
 class Polar final : public Airfoil {
  public:
-  explicit Polar(std::vector<Row> rows) : rows_(std::move(rows)) {}
+  explicit Polar(std::vector<PolarRow> rows) : rows_(std::move(rows)) {
+    std::vector<LiftPoint> lift;
+    for (const PolarRow& row : rows_) lift.push_back({row.alpha, row.coefficients[0]});
+    separation_ = find_separation(lift);
+  }
 
   Coefficients at(double alpha, Coefficients& slope) const override {
     const auto above =
         std::upper_bound(rows_.begin() + 1, rows_.end() - 1, alpha,
-                         [](double angle, const Row& row) { return angle < row.alpha; });
-    const Row& high = *above;
-    const Row& low = *(above - 1);
+                         [](double angle, const PolarRow& row) { return angle < row.alpha; });
+    const PolarRow& high = *above;
+    const PolarRow& low = *(above - 1);
     slope = (high.coefficients - low.coefficients) / (high.alpha - low.alpha);
     return low.coefficients + (alpha - low.alpha) * slope;
   }
+  const Separation* separation() const override { return separation_ ? &*separation_ : nullptr; }
 
  private:
-  std::vector<Row> rows_;
+  std::vector<PolarRow> rows_;
+  std::optional<Separation> separation_;
 };
 
-std::string mistake(const std::vector<Row>& rows) {
+std::string mistake(const std::vector<PolarRow>& rows) {
   if (rows.size() < 3)
     return fmt::format("a polar needs at least three angles, got {}", rows.size());
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -68,24 +71,79 @@ std::string mistake(const std::vector<Row>& rows) {
   return {};
 }
 
-SharedAirfoil make(const Options& options) {
-  std::vector<Row> rows;
+std::vector<PolarRow> read_csv(const std::string& name, const Where& where, std::string& path) {
+  std::vector<PolarRow> rows;
   InputIssues issues;
-  const Where& where = options.where("File Name");
-  const std::string path =
-      read_number_lines(options.text("File Name"), where, [&](const NumberLine& line) {
-        if (line.numbers.size() != 4) {
-          issues.add(line.where, "must be 'angle in degrees, lift, drag, moment', got '" +
-                                     shortened(line.text, 60) + "'");
-          return;
-        }
-        rows.push_back(
-            {line.numbers[0] * degree, {line.numbers[1], line.numbers[2], line.numbers[3]}});
-      });
+  path = read_number_lines(name, where, [&](const NumberLine& line) {
+    if (line.numbers.size() != 4) {
+      issues.add(line.where, "must be 'angle in degrees, lift, drag, moment', got '" +
+                                 shortened(line.text, 60) + "'");
+      return;
+    }
+    rows.push_back({line.numbers[0] * degree, {line.numbers[1], line.numbers[2], line.numbers[3]}});
+  });
   issues.throw_if_any();
+  return rows;
+}
+
+SharedAirfoil make_from_file(const Options& options) {
+  const Where& where = options.where("File Name");
+  const std::string& name = options.text("File Name");
+  std::string path;
+  std::vector<PolarRow> rows = options.text("File Format") == "AeroDyn"
+                                   ? read_aerodyn_polar(name, where, path)
+                                   : read_csv(name, where, path);
   if (const std::string wrong = mistake(rows); !wrong.empty())
     throw InputError({path, 0, {}}, wrong);
   return std::make_shared<Polar>(std::move(rows));
+}
+
+constexpr const char* columns[] = {"Lift", "Drag", "Moment"};
+
+std::vector<PolarRow> rows_of(const Options& options) {
+  const std::vector<double>& angles = options.numbers("Angles");
+  std::vector<PolarRow> rows;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    PolarRow row{angles[i], Coefficients::Zero()};
+    for (int k = 0; k < 3; ++k) {
+      if (options.has(columns[k])) row.coefficients[k] = options.numbers(columns[k])[i];
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+SharedAirfoil make(const Options& options) {
+  if (options.has("File Name")) return make_from_file(options);
+  return std::make_shared<Polar>(rows_of(options));
+}
+
+void check(const Options& options, InputIssues& issues) {
+  if (options.has("File Name") == options.has("Angles")) {
+    issues.add(options.where(), "give one of 'File Name' and 'Angles'");
+    return;
+  }
+  if (options.has("Angles") != options.has("Lift")) {
+    issues.add(options.where(), "'Angles' and 'Lift' need each other");
+    return;
+  }
+  bool whole = true;
+  for (const char* column : columns) {
+    if (!options.has(column)) continue;
+    if (!options.has("Angles")) {
+      issues.add(options.where(column), "stands in the file");
+      return;
+    }
+    const std::size_t expected = options.numbers("Angles").size();
+    const std::size_t count = options.numbers(column).size();
+    if (count == expected) continue;
+    whole = false;
+    issues.add(options.where(column),
+               fmt::format("must have one value for each of {} angles, got {}", expected, count));
+  }
+  if (!whole || !options.has("Angles")) return;
+  if (const std::string wrong = mistake(rows_of(options)); !wrong.empty())
+    issues.add(options.where("Angles"), wrong);
 }
 
 }  // namespace
@@ -96,7 +154,20 @@ void register_polar(AirfoilRegistry& registry) {
       Schema("Polar", "Coefficients by a table over all angles, linear in between.")
           .add(text("File Name",
                     "Lines 'angle in degrees, lift, drag, moment', from -180 to 180 degrees; the "
-                    "moment is about the quarter chord, nose up.")),
+                    "moment is about the quarter chord, nose up.")
+                   .optional())
+          .add(choice("File Format", {"CSV", "AeroDyn"},
+                      "Numbers with commas, or a file of an airfoil for AeroDyn.")
+                   .optional("CSV"))
+          .add(numbers("Angles", "rad", "Rising from -180 to 180 degrees, in place of a file.")
+                   .min_size(3)
+                   .optional())
+          .add(numbers("Lift", "1", "Coefficients at the angles.").optional())
+          .add(numbers("Drag", "1", "The same of the drag; zero if absent.").optional())
+          .add(numbers("Moment", "1",
+                       "The same of the moment about the quarter chord, nose up; zero if absent.")
+                   .optional())
+          .check(check),
       make);
 }
 

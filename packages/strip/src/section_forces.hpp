@@ -3,7 +3,7 @@
 
 #include <culm/strip/strip_load.hpp>
 
-#include <unsupported/Eigen/AutoDiff>
+#include "section_coefficients.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,12 +11,6 @@
 #include <numbers>
 
 namespace culm::strip {
-
-/// A number with its derivatives by place, chord and normal of a section at the end of a step.
-using Dual = Eigen::AutoDiffScalar<Vec<9>>;
-
-inline double value_of(double number) { return number; }
-inline double value_of(const Dual& number) { return number.value(); }
 
 template <class Number>
 using Vector = Eigen::Matrix<Number, 3, 1>;
@@ -45,31 +39,17 @@ struct SectionMotion {
 struct Surroundings {
   double density = 0.0;
   Vec3 wind_at_quarter = Vec3::Zero(), wind_at_three_quarters = Vec3::Zero();
-  double step = 0.0;                          ///< zero in statics
-  std::array<double, Lag::max_states> lag{};  ///< at the start of the step
+  double step = 0.0;     ///< zero in statics
+  SectionStates memory;  ///< at the start of the step
 };
 
 /// What follows from it. The forces act on the vectors of the section: f . dx + g . dc + h . dn.
 template <class Number>
 struct SectionLoads {
   SectionVectors<Number> forces;
-  std::array<double, Lag::max_states> lag{};  ///< at the end of the step
+  SectionStates memory;  ///< at the end of the step
   StationState seen;
 };
-
-/// A function of a number of which value and slope are known.
-inline double chain(double, double value, double) { return value; }
-inline Dual chain(const Dual& x, double value, double slope) {
-  return {value, Vec<9>(slope * x.derivatives())};
-}
-
-/// The angle of a vector; Eigen's own for such numbers takes memory from the heap.
-inline double angle_of(double y, double x) { return std::atan2(y, x); }
-inline Dual angle_of(const Dual& y, const Dual& x) {
-  const double square = x.value() * x.value() + y.value() * y.value();
-  return {std::atan2(y.value(), x.value()),
-          Vec<9>((x.value() * y.derivatives() - y.value() * x.derivatives()) / square)};
-}
 
 /// Wind slower than this brings no load: its angle has no meaning [m/s].
 constexpr double no_wind = 1e-9;
@@ -91,35 +71,17 @@ void add_moment(const Number& moment, const Vector<Number>& c, const Vector<Numb
   forces.normal += half * c;
 }
 
-/// The downwash behind the lag, and the states at the end of the step.
+/// The downwash behind the lag.
 template <class Number>
 Number lagged(const Lag& lag, const Number& downwash, const Number& speed, double half_chord,
-              const Surroundings& around, std::array<double, Lag::max_states>& next) {
+              double step, std::array<double, Lag::max_states>& states) {
   Number effective = downwash;
   for (std::size_t i = 0; i < static_cast<std::size_t>(lag.states); ++i) {
     const Number target = lag.amplitude[i] * downwash;
-    Number middle = target;
-    if (around.step > 0.0) {
-      const Number time = (around.step * lag.rate[i] / half_chord) * speed;
-      const Number end = lag_step<Number>(around.lag[i], target, lag_share(time));
-      middle = 0.5 * (end + around.lag[i]);
-      next[i] = value_of(end);
-    } else {
-      next[i] = value_of(target);
-    }
-    effective += middle - target;
+    const Number delay = (half_chord / lag.rate[i]) / speed;
+    effective += relaxed<Number>(target, delay, step, states[i]) - target;
   }
   return effective;
-}
-
-inline Coefficients blended(const Station& station, double alpha, Coefficients& slope) {
-  Coefficients result = station.airfoil->at(alpha, slope);
-  if (station.blend > 0.0) {
-    Coefficients other;
-    result += station.blend * (station.next_airfoil->at(alpha, other) - result);
-    slope += station.blend * (other - slope);
-  }
-  return result;
 }
 
 /// @source fluids B2
@@ -129,7 +91,7 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
                                    const Surroundings& around) {
   using std::sqrt;
   SectionLoads<Number> loads;
-  loads.lag = around.lag;
+  loads.memory = around.memory;
   const Vector<Number> zero = Vector<Number>::Constant(Number(0.0));
   SectionVectors<Number>& forces = loads.forces;
   forces = {zero, zero, zero};
@@ -152,15 +114,21 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
   const Number speed_squared = along * along + across * across;
   if (value_of(speed_squared) > no_wind * no_wind) {
     const Number speed = sqrt(speed_squared);
-    const Number effective = lagged(model.lag, across, speed, b, around, loads.lag);
+    const Number effective = lagged(model.lag, across, speed, b, around.step, loads.memory.lag);
     const Number alpha = angle_of(effective, along);
-    Coefficients slope;
-    const Coefficients value = blended(station, value_of(alpha), slope);
-    const Number lift = chain(alpha, value[0], slope[0]);
+    const Number angle = angle_of(across, along);
     // the lift is normal to the wind that it follows
     const Number tilt =
         angle_of(Number(along * (across - effective)), Number(along * along + across * effective));
-    const Number drag = chain(alpha, value[1], slope[1]) + tilt * lift;
+    SectionCoefficients<Number> found;
+    if (model.stall == Stall::none) {
+      found = steady(station, alpha);
+      found.drag += tilt * found.lift;
+    } else {
+      const StallInput<Number> input{model.stall, angle, alpha, tilt, speed, turning, around.step};
+      found = stalled(station, input, loads.memory);
+    }
+    const Number &lift = found.lift, &drag = found.drag;
     const Number pressure = (0.5 * around.density * station.chord) * speed_squared;
 
     const Vector<Number> wind_there =
@@ -177,12 +145,15 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
       loads.seen.normal = value_of(normal);
       loads.seen.tangential = value_of(tangential);
     }
-    add_moment<Number>(pressure * station.chord * chain(alpha, value[2], slope[2]), c, n,
-                       chord_norm, forces);
-    loads.seen.angle = std::atan2(value_of(across), value_of(along));
+    add_moment<Number>(pressure * station.chord * found.moment, c, n, chord_norm, forces);
+    loads.seen.angle = value_of(angle);
     loads.seen.effective_angle = value_of(alpha);
     loads.seen.speed = value_of(speed);
-    loads.seen.coefficients = value;
+    loads.seen.coefficients = {value_of(lift), value_of(drag), value_of(found.moment)};
+    if (model.stall != Stall::none) {
+      loads.seen.attached =
+          std::lerp(loads.memory.attached[0], loads.memory.attached[1], station.blend);
+    }
     if (model.apparent_mass) {
       const Number force = (std::numbers::pi * around.density * b * b) * speed * turning;
       add_at<Number>(behind(0.75), force * n, forces);

@@ -94,7 +94,8 @@ void check(const Options& options, InputIssues& issues) {
   check_one_of("Chord", "Chords", options, issues);
   check_one_of("Airfoil", "Airfoils", options, issues);
   check_tables(options, issues);
-  if (options.text("Lag") == "Airfoil" && options.flag("Apparent Mass")) {
+  const std::string& lag = options.text("Lag");
+  if ((lag == "Airfoil" || lag == "Four States") && options.flag("Apparent Mass")) {
     issues.add(
         options.where("Lag"),
         "constants of airfoils stand for apparent mass, too: take 'Apparent Mass' = false, or "
@@ -143,9 +144,10 @@ Schema strip_schema() {
       .add(texts("Airfoils", "Airfoils at the positions; coefficients are linear in between.")
                .optional())
       .add(choice(
-               "Lag", {"None", "Jones", "Airfoil"},
+               "Lag", {"None", "Jones", "Airfoil", "Oye", "Four States"},
                "Lag of the circulation: none, of a thin airfoil, or with the constants of airfoil "
-               "files.")
+               "files. Or dynamic stall, of polars: Oye, where the attached share of the chord "
+               "follows; Four States, the lag of airfoil files, pressure and attached share.")
                .optional("Jones"))
       .add(flag("Apparent Mass", "Whether the fluid that moves with the section has inertia.")
                .optional(true))
@@ -216,10 +218,18 @@ std::vector<Place> places_of(const Options& options, model::BuildContext& contex
 
 StripModel model_of(const Options& options) {
   StripModel model;
-  if (options.text("Lag") == "Jones") model.lag = Lag::jones();
-  if (options.text("Lag") == "Airfoil") model.lag = Lag::airfoil();
+  const std::string& lag = options.text("Lag");
+  if (lag == "Jones") model.lag = Lag::jones();
+  if (lag == "Airfoil" || lag == "Four States") model.lag = Lag::airfoil();
+  if (lag == "Oye") model.stall = Stall::oye;
+  if (lag == "Four States") model.stall = Stall::four_states;
   model.apparent_mass = options.flag("Apparent Mass");
   return model;
+}
+
+bool can_stall(const std::vector<SharedAirfoil>& airfoils) {
+  return std::ranges::any_of(
+      airfoils, [](const SharedAirfoil& airfoil) { return airfoil->separation() != nullptr; });
 }
 
 void make(const Options& options, StripContext& context) {
@@ -231,6 +241,13 @@ void make(const Options& options, StripContext& context) {
   if (!flow || !function || airfoils.empty() || places.empty()) return;
   if (function->signal() != nullptr) {
     build.issues.add(options.where("Function"), "must be a function of time, not a signal");
+    return;
+  }
+  const StripModel model = model_of(options);
+  if (model.stall != Stall::none && !can_stall(airfoils)) {
+    build.issues.add(options.where("Lag"),
+                     "is a model of stall, but no airfoil of '" + options.name() +
+                         "' can stall: it needs a polar whose lift rises through zero");
     return;
   }
   const Distribution chord(options, "Chord", "Chords"), twist(options, "Twist", "Twists"),
@@ -248,7 +265,7 @@ void make(const Options& options, StripContext& context) {
     if (sine < 0.0) suction = -suction;
   }
   auto load = std::make_unique<StripLoad>(model::Effect("Strip", options.name()),
-                                          build.model.nodes(), *function, flow, model_of(options));
+                                          build.model.nodes(), *function, flow, model);
   for (const Place& place : places) {
     Station station{place.point, place.length, chord.at(place.s), axis_at.at(place.s)};
     const double turn = twist.at(place.s);

@@ -74,7 +74,7 @@ double time_of(const model::State& state, const Stencil& stencil) {
 struct StripLoad::Evaluation {
   Columns forces = Columns::Zero();          // on axis, chord and normal [N]
   Mat<9, 9> derivative = Mat<9, 9>::Zero();  // by those at the end of the step
-  LagStates lag{};
+  SectionStates memory;
   StationState seen;
 };
 
@@ -83,8 +83,8 @@ void StripLoad::add(Station station) {
   states_.emplace_back();
   owned_.push_back(false);
   induced_.push_back(Vec3::Zero());
-  lag_.emplace_back();
-  next_lag_.emplace_back();
+  memory_.emplace_back();
+  next_memory_.emplace_back();
 }
 
 std::vector<int> StripLoad::blocks(int item, const model::UnknownTable& unknowns) const {
@@ -137,9 +137,10 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   motion.velocity = carried<Number>(rate * moved, rate);
   motion.acceleration = carried<Number>(acceleration, mass ? 1.0 : stencil.inertia);
 
-  Surroundings around{flow_->density()};
+  Surroundings around;
+  around.density = flow_->density();
   around.step = moves ? stencil.step : 0.0;
-  around.lag = lag_[station_number];
+  around.memory = memory_[station_number];
   const Columns middle = (1.0 - theta) * prev + theta * next;
   const std::array<Vec3, 2> places = {
       middle.col(0) + (0.25 - station.axis_at) * station.chord * middle.col(1),
@@ -157,7 +158,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   const double factor = station.length * (mass ? 1.0 : amplitude_.in_step(state, stencil));
   result.forces *= factor;
   result.derivative *= factor;
-  result.lag = loads.lag;
+  result.memory = loads.memory;
   result.seen = loads.seen;
   return result;
 }
@@ -183,7 +184,7 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
   if (!std::isfinite(found.forces.sum())) return Verdict::not_finite;
   const bool mass = want == Want::mass;
   if (!mass) {
-    next_lag_[number] = found.lag;
+    next_memory_[number] = found.memory;
     states_[number] = found.seen;
   }
   const double theta = mass ? 1.0 : stencil.theta;
@@ -222,29 +223,28 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
   return Verdict::ok;
 }
 
-void StripLoad::accept(model::State&) { lag_ = next_lag_; }
+void StripLoad::accept(model::State&) { memory_ = next_memory_; }
 
 std::size_t StripLoad::memory_size() const {
-  return stations_.size() * static_cast<std::size_t>(model_.lag.states);
+  return remembers() ? stations_.size() * SectionStates::size : 0;
 }
 
 void StripLoad::save(model::Items items, std::span<double> numbers) const {
-  const auto count = static_cast<std::size_t>(model_.lag.states);
+  if (!remembers()) return;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (items == model::Items::owned && !placement().owned[i]) continue;
     const auto number = static_cast<std::size_t>(placement().items[i]);
-    std::copy_n(lag_[number].begin(), count,
-                numbers.begin() + static_cast<std::ptrdiff_t>(number * count));
+    std::ranges::copy(memory_[number].numbers(),
+                      numbers.subspan(number * SectionStates::size).begin());
   }
 }
 
 void StripLoad::restore(std::span<const double> numbers) {
-  const auto count = static_cast<std::size_t>(model_.lag.states);
+  if (!remembers()) return;
   for (const int item : placement().items) {
     const auto number = static_cast<std::size_t>(item);
-    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(number * count), count,
-                lag_[number].begin());
-    next_lag_[number] = lag_[number];
+    memory_[number].set(numbers.subspan(number * SectionStates::size, SectionStates::size));
+    next_memory_[number] = memory_[number];
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <culm/base/registry.hpp>
 #include <culm/math/types.hpp>
+#include <culm/strip/separation.hpp>
 
 #include <memory>
 
@@ -18,6 +19,8 @@ class Airfoil {
   /// @param alpha  angle of attack from -pi to pi [rad]
   /// @param slope  derivatives of the coefficients by it [1/rad]
   virtual Coefficients at(double alpha, Coefficients& slope) const = 0;
+  /// How it stalls; null if it never does, or has no lift.
+  virtual const Separation* separation() const { return nullptr; }
 };
 
 /// Shared by all stations that have it.

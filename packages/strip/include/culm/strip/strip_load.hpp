@@ -9,6 +9,8 @@
 #include <culm/strip/lag.hpp>
 
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +37,8 @@ struct StationState {
   Coefficients coefficients = Coefficients::Zero();
   double normal = 0.0;      ///< force per length towards the suction side [N/m]
   double tangential = 0.0;  ///< and towards the tail [N/m]
+  /// Attached share of the chord by the states of stall; one without them [-].
+  double attached = 1.0;
 };
 
 /// Where a station is in a step, and what it meets there. @source fluids B2, B3
@@ -48,10 +52,36 @@ struct StationFlow {
   Vec3 relative() const { return wind - velocity; }
 };
 
+/// How the lift follows when the flow leaves the section and comes back.
+enum class Stall {
+  none,         ///< at once
+  oye,          ///< one state per airfoil, the attached share of the chord
+  four_states,  ///< two of the lag, and of each airfoil the pressure and the attached share
+};
+
 /// Which effects the loads have.
 struct StripModel {
   Lag lag;
   bool apparent_mass = false;
+  Stall stall = Stall::none;
+};
+
+/// What a station carries from step to step; of two airfoils where it stands between two.
+struct SectionStates {
+  static constexpr std::size_t size = Lag::max_states + 4;
+  std::array<double, Lag::max_states> lag{};
+  std::array<double, 2> attached = {1.0, 1.0};  ///< shares of the chord, at first all of it
+  std::array<double, 2> pressure = {0.0, 0.0};  ///< lift that the attached flow has built up
+
+  /// All of them, with room for each.
+  std::array<double, size> numbers() const {
+    return {lag[0], lag[1], attached[0], attached[1], pressure[0], pressure[1]};
+  }
+  void set(std::span<const double> values) {
+    lag = {values[0], values[1]};
+    attached = {values[2], values[3]};
+    pressure = {values[4], values[5]};
+  }
 };
 
 /// Lift, drag and moment of sections by their coefficients, at the angle of the three-quarter
@@ -60,7 +90,8 @@ struct StripModel {
 /// the transpose of the same map, so that their work over a step is F . Dx of their points. The
 /// wind is that without the structure, and what others induce. In statics the structure stands
 /// still, and lags have ended. States of the lag start at zero, as after a sudden start from rest,
-/// unless a static analysis was before. @source fluids B0, B2
+/// unless a static analysis was before; those of stall with a flow that is attached. @source fluids
+/// B0, B2, B4
 class StripLoad final : public model::MemorylessBatch {
  public:
   static constexpr int max_nodes = 4;
@@ -107,7 +138,7 @@ class StripLoad final : public model::MemorylessBatch {
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
-  using LagStates = std::array<double, Lag::max_states>;
+  bool remembers() const { return model_.lag.states > 0 || model_.stall != Stall::none; }
   struct Evaluation;
   template <class Number>
   Evaluation evaluate(std::size_t station, const model::State& state, const Stencil& stencil,
@@ -124,7 +155,7 @@ class StripLoad final : public model::MemorylessBatch {
   std::vector<StationState> states_;
   std::vector<bool> owned_;
   std::vector<Vec3> induced_;
-  std::vector<LagStates> lag_, next_lag_;  // of the accepted state, and of the trial
+  std::vector<SectionStates> memory_, next_memory_;  // of the accepted state, and of the trial
 };
 
 }  // namespace culm::strip
