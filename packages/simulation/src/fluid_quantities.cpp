@@ -2,6 +2,7 @@
 
 #include <culm/base/nearest.hpp>
 #include <culm/flow/fluid_force.hpp>
+#include <culm/strip/strip_load.hpp>
 
 #include <Eigen/Geometry>
 
@@ -86,6 +87,50 @@ std::unique_ptr<Quantity> make_force(const Options& options, model::BuildContext
   return nullptr;
 }
 
+// What a station of a strip load saw and felt in the step.
+class StripQuantity final : public Quantity {
+ public:
+  StripQuantity(const strip::StripLoad& load, int station) : load_(load), station_(station) {}
+
+  std::vector<HistoryColumn> columns() const override {
+    return {{"alpha", "rad"}, {"alpha E", "rad"}, {"V", "m/s"},  {"Cl", "1"},
+            {"Cd", "1"},      {"Cm", "1"},        {"Fn", "N/m"}, {"Ft", "N/m"}};
+  }
+  void evaluate(const assembly::System& system, const model::State&,
+                std::vector<double>& numbers) const override {
+    Vec<8> values = Vec<8>::Zero();
+    if (load_.owns(station_)) {
+      const strip::StationState& s = load_.state(station_);
+      values << s.angle, s.effective_angle, s.speed, s.coefficients, s.normal, s.tangential;
+    }
+    // one rank has it, so the sum is exact
+    system.comm().sum({values.data(), 8});
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+
+ private:
+  const strip::StripLoad& load_;
+  int station_;
+};
+
+std::unique_ptr<Quantity> make_strip(const Options& options, model::BuildContext& context) {
+  const std::string& name = options.text("Load");
+  const int station = options.integer("Station");
+  std::vector<std::string> names;
+  for (const auto& batch : context.model.loads()) {
+    const auto* load = dynamic_cast<const strip::StripLoad*>(batch.get());
+    if (load == nullptr) continue;
+    names.push_back(batch->effect().name);
+    if (names.back() != name) continue;
+    if (station < load->size()) return std::make_unique<StripQuantity>(*load, station);
+    context.issues.add(options.where("Station"),
+                       "'" + name + "' has stations 0 to " + std::to_string(load->size() - 1));
+    return nullptr;
+  }
+  context.issues.add(options.where("Load"), "no strips '" + name + "'" + did_you_mean(name, names));
+  return nullptr;
+}
+
 }  // namespace
 
 void register_fluid_quantities(QuantityRegistry& registry) {
@@ -107,6 +152,15 @@ void register_fluid_quantities(QuantityRegistry& registry) {
                                    "Upwards; its part across the wind is taken.")
                    .optional({0.0, 0.0, 1.0})),
       make_force);
+  registry.add(
+      "Strip",
+      Schema("Strip",
+             "Angle of attack, the angle behind the lag, wind across the span, coefficients, "
+             "and forces per length towards the suction side and towards the tail, of a "
+             "station in the step.")
+          .add(text("Load", "Name of the strips in the list Loads."))
+          .add(integer("Station", "Number of the station, from 0.").at_least(0).optional(0)),
+      make_strip);
 }
 
 }  // namespace culm::simulation

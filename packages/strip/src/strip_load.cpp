@@ -160,6 +160,10 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   result.derivative *= factor;
   result.memory = loads.memory;
   result.seen = loads.seen;
+  result.seen.resultant.force = result.forces.col(0);
+  for (int k = 0; k < 3; ++k) {
+    result.seen.resultant.moment += Vec3(middle.col(k)).cross(Vec3(result.forces.col(k)));
+  }
   return result;
 }
 
@@ -223,7 +227,15 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
   return Verdict::ok;
 }
 
-void StripLoad::accept(model::State&) { memory_ = next_memory_; }
+void StripLoad::accept(model::State&) {
+  memory_ = next_memory_;
+  resultant_ = {};
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (!owned_[i]) continue;
+    resultant_.force += states_[i].resultant.force;
+    resultant_.moment += states_[i].resultant.moment;
+  }
+}
 
 std::size_t StripLoad::memory_size() const {
   return remembers() ? stations_.size() * SectionStates::size : 0;

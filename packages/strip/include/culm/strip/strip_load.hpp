@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/flow/flow.hpp>
+#include <culm/flow/fluid_force.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/structure.hpp>
@@ -39,6 +40,7 @@ struct StationState {
   double tangential = 0.0;  ///< and towards the tail [N/m]
   /// Attached share of the chord by the states of stall; one without them [-].
   double attached = 1.0;
+  flow::FluidForce::Resultant resultant = {};  ///< of the whole station
 };
 
 /// Where a station is in a step, and what it meets there. @source fluids B2, B3
@@ -92,7 +94,7 @@ struct SectionStates {
 /// still, and lags have ended. States of the lag start at zero, as after a sudden start from rest,
 /// unless a static analysis was before; those of stall with a flow that is attached. @source fluids
 /// B0, B2, B4
-class StripLoad final : public model::MemorylessBatch {
+class StripLoad final : public model::MemorylessBatch, public flow::FluidForce {
  public:
   static constexpr int max_nodes = 4;
 
@@ -132,6 +134,7 @@ class StripLoad final : public model::MemorylessBatch {
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void accept(model::State& state) override;
+  Resultant resultant() const override { return resultant_; }
   std::size_t memory_size() const override;
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;
@@ -155,6 +158,7 @@ class StripLoad final : public model::MemorylessBatch {
   std::vector<StationState> states_;
   std::vector<bool> owned_;
   std::vector<Vec3> induced_;
+  Resultant resultant_;
   std::vector<SectionStates> memory_, next_memory_;  // of the accepted state, and of the trial
 };
 
