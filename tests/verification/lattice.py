@@ -1,25 +1,14 @@
 #!/usr/bin/python3
 """Vortex lattice: steady wings, a wing that rests, flutter in time. Page: doc/verification/lattice.md."""
 
-import cmath
 import math
 
 import numpy as np
-from verify import figure, main, richardson, save
+from verify import figure, main, poles, richardson, save
 
 CHORD = 1.8288
 # lattice in the frequency domain with a flat wake of 12 chords, the tip inset, 8 x 12 panels
 FLUTTER = {8: 161.67, 16: 160.65, 24: 160.27}
-
-
-def poles(times, values, order=6):
-    """Exponents of a sum of decaying oscillations, by a matrix pencil of the given order."""
-    columns = len(values) // 3
-    hankel = np.lib.stride_tricks.sliding_window_view(values, columns + 1)
-    _, _, right = np.linalg.svd(hankel, full_matrices=False)
-    basis = right[:order].conj().T
-    shift = np.linalg.lstsq(basis[:-1], basis[1:], rcond=None)[0]
-    return [cmath.log(z) / (times[1] - times[0]) for z in np.linalg.eigvals(shift)]
 
 
 def oscillation(culm, speed, overrides=(), periods=8.0):

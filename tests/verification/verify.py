@@ -7,6 +7,7 @@ takes too long for every run of the tests. By hand:
 """
 
 import argparse
+import cmath
 import math
 import pathlib
 import sys
@@ -66,6 +67,18 @@ def romberg(values, orders=(2, 4)):
     for order in orders[: len(values) - 1]:
         values = [richardson(a, b, order) for a, b in zip(values, values[1:])]
     return values[-1]
+
+
+def poles(times, values, order=6):
+    """Exponents of a sum of decaying oscillations, by a matrix pencil of the given order."""
+    import numpy as np
+
+    columns = len(values) // 3
+    hankel = np.lib.stride_tricks.sliding_window_view(values, columns + 1)
+    _, _, right = np.linalg.svd(hankel, full_matrices=False)
+    basis = right[:order].conj().T
+    shift = np.linalg.lstsq(basis[:-1], basis[1:], rcond=None)[0]
+    return [cmath.log(z) / (times[1] - times[0]) for z in np.linalg.eigvals(shift)]
 
 
 def main(verify, plot=None, fine=None):

@@ -15,6 +15,7 @@ using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::SparseMatrix<Complex>;
 
 constexpr int most_iterations = 50;
+constexpr int approaches = 8;        // each brings some digits where branches are strong
 constexpr double converged = 1e-13;  // change of the value, over its size
 constexpr double settled = 1e-6;     // where a change that falls no more is rounding
 
@@ -56,6 +57,23 @@ Eigen::VectorXcd derivative(const RelaxingPencil& pencil, Complex lambda,
                   std::abs(start) / (2.0 * std::numbers::pi)));
 }
 
+// A value near the zero of x^H T(lambda) x: branches stand still as they are at the value before,
+// so strong ones lead to no creep and to no conjugate, as Newton's method would from far away.
+Complex approached(const RelaxingPencil& pencil, Complex lambda, const Eigen::VectorXcd& x) {
+  const Complex m = x.dot(pencil.M * x);
+  const Complex c = x.dot(pencil.C * x);
+  for (int i = 0; i < approaches; ++i) {
+    Complex k = x.dot(pencil.K * x);
+    for (const BranchTerm& term : pencil.terms) {
+      k += follows(term, lambda).value * x.dot(term.stiffness * x);
+    }
+    const Complex root = std::sqrt(c * c - 4.0 * m * k);
+    const Complex one = (-c + root) / (2.0 * m), other = (-c - root) / (2.0 * m);
+    lambda = std::abs(one - lambda) < std::abs(other - lambda) ? one : other;
+  }
+  return lambda;
+}
+
 // The zero of x^H T(lambda) x next to a value: exact where branches do not change the shape.
 Complex value_along(const RelaxingPencil& pencil, Complex lambda, const Eigen::VectorXcd& x) {
   const Complex start = lambda;
@@ -71,7 +89,8 @@ Complex value_along(const RelaxingPencil& pencil, Complex lambda, const Eigen::V
 }  // namespace
 
 ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMode& start) {
-  ComplexMode mode{value_along(pencil, start.value, start.vector), start.vector};
+  const Complex near = approached(pencil, start.value, start.vector);
+  ComplexMode mode{value_along(pencil, near, start.vector), start.vector};
   const Eigen::VectorXcd v = start.vector;  // x is kept at v^H x = v^H v
   const double size = v.squaredNorm();
   double last = std::numeric_limits<double>::infinity();

@@ -52,16 +52,38 @@ Energy energy_of(const model::ShearSource& wall, const States& states) {
   return energy;
 }
 
-// Of the structures together: one that stores next to nothing matters to nobody.
+// Largest motion of a node of a structure, from one configuration to another [m].
+double motion_of(const model::Structure& structure, const Coordinates& from,
+                 const Coordinates& to) {
+  double largest = 0.0;
+  for (const model::Cell& cell : structure.cells) {
+    for (const int node : cell.nodes) {
+      const Vec3 moved =
+          model::NodeTable::slots(to, node).col(0) - model::NodeTable::slots(from, node).col(0);
+      largest = std::max(largest, moved.norm());
+    }
+  }
+  return largest;
+}
+
+constexpr double notable_motion = 1e-3;  // of the largest: less is the rest of what another does
+
+// Of the structures together: one that stores next to nothing matters to nobody, nor does one that
+// stands still while others move.
 // @param states_at(source, cell)
 template <class StatesAt>
-void find_share(const model::Model& model, const Coordinates& q, const StatesAt& states_at,
-                double& share, std::string& most) {
+void find_share(const model::Model& model, const Coordinates& from, const Coordinates& q,
+                const StatesAt& states_at, double& share, std::string& most) {
   Energy sum;
   double largest = 0.0;
+  double furthest = 0.0;
+  for (const model::Structure& structure : model.structures()) {
+    furthest = std::max(furthest, motion_of(structure, from, q));
+  }
   for (const model::Structure& structure : model.structures()) {
     const auto* wall = dynamic_cast<const model::ShearSource*>(structure.layers.get());
     if (wall == nullptr) continue;
+    if (motion_of(structure, from, q) < notable_motion * furthest) continue;
     Energy own;
     const std::size_t stride = std::max<std::size_t>(1, structure.cells.size() / most_cells);
     for (std::size_t c = 0; c < structure.cells.size(); c += stride) {
@@ -101,7 +123,7 @@ void warn_of_shear(Context& context, model::State& state) {
   double share = 0.0;
   std::string structure;
   find_share(
-      model, state.next,
+      model, model.nodes().reference(), state.next,
       [&](const model::LayerSource& source, int cell) { return source.states(cell, state.next); },
       share, structure);
   if (share < notable_error) return;
@@ -141,7 +163,7 @@ void warn_of_shear(Context& context, const model::State& state, const ModeSet& s
     };
     double share = 0.0;
     std::string structure;
-    find_share(model, state.next, slopes, share, structure);
+    find_share(model, state.next, forward, slopes, share, structure);
     if (share < notable_error) continue;
     context.findings.warn(
         "thick wall",

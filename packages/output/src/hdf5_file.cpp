@@ -78,7 +78,14 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   return {path, std::move(file)};
 }
 
-void Hdf5File::fail(std::string_view action) const { throw_file_error(path_, action); }
+void Hdf5File::fail(std::string_view action) const {
+  // after a write that failed HDF5 stumbles over what it does not find in the file
+  const JournaledFile* const file = file_.is_open() ? journaled_file(file_.id()) : nullptr;
+  if (file != nullptr && !file->failure().empty()) {
+    throw FileError(path_.string(), "cannot write file: " + file->failure());
+  }
+  throw_file_error(path_, action);
+}
 
 void Hdf5File::move_to(const std::filesystem::path& path) {
   // The journal of an older file must not be taken for ours.

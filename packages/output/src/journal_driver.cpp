@@ -16,7 +16,6 @@ struct DriverFile : H5FD_t {
   DriverFile(const char* name, JournaledFile::Mode mode) : H5FD_t{}, file(name, mode) {}
   JournaledFile file;
   haddr_t eoa = 0;
-  std::string failure;  ///< why something could not be written; then nothing more is
 };
 
 DriverFile& self(H5FD_t* file) { return *static_cast<DriverFile*>(file); }
@@ -40,11 +39,11 @@ herr_t guarded(const char* function, Action action) {
 template <class Action>
 herr_t write_once(H5FD_t* file, Action action) {
   DriverFile& f = self(file);
-  if (!f.failure.empty()) return 0;
+  if (!f.file.failure().empty()) return 0;
   try {
     action(f.file);
   } catch (const std::exception& error) {
-    f.failure = error.what();
+    f.file.set_failure(error.what());
   }
   return 0;
 }
@@ -98,7 +97,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, cons
 
 herr_t flush(H5FD_t* file, hid_t, hbool_t closing) {
   write_once(file, [](JournaledFile& f) { f.commit(); });
-  const std::string& failure = self(file).failure;
+  const std::string& failure = self(file).file.failure();
   if (closing || failure.empty()) return 0;
   return guarded("flush", [&] { throw std::runtime_error(failure); });
 }

@@ -41,6 +41,10 @@ class JournaledFile {
   std::uint64_t size() const { return size_; }
   void commit();
 
+  /// Why something could not be written, after which nothing more is; empty if all could.
+  const std::string& failure() const { return failure_; }
+  void set_failure(std::string reason) { failure_ = std::move(reason); }
+
   static std::filesystem::path journal_path(const std::filesystem::path& file);
 
   /// Completes a commit that a dead process left in the journal, if there is one, and removes the
@@ -48,6 +52,7 @@ class JournaledFile {
   static bool recover(const std::filesystem::path& file);
 
  private:
+  std::string failure_;
   struct Change {
     std::uint64_t offset;
     std::vector<std::byte> bytes;

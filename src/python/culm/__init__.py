@@ -17,7 +17,7 @@ def history(folder):
     import pathlib
 
     import pandas
-    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, float_precision="round_trip")
+    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, dtype="float64", float_precision="round_trip")
 
 
 def read(folder):

@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""Strips: flutter of the typical section and of Goland's wing in time. Page: doc/verification/strips.md."""
+
+import numpy as np
+from verify import figure, main, poles, save
+
+# eigenvalues of the same models with Jones' states
+SECTION = (25.379599, 16.695289)  # m/s, rad/s
+GOLAND = (137.335, 69.346)
+
+
+def oscillation(culm, deck, column, speed, begin, end, step, among):
+    """Growth [1/s] and circular frequency [rad/s] of the mode that flutters."""
+    name = "V" if "section" in deck else "U"
+    gentle = ["Loads/disturbance/Force={0, 0.1, 0}"] if "section" in deck else []
+    history = culm.history(deck, [f"{name}={speed}", f"Analyses/motion/End Time={end}",
+                                  f"Analyses/motion/Step={step}", *gentle])
+    times = np.array(history.levels)
+    free = times > begin
+    found = poles(times[free], np.array(history.column(column))[free], 6)
+    best = max((p for p in found if among[0] < p.imag < among[1]), key=lambda p: p.real)
+    return best.real, best.imag
+
+
+def flutter(culm, low, high, *arguments, deck, column):
+    """Speed and frequency without growth, linear between two speeds near it."""
+    (g0, w0), (g1, w1) = (oscillation(culm, deck, column, u, *arguments) for u in (low, high))
+    share = -g0 / (g1 - g0)
+    return low + share * (high - low), w0 + share * (w1 - w0)
+
+
+def section(culm, step):
+    return flutter(culm, 25.2, 25.6, 1.0, 8.0, step, (10.0, 25.0), deck="air/typical_section.xml",
+                   column="axis uy [m]")
+
+
+def goland(culm, step):
+    return flutter(culm, 135.0, 140.0, 0.1, 1.5, step, (50.0, 90.0), deck="air/goland_strips.xml",
+                   column="tip uz [m]")
+
+
+def verify(culm, report):
+    report.title("Typical section, step 0.01 s: 38 in a period")
+    speed, omega = section(culm, 0.01)
+    report.relative("speed of flutter [m/s]", speed, SECTION[0], 1e-3)
+    report.relative("frequency [rad/s]", omega, SECTION[1], 5e-3)
+    report.title("Goland's wing, 24 stations, step 1 ms: 91 in a period")
+    speed, omega = goland(culm, 1e-3)
+    report.relative("speed of flutter [m/s]", speed, GOLAND[0], 1e-3)
+    report.relative("frequency [rad/s]", omega, GOLAND[1], 2e-3)
+
+
+def plot(culm, path):
+    fig, axes = figure()
+    axes = np.atleast_1d(axes)[0]
+    for speed in (24.0, 25.4, 26.0):
+        history = culm.history("air/typical_section.xml", [f"V={speed}", "Analyses/motion/End Time=4"])
+        axes.plot(history.levels, [1e3 * u for u in history.column("axis uy [m]")],
+                  label=f"{speed:g} m/s")
+    axes.set(title="Typical section", xlabel="time [s]", ylabel="plunge [mm]")
+    axes.legend()
+    save(fig, path)
+
+
+if __name__ == "__main__":
+    main(verify, plot)
