@@ -2,6 +2,7 @@
 #include <culm/assembly/rounding.hpp>
 #include <culm/base/error.hpp>
 #include <culm/model/branch_store.hpp>
+#include <culm/model/method_limits.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
 #include <fmt/format.h>
@@ -176,6 +177,11 @@ Linearisation linearise(Context& context, const model::State& state, const Stenc
         "Try: check units and load functions.");
   }
   linear.asymmetry = solver::asymmetry(linear.stiffness, system.comm());
+  for (const model::Batch* batch : system.model().batches()) {
+    const auto* partly = dynamic_cast<const model::LeftOutOfModes*>(batch);
+    const std::string missing = partly == nullptr ? "" : partly->left_out_of_modes();
+    if (!missing.empty()) context.findings.warn("left out", missing, state.time);
+  }
   if (!linear.is_equilibrium) {
     context.findings.warn(
         "no equilibrium",

@@ -1,5 +1,7 @@
 #include <culm/coupling/channel_flow.hpp>
 
+#include "mass_model.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-class ChannelFlow final : public PointModel {
+class ChannelFlow final : public MassModel {
  public:
   explicit ChannelFlow(const FlowChannel& channel) : channel_(channel) {}
 
@@ -40,37 +42,20 @@ class ChannelFlow final : public PointModel {
     const double distance =
         (reference.tail<3>() - reference.head<3>()).norm() / static_cast<double>(n - 1);
     masses_ = channel_masses(channel_, static_cast<int>(n), distance);
-    velocity_ = along_normal(velocity);
-    start_ = kinetic();
-  }
-  VectorXd forces(const VectorXd& moved, double h) const override {
-    const VectorXd along = -2.0 / h * (masses_ * (along_normal(moved) / h - velocity_));
-    return (channel_.normal * along.transpose()).reshaped();
-  }
-  void accept(const VectorXd& moved, double h) override {
-    velocity_ = 2.0 / h * along_normal(moved) - velocity_;
-  }
-  Books books() const override { return {kinetic() - start_, 0.0}; }
-  VectorXd memory() const override {
-    VectorXd all(velocity_.size() + 1);
-    all << start_, velocity_;
-    return all;
-  }
-  void restore(const VectorXd& memory) override {
-    start_ = memory[0];
-    velocity_ = memory.tail(memory.size() - 1);
+    MassModel::begin(reference, velocity);
   }
 
  private:
-  VectorXd along_normal(const VectorXd& values) const {
-    return values.reshaped(3, values.size() / 3).transpose() * channel_.normal;
+  VectorXd momentum(const VectorXd& velocity) const override { return masses_ * velocity; }
+  VectorXd taken(const VectorXd& motion) const override {
+    return motion.reshaped(3, motion.size() / 3).transpose() * channel_.normal;
   }
-  double kinetic() const { return 0.5 * velocity_.dot(masses_ * velocity_); }
+  VectorXd given(const VectorXd& forces) const override {
+    return (channel_.normal * forces.transpose()).reshaped();
+  }
 
   FlowChannel channel_;
   MatrixXd masses_;
-  VectorXd velocity_;
-  double start_ = 0.0;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <culm/coupling/point_partner.hpp>
 
+#include "mass_model.hpp"
+
 #include <algorithm>
 #include <vector>
 
@@ -27,33 +29,13 @@ VectorXd with_moments(const VectorXd& forces) {
   return all.reshaped();
 }
 
-class AddedMass final : public PointModel {
+class AddedMass final : public MassModel {
  public:
   explicit AddedMass(double mass) : mass_(mass) {}
-  void begin(const VectorXd&, const VectorXd& velocity) override {
-    velocity_ = velocity;
-    start_ = kinetic();
-  }
-  VectorXd forces(const VectorXd& moved, double h) const override {
-    return -2.0 * mass_ / h * (moved / h - velocity_);
-  }
-  void accept(const VectorXd& moved, double h) override { velocity_ = 2.0 / h * moved - velocity_; }
-  Books books() const override { return {kinetic() - start_, 0.0}; }
-  VectorXd memory() const override {
-    VectorXd all(velocity_.size() + 1);
-    all << start_, velocity_;
-    return all;
-  }
-  void restore(const VectorXd& memory) override {
-    start_ = memory[0];
-    velocity_ = memory.tail(memory.size() - 1);
-  }
 
  private:
-  double kinetic() const { return 0.5 * mass_ * velocity_.squaredNorm(); }
+  VectorXd momentum(const VectorXd& velocity) const override { return mass_ * velocity; }
   double mass_;
-  VectorXd velocity_;
-  double start_ = 0.0;
 };
 
 class Dashpot final : public PointModel {

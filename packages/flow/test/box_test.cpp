@@ -1,17 +1,11 @@
 // Boxes of turbulence, from small files of known values.
-#include <culm/flow/flow.hpp>
-
-#include <culm_kit/deck_list.hpp>
-#include <culm_kit/temporary_folder.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "flow_kit.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -61,10 +55,8 @@ std::string turbsim(std::int16_t kind, std::int32_t tower = 0) {
   return bytes;
 }
 
-class Boxes : public testing::Test {
+class Boxes : public FlowTest {
  protected:
-  Boxes() { register_flows(registry_); }
-
   SharedFlow box(const std::string& bytes, const kit::GivenValues& more = {}) {
     std::ofstream(folder_ / "wind.bts", std::ios::binary) << bytes;
     kit::GivenValues values = {{"Density", 1.225},
@@ -72,11 +64,7 @@ class Boxes : public testing::Test {
                                {"Centre", std::vector{0.0, 0.0, 90.0}},
                                {"Delay", 0.0}};
     values.insert(values.end(), more.begin(), more.end());
-    const Schema schema = registry_.variants().at("TurbSim Box");
-    const Options options = kit::deck_list(schema, values, "wind");
-    EXPECT_THAT(kit::mistakes_in(schema, options), ElementsAre());
-    model::BuildContext context{model_, functions_, issues_};
-    return registry_.make("TurbSim Box", options, context);
+    return make("TurbSim Box", values);
   }
 
   std::string objection(const std::string& bytes) {
@@ -87,13 +75,6 @@ class Boxes : public testing::Test {
     }
     return "none";
   }
-
- private:
-  FlowRegistry registry_;
-  kit::TemporaryFolder folder_;
-  model::Model model_;
-  std::map<std::string, model::Amplitude> functions_;
-  InputIssues issues_;
 };
 
 // Velocities are kept in single precision.

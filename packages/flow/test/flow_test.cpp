@@ -1,11 +1,6 @@
-#include <culm/flow/flow.hpp>
-
-#include <culm_kit/deck_list.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "flow_kit.hpp"
 
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,28 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class Flows : public testing::Test {
- protected:
-  Flows() { register_flows(registry_); }
-
-  SharedFlow make(const std::string& type, const kit::GivenValues& values) {
-    const Schema schema = registry_.variants().at(type);
-    const Options options = kit::deck_list(schema, values, "air");
-    EXPECT_THAT(kit::mistakes_in(schema, options), ElementsAre());
-    model::BuildContext context{model_, functions_, issues_};
-    return registry_.make(type, options, context);
-  }
-
-  model::Model model_;
-  std::map<std::string, model::Amplitude> functions_{
-      {"Constant", model::Amplitude::constant()},
-      {"growing", model::Amplitude::of_time([](double time) { return 2.0 * time; })},
-      {"noise", model::Amplitude::of_step([](double, double) { return 1.0; })}};
-  InputIssues issues_;
-
- private:
-  FlowRegistry registry_;
-};
+using Flows = FlowTest;
 
 TEST_F(Flows, UniformIsTheSameEverywhereAndFollowsAFunction) {
   const SharedFlow air = make("Uniform", {{"Density", 1.225},

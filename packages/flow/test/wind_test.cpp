@@ -1,13 +1,7 @@
-#include <culm/flow/flow.hpp>
-
-#include <culm_kit/deck_list.hpp>
-#include <culm_kit/temporary_folder.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "flow_kit.hpp"
 
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -20,23 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 // Winds with a reference height, at places in deck coordinates.
-class Winds : public testing::Test {
+class Winds : public FlowTest {
  protected:
-  Winds() { register_flows(registry_); }
-
-  Schema schema(const std::string& type) const { return registry_.variants().at(type); }
-
-  SharedFlow make(const std::string& type, const kit::GivenValues& values) {
-    const Options options = kit::deck_list(schema(type), values, "wind");
-    EXPECT_THAT(kit::mistakes_in(schema(type), options), ElementsAre());
-    model::BuildContext context{model_, functions_, issues_};
-    return registry_.make(type, options, context);
-  }
-
-  std::vector<std::string> mistakes(const std::string& type, const kit::GivenValues& values) {
-    return kit::mistakes_in(schema(type), kit::deck_list(schema(type), values, "wind"));
-  }
-
   SharedFlow gust(const std::string& shape, const kit::GivenValues& more = {}) {
     kit::GivenValues values = {{"Density", 1.225},  {"Speed", 11.4},  {"Height", 90.0},
                                {"Exponent", 0.0},   {"Shape", shape}, {"Class", std::string("1A")},
@@ -54,13 +33,6 @@ class Winds : public testing::Test {
   }
 
   const Vec3 hub = Vec3(0.0, 0.0, 90.0);
-
- private:
-  FlowRegistry registry_;
-  kit::TemporaryFolder folder_;
-  model::Model model_;
-  std::map<std::string, model::Amplitude> functions_;
-  InputIssues issues_;
 };
 
 // What rounding of a handful of products leaves of winds of 10 m/s.

@@ -1,6 +1,8 @@
 #include <culm/lattice/lattice_load.hpp>
 #include <culm/load/slot_kernel.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -37,6 +39,9 @@ std::vector<Panels> panels_of(const std::vector<SurfaceGrid>& surfaces) {
 double half_disc(double x) {
   return 0.5 * (x * std::sqrt(std::max(0.0, 1.0 - x * x)) + std::asin(x)) + 0.25 * std::numbers::pi;
 }
+
+// At which flows leave thin surfaces.
+constexpr double good_angle = std::numbers::pi / 12.0;
 
 bool is_finite(const Points& points) {
   const auto finite = [](const std::vector<double>& values) {
@@ -160,13 +165,55 @@ void LatticeLoad::accept(model::State& state) {
   accepted_forces_ = result.forces;
   if (step_ == 0.0) {
     resultant_ = resultant_of(result.forces, end);
+    range_used_ = largest_angle(end, Points(end.size()), state.time) / good_angle;
     accepted_ = lattice_.steady_state(result, end, state.time);
     return;
   }
-  Points middle = start_;
-  for (std::size_t i = 0; i < middle.size(); ++i) middle.set(i, 0.5 * (start_.at(i) + end.at(i)));
+  Points middle = start_, velocity = start_;
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    middle.set(i, 0.5 * (start_.at(i) + end.at(i)));
+    velocity.set(i, (end.at(i) - start_.at(i)) / step_);
+  }
   resultant_ = resultant_of(result.forces, middle);
+  range_used_ = largest_angle(middle, velocity, state.time - 0.5 * step_) / good_angle;
   accepted_ = Lattice::state_after(result, coming_.wake);
+}
+
+std::optional<flow::FluidForce::Resultant> LatticeLoad::resultant() const {
+  if (!resultant_ || counts()) return resultant_;
+  return Resultant{};
+}
+
+// Between the undisturbed wind and the surfaces at their leading edges.
+double LatticeLoad::largest_angle(const Points& grid, const Points& velocity, double time) const {
+  double largest = 0.0;
+  for (const Panelling& s : lattice_.bound().surfaces()) {
+    for (int j = 0; j <= s.panels.span; ++j) {
+      const std::size_t point = s.point(0, j);
+      const Vec3 wind = lattice_.flow().velocity(grid.at(point), time) - velocity.at(point);
+      const double speed = wind.norm();
+      if (speed == 0.0) continue;
+      largest = std::max(
+          largest, std::asin(std::min(1.0, std::abs(wind.dot(normal_at(point, grid))) / speed)));
+    }
+  }
+  return largest;
+}
+
+std::string LatticeLoad::range_warning(double used) const {
+  return fmt::format(
+      "{}: the wind meets surfaces at angles up to {:.3g} degrees: its flow never leaves them, "
+      "real "
+      "ones do from some 15 degrees on",
+      effect().quoted(), used * good_angle * 180.0 / std::numbers::pi);
+}
+
+std::string LatticeLoad::left_out_of_modes() const {
+  return effect().quoted() +
+         ": linear analyses see the forces of the steady flow about the state, not how they change "
+         "with motion: there is no stiffness, damping or mass of its air, hence no flutter. A "
+         "motion "
+         "in time knows them";
 }
 
 flow::FluidForce::Resultant LatticeLoad::resultant_of(const Points& forces, const Points& places) {
@@ -276,7 +323,7 @@ model::StepWork LatticeLoad::step_work(const model::State& state, const Stencil&
 
 std::size_t LatticeLoad::memory_size() const {
   return static_cast<std::size_t>(accepted_.circulation.size()) + 3 * accepted_.induced.size() +
-         3 * accepted_forces_.size() + 6 + accepted_.wake.memory_size();
+         3 * accepted_forces_.size() + 7 + accepted_.wake.memory_size();
 }
 
 bool LatticeLoad::counts() const {
@@ -297,8 +344,10 @@ void LatticeLoad::save(model::Items which, std::span<double> memory) const {
     put(points->y);
     put(points->z);
   }
-  put(resultant_.force);
-  put(resultant_.moment);
+  const Resultant known = resultant_.value_or(Resultant{});
+  put(known.force);
+  put(known.moment);
+  *out = resultant_ ? 1.0 : 0.0;
   accepted_.wake.save(memory.last(accepted_.wake.memory_size()));
 }
 
@@ -315,8 +364,11 @@ void LatticeLoad::restore(std::span<const double> memory) {
     take(points->y);
     take(points->z);
   }
-  take(resultant_.force);
-  take(resultant_.moment);
+  Resultant known;
+  take(known.force);
+  take(known.moment);
+  resultant_.reset();
+  if (*in != 0.0) resultant_ = known;
   accepted_.wake.restore(memory.last(accepted_.wake.memory_size()));
 }
 

@@ -1,7 +1,10 @@
 #include <culm/lattice/lattice_load.hpp>
 #include <culm/lattice/register_lattice.hpp>
+#include <culm/model/size_budget.hpp>
 
 #include "surfaces.hpp"
+
+#include <fmt/format.h>
 
 #include <memory>
 #include <utility>
@@ -59,7 +62,28 @@ LatticeSetting setting_of(const Options& options) {
   return setting;
 }
 
+// Matrices of all rings on each other and their factors, and what is kept of wakes: in the accepted
+// state, in the step and in checkpoints. Before anything is made of that size.
+void take_memory(const Options& options, flow::FluidContext& context) {
+  constexpr double number = 8.0;
+  constexpr double copies = 4.0;
+  double rings = 0.0, strips = 0.0;
+  for (const Options& entry : options.list("Surfaces").entries()) {
+    const auto& panels = entry.integers("Panels");
+    rings += static_cast<double>(panels[0]) * panels[1];
+    strips += panels[1] + 1.0;
+  }
+  const double rows = options.list("Wake").integer("Rows");
+  model::MemoryNeed need;
+  need.elements = number * (copies * rings * rings + copies * 5.0 * rows * strips);
+  model::refuse_above(
+      context.memory, need,
+      fmt::format("asks for {:.0f} panels with a wake of {:.0f} rows, which", rings, rows),
+      options.where());
+}
+
 void build(const Options& options, flow::FluidContext& context) {
+  take_memory(options, context);
   const flow::SharedFlow flow = flow::find_flow(options, context);
   std::optional<Vec3> mirror;
   if (options.has("Mirror")) {

@@ -30,10 +30,6 @@ Motion::Slots slot_forces(const model::Marker& point, const Vec3& force) {
   return forces;
 }
 
-double time_of(const model::State& state, const Stencil& stencil) {
-  return (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
-}
-
 }  // namespace
 
 std::vector<int> FieldLoad::blocks(int item, const model::UnknownTable& unknowns) const {

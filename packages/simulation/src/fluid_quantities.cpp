@@ -1,5 +1,6 @@
 #include "fluid_quantities.hpp"
 
+#include <culm/base/absent.hpp>
 #include <culm/base/nearest.hpp>
 #include <culm/flow/fluid_force.hpp>
 #include <culm/strip/strip_load.hpp>
@@ -33,9 +34,13 @@ class FluidForceQuantity final : public Quantity {
   }
   void evaluate(const assembly::System& system, const model::State&,
                 std::vector<double>& numbers) const override {
-    const flow::FluidForce::Resultant own = load_.resultant();
+    const auto own = load_.resultant();
+    if (!own) {  // before the first step there is none
+      numbers.insert(numbers.end(), columns().size(), absent);
+      return;
+    }
     Vec6 sum;
-    sum << own.force, own.moment - point_.cross(own.force);
+    sum << own->force, own->moment - point_.cross(own->force);
     system.comm().sum({sum.data(), 6});
     numbers.insert(numbers.end(), sum.begin(), sum.end());
     if (!reference_) return;
@@ -98,10 +103,14 @@ class StripQuantity final : public Quantity {
   }
   void evaluate(const assembly::System& system, const model::State&,
                 std::vector<double>& numbers) const override {
+    const std::optional<strip::StationState> s = load_.state(station_);
+    if (!s) {
+      numbers.insert(numbers.end(), columns().size(), absent);
+      return;
+    }
     Vec<8> values = Vec<8>::Zero();
     if (load_.owns(station_)) {
-      const strip::StationState& s = load_.state(station_);
-      values << s.angle, s.effective_angle, s.speed, s.coefficients, s.normal, s.tangential;
+      values << s->angle, s->effective_angle, s->speed, s->coefficients, s->normal, s->tangential;
     }
     // one rank has it, so the sum is exact
     system.comm().sum({values.data(), 8});

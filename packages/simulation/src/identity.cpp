@@ -1,9 +1,12 @@
+#include <culm/base/read_file.hpp>
 #include <culm/deck/resolved.hpp>
 #include <culm/output/checksum.hpp>
 #include <culm/simulation/identity.hpp>
+#include <culm/simulation/input_files.hpp>
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <random>
 #include <span>
 #include <string_view>
@@ -44,8 +47,11 @@ std::string identity_of(const Options& deck) {
   return chain.text();
 }
 
-std::string identity_of(const model::Model& model) {
+std::string identity_of(const model::Model& model, const Options& deck) {
   Chain chain;
+  for (const std::filesystem::path& file : find_named_files(deck)) {
+    chain.add(read_file(file.string()));
+  }
   const model::State state = model.initial_state();
   chain.add(std::span(state.next.data(), static_cast<std::size_t>(state.next.size())));
   for (const model::Constraint& equation : model.equations()) {

@@ -53,10 +53,15 @@ bool is_within_results(const Path& file, const Path& folder) {
 
 }  // namespace
 
-std::vector<Path> find_input_files(const Options& deck, const DeckSource& source) {
+std::vector<Path> find_named_files(const Options& deck) {
   std::vector<Path> files;
-  for (const deck::DeckText& text : source.texts) files.emplace_back(text.name);
   add_named_files(deck, files);
+  return files;
+}
+
+std::vector<Path> find_input_files(const Options& deck, const DeckSource& source) {
+  std::vector<Path> files = find_named_files(deck);
+  for (const deck::DeckText& text : source.texts) files.emplace_back(text.name);
   for (const Options& entry : deck.list("Imperfections").entries()) {
     if (entry.has("Run")) add_run(entry.text("Run"), files);
   }

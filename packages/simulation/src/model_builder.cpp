@@ -244,7 +244,8 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   build_all(catalogue.masses, deck.list("Masses"), context);
   build_signals(catalogue.signals, deck.list("Signals"), model, functions, issues);
   build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
-  flow::FluidContext fluids(context, make_flows(catalogue.flows, deck.list("Flows"), context));
+  flow::FluidContext fluids(context, make_flows(catalogue.flows, deck.list("Flows"), context),
+                            memory);
   strip::StripContext strips(fluids, make_all(catalogue.airfoils, deck.list("Airfoils"), issues));
   build_loads(catalogue, deck.list("Loads"), setting.inactive, strips);
   auto ports = make_ports(catalogue, deck.list("Ports"), context);

@@ -62,6 +62,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   progress_.begin(name_);
   findings_.begin(name_);
   loads_.begin(context.system.model());
+  ranges_.begin(context.system.model());
   balance_ = {};
   context_ = &context;
   linear_solver_ = &linear_solver;
@@ -74,6 +75,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
 
 void RunObserver::resume(const Snapshot& snapshot) {
   loads_.restore(snapshot);
+  ranges_.restore(snapshot);
   const std::vector<double>& balance = snapshot.numbers("run/balance", 3);
   balance_.scale = balance[0];
   balance_.residual = balance[1];
@@ -126,6 +128,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     if (outcome.held_unknown) add_held(report);
     watch_turns(report.time, state);
     loads_.step(context_->system, state);
+    ranges_.step(context_->system);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) record(report.time, state);
   } else {
@@ -190,6 +193,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   source_.save(snapshot);
   findings_.save(snapshot);
   loads_.save(snapshot);
+  ranges_.save(snapshot);
   snapshot.set("run/balance", {balance_.scale, balance_.residual, balance_.time});
   snapshot.set_text("run/balance row", balance_.row);
   earlier_.save(snapshot);
@@ -293,6 +297,7 @@ void RunObserver::report_turns(double time) {
 void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
   report_turns(state.time);
+  ranges_.report(state.time, findings_);
   start(state);  // also where a run fails before its first step
   const Ledger::Scope scope(ledger_, states_effect_);
   // a run that fails leaves its last accepted state

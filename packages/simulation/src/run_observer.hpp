@@ -12,6 +12,7 @@
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
 #include "load_watch.hpp"
+#include "range_watch.hpp"
 
 #include <optional>
 
@@ -107,6 +108,7 @@ class RunObserver final : public analysis::Observer {
   bool is_recorded_ = false;  // the last accepted state is on disk, or none to keep
   bool has_started_ = false;  // the state at the start is on disk
   LoadWatch loads_;
+  RangeWatch ranges_;
   Balance balance_;
   std::string certificates_;
   std::optional<analysis::ElementTurns> turns_;  // of the analysis

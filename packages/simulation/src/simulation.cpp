@@ -55,11 +55,11 @@ output::RunInfo describe_run(const Options& deck, const model::Model& model,
   output::RunInfo info{deck.text("Title"), std::string(version), deck::resolved(deck)};
   info.run = from == nullptr ? new_run_identity(comm) : from->text("run/id");
   info.deck = identity_of(deck);
-  info.model = identity_of(model);
+  info.model = identity_of(model, deck);
   if (from != nullptr && from->text("run/model") != info.model) {
     throw FileError(
-        "the checkpoint belongs to another model than the one that the deck makes: a table or a "
-        "mesh that it reads has changed");
+        "the checkpoint belongs to another model than the one that the deck makes: a table, a mesh "
+        "or another file that it reads has changed");
   }
   return info;
 }

@@ -124,7 +124,9 @@ Schema strip_schema() {
                .min_size(2)
                .optional())
       .add(number("Chord", "m", "Chord, the same everywhere.").positive().optional())
-      .add(numbers("Chords", "m", "Chords at the positions, linear in between.").optional())
+      .add(numbers("Chords", "m", "Chords at the positions, linear in between.")
+               .positive()
+               .optional())
       .add(
           number("Twist", "rad", "Turn of the chord about the axis, nose towards the suction side.")
               .optional(0.0))

@@ -3,9 +3,10 @@
 
 #include "section_forces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace culm::strip {
 namespace {
@@ -65,26 +66,38 @@ void put(const Vector<Dual>& force, int column, Columns& values, Mat<9, 9>& deri
   }
 }
 
-double time_of(const model::State& state, const Stencil& stencil) {
-  return (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
-}
-
 }  // namespace
 
 struct StripLoad::Evaluation {
   Columns forces = Columns::Zero();          // on axis, chord and normal [N]
   Mat<9, 9> derivative = Mat<9, 9>::Zero();  // by those at the end of the step
-  SectionStates memory;
-  StationState seen;
+  StationEnd end;
 };
+
+std::array<double, StationState::size> StationState::numbers() const {
+  const Vec3 &c = coefficients, &f = resultant.force, &m = resultant.moment;
+  return {angle,      effective_angle, speed, c[0], c[1], c[2], normal,
+          tangential, attached,        f[0],  f[1], f[2], m[0], m[1],
+          m[2]};
+}
+
+void StationState::set(std::span<const double> values) {
+  angle = values[0];
+  effective_angle = values[1];
+  speed = values[2];
+  coefficients = Vec3(values.data() + 3);
+  normal = values[6];
+  tangential = values[7];
+  attached = values[8];
+  resultant = {Vec3(values.data() + 9), Vec3(values.data() + 12)};
+}
 
 void StripLoad::add(Station station) {
   stations_.push_back(std::move(station));
-  states_.emplace_back();
   owned_.push_back(false);
   induced_.push_back(Vec3::Zero());
-  memory_.emplace_back();
-  next_memory_.emplace_back();
+  accepted_.emplace_back();
+  trial_.emplace_back();
 }
 
 std::vector<int> StripLoad::blocks(int item, const model::UnknownTable& unknowns) const {
@@ -113,7 +126,7 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
     const Columns moved = next - prev;
     found.velocity = (moved.col(0) + eta * moved.col(1)) / stencil.step;
   }
-  found.wind = flow_->velocity(found.place, time_of(state, stencil));
+  found.wind = flow_->velocity(found.place, load::time_of(state, stencil));
   return found;
 }
 
@@ -139,14 +152,15 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
 
   Surroundings around;
   around.density = flow_->density();
-  around.step = moves ? stencil.step : 0.0;
-  around.memory = memory_[station_number];
+  // where there is no inertia, a linearisation asks: lags have ended
+  around.step = moves && stencil.inertia > 0.0 ? stencil.step : 0.0;
+  around.memory = accepted_[station_number].memory;
   const Columns middle = (1.0 - theta) * prev + theta * next;
   const std::array<Vec3, 2> places = {
       middle.col(0) + (0.25 - station.axis_at) * station.chord * middle.col(1),
       middle.col(0) + (0.75 - station.axis_at) * station.chord * middle.col(1)};
   std::array<Vec3, 2> winds;
-  flow_->velocities(places, time_of(state, stencil), winds);
+  flow_->velocities(places, load::time_of(state, stencil), winds);
   around.wind_at_quarter = winds[0] + induced_[station_number];
   around.wind_at_three_quarters = winds[1] + induced_[station_number];
 
@@ -158,11 +172,10 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   const double factor = station.length * (mass ? 1.0 : amplitude_.in_step(state, stencil));
   result.forces *= factor;
   result.derivative *= factor;
-  result.memory = loads.memory;
-  result.seen = loads.seen;
-  result.seen.resultant.force = result.forces.col(0);
+  result.end = {loads.memory, loads.seen};
+  result.end.seen.resultant.force = result.forces.col(0);
   for (int k = 0; k < 3; ++k) {
-    result.seen.resultant.moment += Vec3(middle.col(k)).cross(Vec3(result.forces.col(k)));
+    result.end.seen.resultant.moment += Vec3(middle.col(k)).cross(Vec3(result.forces.col(k)));
   }
   return result;
 }
@@ -187,10 +200,7 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
                                    : evaluate<double>(number, state, stencil, want);
   if (!std::isfinite(found.forces.sum())) return Verdict::not_finite;
   const bool mass = want == Want::mass;
-  if (!mass) {
-    next_memory_[number] = found.memory;
-    states_[number] = found.seen;
-  }
+  if (!mass) trial_[number] = found.end;
   const double theta = mass ? 1.0 : stencil.theta;
   const Motion motion(nodes_, station.point.nodes, state, theta);
   for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
@@ -228,36 +238,74 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
 }
 
 void StripLoad::accept(model::State&) {
-  memory_ = next_memory_;
-  resultant_ = {};
+  accepted_ = trial_;
+  has_stepped_ = true;
+}
+
+std::optional<flow::FluidForce::Resultant> StripLoad::resultant() const {
+  if (!has_stepped_) return {};
+  Resultant sum;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!owned_[i]) continue;
-    resultant_.force += states_[i].resultant.force;
-    resultant_.moment += states_[i].resultant.moment;
+    sum.force += accepted_[i].seen.resultant.force;
+    sum.moment += accepted_[i].seen.resultant.moment;
   }
+  return sum;
+}
+
+double StripLoad::range_used() const {
+  double used = 0.0;
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (!owned_[i]) continue;
+    for (const SharedAirfoil* airfoil : {&stations_[i].airfoil, &stations_[i].next_airfoil}) {
+      if (*airfoil == nullptr) continue;
+      const std::optional<double> limit = (*airfoil)->good_to();
+      if (limit) used = std::max(used, std::abs(accepted_[i].seen.effective_angle) / *limit);
+    }
+  }
+  return used;
+}
+
+std::string StripLoad::range_warning(double used) const {
+  return fmt::format(
+      "{}: sections meet the wind at angles up to {:.2g} times the one to which their airfoils are "
+      "good, 15 degrees of a 'Thin' one: it does not stall, and real ones do. Take a 'Polar'",
+      effect().quoted(), used);
+}
+
+std::string StripLoad::left_out_of_modes() const {
+  if (model_.lag.states == 0 && model_.stall == Stall::none) return {};
+  return effect().quoted() +
+         ": linear analyses see its air without the lag and the stall, which have no unknowns: "
+         "damping by air and flutter are others. A motion in time knows them";
 }
 
 std::size_t StripLoad::memory_size() const {
-  return remembers() ? stations_.size() * SectionStates::size : 0;
+  return 1 + stations_.size() * (SectionStates::size + StationState::size);
 }
 
 void StripLoad::save(model::Items items, std::span<double> numbers) const {
-  if (!remembers()) return;
+  const auto rest = numbers.subspan(1);
+  if (items == model::Items::local || owned_[0]) numbers[0] = has_stepped_ ? 1.0 : 0.0;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (items == model::Items::owned && !placement().owned[i]) continue;
     const auto number = static_cast<std::size_t>(placement().items[i]);
-    std::ranges::copy(memory_[number].numbers(),
-                      numbers.subspan(number * SectionStates::size).begin());
+    const auto place = rest.subspan(number * (SectionStates::size + StationState::size));
+    std::ranges::copy(accepted_[number].memory.numbers(), place.begin());
+    std::ranges::copy(accepted_[number].seen.numbers(), place.subspan(SectionStates::size).begin());
   }
 }
 
 void StripLoad::restore(std::span<const double> numbers) {
-  if (!remembers()) return;
+  has_stepped_ = numbers[0] != 0.0;
+  const auto rest = numbers.subspan(1);
   for (const int item : placement().items) {
     const auto number = static_cast<std::size_t>(item);
-    memory_[number].set(numbers.subspan(number * SectionStates::size, SectionStates::size));
-    next_memory_[number] = memory_[number];
+    const auto place = rest.subspan(number * (SectionStates::size + StationState::size));
+    accepted_[number].memory.set(place.first(SectionStates::size));
+    accepted_[number].seen.set(place.subspan(SectionStates::size, StationState::size));
   }
+  trial_ = accepted_;
 }
 
 model::StepWork StripLoad::step_work(const model::State& state, const Stencil& stencil) const {

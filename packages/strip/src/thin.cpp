@@ -19,6 +19,8 @@ class Thin final : public Airfoil {
     return {slope_ * std::sin(alpha - zero_lift_), drag_, moment_};
   }
 
+  std::optional<double> good_to() const override { return std::numbers::pi / 12.0; }
+
  private:
   double slope_, zero_lift_, drag_, moment_;
 };

@@ -178,7 +178,6 @@ TEST(StripLoads, RememberTheLagForRunsThatGoOn) {
   first.start(placed(0, 0, 0), model::Coordinates(12, 0.0));
   for (int n = 1; n < 5; ++n) first.go(placed(0, 0.02 * n, 0.03 * n));
   std::vector<double> memory(first.load().memory_size());
-  ASSERT_EQ(memory.size(), SectionStates::size);
   first.load().save(model::Items::owned, memory);
   second.start(first.state().prev, first.state().velocity);
   second.load().restore(memory);

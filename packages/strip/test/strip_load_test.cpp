@@ -1,6 +1,5 @@
-#include <culm/strip/strip_load.hpp>
+#include "strip_kit.hpp"
 
-#include <culm_kit/batch_laws.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,16 +13,7 @@ namespace {
 constexpr const char* effect = "Strip, tested";
 constexpr double pi = std::numbers::pi;
 
-class Wind final : public flow::Flow {
- public:
-  Wind(double density, const Vec3& velocity) : Flow(density), velocity_(velocity) {}
-  void velocities(std::span<const Vec3>, double, std::span<Vec3> velocities) const override {
-    std::fill(velocities.begin(), velocities.end(), velocity_);
-  }
-
- private:
-  Vec3 velocity_;
-};
+using test::Wind;
 
 // Lift and drag that vary with the angle in their own ways, and a moment.
 class Bent final : public Airfoil {
@@ -131,7 +121,49 @@ TEST(StripLoad, SteadyLiftIsAcrossTheWindAtTheQuarterChord) {
   EXPECT_NEAR(load[1], lift * std::cos(alpha), 1e-12 * lift);
   // lift acts 0.15 chords before the axis: nose up, which is about -z
   EXPECT_NEAR(load[5], -0.15 * load[1], 1e-12 * lift);
-  EXPECT_NEAR(section.batch->state(0).angle, alpha, 1e-15);
+  EXPECT_FALSE(section.batch->state(0));  // nothing was accepted
+  EXPECT_FALSE(section.batch->resultant());
+  section.batch->accept(section.state);
+  EXPECT_NEAR(section.batch->state(0)->angle, alpha, 1e-15);
+  EXPECT_NEAR(section.batch->resultant()->force[1], load[1], 1e-12 * lift);
+  EXPECT_NEAR(section.batch->resultant()->moment[2], load[5], 1e-12 * lift);
+}
+
+// What was accepted comes back, and what was tried since does not count.
+TEST(StripLoad, StationsAreThoseOfTheAcceptedStep) {
+  Section section({Lag::jones(), true}, Vec3(20.0, 2.0, 0.0), 0.4, std::make_shared<Flat>());
+  section.load(Stencil::statics());
+  section.batch->accept(section.state);
+  std::vector<double> memory(section.batch->memory_size());
+  section.batch->save(model::Items::owned, memory);
+  const double angle = section.batch->state(0)->angle;
+  const Vec3 force = section.batch->resultant()->force;
+  section.state.next[1] += 1.0;
+  section.load(Stencil::midpoint(0.1));
+  EXPECT_EQ(section.batch->state(0)->angle, angle);
+  section.batch->accept(section.state);
+  EXPECT_NE(section.batch->state(0)->angle, angle);
+  section.batch->restore(memory);
+  EXPECT_EQ(section.batch->state(0)->angle, angle);
+  EXPECT_EQ(section.batch->resultant()->force, force);
+}
+
+TEST(StripLoad, SaysWhereItsMethodEnds) {
+  class Limited final : public Airfoil {
+   public:
+    Coefficients at(double, Coefficients& slope) const override { return slope.setZero(); }
+    std::optional<double> good_to() const override { return 0.2; }
+  };
+  for (const double angle : {0.1, 0.3}) {
+    Section section({Lag::jones(), true}, 20.0 * Vec3(std::cos(angle), std::sin(angle), 0.0), 0.25,
+                    std::make_shared<Limited>());
+    section.load(Stencil::statics());
+    section.batch->accept(section.state);
+    EXPECT_NEAR(section.batch->range_used(), angle / 0.2, 1e-13);
+    EXPECT_FALSE(section.batch->left_out_of_modes().empty());
+  }
+  Section steady({}, Vec3::UnitX(), 0.25, std::make_shared<Limited>());
+  EXPECT_TRUE(steady.batch->left_out_of_modes().empty());
 }
 
 TEST(StripLoad, MomentIsNoseUp) {
@@ -149,13 +181,13 @@ TEST(StripLoad, SuddenStartFollowsWagner) {
                   std::make_shared<Flat>());
   const double expected[] = {0.550374, 0.594165};  // after half chords 0.5 and 1
   int known = 0;
-  std::array<double, 2> states{};
+  std::vector<double> memory(section.batch->memory_size());
   for (int step = 1; step <= 5; ++step) {
     section.load(Stencil::midpoint(h));
     section.batch->accept(section.state);
-    section.batch->save(model::Items::local, states);
+    section.batch->save(model::Items::local, memory);
     const double s = V * step * h / Section::b;
-    const double share = 0.5 + (states[0] + states[1]) / (V * std::sin(alpha));
+    const double share = 0.5 + (memory[1] + memory[2]) / (V * std::sin(alpha));
     const double jones = 1.0 - 0.165 * std::exp(-0.0455 * s) - 0.335 * std::exp(-0.3 * s);
     EXPECT_NEAR(share, jones, 1e-13);
     if (known < 2 && std::abs(s - 0.5 * (known + 1)) < 1e-9) {

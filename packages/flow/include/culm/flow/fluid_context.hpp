@@ -15,11 +15,14 @@ namespace culm::flow {
 /// needs of others is taken up when all of them are there.
 class FluidContext {
  public:
-  FluidContext(model::BuildContext& context, std::map<std::string, SharedFlow> all_flows)
-      : build(context), flows(std::move(all_flows)) {}
+  /// @param allowed  memory that a load may need [B]
+  FluidContext(model::BuildContext& context, std::map<std::string, SharedFlow> all_flows,
+               double allowed)
+      : build(context), flows(std::move(all_flows)), memory(allowed) {}
 
   model::BuildContext& build;
   const std::map<std::string, SharedFlow> flows;  ///< list "Flows"
+  const double memory;                            ///< that a load may need [B]
 
   /// Leaves something to do until all loads of the deck are there.
   void after_all_loads(std::function<void()> work) { later_.push_back(std::move(work)); }

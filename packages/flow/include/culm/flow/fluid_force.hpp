@@ -3,6 +3,8 @@
 
 #include <culm/math/types.hpp>
 
+#include <optional>
+
 namespace culm::flow {
 
 /// A load from a fluid that knows its resultant.
@@ -14,8 +16,9 @@ class FluidForce {
     Vec3 force = Vec3::Zero();   ///< [N]
     Vec3 moment = Vec3::Zero();  ///< about the origin [N m]
   };
-  /// In the last accepted step, of what this rank counts in sums; zero before the first.
-  virtual Resultant resultant() const = 0;
+  /// In the last accepted step, of what this rank counts in sums; nothing before the first, on all
+  /// ranks alike.
+  virtual std::optional<Resultant> resultant() const = 0;
 };
 
 }  // namespace culm::flow

@@ -63,6 +63,7 @@ class Lattice {
       : bound_(std::move(bound)), flow_(std::move(flow)), setting_(setting) {}
 
   const BoundLattice& bound() const { return bound_; }
+  const flow::Flow& flow() const { return *flow_; }
   /// At rest, without circulation and wake.
   FluidState initial_state() const;
 

@@ -4,6 +4,7 @@
 #include <culm/flow/fluid_force.hpp>
 #include <culm/lattice/lattice.hpp>
 #include <culm/model/memoryless_batch.hpp>
+#include <culm/model/method_limits.hpp>
 #include <culm/model/structure.hpp>
 
 #include <optional>
@@ -21,7 +22,10 @@ struct SurfaceGrid {
 /// A lattice whose grid points are material points of structures. Statics take the steady flow,
 /// dynamics one step of the unsteady one per time step. Each evaluation solves the lattice for the
 /// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it.
-class LatticeLoad final : public model::MemorylessBatch, public flow::FluidForce {
+class LatticeLoad final : public model::MemorylessBatch,
+                          public model::LimitedRange,
+                          public model::LeftOutOfModes,
+                          public flow::FluidForce {
  public:
   LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
               std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror, flow::SharedFlow flow,
@@ -50,7 +54,10 @@ class LatticeLoad final : public model::MemorylessBatch, public flow::FluidForce
   const FluidState& fluid() const { return accepted_; }
   /// Forces at grid points in it [N].
   const Points& forces() const { return accepted_forces_; }
-  Resultant resultant() const override { return counts() ? resultant_ : Resultant{}; }
+  std::optional<Resultant> resultant() const override;
+  double range_used() const override { return counts() ? range_used_ : 0.0; }
+  std::string range_warning(double used) const override;
+  std::string left_out_of_modes() const override;
   /// Grid points in a configuration.
   Points grid(const model::Coordinates& q) const;
 
@@ -69,6 +76,7 @@ class LatticeLoad final : public model::MemorylessBatch, public flow::FluidForce
   static Resultant resultant_of(const Points& forces, const Points& places);
   const FluidResult& result_at(const model::State& state) const;
   Vec3 normal_at(std::size_t point, const Points& grid) const;
+  double largest_angle(const Points& grid, const Points& velocity, double time) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, const Points& forces, model::Target& target) const;
@@ -81,7 +89,8 @@ class LatticeLoad final : public model::MemorylessBatch, public flow::FluidForce
 
   FluidState accepted_;
   Points accepted_forces_;
-  Resultant resultant_;
+  std::optional<Resultant> resultant_;
+  double range_used_ = 0.0;
 
   // of the step that is tried
   double step_ = 0.0;

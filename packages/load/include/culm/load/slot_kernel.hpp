@@ -96,6 +96,11 @@ void add_signal_columns(const model::Placement& placement, std::size_t i, const 
   }
 }
 
+/// The time at which the loads of a step are taken [s].
+inline double time_of(const model::State& state, const Stencil& stencil) {
+  return (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
+}
+
 /// Adds what the external slot forces of an item do in a step; their work only if `works`.
 template <class Motion, class Forces>
 void add_item_work(const Forces& forces, const Motion& motion, const std::vector<int>& nodes,

@@ -15,8 +15,8 @@ std::string new_run_identity(const parallel::Comm& comm);
 /// A checksum of the deck with all variables and defaults resolved; 16 hexadecimal digits.
 std::string identity_of(const Options& deck);
 
-/// A checksum of what the deck and the files it reads have become: nodes, equations, batches with
-/// their memories, and functions of time at their corners. @pre the model is frozen
-std::string identity_of(const model::Model& model);
+/// A checksum of the files that the deck reads, and of what both have become: nodes, equations,
+/// batches with their memories, and functions of time at their corners. @pre the model is frozen
+std::string identity_of(const model::Model& model, const Options& deck);
 
 }  // namespace culm::simulation

@@ -15,6 +15,9 @@ namespace culm::simulation {
 /// other runs that it starts from or takes shapes from; those that are there.
 std::vector<std::filesystem::path> find_input_files(const Options& deck, const DeckSource& source);
 
+/// Tables, meshes and other files that the lists of a deck name (parameters "File Name").
+std::vector<std::filesystem::path> find_named_files(const Options& deck);
+
 /// Throws FileError on all ranks if a file to be written is one of the inputs, under this name or,
 /// by links, another one.
 void refuse_overwriting(const parallel::Comm& comm,

@@ -6,6 +6,7 @@
 #include <culm/strip/separation.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace culm::strip {
 
@@ -19,6 +20,8 @@ class Airfoil {
   /// @param alpha  angle of attack from -pi to pi [rad]
   /// @param slope  derivatives of the coefficients by it [1/rad]
   virtual Coefficients at(double alpha, Coefficients& slope) const = 0;
+  /// Largest angle at which the coefficients mean something [rad]; none: all do.
+  virtual std::optional<double> good_to() const { return {}; }
   /// How it stalls; null if it never does, or has no lift.
   virtual const Separation* separation() const { return nullptr; }
 };

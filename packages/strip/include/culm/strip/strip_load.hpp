@@ -5,12 +5,14 @@
 #include <culm/flow/fluid_force.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/memoryless_batch.hpp>
+#include <culm/model/method_limits.hpp>
 #include <culm/model/structure.hpp>
 #include <culm/strip/airfoil.hpp>
 #include <culm/strip/lag.hpp>
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -30,7 +32,7 @@ struct Station {
   double blend = 0.0;                             ///< share of the second one
 };
 
-/// What a station saw and felt in the step that was evaluated last.
+/// What a station saw and felt in a step.
 struct StationState {
   double angle = 0.0;            ///< of attack at the three-quarter chord [rad]
   double effective_angle = 0.0;  ///< behind the lag [rad]
@@ -41,6 +43,10 @@ struct StationState {
   /// Attached share of the chord by the states of stall; one without them [-].
   double attached = 1.0;
   flow::FluidForce::Resultant resultant = {};  ///< of the whole station
+
+  static constexpr std::size_t size = 15;
+  std::array<double, size> numbers() const;
+  void set(std::span<const double> values);
 };
 
 /// Where a station is in a step, and what it meets there. @source fluids B2, B3
@@ -94,7 +100,10 @@ struct SectionStates {
 /// still, and lags have ended. States of the lag start at zero, as after a sudden start from rest,
 /// unless a static analysis was before; those of stall with a flow that is attached. @source fluids
 /// B0, B2, B4
-class StripLoad final : public model::MemorylessBatch, public flow::FluidForce {
+class StripLoad final : public model::MemorylessBatch,
+                        public model::LimitedRange,
+                        public model::LeftOutOfModes,
+                        public flow::FluidForce {
  public:
   static constexpr int max_nodes = 4;
 
@@ -109,9 +118,11 @@ class StripLoad final : public model::MemorylessBatch, public flow::FluidForce {
   void add(Station station);
 
   const std::vector<Station>& stations() const { return stations_; }
-  /// Of a station of this rank; zeros elsewhere.
-  const StationState& state(int station) const {
-    return states_[static_cast<std::size_t>(station)];
+  /// Of a station of this rank in the last accepted step; nothing before the first one, on all
+  /// ranks alike.
+  std::optional<StationState> state(int station) const {
+    if (!has_stepped_) return {};
+    return accepted_[static_cast<std::size_t>(station)].seen;
   }
   /// The flow that a station meets in the step from state.prev to state.next, before anything is
   /// induced; of any station of the model, if all ranks know all nodes.
@@ -134,14 +145,23 @@ class StripLoad final : public model::MemorylessBatch, public flow::FluidForce {
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void accept(model::State& state) override;
-  Resultant resultant() const override { return resultant_; }
+  /// Velocities are those in the middle of the step, which other schemes do not know.
+  bool needs_mean_velocity() const override { return true; }
+  std::optional<Resultant> resultant() const override;
+  double range_used() const override;
+  std::string range_warning(double used) const override;
+  std::string left_out_of_modes() const override;
   std::size_t memory_size() const override;
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
-  bool remembers() const { return model_.lag.states > 0 || model_.stall != Stall::none; }
+  /// A station at the end of a step.
+  struct StationEnd {
+    SectionStates memory;
+    StationState seen;
+  };
   struct Evaluation;
   template <class Number>
   Evaluation evaluate(std::size_t station, const model::State& state, const Stencil& stencil,
@@ -155,11 +175,10 @@ class StripLoad final : public model::MemorylessBatch, public flow::FluidForce {
   flow::SharedFlow flow_;
   StripModel model_;
   std::vector<Station> stations_;
-  std::vector<StationState> states_;
   std::vector<bool> owned_;
   std::vector<Vec3> induced_;
-  Resultant resultant_;
-  std::vector<SectionStates> memory_, next_memory_;  // of the accepted state, and of the trial
+  std::vector<StationEnd> accepted_, trial_;
+  bool has_stepped_ = false;
 };
 
 }  // namespace culm::strip
