@@ -102,7 +102,7 @@ std::string make_text(const ModeSet& set, const ReportTable& table) {
   text += fmt::format("{:>5} {:>13}{:>{}} {:>12} {}\n", "sum", "", "", damping_title.size(),
                       fmt::format("{:.4g} kg", set.total[0]), percent(sum));
   text += count_text(zero, "at 0 Hz: rigid-body motions and mechanisms");
-  text += count_text(growing, "that grow: the state is unstable");
+  text += count_text(growing, "growing: the state is unstable");
   return text +
          fmt::format("eigensolver: {}, largest residual {:.1e}\n", set.solver, set.worst_residual);
 }

@@ -44,14 +44,15 @@ class ChannelFlow final : public MassModel {
     masses_ = channel_masses(channel_, static_cast<int>(n), distance);
     MassModel::begin(reference, velocity);
   }
+  VectorXd forces(const VectorXd& moved, double h) const override {
+    const VectorXd along = -2.0 / h * momentum(taken(moved) / h - velocity());
+    return (channel_.normal * along.transpose()).reshaped();
+  }
 
  private:
   VectorXd momentum(const VectorXd& velocity) const override { return masses_ * velocity; }
   VectorXd taken(const VectorXd& motion) const override {
     return motion.reshaped(3, motion.size() / 3).transpose() * channel_.normal;
-  }
-  VectorXd given(const VectorXd& forces) const override {
-    return (channel_.normal * forces.transpose()).reshaped();
   }
 
   FlowChannel channel_;

@@ -13,9 +13,6 @@ class MassModel : public PointModel {
     velocity_ = taken(velocity);
     start_ = kinetic();
   }
-  Eigen::VectorXd forces(const Eigen::VectorXd& moved, double h) const override {
-    return given(-2.0 / h * momentum(taken(moved) / h - velocity_));
-  }
   void accept(const Eigen::VectorXd& moved, double h) override {
     velocity_ = 2.0 / h * taken(moved) - velocity_;
   }
@@ -33,9 +30,9 @@ class MassModel : public PointModel {
  protected:
   /// M v.
   virtual Eigen::VectorXd momentum(const Eigen::VectorXd& velocity) const = 0;
-  /// The part of motions that has inertia, and forces on it for all coordinates: transposed.
+  /// The part of motions that has inertia.
   virtual Eigen::VectorXd taken(const Eigen::VectorXd& motion) const { return motion; }
-  virtual Eigen::VectorXd given(const Eigen::VectorXd& forces) const { return forces; }
+  const Eigen::VectorXd& velocity() const { return velocity_; }
 
  private:
   double kinetic() const { return 0.5 * velocity_.dot(momentum(velocity_)); }

@@ -1,4 +1,5 @@
 #include <culm/coupling/point_partner.hpp>
+#include <culm/coupling/point_values.hpp>
 
 #include "mass_model.hpp"
 
@@ -9,17 +10,6 @@ namespace culm::coupling {
 namespace {
 
 using Eigen::VectorXd;
-
-// The first three of six numbers per point.
-VectorXd translations(const std::vector<double>& values) {
-  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(
-      values.data(), 6, static_cast<Eigen::Index>(values.size() / 6));
-  return all.topRows<3>().reshaped();
-}
-
-VectorXd as_vector(const std::vector<double>& values) {
-  return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 
 VectorXd with_moments(const VectorXd& forces) {
   const Eigen::Index points = forces.size() / 3;
@@ -32,6 +22,9 @@ VectorXd with_moments(const VectorXd& forces) {
 class AddedMass final : public MassModel {
  public:
   explicit AddedMass(double mass) : mass_(mass) {}
+  VectorXd forces(const VectorXd& moved, double h) const override {
+    return -2.0 * mass_ / h * (moved / h - velocity());
+  }
 
  private:
   VectorXd momentum(const VectorXd& velocity) const override { return mass_ * velocity; }

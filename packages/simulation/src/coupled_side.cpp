@@ -17,16 +17,6 @@ namespace culm::simulation {
 
 using Eigen::VectorXd;
 
-VectorXd translations(const std::vector<double>& values) {
-  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(
-      values.data(), 6, static_cast<Eigen::Index>(values.size() / 6));
-  return all.topRows<3>().reshaped();
-}
-
-VectorXd as_vector(const std::vector<double>& values) {
-  return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
 double size_of(const std::vector<double>& points) {
   const Eigen::Map<const Eigen::Matrix3Xd> x(points.data(), 3,
                                              static_cast<Eigen::Index>(points.size() / 3));

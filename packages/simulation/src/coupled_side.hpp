@@ -3,6 +3,7 @@
 
 #include <culm/base/options.hpp>
 #include <culm/coupling/loose_watch.hpp>
+#include <culm/coupling/point_values.hpp>
 #include <culm/coupling/register_coupling.hpp>
 #include <culm/parallel/comm.hpp>
 #include <culm/port/port.hpp>
@@ -15,6 +16,9 @@
 #include <vector>
 
 namespace culm::simulation {
+
+using coupling::as_vector;
+using coupling::translations;
 
 /// Where a coupling of a deck writes, and what it hears again.
 struct CoupledFiles {
@@ -53,9 +57,6 @@ struct CoupledSide {
 
 /// Sets loads at a port, three forces and three moments per point [N, N m].
 void set_loads(port::Port& port, const Eigen::VectorXd& loads);
-/// The first three of six numbers per point.
-Eigen::VectorXd translations(const std::vector<double>& values);
-Eigen::VectorXd as_vector(const std::vector<double>& values);
 /// Root mean square distance of points from their centre; of one point one metre.
 double size_of(const std::vector<double>& points);
 

@@ -21,14 +21,7 @@ OF_TABLES = ("frequency [Hz]", "factor")
 
 def declare(parser):
     parser.add_argument("deck", type=pathlib.Path, help="input deck, XML")
-    parser.add_argument(
-        "--vary", nargs="+", default=[], metavar="NAME=VALUES",
-        help="as for culm study: step=0.04:0.0025/2, order=1,2, or any path or variable of --set; "
-        "all combinations are run",
-    )
-    parser.add_argument(
-        "--paired", nargs="+", default=[], metavar="NAME", help="vary these together instead"
-    )
+    variation.declare(parser, required=False)
     parser.add_argument(
         "--cases", type=pathlib.Path, metavar="CSV",
         help="a run per line instead; the first line names the paths or variables",
@@ -37,7 +30,6 @@ def declare(parser):
         "--watch", nargs="+", default=[], metavar="QUANTITY",
         help="entries of the history, such as tip or tip/uz; the whole history if not given",
     )
-    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="for all runs")
     declare_jobs(parser, "runs")
     declare_part(parser, "runs")
     parser.add_argument("--collect", action="store_true", help="run nothing: write what was run")

@@ -19,14 +19,7 @@ TARGET = "target.xml"
 
 def declare(parser):
     parser.add_argument("deck", type=pathlib.Path, help="input deck, XML")
-    parser.add_argument(
-        "--vary", nargs="+", required=True, metavar="NAME=VALUES",
-        help="step=0.04:0.0025/2, mesh=1:8*2, scheme=Conserving,Trapezoidal, or any path of --set; "
-        f"short names: {', '.join(variation.SHORT_NAMES)}; all combinations are run",
-    )
-    parser.add_argument(
-        "--paired", nargs="+", default=[], metavar="NAME", help="vary these together instead"
-    )
+    variation.declare(parser, required=True)
     parser.add_argument(
         "--watch", nargs="+", default=[], metavar="QUANTITY",
         help="entries of the history, such as tip or tip/uz, or 'energy drift', 'momentum drift', "
@@ -38,7 +31,6 @@ def declare(parser):
     parser.add_argument(
         "--norm", choices=quantities.NORMS, help="of errors; rms over time for dynamics, otherwise end"
     )
-    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="for all runs")
     parser.add_argument(
         "--reference", type=pathlib.Path, help="history.csv, or the folder of a run, instead of refinement"
     )

@@ -51,6 +51,19 @@ NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 RANGE = re.compile(rf"({NUMBER}):({NUMBER})([*/])({NUMBER})")
 
 
+def declare(parser, required):
+    """What is varied, the same for all verbs that vary a deck."""
+    parser.add_argument(
+        "--vary", nargs="+", required=required, default=[], metavar="NAME=VALUES",
+        help="step=0.04:0.0025/2, mesh=1:8*2, scheme=Conserving,Trapezoidal, or any path of --set; "
+        f"short names: {', '.join(SHORT_NAMES)}; all combinations are run",
+    )
+    parser.add_argument(
+        "--paired", nargs="+", default=[], metavar="NAME", help="vary these together instead"
+    )
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="for all runs")
+
+
 @dataclasses.dataclass
 class Axis:
     """One variation: values from coarse to fine if it is refined, otherwise as given."""
