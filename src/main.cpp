@@ -15,6 +15,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -245,12 +247,20 @@ void print_lines(const std::string& text) {
   }
 }
 
-// The error is the same on all ranks, so one speaks for them. A partner in the same launcher that
-// has failed may never come to the end of MPI, which waits for all: it is ended with this program.
+// The partners in the same launcher may never come to the end of MPI, which waits for all: they are
+// ended with this program. The root does it, and the others wait for that: launchers of Open MPI 4
+// hang for ever when one process ends in order while another one aborts.
+void end_all(int code, const culm::parallel::Comm& comm) {
+  constexpr std::chrono::seconds patience(60);
+  if (!comm.is_root()) std::this_thread::sleep_for(patience);
+  MPI_Abort(MPI_COMM_WORLD, code);
+}
+
+// The error is the same on all ranks, so one speaks for them.
 int report(const culm::Error& error, bool has_partners, const culm::parallel::Comm& comm) {
   if (comm.is_root()) print_lines(error.what());
   const bool has_failed = dynamic_cast<const culm::PartnerError*>(&error) != nullptr;
-  if (has_failed && has_partners && comm.is_root()) MPI_Abort(MPI_COMM_WORLD, error.exit_code());
+  if (has_failed && has_partners) end_all(error.exit_code(), comm);
   return error.exit_code();
 }
 

@@ -341,7 +341,8 @@ class Partners(CouplingTest):
                     self.assertNotEqual(process.returncode, 0)
                     self.assertEqual(self.rows(way), 5, errors)
                 else:
-                    self.assertEqual(process.returncode, FAILED_PARTNER, output + errors)
+                    # launchers of Open MPI 4 crash in one of a hundred aborts, after all is said and written
+                    self.assertIn(process.returncode, (FAILED_PARTNER, -signal.SIGSEGV), output + errors)
                     self.dies(way, said[way], errors)
 
     def test_over_mpi_that_die_and_are_resumed(self):
