@@ -125,7 +125,7 @@ class Finder {
           "them");
     }
     set_.is_complex ? find_complex() : find_real();
-    warn_of_rounding();
+    if (!settings_.expects_zero) warn_of_rounding();
     warn_of_relaxation();
     const ModeMasses masses(context_.system.model(), state_);
     set_.total = masses.total();
@@ -225,16 +225,24 @@ class Finder {
     RelaxingPencil pencil{
         whole(*linear_.stiffness, comm), whole(damping, comm), whole(*linear_.mass, comm), {}};
     for (const LinearBranches& branch : linear_.branches) {
-      const SparseMatrix stiffness = whole(*branch.stiffness, comm);
-      if (!rotor_) {
-        pencil.terms.push_back({stiffness.cast<Complex>(), branch.time, 0.0});
-        continue;
-      }
-      for (BranchTerm& term : rotor_->terms_of(stiffness, branch.time)) {
-        pencil.terms.push_back(std::move(term));
-      }
+      add_terms(whole(*branch.stiffness, comm), branch.time, false, pencil);
+      if (branch.damping.is_null()) continue;
+      add_terms(whole(*branch.damping, comm), branch.time, true, pencil);
     }
     return pencil;
+  }
+
+  void add_terms(SparseMatrix branches, double time, bool of_velocity,
+                 RelaxingPencil& pencil) const {
+    branches.prune(0.0);
+    if (branches.nonZeros() == 0) return;
+    if (!rotor_) {
+      pencil.terms.push_back({branches.cast<Complex>(), time, 0.0, of_velocity});
+      return;
+    }
+    for (BranchTerm& term : rotor_->terms_of(branches, time, of_velocity)) {
+      pencil.terms.push_back(std::move(term));
+    }
   }
 
   // From the modes of the lasting stiffness to those with branches, by their size again.
@@ -308,8 +316,8 @@ class Finder {
     if (relaxes_ || linear_.branches.empty()) return;
     context_.findings.warn(
         "relaxation",
-        "frequencies are those of the lasting stiffness, without the branches of "
-        "'Relaxation'; 'Damping' = true counts them",
+        "frequencies are those of motions slow against all delays, without the branches of "
+        "'Relaxation' and the lag of air; 'Damping' = true counts them",
         state_.time);
   }
 

@@ -80,6 +80,23 @@ std::vector<LinearBranches> find_branches(assembly::System& system, const model:
   return all;
 }
 
+// Of a delayed force the part by velocities is what falls as 1 / step, like damping.
+void add_delayed(assembly::System& system, const model::State& state, Linearisation& linear) {
+  const Stencil steady = Stencil::linearisation();
+  const Stencil moving{1.0, 1.0, 1.0, 0.0};
+  for (double delay : system.delays(state)) {
+    Verdict verdict = system.evaluate_delayed(state, steady, delay);
+    const auto stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+    verdict = worse(verdict, system.evaluate_delayed(state, moving, delay));
+    const auto damping = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+    const auto values = damping->getLocalMatrixHost().values;
+    const auto without = stiffness->getLocalMatrixHost().values;
+    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= without(k);
+    if (verdict != Verdict::ok) throw NonFiniteError("Forces with a delay are not finite.");
+    linear.branches.push_back({delay, stiffness, damping});
+  }
+}
+
 // Takes away what branches gain from one step to another, but for rounding.
 void remove_branches(const assembly::System& system, const std::vector<LinearBranches>& branches,
                      double before, double after, CrsMatrix& matrix) {
@@ -166,6 +183,7 @@ Linearisation linearise(Context& context, const model::State& state, const Stenc
   linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
   linear.branches = find_branches(system, state);
   linear.damping = find_damping(system, state, linear.branches);
+  add_delayed(system, state, linear);
   system.prepare(state, stencil);
   const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
   const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));

@@ -97,10 +97,11 @@ ReportMatrix null_space_basis(const model::Model& model, const model::State& sta
 }  // namespace
 
 Schema Matrices::schema() {
-  return Schema("Matrices",
-                "Writes stiffness, mass, damping, stiffness of viscoelastic branches by relaxation "
-                "time, constraint Jacobian and null-space basis about the present state, as "
-                "MatrixMarket files and into run.h5.");
+  return Schema(
+      "Matrices",
+      "Writes stiffness, mass, damping, the same of viscoelastic branches and delayed forces "
+      "by relaxation time, constraint Jacobian and null-space basis about the present state, as "
+      "MatrixMarket files and into run.h5.");
 }
 
 std::unique_ptr<Inspection> Matrices::make(const Options&) { return std::make_unique<Matrices>(); }
@@ -122,6 +123,7 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   for (std::size_t k = 0; k < linear.branches.size(); ++k) {
     const std::string name = fmt::format("relaxation_{}", k + 1);
     add(name, *linear.branches[k].stiffness);
+    if (!linear.branches[k].damping.is_null()) add(name + "_damping", *linear.branches[k].damping);
     report.text += fmt::format("{}: relaxation time {} s\n", name, linear.branches[k].time);
   }
   if (system.model().unknowns().num_forces() > 0) {

@@ -109,7 +109,7 @@ std::string make_text(const ModeSet& set, const ReportTable& table) {
 
 }  // namespace
 
-Schema& add_modal_fields(Schema& schema) {
+Schema& add_mode_fields(Schema& schema) {
   const ModalSettings defaults;
   return schema
       .add(integer("Modes", "How many modes to find.").between(1, 100'000).optional(defaults.modes))
@@ -117,16 +117,21 @@ Schema& add_modal_fields(Schema& schema) {
                   "Frequency next to which modes are looked for; the lowest ones if absent.")
                .positive()
                .optional())
+      .add(choice("Solver", solver::eigen_solver_names(),
+                  "Of the eigenproblem: Spectra for large models on one process; Anasazi for those "
+                  "on several, complex modes by Spectra as well; Dense reduces whole matrices, "
+                  "best for small ones and to check; Automatic decides.")
+               .optional(defaults.solver));
+}
+
+Schema& add_modal_fields(Schema& schema) {
+  const ModalSettings defaults;
+  return add_mode_fields(schema)
       .add(flag("Damping",
                 "Count dampers, viscous materials, branches of 'Relaxation' and the gyroscopic "
                 "forces "
                 "of a rotating frame; modes are complex then.")
                .optional(defaults.damping))
-      .add(choice("Solver", solver::eigen_solver_names(),
-                  "Of the eigenproblem: Spectra for large models on one process; Anasazi for those "
-                  "on several, complex modes by Spectra as well; Dense reduces whole matrices, "
-                  "best for small ones and to check; Automatic decides.")
-               .optional(defaults.solver))
       .list(
           "Rotor",
           Schema("Rotor",
@@ -140,12 +145,17 @@ Schema& add_modal_fields(Schema& schema) {
           Presence::optional);
 }
 
-ModalSettings read_modal_settings(const Options& options) {
+ModalSettings read_mode_settings(const Options& options) {
   ModalSettings settings;
   settings.modes = options.integer("Modes");
   if (options.has("Near")) settings.near = options.number("Near");
-  settings.damping = options.flag("Damping");
   settings.solver = options.text("Solver");
+  return settings;
+}
+
+ModalSettings read_modal_settings(const Options& options) {
+  ModalSettings settings = read_mode_settings(options);
+  settings.damping = options.flag("Damping");
   if (options.has_list("Rotor")) {
     const Options& rotor = options.list("Rotor");
     settings.rotor.emplace();

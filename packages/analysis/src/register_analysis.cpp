@@ -1,6 +1,7 @@
 #include <culm/analysis/buckling.hpp>
 #include <culm/analysis/campbell.hpp>
 #include <culm/analysis/dynamics.hpp>
+#include <culm/analysis/flutter.hpp>
 #include <culm/analysis/matrices.hpp>
 #include <culm/analysis/modal.hpp>
 #include <culm/analysis/path_following.hpp>
@@ -22,6 +23,7 @@ void register_analyses(AnalysisRegistry& registry) {
   registry.inspections.add("Modal", Modal::schema(), Modal::make);
   registry.inspections.add("Buckling", Buckling::schema(), Buckling::make);
   registry.inspections.add("Campbell", Campbell::schema(), Campbell::make);
+  registry.inspections.add("Flutter", Flutter::schema(), Flutter::make);
   registry.inspections.add("Matrices", Matrices::schema(), Matrices::make);
   registry.gives_shapes = {"Modal", "Buckling"};
   registry.follows_path = {"Path"};

@@ -20,20 +20,22 @@ constexpr double converged = 1e-13;  // change of the value, over its size
 constexpr double settled = 1e-6;     // where a change that falls no more is rounding
 
 struct Follows {
-  Complex value, derivative;  // of f, by lambda
+  Complex value, derivative;  // of the factor, by lambda
 };
 
 Follows follows(const BranchTerm& term, Complex lambda) {
   const Complex s = lambda + term.shift;
   const Complex resists = 1.0 + s * term.time;
-  return {s * term.time / resists, term.time / (resists * resists)};
+  const Complex value = s * term.time / resists, derivative = term.time / (resists * resists);
+  if (!term.of_velocity) return {value, derivative};
+  return {s * value, value + s * derivative};
 }
 
 ComplexMatrix at(const RelaxingPencil& pencil, Complex lambda) {
   ComplexMatrix T = lambda * lambda * pencil.M.cast<Complex>();
   T += lambda * pencil.C.cast<Complex>();
   T += pencil.K.cast<Complex>();
-  for (const BranchTerm& term : pencil.terms) T += follows(term, lambda).value * term.stiffness;
+  for (const BranchTerm& term : pencil.terms) T += follows(term, lambda).value * term.matrix;
   return T;
 }
 
@@ -44,7 +46,7 @@ Eigen::VectorXcd derivative(const RelaxingPencil& pencil, Complex lambda,
   y *= 2.0 * lambda;
   y += pencil.C * x;
   for (const BranchTerm& term : pencil.terms) {
-    y += follows(term, lambda).derivative * (term.stiffness * x);
+    y += follows(term, lambda).derivative * (term.matrix * x);
   }
   return y;
 }
@@ -65,7 +67,7 @@ Complex approached(const RelaxingPencil& pencil, Complex lambda, const Eigen::Ve
   for (int i = 0; i < approaches; ++i) {
     Complex k = x.dot(pencil.K * x);
     for (const BranchTerm& term : pencil.terms) {
-      k += follows(term, lambda).value * x.dot(term.stiffness * x);
+      k += follows(term, lambda).value * x.dot(term.matrix * x);
     }
     const Complex root = std::sqrt(c * c - 4.0 * m * k);
     const Complex one = (-c + root) / (2.0 * m), other = (-c - root) / (2.0 * m);

@@ -316,14 +316,15 @@ Linearisation TurningRotor::transform(const Linearisation& linear, bool damping)
 // L(psi) = L(0) exp(psi S): in coordinates z of multi-blade form rates are d/dt + Omega S, so a
 // function f of the rate is sum_m f(d/dt + i m Omega) Pi_m with the projectors of S on its
 // eigenvalues i m, products of S - i n over all other n.
-std::vector<BranchTerm> TurningRotor::terms_of(const SparseMatrix& stiffness, double time) const {
+std::vector<BranchTerm> TurningRotor::terms_of(const SparseMatrix& branches, double time,
+                                               bool of_velocity) const {
   using Matrix = Eigen::SparseMatrix<std::complex<double>>;
-  refuse_asymmetry(stiffness, false, "relaxation");
+  refuse_asymmetry(branches, false, "relaxation");
   const std::complex<double> i(0.0, 1.0);
   const SparseMatrix LT = map_.L().transpose();
   const Matrix S = SparseMatrix(LT * map_.first()).cast<std::complex<double>>();
   const Matrix G =
-      SparseMatrix(LT * SparseMatrix(stiffness * map_.L())).cast<std::complex<double>>();
+      SparseMatrix(LT * SparseMatrix(branches * map_.L())).cast<std::complex<double>>();
   Matrix one(S.rows(), S.cols());
   one.setIdentity();
   const int most = std::max<int>(2, static_cast<int>(rotor_.azimuth.size()) / 2);
@@ -335,7 +336,7 @@ std::vector<BranchTerm> TurningRotor::terms_of(const SparseMatrix& stiffness, do
       const Matrix factor = (S - Matrix(i * double(n) * one)) * (1.0 / (i * double(m - n)));
       part = Matrix(part * factor).pruned();
     }
-    if (part.nonZeros() > 0) terms.push_back({part, time, i * double(m) * speed_});
+    if (part.nonZeros() > 0) terms.push_back({part, time, i * double(m) * speed_, of_velocity});
   }
   return terms;
 }

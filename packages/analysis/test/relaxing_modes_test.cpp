@@ -13,8 +13,8 @@ using Complex = std::complex<double>;
 
 SparseMatrix sparse(const Eigen::MatrixXd& dense) { return dense.sparseView(); }
 
-BranchTerm term(const Eigen::MatrixXd& stiffness, double time, Complex shift = 0.0) {
-  return {sparse(stiffness).cast<Complex>(), time, shift};
+BranchTerm term(const Eigen::MatrixXd& matrix, double time, Complex shift = 0.0) {
+  return {sparse(matrix).cast<Complex>(), time, shift};
 }
 
 // What is left of T(lambda) x, written out term by term.
@@ -25,7 +25,7 @@ double residual(const RelaxingPencil& pencil, const ComplexMode& mode) {
   r += s * (pencil.C * mode.vector).eval();
   for (const BranchTerm& one : pencil.terms) {
     const Complex rate = (s + one.shift) * one.time;
-    r += rate / (1.0 + rate) * (one.stiffness * mode.vector).eval();
+    r += rate / (1.0 + rate) * (one.matrix * mode.vector).eval();
   }
   return r.norm() / (pencil.K * mode.vector).norm();
 }
@@ -45,6 +45,23 @@ TEST(RelaxingModes, OfOneUnknownAreRootsOfTheCubic) {
       EXPECT_GT(s.imag(), 3.0) << "the branch stiffens";
       EXPECT_LT(s.real(), 0.0) << "and damps";
     }
+  }
+}
+
+// (1 + s T) (s^2 + 2 s + 9) - s T s = 0: a damper that ceases to act where it follows with delay.
+TEST(RelaxingModes, DelayedVelocitiesHaveARootOfTheCubicToo) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  for (const double T : {0.01, 0.3, 20.0}) {
+    BranchTerm delayed = term(-one, T);
+    delayed.of_velocity = true;
+    const RelaxingPencil pencil{sparse(9.0 * one), sparse(2.0 * one), sparse(one), {delayed}};
+    const ComplexMode mode =
+        compute_relaxing_mode(pencil, {Complex(-1.0, 3.0), Eigen::VectorXcd::Ones(1)});
+    const Complex s = mode.value;
+    const Complex cubic = (1.0 + s * T) * (s * s + 2.0 * s + 9.0) - s * T * s;
+    EXPECT_LT(std::abs(cubic), 1e-12 * (1.0 + std::abs(s) * T) * std::norm(s));
+    EXPECT_LT(s.real(), -0.49);
+    EXPECT_GT(s.real(), -1.1);
   }
 }
 

@@ -1,4 +1,5 @@
 #include <culm/assembly/system.hpp>
+#include <culm/model/delayed.hpp>
 
 #include "block_values.hpp"
 
@@ -173,6 +174,34 @@ Verdict System::evaluate_branches(const model::State& state, double time) {
     verdict = worse(verdict, batch->assemble_branches(state, time, target));
   }
   return static_cast<Verdict>(static_cast<int>(comm_.max(static_cast<double>(verdict))));
+}
+
+std::vector<double> System::delays(const model::State& state) const {
+  std::vector<double> all;
+  for (const model::Batch* batch : batches_) {
+    const auto* delayed = dynamic_cast<const model::Delayed*>(batch);
+    if (delayed == nullptr) continue;
+    const std::vector<double> some = delayed->delays(state);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  all = comm_.gather(std::span<const double>(all));
+  std::ranges::sort(all);
+  const auto same = [](double a, double b) { return b - a <= model::same_delay * b; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  all.resize(static_cast<std::size_t>(comm_.max(static_cast<int>(all.size()))));
+  comm_.broadcast(std::span<double>(all));
+  return all;
+}
+
+Verdict System::evaluate_delayed(const model::State& state, const Stencil& stencil, double delay) {
+  model::Target target = target_with_matrix();
+  Verdict verdict = Verdict::ok;
+  for (model::Batch* batch : batches_) {
+    if (auto* delayed = dynamic_cast<model::Delayed*>(batch)) {
+      verdict = worse(verdict, delayed->assemble_delayed(state, stencil, delay, target));
+    }
+  }
+  return static_cast<Verdict>(comm_.max(static_cast<int>(verdict)));
 }
 
 Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {

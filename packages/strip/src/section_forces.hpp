@@ -41,6 +41,7 @@ struct Surroundings {
   Vec3 wind_at_quarter = Vec3::Zero(), wind_at_three_quarters = Vec3::Zero();
   double step = 0.0;     ///< zero in statics
   SectionStates memory;  ///< at the start of the step
+  int held = -1;         ///< state of the lag that stands still at its steady value, or none
 };
 
 /// What follows from it. The forces act on the vectors of the section: f . dx + g . dc + h . dn.
@@ -71,15 +72,25 @@ void add_moment(const Number& moment, const Vector<Number>& c, const Vector<Numb
   forces.normal += half * c;
 }
 
+/// The delay of a state of the lag [s].
+template <class Number>
+Number lag_time(const Lag& lag, std::size_t state, double half_chord, const Number& speed) {
+  return (half_chord / lag.rate[state]) / speed;
+}
+
 /// The downwash behind the lag.
 template <class Number>
 Number lagged(const Lag& lag, const Number& downwash, const Number& speed, double half_chord,
-              double step, std::array<double, Lag::max_states>& states) {
+              const Surroundings& around, std::array<double, Lag::max_states>& states) {
   Number effective = downwash;
   for (std::size_t i = 0; i < static_cast<std::size_t>(lag.states); ++i) {
     const Number target = lag.amplitude[i] * downwash;
-    const Number delay = (half_chord / lag.rate[i]) / speed;
-    effective += relaxed<Number>(target, delay, step, states[i]) - target;
+    if (static_cast<int>(i) == around.held) {
+      effective += value_of(target) - target;
+      continue;
+    }
+    const Number delay = lag_time(lag, i, half_chord, speed);
+    effective += relaxed<Number>(target, delay, around.step, states[i]) - target;
   }
   return effective;
 }
@@ -114,7 +125,7 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
   const Number speed_squared = along * along + across * across;
   if (value_of(speed_squared) > no_wind * no_wind) {
     const Number speed = sqrt(speed_squared);
-    const Number effective = lagged(model.lag, across, speed, b, around.step, loads.memory.lag);
+    const Number effective = lagged(model.lag, across, speed, b, around, loads.memory.lag);
     const Number alpha = angle_of(effective, along);
     const Number angle = angle_of(across, along);
     // the lift is normal to the wind that it follows

@@ -132,7 +132,7 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
 
 template <class Number>
 StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const model::State& state,
-                                          const Stencil& stencil, Want want) const {
+                                          const Stencil& stencil, Want want, int held) const {
   const Station& station = stations_[station_number];
   const bool mass = want == Want::mass;
   const bool moves = stencil.step > 0.0 && !mass;
@@ -155,6 +155,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   // where there is no inertia, a linearisation asks: lags have ended
   around.step = moves && stencil.inertia > 0.0 ? stencil.step : 0.0;
   around.memory = accepted_[station_number].memory;
+  around.held = held;
   const Columns middle = (1.0 - theta) * prev + theta * next;
   const std::array<Vec3, 2> places = {
       middle.col(0) + (0.25 - station.axis_at) * station.chord * middle.col(1),
@@ -188,32 +189,44 @@ Verdict StripLoad::assemble(const model::State& state, const Stencil& stencil, W
   });
 }
 
-// r_s = -T_s F      dr_s / dq_t = -T_s dF/dX T_t^T,   X the vectors of the section at the end
+// r_s = -T_s F
 template <class Space>
 Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                  Want want, model::Target& target) {
-  constexpr int W = Space::width;
   const auto number = static_cast<std::size_t>(placement().items[i]);
-  const Station& station = stations_[number];
   const bool tangent = want != Want::residual;
   const Evaluation found = tangent ? evaluate<Dual>(number, state, stencil, want)
                                    : evaluate<double>(number, state, stencil, want);
   if (!std::isfinite(found.forces.sum())) return Verdict::not_finite;
   const bool mass = want == Want::mass;
-  if (!mass) trial_[number] = found.end;
   const double theta = mass ? 1.0 : stencil.theta;
-  const Motion motion(nodes_, station.point.nodes, state, theta);
-  for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
-    const Mat<4, 3> T = factors(station, a);
-    const Vec<12> slots = Mat<3, 4>(-found.forces * T.transpose()).reshaped();
-    if (!mass) {
-      Vec<W> residual;
+  if (!mass) {
+    trial_[number] = found.end;
+    const Station& station = stations_[number];
+    const Motion motion(nodes_, station.point.nodes, state, theta);
+    for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
+      Vec<Space::width> residual;
+      const Mat<4, 3> T = factors(station, a);
+      const Vec<12> slots = Mat<3, 4>(-found.forces * T.transpose()).reshaped();
       Space::reduce_rows(slots, motion.arms_mid[a], residual);
       target.force_scale =
           std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
       placement().scatter.add_residual(i, static_cast<int>(a), residual.data(), target);
     }
-    if (!tangent) continue;
+  }
+  if (tangent) add_tangent<Space>(i, found, state, theta, !mass, target);
+  return Verdict::ok;
+}
+
+// dr_s / dq_t = -T_s dF/dX T_t^T,   X the vectors of the section at the end
+template <class Space>
+void StripLoad::add_tangent(std::size_t i, const Evaluation& found, const model::State& state,
+                            double theta, bool turns, model::Target& target) {
+  constexpr int W = Space::width;
+  const Station& station = stations_[static_cast<std::size_t>(placement().items[i])];
+  const Motion motion(nodes_, station.point.nodes, state, theta);
+  for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
+    const Mat<4, 3> T = factors(station, a);
     for (std::size_t b = 0; b < station.point.nodes.size(); ++b) {
       const Mat<4, 3> other = factors(station, b);
       Mat<12, 12> K = Mat<12, 12>::Zero();
@@ -227,14 +240,48 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
       }
       RowMat<W, W> block = RowMat<W, W>::Zero();
       load::add_slot_tangent<Space>(K, motion.arms_mid[a], motion.arms_next[b], block);
-      if (a == b && !mass) {
-        Space::add_turning(slots.reshaped<Eigen::ColMajor>(3, 4), motion.arms_next[a],
-                           stencil.theta, block);
+      if (a == b && turns) {
+        Space::add_turning(Mat<3, 4>(-found.forces * T.transpose()), motion.arms_next[a], theta,
+                           block);
       }
       placement().scatter.add_tangent(i, static_cast<int>(a), static_cast<int>(b), block, target);
     }
   }
-  return Verdict::ok;
+}
+
+double StripLoad::delay_of(std::size_t station, int lag_state, const model::State& state) const {
+  const double speed =
+      evaluate<double>(station, state, Stencil::linearisation(), Want::residual).end.seen.speed;
+  return lag_time(model_.lag, static_cast<std::size_t>(lag_state), 0.5 * stations_[station].chord,
+                  speed);
+}
+
+std::vector<double> StripLoad::delays(const model::State& state) const {
+  std::vector<double> all;
+  for (const int item : placement().items) {
+    for (int k = 0; k < model_.lag.states; ++k) {
+      const double delay = delay_of(static_cast<std::size_t>(item), k, state);
+      if (std::isfinite(delay)) all.push_back(delay);  // not where there is no wind
+    }
+  }
+  return all;
+}
+
+Verdict StripLoad::assemble_delayed(const model::State& state, const Stencil& stencil, double delay,
+                                    model::Target& target) {
+  return assemble_items([&](auto space, std::size_t i) {
+    const auto number = static_cast<std::size_t>(placement().items[i]);
+    for (int k = 0; k < model_.lag.states; ++k) {
+      if (!(std::abs(delay_of(number, k, state) - delay) <= model::same_delay * delay)) continue;
+      constexpr Want want = Want::residual_and_tangent;
+      Evaluation gained = evaluate<Dual>(number, state, stencil, want, k);
+      const Evaluation all = evaluate<Dual>(number, state, stencil, want);
+      gained.derivative -= all.derivative;
+      if (!gained.derivative.allFinite()) return Verdict::not_finite;
+      add_tangent<decltype(space)>(i, gained, state, stencil.theta, false, target);
+    }
+    return Verdict::ok;
+  });
 }
 
 void StripLoad::accept(model::State&) {
@@ -274,10 +321,10 @@ std::string StripLoad::range_warning(double used) const {
 }
 
 std::string StripLoad::left_out_of_modes() const {
-  if (model_.lag.states == 0 && model_.stall == Stall::none) return {};
+  if (model_.stall == Stall::none) return {};
   return effect().quoted() +
-         ": linear analyses see its air without the lag and the stall, which have no unknowns: "
-         "damping by air and flutter are others. A motion in time knows them";
+         ": linear analyses see its air with a stall that follows at once: damping by air and "
+         "flutter next to stall are others. A motion in time knows it";
 }
 
 std::size_t StripLoad::memory_size() const {

@@ -148,6 +148,19 @@ TEST(StripLoad, StationsAreThoseOfTheAcceptedStep) {
   EXPECT_EQ(section.batch->resultant()->force, force);
 }
 
+TEST(StripLoad, DelaysAreThoseOfTheLag) {
+  const auto flat = std::make_shared<Flat>();
+  const Section section({Lag::jones(), true}, Vec3(10.0, 0.0, 0.0), 0.4, flat);
+  const std::vector<double> delays = section.batch->delays(section.state);
+  ASSERT_EQ(delays.size(), 2U);
+  EXPECT_DOUBLE_EQ(delays[0], Section::b / (0.0455 * 10.0));
+  EXPECT_DOUBLE_EQ(delays[1], Section::b / (0.3 * 10.0));
+  const Section calm({Lag::jones(), true}, Vec3::Zero(), 0.4, flat);
+  EXPECT_TRUE(calm.batch->delays(calm.state).empty());
+  const Section prompt({}, Vec3(10.0, 0.0, 0.0), 0.4, flat);
+  EXPECT_TRUE(prompt.batch->delays(prompt.state).empty());
+}
+
 TEST(StripLoad, SaysWhereItsMethodEnds) {
   class Limited final : public Airfoil {
    public:
@@ -160,10 +173,10 @@ TEST(StripLoad, SaysWhereItsMethodEnds) {
     section.load(Stencil::statics());
     section.batch->accept(section.state);
     EXPECT_NEAR(section.batch->range_used(), angle / 0.2, 1e-13);
-    EXPECT_FALSE(section.batch->left_out_of_modes().empty());
+    EXPECT_TRUE(section.batch->left_out_of_modes().empty());
   }
-  Section steady({}, Vec3::UnitX(), 0.25, std::make_shared<Limited>());
-  EXPECT_TRUE(steady.batch->left_out_of_modes().empty());
+  Section stalling({{}, false, Stall::oye}, Vec3::UnitX(), 0.25, std::make_shared<Limited>());
+  EXPECT_FALSE(stalling.batch->left_out_of_modes().empty());
 }
 
 TEST(StripLoad, MomentIsNoseUp) {

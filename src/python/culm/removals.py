@@ -57,7 +57,7 @@ def torsion(deck):
 
 def rotary_inertia(deck):
     """Inertia of sections against turning about their own centres of mass, where something moves."""
-    if not _types(deck, "Analyses", "Dynamic", "Modal", "Campbell"):
+    if not _types(deck, "Analyses", "Dynamic", "Modal", "Campbell", "Flutter"):
         return
     for names in _alike(deck):
         beam = _parameters(deck, f"Structures/{names[0]}")

@@ -1,6 +1,7 @@
 """Draws the page of a run: picture of the model, histories, certificate, costs, messages, deck."""
 
 import itertools
+import math
 import pathlib
 
 from . import effects_table
@@ -157,10 +158,27 @@ def _add_modes(page, results, drawing, table):
         _add_figure(page, drawing, drawing.shapes(meshes, shapes, titles), f"shapes of the modes of {analysis}")
 
 
+def _add_diagram(page, drawing, columns, rows):
+    """Frequencies and damping of modes over the load level."""
+    figure, axes = drawing.plot(columns=2)
+    levels = [row[0] for row in rows]
+    for axis, title, unit in ((axes[0][0], "frequency", 1.0), (axes[0][1], "damping ratio", 0.01)):
+        for i, column in enumerate(columns):
+            if column.startswith(title):
+                axis.plot(levels, [math.nan if row[i] is None else row[i] / unit for row in rows], ".-",
+                          label=f"mode {column.removeprefix(title).split()[0]}")
+        axis.set(xlabel="level", ylabel=f"{title} [{'Hz' if unit == 1.0 else '%'}]")
+    axes[0][1].axhline(0.0, color="0.5", linewidth=0.8)
+    axes[0][0].legend(fontsize="small")
+    _add_figure(page, drawing, figure, "frequencies and damping over the level; below zero motions grow")
+
+
 def _add_tables(page, results, drawing):
     for table in results.tables():
         name, columns, rows, remarks = table
         page.heading(name)
+        if columns[0] == "level" and "frequency 1 [Hz]" in columns:
+            _add_diagram(page, drawing, columns, rows)
         if {"mode", "frequency [Hz]", "damping ratio"} <= set(columns) and remarks and rows:
             _add_modes(page, results, drawing, table)
             continue

@@ -94,9 +94,9 @@ def _choose_states(run, shown, most, with_fields, notes):
 def _level(deck):
     """What the time of a state is."""
     types = {value for path, value in deck.parameters.items() if _is_type_of_analysis(path)}
-    if types <= {"Static", "Path", "Buckling", "Modal", "Campbell"}:
+    if types <= {"Static", "Path", "Buckling", "Modal", "Campbell", "Flutter"}:
         return {"name": "level", "unit": "", "moves": False}
-    if types <= {"Dynamic", "Modal", "Campbell"}:
+    if types <= {"Dynamic", "Modal", "Campbell", "Flutter"}:
         return {"name": "time", "unit": "s", "moves": True}
     return {"name": "time or level", "unit": "", "moves": False}
 

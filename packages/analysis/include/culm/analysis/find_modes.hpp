@@ -19,6 +19,7 @@ struct ModalSettings {
   bool damping = false;        ///< whether dampers and gyroscopic forces count
   std::string solver = "Automatic";    ///< one of solver::eigen_solver_names()
   std::optional<RotorSettings> rotor;  ///< a rotor that turns while the rest stands
+  bool expects_zero = false;           ///< whether frequencies next to zero are no news
 };
 
 /// Motion with exp(lambda t).

@@ -7,10 +7,11 @@
 
 namespace culm::analysis {
 
-/// All viscoelastic branches of one relaxation time.
+/// All viscoelastic branches of one relaxation time, or all forces that follow with one delay.
 struct LinearBranches {
-  double time = 0.0;                                  ///< [s]
-  Teuchos::RCP<const assembly::CrsMatrix> stiffness;  ///< if their springs follow at once
+  double time = 0.0;                                     ///< [s]
+  Teuchos::RCP<const assembly::CrsMatrix> stiffness;     ///< if their springs follow at once
+  Teuchos::RCP<const assembly::CrsMatrix> damping = {};  ///< the same by velocities, or null
 };
 
 /// Tangent and mass about a state, in the unknowns of the system; rows and columns of constraints
@@ -22,10 +23,11 @@ struct Linearisation {
   /// Of dampers, viscous materials and rotating frames, and of what follows signals or has a rate;
   /// null where there is none.
   Teuchos::RCP<const assembly::CrsMatrix> damping;
-  std::vector<LinearBranches> branches;  ///< by rising times; relaxed where it is linearised
-  double asymmetry = 0.0;                ///< of the stiffness, as solver::asymmetry
-  bool is_equilibrium = true;            ///< but for rounding
-  double residual = 0.0;                 ///< largest force residual over the force scale
+  /// Viscoelastic ones, then delayed forces, by rising times; relaxed where it is linearised.
+  std::vector<LinearBranches> branches;
+  double asymmetry = 0.0;      ///< of the stiffness, as solver::asymmetry
+  bool is_equilibrium = true;  ///< but for rounding
+  double residual = 0.0;       ///< largest force residual over the force scale
 };
 
 /// Below it a tangent counts as symmetric: what static analyses leave unbalanced is less.

@@ -7,7 +7,10 @@
 
 namespace culm::analysis {
 
-/// What a deck says about modes: Modes, Near, Damping, Solver.
+/// What a deck says about which modes: Modes, Near, Solver.
+Schema& add_mode_fields(Schema& schema);
+ModalSettings read_mode_settings(const Options& options);
+/// And what counts: Damping, Rotor.
 Schema& add_modal_fields(Schema& schema);
 ModalSettings read_modal_settings(const Options& options);
 

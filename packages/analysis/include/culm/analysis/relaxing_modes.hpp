@@ -10,12 +10,14 @@
 
 namespace culm::analysis {
 
-/// Branches of one relaxation time, as a function of the eigenvalue: f(lambda + shift) A with
-/// f(s) = s time / (1 + s time), what a spring of the branch follows of a motion exp(s t).
+/// Branches of one relaxation time, as a function of the eigenvalue: f(s) A, or f(s) s A, with
+/// s = lambda + shift and f(s) = s time / (1 + s time), what a spring of the branch follows of a
+/// motion exp(s t).
 struct BranchTerm {
-  Eigen::SparseMatrix<std::complex<double>> stiffness;  ///< A, if the springs follow at once
-  double time = 0.0;                                    ///< [s]
+  Eigen::SparseMatrix<std::complex<double>> matrix;  ///< A, if the springs follow at once
+  double time = 0.0;                                 ///< [s]
   std::complex<double> shift = 0.0;  ///< i m Omega of patterns that turn against the observer
+  bool of_velocity = false;          ///< whether what acts on the branch is a velocity
 };
 
 /// T(lambda) x = (lambda^2 M + lambda C + K + sum of terms) x = 0: the states of branches are

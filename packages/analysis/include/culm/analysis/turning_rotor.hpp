@@ -40,10 +40,11 @@ class TurningRotor {
   /// rotor is not the same after an N-th of a turn. Collective.
   /// @param damping whether dampers count; gyroscopic forces do
   Linearisation transform(const Linearisation& linear, bool damping);
-  /// Stiffness of branches in multi-blade coordinates, with shifts: the patterns cos m psi, sin m
-  /// psi of blades are motions lambda + i m Omega and lambda - i m Omega of each. Throws InputError
-  /// if the rotor is not the same after an N-th of a turn.
-  std::vector<BranchTerm> terms_of(const SparseMatrix& stiffness, double time) const;
+  /// Branches in multi-blade coordinates, with shifts: the patterns cos m psi, sin m psi of blades
+  /// are motions lambda + i m Omega and lambda - i m Omega of each. Throws InputError if the rotor
+  /// is not the same after an N-th of a turn.
+  std::vector<BranchTerm> terms_of(const SparseMatrix& branches, double time,
+                                   bool of_velocity) const;
   /// The unknowns of the system at the azimuth of the state.
   Eigen::VectorXd unknowns(const Eigen::Ref<const Eigen::VectorXd>& z) const {
     return map_.L() * z;

@@ -75,6 +75,11 @@ class System {
   /// In place of the tangent, what all branches of one of these times add to it at state.next if
   /// their springs follow at once.
   Verdict evaluate_branches(const model::State& state, double time);
+  /// Times of forces that follow with a delay, about a steady state, each once, rising [s].
+  /// Collective.
+  std::vector<double> delays(const model::State& state) const;
+  /// In place of the tangent, what it gains where those of one of these times stand still.
+  Verdict evaluate_delayed(const model::State& state, const Stencil& stencil, double delay);
   /// Moves state.next by the solution of the linear system, factor included: nodes
   /// multiplicatively, eliminated nodes after their masters, multipliers additively.
   void move(model::State& state, const Vector& increment, double factor);

@@ -4,6 +4,7 @@
 #include <culm/flow/flow.hpp>
 #include <culm/flow/fluid_force.hpp>
 #include <culm/model/amplitude.hpp>
+#include <culm/model/delayed.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/method_limits.hpp>
 #include <culm/model/structure.hpp>
@@ -103,6 +104,7 @@ struct SectionStates {
 class StripLoad final : public model::MemorylessBatch,
                         public model::LimitedRange,
                         public model::LeftOutOfModes,
+                        public model::Delayed,
                         public flow::FluidForce {
  public:
   static constexpr int max_nodes = 4;
@@ -151,6 +153,9 @@ class StripLoad final : public model::MemorylessBatch,
   double range_used() const override;
   std::string range_warning(double used) const override;
   std::string left_out_of_modes() const override;
+  std::vector<double> delays(const model::State& state) const override;
+  Verdict assemble_delayed(const model::State& state, const Stencil& stencil, double delay,
+                           model::Target& target) override;
   std::size_t memory_size() const override;
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;
@@ -163,12 +168,18 @@ class StripLoad final : public model::MemorylessBatch,
     StationState seen;
   };
   struct Evaluation;
+  /// @param held  state of the lag that stands still, or none
   template <class Number>
   Evaluation evaluate(std::size_t station, const model::State& state, const Stencil& stencil,
-                      Want want) const;
+                      Want want, int held = -1) const;
+  /// Of a state of the lag about a steady state [s].
+  double delay_of(std::size_t station, int lag_state, const model::State& state) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
                         model::Target& target);
+  template <class Space>
+  void add_tangent(std::size_t i, const Evaluation& found, const model::State& state, double theta,
+                   bool turns, model::Target& target);
 
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;

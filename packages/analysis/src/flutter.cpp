@@ -1,0 +1,155 @@
+#include <culm/analysis/flutter.hpp>
+#include <culm/analysis/modal.hpp>
+#include <culm/analysis/newton_options.hpp>
+#include <culm/base/absent.hpp>
+
+#include "levels.hpp"
+#include "mode_diagram.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace culm::analysis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// A damping ratio below its negative is growth: what is not damped has less by rounding.
+constexpr double least_growth = 1e-6;
+constexpr double precision = 1e-6;  // of a level, relative
+constexpr int most_trials = 60;
+
+// The mode that grows most, or decays least, of those of one kind.
+struct Growth {
+  double rate = -infinity;  // relative to its size, without least_growth
+  Mode mode = {};
+};
+
+// Of oscillations.
+Growth flutter_of(const ModeSet& set) {
+  Growth most;
+  for (const Mode& mode : set.modes) {
+    if (mode.is_zero() || mode.frequency() == 0.0) continue;
+    const double rate = -mode.damping() - least_growth;
+    if (rate > most.rate) most = {rate, mode};
+  }
+  return most;
+}
+
+// Of motions without oscillation; where there are none, the slowest oscillation may become one.
+Growth divergence_of(const ModeSet& set) {
+  Growth most;
+  for (const Mode& mode : set.modes) {
+    if (mode.is_zero()) continue;
+    const double size = std::abs(mode.eigenvalue);
+    const double value = mode.frequency() == 0.0 ? mode.eigenvalue.real() : -size;
+    if (value > most.rate) most = {value, mode};
+  }
+  return most;
+}
+
+using Measure = Growth (*)(const ModeSet&);
+
+struct Crossing {
+  const char* name;
+  Measure measure;
+  std::optional<double> below, above = {};  // levels between which it happens
+  double rate_below = 0.0, rate_above = 0.0;
+
+  void see(double level, const ModeSet& set) {
+    if (above) return;
+    const double rate = measure(set).rate;
+    if (rate > 0.0) {
+      above = level;
+      rate_above = rate;
+    } else {
+      below = level;
+      rate_below = rate;
+    }
+  }
+  bool happens() const { return below && above; }
+  std::string text(const std::optional<Growth>& growth, const std::vector<double>& levels) const {
+    if (!above) return fmt::format("no {} up to level {:.6g}", name, levels.back());
+    if (!growth) return fmt::format("{} below the first level, {:.6g}", name, levels.front());
+    const double frequency = growth->mode.frequency();
+    const std::string with = frequency > 0.0 ? fmt::format(", with {:.6g} Hz", frequency) : "";
+    return fmt::format("{} from level {:.7g} on{}", name, *above, with);
+  }
+};
+
+// Halves and secants in turn: growth may have kinks, and jumps where motions cease to oscillate.
+Growth close_in(Crossing& crossing, ModeDiagram& diagram, model::State& state) {
+  Growth last;
+  double &below = *crossing.below, &above = *crossing.above;
+  for (int i = 0; i < most_trials && above - below > precision * above; ++i) {
+    const bool has_secant = i % 2 == 0 && std::isfinite(crossing.rate_below);
+    const double share =
+        has_secant ? -crossing.rate_below / (crossing.rate_above - crossing.rate_below) : 0.5;
+    // a little off the secant, so that both ends come
+    const double level = below + std::clamp(share, 0.01, 0.99) * (above - below);
+    const Growth found = crossing.measure(diagram.find(state, level));
+    if (found.rate > 0.0) {
+      above = level;
+      crossing.rate_above = found.rate;
+      last = found;
+    } else {
+      below = level;
+      crossing.rate_below = found.rate;
+    }
+  }
+  return last;
+}
+
+}  // namespace
+
+Schema Flutter::schema() {
+  Schema schema("Flutter",
+                "Equilibrium and modes at several load levels, and the levels at which motions "
+                "begin to grow: flutter and divergence. Modes are damped, with the lag of air.");
+  add_levels(schema, "Load levels, rising; the wind grows with them by its function.");
+  return add_mode_fields(schema).list("Newton", newton_schema(), Presence::defaulted);
+}
+
+std::unique_ptr<Inspection> Flutter::make(const Options& options) {
+  ModalSettings modes = read_mode_settings(options);
+  modes.damping = true;
+  modes.expects_zero = true;  // at divergence
+  return std::make_unique<Flutter>(CampbellSettings{options.numbers("Levels"), std::move(modes),
+                                                    newton_settings(options.list("Newton"))});
+}
+
+AnalysisReport Flutter::inspect(Context& context, model::State& state) {
+  const Ledger::Scope scope(context.ledger, context.ledger.add("Flutter"));
+  ModeDiagram diagram(context, settings_.modes, settings_.newton, "flutter");
+  Crossing crossings[] = {{"flutter", flutter_of, {}}, {"divergence", divergence_of, {}}};
+  state.time = state.time_prev = std::min(state.time, settings_.levels.front());
+  for (double level : settings_.levels) {
+    const ModeSet set = diagram.find(state, level);
+    diagram.add(state, set);
+    for (Crossing& crossing : crossings) crossing.see(level, set);
+  }
+  AnalysisReport report;
+  report.text = diagram.text();
+  report.tables.push_back(diagram.table());
+  ReportTable onset{"onset", {"level", "frequency [Hz]"}, {}, {}};
+  for (Crossing& crossing : crossings) {
+    const std::optional<Growth> growth =
+        crossing.happens() ? std::optional(close_in(crossing, diagram, state)) : std::nullopt;
+    report.text += crossing.text(growth, settings_.levels) + '\n';
+    onset.rows.push_back(
+        {growth ? *crossing.above : absent, growth ? growth->mode.frequency() : absent});
+    onset.remarks.push_back(growth ? fmt::format("{}: {}", crossing.name,
+                                                 describe(growth->mode, context.system.model()))
+                                   : fmt::format("no {}", crossing.name));
+  }
+  report.tables.push_back(std::move(onset));
+  diagram.find(state, settings_.levels.back());
+  return report;
+}
+
+}  // namespace culm::analysis

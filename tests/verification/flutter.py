@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""Flutter and divergence by eigenvalues with the lag of strips. Page: doc/verification/strips.md."""
+
+import math
+
+import numpy as np
+from verify import figure, main, save
+
+# Jones' states; divergence is exact
+SECTION = (25.379599, 16.695289, 36.084392)  # m/s, rad/s, m/s
+GOLAND = (137.335, 69.346, 252.28)
+DECKS = (("Typical section", "air/flutter.xml", SECTION, 2e-6),
+         ("Goland's wing, 8 elements, 24 stations", "air/goland_flutter.xml", GOLAND, 1e-3))
+
+
+def section_eigenvalues(speed):
+    """Of the typical section with Jones' states, from its equations: plunge, pitch, their rates, two states."""
+    rho, b, a = 1.225, 0.5, -0.2
+    m = 20.0 * math.pi * rho * b**2
+    mass = np.array([[m, 0.2 * m * b], [0.2 * m * b, 0.25 * m * b**2]])
+    stiffness = np.diag([m * 10.0**2, 0.25 * m * b**2 * 25.0**2])
+    air = math.pi * rho * b**2
+    mass += air * np.array([[1.0, -b * a], [-b * a, b**2 * (1.0 / 8.0 + a**2)]])
+    damping = air * speed * np.array([[0.0, 1.0], [0.0, b * (0.5 - a)]])
+    # circulation: plunge down and pitch nose up; w = U alpha + h' + b (1/2 - a) alpha'
+    lift = 2.0 * math.pi * rho * speed * b
+    pull = np.array([1.0, -b * (0.5 + a)])
+    by_place, by_speed = np.array([0.0, speed]), np.array([1.0, b * (0.5 - a)])
+    amplitude, rate = np.array([0.165, 0.335]), np.array([0.0455, 0.3]) * speed / b
+    left = 1.0 - amplitude.sum()
+    stiffness = stiffness + lift * left * np.outer(pull, by_place)
+    damping = damping + lift * left * np.outer(pull, by_speed)
+    system = np.zeros((6, 6))
+    system[:2, 2:4] = np.eye(2)
+    inverse = np.linalg.inv(mass)
+    system[2:4, :2] = -inverse @ stiffness
+    system[2:4, 2:4] = -inverse @ damping
+    system[2:4, 4:] = -inverse @ (lift * np.outer(pull, np.ones(2)))
+    for i in range(2):
+        system[4 + i, :2] = rate[i] * amplitude[i] * by_place
+        system[4 + i, 2:4] = rate[i] * amplitude[i] * by_speed
+        system[4 + i, 4 + i] = -rate[i]
+    return np.linalg.eigvals(system)
+
+
+def verify(culm, report):
+    for title, deck, (speed, omega, divergence), tolerance in DECKS:
+        report.title(title)
+        onset = culm.table("flutter/onset", deck)
+        report.relative("speed of flutter [m/s]", onset.at(1, "level"), speed, tolerance)
+        report.relative("frequency [rad/s]", 2.0 * math.pi * onset.at(1, "frequency [Hz]"), omega, tolerance)
+        report.relative("speed of divergence [m/s]", onset.at(2, "level"), divergence, tolerance)
+    report.title("Typical section below flutter and above, against its equations with six states")
+    table = culm.table("flutter/flutter", "air/flutter.xml")
+    for row, speed in enumerate(table.column("level"), 1):
+        exact = sorted((s for s in section_eigenvalues(speed) if s.imag > 1e-6), key=abs)
+        below = speed < SECTION[0]  # above, the mode that grows
+        for mode, s in enumerate(exact, 1) if below else [(2, max(exact, key=lambda s: s.real))]:
+            what = f"mode {mode} at {speed:g} m/s"
+            report.relative(f"{what}: frequency [Hz]", table.at(row, f"frequency {mode} [Hz]"),
+                            s.imag / (2.0 * math.pi), 1e-6)
+            report.relative(f"{what}: damping", table.at(row, f"damping ratio {mode}"), -s.real / abs(s), 1e-6)
+
+
+def plot(culm, path):
+    fig, axes = figure(2)
+    table = culm.table("flutter/flutter", "air/goland_flutter.xml")
+    levels = table.column("level")
+    for i in range(1, 3):
+        axes[0].plot(levels, table.column(f"frequency {i} [Hz]"), ".-", label=f"mode {i}")
+        axes[1].plot(levels, [100.0 * d for d in table.column(f"damping ratio {i}")], ".-")
+    axes[1].axhline(0.0, color="0.5", linewidth=0.8)
+    axes[1].axvline(GOLAND[0], color="0.5", linestyle=":")
+    axes[1].set(ylim=(-30, 60), xlabel="wind [m/s]", ylabel="damping [%]")
+    axes[0].set(xlabel="wind [m/s]", ylabel="frequency [Hz]")
+    axes[0].legend()
+    save(fig, path)
+
+
+if __name__ == "__main__":
+    main(verify, plot)
