@@ -316,7 +316,7 @@ class Finder {
     if (relaxes_ || linear_.branches.empty()) return;
     context_.findings.warn(
         "relaxation",
-        "frequencies are those of motions slow against all delays, without the branches of "
+        "frequencies are those of the lasting stiffness, without the branches of "
         "'Relaxation' and the lag of air; 'Damping' = true counts them",
         state_.time);
   }
