@@ -6,6 +6,7 @@
 #include <culm/load/register_load.hpp>
 #include <culm/model/initial_motion.hpp>
 #include <culm/output/file_part.hpp>
+#include <culm/rotor/register_rotor.hpp>
 #include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/catalogue.hpp>
 
@@ -39,6 +40,7 @@ Catalogue::Catalogue() {
   flow::register_flows(flows);
   strip::register_airfoils(airfoils);
   strip::register_strips(strips);
+  rotor::register_rotors(strips);
   lattice::register_lattice(fluid_loads);
   port::register_ports(ports);
   coupling::register_partners(partners);

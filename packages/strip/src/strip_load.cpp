@@ -74,6 +74,11 @@ struct StripLoad::Evaluation {
   StationEnd end;
 };
 
+Coefficients Station::coefficients(double alpha) const {
+  const auto [lift, drag, moment] = steady(*this, alpha);
+  return {lift, drag, moment};
+}
+
 std::array<double, StationState::size> StationState::numbers() const {
   const Vec3 &c = coefficients, &f = resultant.force, &m = resultant.moment;
   return {angle,      effective_angle, speed, c[0], c[1], c[2], normal,
@@ -125,6 +130,7 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
   if (stencil.step > 0.0) {
     const Columns moved = next - prev;
     found.velocity = (moved.col(0) + eta * moved.col(1)) / stencil.step;
+    found.turning = 0.5 * station.chord / stencil.step * moved.col(1);
   }
   found.wind = flow_->velocity(found.place, load::time_of(state, stencil));
   return found;
@@ -184,6 +190,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
 Verdict StripLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
                             model::Target& target) {
   if (want == Want::mass && !model_.apparent_mass) return Verdict::ok;
+  if (inducer_ != nullptr && want != Want::mass) inducer_->induce(state, stencil);
   return assemble_items([&](auto space, std::size_t i) {
     return assemble_item<decltype(space)>(i, state, stencil, want, target);
   });

@@ -31,6 +31,9 @@ struct Station {
   Vec3 across = Vec3::Zero();  ///< unit vector towards the suction side, in the directors
   SharedAirfoil airfoil = {}, next_airfoil = {};  ///< blended
   double blend = 0.0;                             ///< share of the second one
+
+  /// In a steady flow. @param alpha  angle of attack from -pi to pi [rad]
+  Coefficients coefficients(double alpha) const;
 };
 
 /// What a station saw and felt in a step.
@@ -57,8 +60,18 @@ struct StationFlow {
   Vec3 across = Vec3::Zero();    ///< unit vector towards the suction side
   Vec3 wind = Vec3::Zero();      ///< of the flow there, without induction [m/s]
   Vec3 velocity = Vec3::Zero();  ///< of the quarter chord; zero in statics [m/s]
+  Vec3 turning = Vec3::Zero();   ///< by which that of the three-quarter chord differs [m/s]
   /// What the structure feels [m/s].
   Vec3 relative() const { return wind - velocity; }
+};
+
+/// Induces velocities at stations of strips, such as a rotor.
+class Inducer {
+ public:
+  virtual ~Inducer() = default;
+  /// Sets what it induces (`StripLoad::set_induced`) for the motion that is tried, on all ranks and
+  /// for all of its strips; before each evaluation of any of them.
+  virtual void induce(const model::State& state, const Stencil& stencil) = 0;
 };
 
 /// How the lift follows when the flow leaves the section and comes back.
@@ -136,6 +149,9 @@ class StripLoad final : public model::MemorylessBatch,
   void set_induced(int station, const Vec3& velocity) {
     induced_[static_cast<std::size_t>(station)] = velocity;
   }
+  /// Asks somebody before each evaluation; null at first: nobody.
+  void set_inducer(Inducer* inducer) { inducer_ = inducer; }
+  const Inducer* inducer() const { return inducer_; }
   const Vec3& induced(int station) const { return induced_[static_cast<std::size_t>(station)]; }
   /// Whether this rank counts a station in sums.
   bool owns(int station) const { return owned_[static_cast<std::size_t>(station)]; }
@@ -188,6 +204,7 @@ class StripLoad final : public model::MemorylessBatch,
   std::vector<Station> stations_;
   std::vector<bool> owned_;
   std::vector<Vec3> induced_;
+  Inducer* inducer_ = nullptr;
   std::vector<StationEnd> accepted_, trial_;
   bool has_stepped_ = false;
 };

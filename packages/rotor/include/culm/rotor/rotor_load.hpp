@@ -1,0 +1,131 @@
+/// What a turning rotor induces at the strips of its blades.
+#pragma once
+
+#include <culm/model/memoryless_batch.hpp>
+#include <culm/rotor/dynamic_inflow.hpp>
+#include <culm/rotor/losses.hpp>
+#include <culm/strip/strip_load.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace culm::rotor {
+
+/// How the induced velocity follows the balance of momentum.
+enum class Follow {
+  none,     ///< nothing is induced
+  frozen,   ///< it stays what it is in the first step of a motion
+  steady,   ///< at once
+  dynamic,  ///< with the lags of Oye
+};
+
+/// Which effects a rotor has.
+struct RotorModel {
+  Follow follow = Follow::dynamic;
+  Losses losses = {};
+  bool drag_induces = true;  ///< drag counts in the momentum balance
+  bool skewed_wake = true;   ///< Pitt and Peters
+};
+
+/// Where a rotor turns: the axis is carried by the node of the hub.
+struct RotorHub {
+  int node = -1;
+  Vec3 axis = Vec3::Zero();  ///< unit vector downwind, in the directors of the node
+};
+
+/// A rotor in a step; means are over the stations, by the area of their annuli.
+struct RotorState {
+  Vec3 centre = Vec3::Zero();  ///< [m]
+  Vec3 axis = Vec3::Zero();    ///< unit vector downwind
+  double speed = 0.0;          ///< about the axis, with its sign [rad/s]
+  Vec3 wind = Vec3::Zero();    ///< mean, without induction [m/s]
+  double induction = 0.0;      ///< mean of a, as the momentum balance asks for it [-]
+
+  static constexpr std::size_t size = 11;
+  void save(std::span<double> numbers) const;
+  void restore(std::span<const double> numbers);
+};
+
+/// Blade element and momentum, at each station of the strips of its blades by itself: wind, motion
+/// and attitude of the deformed blade in the middle of the step give the balance, its induced
+/// velocity is set at the station. It has no forces of its own. The balance is computed anew in
+/// each iteration; its derivative is left out of the tangent. What it remembers changes in `accept`
+/// alone. Induction is good for rotors that turn: it fades out between tip speeds of twice and of
+/// once the wind, so in statics there is none. Every rank computes all of it. @source fluids B3
+class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
+ public:
+  /// @param blades  one strip load per blade, each of at least two stations from the root to the
+  ///                tip; they must outlive the rotor's last evaluation, as loads of a model do
+  RotorLoad(model::Effect effect, const model::NodeTable& nodes, RotorHub hub,
+            std::vector<strip::StripLoad*> blades, RotorModel kind);
+
+  const std::vector<strip::StripLoad*>& blades() const { return blades_; }
+  /// Where blades end, from the axis in the reference [m].
+  double tip_radius() const { return tip_radius_; }
+  double density() const { return blades_.front()->flow().density(); }
+  /// In the last accepted step; nothing before the first one, on all ranks alike.
+  std::optional<RotorState> state() const;
+
+  void induce(const model::State& state, const Stencil& stencil) override;
+
+  int size() const override { return 0; }
+  std::vector<int> blocks(int, const model::UnknownTable&) const override { return {}; }
+  bool has_tangent() const override { return false; }
+  bool needs_all_nodes() const override { return true; }
+  void prepare(const model::State& state, const Stencil& stencil) override;
+  Verdict assemble(const model::State&, const Stencil&, Want, model::Target&) override {
+    return Verdict::ok;
+  }
+  void accept(model::State& state) override;
+  model::StepWork step_work(const model::State&, const Stencil&) const override { return {}; }
+
+  std::size_t memory_size() const override;
+  void save(model::Items items, std::span<double> numbers) const override;
+  void restore(std::span<const double> numbers) override;
+
+ private:
+  /// A station, and what does not change there.
+  struct Element {
+    strip::StripLoad* strip = nullptr;
+    int station = 0;
+    double radius = 0.0;                        ///< from the axis in the reference [m]
+    double area = 0.0;                          ///< of its part of the annulus [m^2]
+    double hub_radius = 0.0, tip_radius = 0.0;  ///< of its blade [m]
+  };
+  /// What goes on from step to step.
+  struct Memory {
+    bool has_stepped = false;
+    bool has_wake = false;  ///< a step in time was accepted
+    RotorState seen;
+    std::vector<InflowState> wake;  ///< by element
+  };
+  /// A station with its balance, in the plane of its section.
+  struct Balanced {
+    Vec3 outwards, normal, against;          ///< unit vectors: from the axis, of the rotor, of wind
+    Induced quasi_steady = Induced::Zero();  ///< along the normal, and against the motion
+    double induction = 0.0;                  ///< a
+  };
+
+  void add_blade(strip::StripLoad& blade, const model::NodeTable& nodes);
+  RotorState motion(const model::State& state, const Stencil& stencil) const;
+  Balanced balance(const Element& element, const strip::StationFlow& flow,
+                   const RotorState& rotor) const;
+  InflowState follow(std::size_t element, const Induced& quasi_steady, double step) const;
+  double skew(const RotorState& rotor, const Element& element, const Vec3& outwards) const;
+
+  RotorHub hub_;
+  std::vector<strip::StripLoad*> blades_;
+  RotorModel kind_;
+  std::vector<Element> elements_;
+  double tip_radius_ = 0.0;
+
+  Memory accepted_, trial_;
+  std::vector<strip::StationFlow> flows_;  ///< by element, of one evaluation
+  // what trial_ and the induced velocities belong to
+  model::Coordinates evaluated_;  ///< empty: nothing
+  double evaluated_time_ = 0.0, evaluated_step_ = 0.0;
+};
+
+}  // namespace culm::rotor

@@ -1,0 +1,261 @@
+#include <culm/rotor/induction.hpp>
+#include <culm/rotor/rotor_load.hpp>
+#include <culm/rotor/skewed_wake.hpp>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace culm::rotor {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// lags of the wake grow as the wind falls; slower wind than this counts as so fast [m/s]
+constexpr double least_wind = 0.1;
+
+Vec3 place_of(const model::Marker& point, const model::Coordinates& q) {
+  Vec3 place = Vec3::Zero();
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    const auto slots = model::NodeTable::slots(q, point.nodes[a]);
+    place += point.weights[a] * (slots.col(0) + slots.rightCols<3>() * point.offset);
+  }
+  return place;
+}
+
+Vec3 across(const Vec3& vector, const Vec3& unit) { return vector - vector.dot(unit) * unit; }
+
+// Which part of the momentum balance counts: none where the tips are slower than the wind.
+double turning_share(double tip_speed, double wind) {
+  if (tip_speed <= wind) return 0.0;
+  return std::min((tip_speed - wind) / std::max(wind, 1e-9), 1.0);
+}
+
+// A station as its balance sees it. The suction side lies downwind, or upwind in the mirror image.
+// The loads have the angle of attack of the three-quarter chord, which turns about the quarter
+// chord.
+class Turned {
+ public:
+  // @param downwind  across the chord, downwind
+  Turned(const strip::Station& station, const strip::StationFlow& flow, const Vec3& downwind)
+      : station_(station),
+        mirror_(flow.across.dot(downwind) < 0.0 ? -1.0 : 1.0),
+        speed_(flow.relative().norm()),
+        along_(-flow.turning.dot(flow.along)),
+        across_(-mirror_ * flow.turning.dot(flow.across)) {}
+
+  const strip::Station& station() const { return station_; }
+  // @param alpha  angle of attack of the quarter chord
+  LiftDrag at(double alpha) const {
+    const double angle =
+        std::atan2(speed_ * std::sin(alpha) + across_, speed_ * std::cos(alpha) + along_);
+    const strip::Coefficients c = station_.coefficients(mirror_ * angle);
+    return {mirror_ * c[0], c[1]};
+  }
+
+ private:
+  const strip::Station& station_;
+  double mirror_;
+  double speed_, along_, across_;  // [m/s]
+};
+
+}  // namespace
+
+void RotorState::save(std::span<double> numbers) const {
+  std::ranges::copy(centre, numbers.begin());
+  std::ranges::copy(axis, numbers.begin() + 3);
+  std::ranges::copy(wind, numbers.begin() + 6);
+  numbers[9] = speed;
+  numbers[10] = induction;
+}
+
+void RotorState::restore(std::span<const double> numbers) {
+  centre = Vec3(numbers.data());
+  axis = Vec3(numbers.data() + 3);
+  wind = Vec3(numbers.data() + 6);
+  speed = numbers[9];
+  induction = numbers[10];
+}
+
+RotorLoad::RotorLoad(model::Effect effect, const model::NodeTable& nodes, RotorHub hub,
+                     std::vector<strip::StripLoad*> blades, RotorModel kind)
+    : MemorylessBatch(std::move(effect)),
+      hub_(std::move(hub)),
+      blades_(std::move(blades)),
+      kind_(kind) {
+  for (strip::StripLoad* blade : blades_) {
+    add_blade(*blade, nodes);
+    blade->set_inducer(this);
+  }
+  accepted_.wake.resize(elements_.size());
+  trial_ = accepted_;
+  flows_.resize(elements_.size());
+}
+
+// Stations stand in the middle of their parts, so the blade goes on by half a part at both ends.
+void RotorLoad::add_blade(strip::StripLoad& blade, const model::NodeTable& nodes) {
+  const auto slots = model::NodeTable::slots(nodes.reference(), hub_.node);
+  const Vec3 axis = slots.rightCols<3>() * hub_.axis;
+  std::vector<double> radii;
+  for (const strip::Station& station : blade.stations()) {
+    radii.push_back(across(place_of(station.point, nodes.reference()) - slots.col(0), axis).norm());
+  }
+  const std::size_t last = radii.size() - 1;
+  const double root = 1.5 * radii[0] - 0.5 * radii[1];
+  const double tip = 1.5 * radii[last] - 0.5 * radii[last - 1];
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double begin = i == 0 ? root : 0.5 * (radii[i - 1] + radii[i]);
+    const double end = i == last ? tip : 0.5 * (radii[i] + radii[i + 1]);
+    const double area = pi * (end * end - begin * begin) / static_cast<double>(blades_.size());
+    elements_.push_back(
+        {&blade, static_cast<int>(i), radii[i], area, std::max(root, 1e-3 * tip), tip});
+  }
+  tip_radius_ = std::max(tip_radius_, tip);
+}
+
+std::optional<RotorState> RotorLoad::state() const {
+  if (!accepted_.has_stepped) return {};
+  return accepted_.seen;
+}
+
+void RotorLoad::prepare(const model::State&, const Stencil&) { evaluated_.clear(); }
+
+// The hub turns by the Cayley vector tau = 2 tan(angle / 2) axis: D d = tau x d_middle.
+RotorState RotorLoad::motion(const model::State& state, const Stencil& stencil) const {
+  const model::NodeSlots prev = model::NodeTable::slots(state.prev, hub_.node);
+  const model::NodeSlots next = model::NodeTable::slots(state.next, hub_.node);
+  const model::NodeSlots middle = (1.0 - stencil.theta) * prev + stencil.theta * next;
+  RotorState rotor;
+  rotor.centre = middle.col(0);
+  rotor.axis = (middle.rightCols<3>() * hub_.axis).normalized();
+  if (stencil.step == 0.0) return rotor;
+  double turned = 0.0, arms = 0.0;
+  for (int k = 1; k < 4; ++k) {
+    const Vec3 arm = across(middle.col(k), rotor.axis);
+    turned += arm.cross(Vec3(next.col(k) - prev.col(k))).dot(rotor.axis);
+    arms += arm.squaredNorm();
+  }
+  rotor.speed = 2.0 * std::atan(0.5 * turned / arms) / stencil.step;
+  return rotor;
+}
+
+RotorLoad::Balanced RotorLoad::balance(const Element& element, const strip::StationFlow& flow,
+                                       const RotorState& rotor) const {
+  const Vec3 span = flow.along.cross(flow.across);
+  Balanced found;
+  found.outwards = across(flow.place - rotor.centre, rotor.axis).normalized();
+  found.normal = across(rotor.axis, span).normalized();
+  const Vec3 motion = std::copysign(1.0, rotor.speed) * rotor.axis.cross(found.outwards);
+  found.against = -across(across(motion, span), found.normal).normalized();
+  const double axial = flow.relative().dot(found.normal);
+  const double tangential = flow.relative().dot(found.against);
+  const double along = flow.along.dot(found.against), lead = flow.along.dot(found.normal);
+  const Turned airfoil(element.strip->stations()[static_cast<std::size_t>(element.station)], flow,
+                       along * found.normal - lead * found.against);
+  const Section section = [&airfoil](double alpha) { return airfoil.at(alpha); };
+  const AnnulusPlace place{static_cast<int>(blades_.size()), element.radius, element.hub_radius,
+                           element.tip_radius};
+  const Induction induction =
+      solve_induction({place, kind_.losses, airfoil.station().chord, std::atan2(lead, along), axial,
+                       tangential, kind_.drag_induces},
+                      section);
+  if (!induction.found) return found;
+  const double share =
+      turning_share(std::abs(rotor.speed) * tip_radius_, std::abs(rotor.wind.dot(rotor.axis)));
+  found.induction = share * induction.axial;
+  found.quasi_steady = {-share * induction.axial * axial,
+                        share * induction.tangential * tangential};
+  return found;
+}
+
+// The wake at the end of the step; one that has not stepped yet is steady.
+InflowState RotorLoad::follow(std::size_t element, const Induced& quasi_steady, double step) const {
+  if (kind_.follow == Follow::steady || !accepted_.has_wake || step == 0.0) {
+    return InflowState::steady(quasi_steady);
+  }
+  const InflowState& wake = accepted_.wake[element];
+  if (kind_.follow == Follow::frozen) return wake;
+  const double wind = std::max(std::abs(accepted_.seen.wind.dot(accepted_.seen.axis)), least_wind);
+  const InflowTimes times = inflow_times(accepted_.seen.induction, wind, tip_radius_,
+                                         elements_[element].radius / tip_radius_);
+  return wake.after(step, times, quasi_steady, quasi_steady);
+}
+
+double RotorLoad::skew(const RotorState& rotor, const Element& element,
+                       const Vec3& outwards) const {
+  const Vec3 sideways = across(rotor.wind, rotor.axis);
+  const double side = sideways.norm();
+  if (!kind_.skewed_wake || side == 0.0) return 1.0;
+  const double yaw = std::atan2(side, std::abs(rotor.wind.dot(rotor.axis)));
+  const double azimuth = std::acos(std::clamp(outwards.dot(sideways) / side, -1.0, 1.0));
+  return skew_factor(wake_skew(yaw, accepted_.seen.induction), element.radius / tip_radius_,
+                     azimuth);
+}
+
+void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
+  if (evaluated_ == state.next && evaluated_time_ == state.time &&
+      evaluated_step_ == stencil.step) {
+    return;
+  }
+  RotorState rotor = motion(state, stencil);
+  double area = 0.0;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const Element& element = elements_[i];
+    flows_[i] = element.strip->flow_at(element.station, state, stencil);
+    rotor.wind += element.area * flows_[i].wind;
+    area += element.area;
+  }
+  rotor.wind /= area;
+  for (std::size_t i = 0; i < elements_.size() && kind_.follow != Follow::none; ++i) {
+    const Element& element = elements_[i];
+    const Balanced found = balance(element, flows_[i], rotor);
+    rotor.induction += element.area / area * found.induction;
+    trial_.wake[i] = follow(i, found.quasi_steady, stencil.step);
+    Induced felt = trial_.wake[i].induced;
+    if (stencil.step > 0.0 && accepted_.has_wake && kind_.follow == Follow::dynamic) {
+      felt = 0.5 * (felt + accepted_.wake[i].induced);  // in the middle of the step
+    }
+    felt[0] *= skew(rotor, element, found.outwards);
+    element.strip->set_induced(element.station, felt[0] * found.normal + felt[1] * found.against);
+  }
+  trial_.has_stepped = true;
+  trial_.has_wake = accepted_.has_wake || stencil.step > 0.0;
+  trial_.seen = rotor;
+  evaluated_ = state.next;
+  evaluated_time_ = state.time;
+  evaluated_step_ = stencil.step;
+}
+
+void RotorLoad::accept(model::State&) { accepted_ = trial_; }
+
+std::size_t RotorLoad::memory_size() const { return 2 + RotorState::size + 4 * elements_.size(); }
+
+void RotorLoad::save(model::Items items, std::span<double> numbers) const {
+  if (items == model::Items::owned && !blades_.front()->owns(0)) return;
+  numbers[0] = accepted_.has_stepped ? 1.0 : 0.0;
+  numbers[1] = accepted_.has_wake ? 1.0 : 0.0;
+  accepted_.seen.save(numbers.subspan(2));
+  auto rest = numbers.subspan(2 + RotorState::size).begin();
+  for (const InflowState& wake : accepted_.wake) {
+    rest = std::ranges::copy(wake.reduced, rest).out;
+    rest = std::ranges::copy(wake.induced, rest).out;
+  }
+}
+
+void RotorLoad::restore(std::span<const double> numbers) {
+  accepted_.has_stepped = numbers[0] != 0.0;
+  accepted_.has_wake = numbers[1] != 0.0;
+  accepted_.seen.restore(numbers.subspan(2));
+  const double* rest = numbers.data() + 2 + RotorState::size;
+  for (InflowState& wake : accepted_.wake) {
+    wake.reduced = Induced(rest);
+    wake.induced = Induced(rest + 2);
+    rest += 4;
+  }
+  trial_ = accepted_;
+  evaluated_.clear();
+}
+
+}  // namespace culm::rotor
