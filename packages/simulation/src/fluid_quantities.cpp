@@ -3,10 +3,14 @@
 #include <culm/base/absent.hpp>
 #include <culm/base/nearest.hpp>
 #include <culm/flow/fluid_force.hpp>
+#include <culm/rotor/rotor_load.hpp>
 #include <culm/strip/strip_load.hpp>
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <iterator>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -140,6 +144,70 @@ std::unique_ptr<Quantity> make_strip(const Options& options, model::BuildContext
   return nullptr;
 }
 
+// What the air of its blades does to a rotor in the step.
+class RotorQuantity final : public Quantity {
+ public:
+  explicit RotorQuantity(const rotor::RotorLoad& rotor) : rotor_(rotor) {}
+
+  std::vector<HistoryColumn> columns() const override {
+    return {{"thrust", "N"}, {"torque", "N m"}, {"power", "W"},  {"speed", "rad/s"}, {"CT", "1"},
+            {"CP", "1"},     {"TSR", "1"},      {"wind", "m/s"}, {"yaw", "rad"},     {"a", "1"}};
+  }
+  void evaluate(const assembly::System& system, const model::State&,
+                std::vector<double>& numbers) const override {
+    const std::optional<rotor::RotorState> rotor = rotor_.state();
+    if (!rotor) {
+      numbers.insert(numbers.end(), columns().size(), absent);
+      return;
+    }
+    Vec6 sum = Vec6::Zero();
+    for (const strip::StripLoad* blade : rotor_.blades()) {
+      const auto part = blade->resultant();
+      if (part) sum += (Vec6() << part->force, part->moment).finished();
+    }
+    system.comm().sum({sum.data(), 6});
+    const Vec3 force = sum.head<3>();
+    const Vec3 moment = sum.tail<3>() - rotor->centre.cross(force);
+    const double thrust = force.dot(rotor->axis);
+    const double torque = moment.dot(rotor->axis);
+    const double power = torque * rotor->speed;
+    const double wind = rotor->wind.norm();
+    const double radius = rotor_.tip_radius();
+    const double push = 0.5 * rotor_.density() * wind * wind * std::numbers::pi * radius * radius;
+    // without wind there is nothing to refer to
+    const auto over = [](double a, double b) { return b == 0.0 ? absent : a / b; };
+    const double yaw =
+        std::atan2(rotor->axis.cross(rotor->wind).norm(), rotor->axis.dot(rotor->wind));
+    const double values[] = {thrust,
+                             torque,
+                             power,
+                             rotor->speed,
+                             over(thrust, push),
+                             over(power, push * wind),
+                             over(std::abs(rotor->speed) * radius, wind),
+                             wind,
+                             yaw,
+                             rotor->induction};
+    numbers.insert(numbers.end(), std::begin(values), std::end(values));
+  }
+
+ private:
+  const rotor::RotorLoad& rotor_;
+};
+
+std::unique_ptr<Quantity> make_rotor(const Options& options, model::BuildContext& context) {
+  const std::string& name = options.text("Load");
+  std::vector<std::string> names;
+  for (const auto& batch : context.model.loads()) {
+    const auto* load = dynamic_cast<const rotor::RotorLoad*>(batch.get());
+    if (load == nullptr) continue;
+    names.push_back(batch->effect().name);
+    if (names.back() == name) return std::make_unique<RotorQuantity>(*load);
+  }
+  context.issues.add(options.where("Load"), "no rotor '" + name + "'" + did_you_mean(name, names));
+  return nullptr;
+}
+
 }  // namespace
 
 void register_fluid_quantities(QuantityRegistry& registry) {
@@ -170,6 +238,15 @@ void register_fluid_quantities(QuantityRegistry& registry) {
           .add(text("Load", "Name of the strips in the list Loads."))
           .add(integer("Station", "Number of the station, from 0.").at_least(0).optional(0)),
       make_strip);
+  registry.add(
+      "Rotor",
+      Schema("Rotor",
+             "Thrust, torque about the axis downwind, power and speed of a rotor in the step; its "
+             "coefficients of thrust and power and its tip speed ratio, by the mean wind over its "
+             "disc and the radius of its tips in the reference; this wind, its angle to the axis, "
+             "and the mean axial induction that the balance of momentum asks for.")
+          .add(text("Load", "Name of the rotor in the list Loads.")),
+      make_rotor);
 }
 
 }  // namespace culm::simulation
