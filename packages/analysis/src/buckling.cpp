@@ -188,6 +188,7 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   model::Coordinates motion = system.linear_motion(state, *step_, 1.0);
   system.complete(motion);
   const auto change = stress_stiffness(context, state, level, *step_, *linear.stiffness);
+  system.prepare(state, Stencil::statics());  // back from the other level, for results
   const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
                             solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
   if (!is_symmetric) {

@@ -70,6 +70,18 @@ struct Stretch {
   }
 };
 
+// Tells the batch how much an element grows per kelvin, if it does.
+template <class Element, class Beam>
+void set_expansion(model::ElementBatch<Element>& batch, int item, const Stretch<Beam>& stretch,
+                   const SectionTable& sections) {
+  Vec<Element::num_points> expansion;
+  const auto rule = gauss_legendre(Element::num_points);
+  for (int p = 0; p < Element::num_points; ++p) {
+    expansion[p] = stretch.section_at(sections, rule[static_cast<std::size_t>(p)].xi).expansion;
+  }
+  if (!expansion.isZero(0.0)) batch.set_expansion(item, expansion);
+}
+
 template <class Beam>
 void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
                      model::Structure& structure) {
@@ -108,7 +120,9 @@ template <class Beam>
 double add_full(const std::string& effect, const Place& to) {
   auto& batch = model::elements<Beam>(to.model, effect, to.damping);
   return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
-    return Source{&batch, batch.add(element, stretch.nodes)};
+    const int item = batch.add(element, stretch.nodes);
+    set_expansion(batch, item, stretch, to.sections);
+    return Source{&batch, item};
   });
 }
 

@@ -15,7 +15,9 @@ double add_held_elements(const std::string& effect, const Place& to) {
   return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
     to.model.add_constraint(
         hold_strains(to.structure.name, Held::held, element, stretch.nodes, stretch.slots));
-    return Source{&batch, batch.add(Held(element), stretch.nodes)};
+    const int item = batch.add(Held(element), stretch.nodes);
+    set_expansion(batch, item, stretch, to.sections);
+    return Source{&batch, item};
   });
 }
 

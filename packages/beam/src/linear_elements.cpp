@@ -14,7 +14,9 @@ double add_linear(const std::string& effect, const Place& to) {
     reference << to.first_node(), stretch.slots;
     std::array<int, Order + 2> nodes{to.structure.nodes.front()};
     std::copy(stretch.nodes.begin(), stretch.nodes.end(), nodes.begin() + 1);
-    return Source{&batch, batch.add(LinearBeam<Order>(element, reference), nodes)};
+    const int item = batch.add(LinearBeam<Order>(element, reference), nodes);
+    set_expansion(batch, item, stretch, to.sections);
+    return Source{&batch, item};
   });
 }
 

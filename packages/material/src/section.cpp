@@ -56,6 +56,10 @@ Mat<2, 2> turn(double angle) {
 
 }  // namespace
 
+Field expansion_field() {
+  return number("Expansion", "1/K", "Coefficient of thermal expansion, for heat.").optional(0.0);
+}
+
 Mat6 stiffness_matrix(const StiffnessValues& v) {
   Mat6 C;
   C << v.GA1, 0.0, 0.0, 0.0, 0.0, -v.GS1,     //
@@ -110,7 +114,10 @@ Section rotated(const Section& section, double angle) {
   T.block<2, 2>(3, 3) = Q2.transpose();
   Mat3 P = Mat3::Identity();
   P.bottomRightCorner<2, 2>() = Q2;
-  Section result{T.transpose() * section.stiffness * T, P * section.mass * P.transpose(), {}};
+  Section result{T.transpose() * section.stiffness * T,
+                 P * section.mass * P.transpose(),
+                 {},
+                 section.expansion};
   for (const Vec<2>& point : section.outline) result.outline.emplace_back(Q2 * point);
   return result;
 }
@@ -122,14 +129,17 @@ Section shifted(const Section& section, const Vec<2>& offset) {
   T.topRightCorner<3, 3>() = -skew(Vec3(offset[0], offset[1], 0.0));
   Mat3 P = Mat3::Identity();
   P.bottomLeftCorner<2, 1>() = offset;
-  Section result{T.transpose() * section.stiffness * T, P * section.mass * P.transpose(), {}};
+  Section result{T.transpose() * section.stiffness * T,
+                 P * section.mass * P.transpose(),
+                 {},
+                 section.expansion};
   for (const Vec<2>& point : section.outline) result.outline.emplace_back(point + offset);
   return result;
 }
 
 Section interpolate(const Section& a, const Section& b, double t) {
   Section result{(1.0 - t) * a.stiffness + t * b.stiffness, (1.0 - t) * a.mass + t * b.mass,
-                 t < 0.5 ? a.outline : b.outline};
+                 t < 0.5 ? a.outline : b.outline, (1.0 - t) * a.expansion + t * b.expansion};
   if (a.outline.size() == b.outline.size()) {
     for (std::size_t i = 0; i < a.outline.size(); ++i) {
       result.outline[i] = (1.0 - t) * a.outline[i] + t * b.outline[i];

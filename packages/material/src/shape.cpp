@@ -56,6 +56,7 @@ Schema shape_schema(std::string type, std::string doc) {
       .add(number("Torsion Constant", "m^4", "Torsion constant, instead of that of the shape.")
                .positive()
                .optional())
+      .add(expansion_field())
       .add_all(placement_schema())
       .check(check_material);
   return schema;
@@ -88,6 +89,7 @@ Section make_section(const Shape& shape, const Options& options) {
   section.mass =
       mass_matrix({.rhoA = rho * shape.area, .rhoI1 = rho * shape.I1, .rhoI2 = rho * shape.I2});
   section.outline = shape.outline;
+  section.expansion = options.number("Expansion");
   return place(section, options);
 }
 

@@ -82,6 +82,7 @@ Schema StiffnessMatrixSection::schema() {
               .min_size(21)
               .optional())
       .add_all(mass_values_schema())
+      .add(expansion_field())
       .add_all(placement_schema())
       .add_all(outline_schema())
       .check(check_stiffness)
@@ -95,6 +96,7 @@ Section StiffnessMatrixSection::make(const Options& options) {
   section.stiffness = 0.5 * (C + C.transpose());
   section.mass = read_mass(options);
   section.outline = read_outline(options);
+  section.expansion = options.number("Expansion");
   return place(section, options);
 }
 

@@ -67,6 +67,7 @@ Schema StiffnessValuesSection::schema() {
       .add(number("GS2", "N m", "Integral of G xi1.").optional(0.0))
       .add(number("EI12", "N m^2", "Integral of E xi1 xi2.").optional(0.0))
       .add_all(mass_values_schema())
+      .add(expansion_field())
       .add_all(placement_schema())
       .add_all(outline_schema())
       .check(check_stiffness)
@@ -79,6 +80,7 @@ Section StiffnessValuesSection::make(const Options& options) {
   section.stiffness = stiffness_matrix(read_stiffness_values(options));
   section.mass = mass_matrix(read_mass_values(options));
   section.outline = read_outline(options);
+  section.expansion = options.number("Expansion");
   return place(section, options);
 }
 

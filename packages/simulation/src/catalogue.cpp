@@ -1,5 +1,6 @@
 #include <culm/beam/register_beam.hpp>
 #include <culm/body/register_body.hpp>
+#include <culm/heat/register_heat.hpp>
 #include <culm/hybrid/tube.hpp>
 #include <culm/joint/register_joint.hpp>
 #include <culm/lattice/register_lattice.hpp>
@@ -37,6 +38,7 @@ Catalogue::Catalogue() {
   register_sampled_signal(signals);
   joint::register_joints(constraints);
   load::register_loads(loads);
+  heat::register_heat(loads);
   flow::register_flows(flows);
   strip::register_airfoils(airfoils);
   strip::register_strips(strips);

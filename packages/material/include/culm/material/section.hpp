@@ -1,6 +1,7 @@
 /// The cross-section of a beam: what it resists with, what it weighs, what it looks like.
 #pragma once
 
+#include <culm/base/schema.hpp>
 #include <culm/math/types.hpp>
 
 #include <string>
@@ -17,7 +18,12 @@ struct Section {
   Mat3 mass = Mat3::Zero();
   /// Outer loop in (xi1, xi2), counter-clockwise, for pictures only; empty when unknown [m]
   std::vector<Vec<2>> outline;
+  /// Coefficient of thermal expansion, the same all over the section [1/K]
+  double expansion = 0.0;
 };
+
+/// Parameter "Expansion" of types of sections.
+Field expansion_field();
 
 /// The independent entries of eq. (1.9), axes d1 and d2 through the reference point.
 struct StiffnessValues {

@@ -19,6 +19,14 @@
 
 namespace culm::model {
 
+/// Adds to the stress resultants that the strains of elements make, as heat does.
+class AddedResultants {
+ public:
+  virtual ~AddedResultants() = default;
+  /// @param item  of the batch of elements @param resultants  in the order of its names
+  virtual void add_resultants(int item, std::span<double> resultants) const = 0;
+};
+
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
 /// the quadratic forms that the element states. @source formulation 0.3, 5.2, 6.7
 template <BatchElement E>
@@ -47,6 +55,20 @@ class ElementBatch final : public Batch,
   const std::array<int, N>& nodes(int item) const {
     return connectivity_[static_cast<std::size_t>(item)];
   }
+
+  /// Notes how much an element grows per kelvin, for those who heat it: by point [1/K].
+  void set_expansion(int item, const Vec<E::num_points>& expansion) {
+    expansions_.resize(static_cast<std::size_t>(size()), Vec<E::num_points>::Zero());
+    expansions_[static_cast<std::size_t>(item)] = expansion;
+  }
+  /// Zero where nobody said.
+  Vec<E::num_points> expansion(int item) const {
+    const auto i = static_cast<std::size_t>(item);
+    return i < expansions_.size() ? expansions_[i] : Vec<E::num_points>(Vec<E::num_points>::Zero());
+  }
+  /// Stress resultants are from now on with what `more` adds, which must live as long as they are
+  /// asked for.
+  void show_with(const AddedResultants& more) { added_.push_back(&more); }
 
   const StrainDamping& damping() const { return laws_.damping(); }
   const Effect& effect() const override { return effect_; }
@@ -253,6 +275,8 @@ class ElementBatch final : public Batch,
         mean += element(item).resultants(p, y) / E::num_points;
       }
     }
+    for (const AddedResultants* more : added_)
+      more->add_resultants(item, {mean.data(), E::num_resultants});
     out.insert(out.end(), mean.data(), mean.data() + mean.size());
   }
 
@@ -494,6 +518,8 @@ class ElementBatch final : public Batch,
   PointLaws<E> laws_;
   std::vector<E> elements_;
   std::vector<std::array<int, N>> connectivity_;
+  std::vector<Vec<E::num_points>> expansions_;  // by item; empty where nothing expands
+  std::vector<const AddedResultants*> added_;
   Placement placement_;
   Form form_ = Form::null_space;
   std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia is wanted

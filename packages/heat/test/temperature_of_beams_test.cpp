@@ -1,0 +1,181 @@
+#include <culm/beam/beam_structure.hpp>
+#include <culm/heat/register_heat.hpp>
+
+#include <culm_kit/batch_laws.hpp>
+#include <culm_kit/deck_list.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace culm::heat {
+namespace {
+
+using kit::GivenValues;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Numbers = std::vector<double>;
+
+constexpr const char* effect = "Temperature, sun";
+constexpr double expansion = 0.3;
+
+// A fully coupled section.
+material::Section section(double of_expansion = expansion) {
+  material::Section section;
+  section.stiffness = kit::Random(1).positive_matrix<6>();
+  section.mass = kit::Random(2).positive_matrix<3>();
+  section.expansion = of_expansion;
+  return section;
+}
+
+void add_beam(model::Model& model, const GivenValues& values, double of_expansion = expansion) {
+  std::map<std::string, material::Section> sections{{"bar", section(of_expansion)}};
+  std::map<std::string, material::Material> materials;
+  InputIssues issues;
+  std::ostringstream messages;
+  Log log{messages, LogLevel::info};
+  structure::StructureContext context{model, sections, materials, issues, log};
+  const Schema schema = beam::beam_schema();
+  GivenValues all{{"Section", std::string("bar")}};
+  for (const auto& one : values) all.push_back(one);
+  Options options = kit::deck_list(schema, all, "bridge");
+  Options line = kit::deck_list(
+      *schema.find_slot("Curve")->find("Line"),
+      {{"From", Numbers{0, 0, 0}}, {"To", Numbers{0, 0, 1.5}}, {"Elements", 2}}, "Curve");
+  line.set("Type", std::string("Line"));
+  options.add_list(line);
+  beam::add_beam(options, context);
+}
+
+// What the load says; empty if nothing.
+std::vector<std::string> add_heat(model::Model& model, const GivenValues& values) {
+  model::BuilderRegistry registry;
+  register_heat(registry);
+  const std::map<std::string, model::Amplitude> functions{
+      {"day", model::Amplitude::of_time([](double t) { return 1.0 + t * t; })},
+      {"noise", model::Amplitude::of_step([](double, double end) { return end; })}};
+  InputIssues issues;
+  model::BuildContext context{model, functions, issues};
+  const Schema schema = registry.variants().at("Temperature");
+  registry.make("Temperature", kit::deck_list(schema, values, "sun"), context);
+  std::vector<std::string> messages;
+  for (const InputIssue& issue : issues.sorted()) messages.push_back(issue.message);
+  return messages;
+}
+
+const GivenValues sun{{"Structure", std::string("bridge")},
+                      {"Value", 0.8},
+                      {"Gradient", Numbers{0.4, -0.7}},
+                      {"Function", std::string("day")}};
+
+struct Kind {
+  GivenValues values;
+  std::string effect;  // of its elements
+};
+const std::vector<Kind> kinds = {
+    {{{"Order", 1}}, "Beam, director, order 1"},
+    {{{"Order", 2}}, "Beam, director, order 2"},
+    {{{"Order", 2}, {"Fidelity", std::string("Linear")}}, "Beam, linear, order 2"},
+    {{{"Order", 2}, {"Torsion", false}}, ""},
+};
+
+kit::FillModel filled(const Kind& kind) {
+  return [&kind](model::Model& model) {
+    add_beam(model, kind.values);
+    EXPECT_THAT(add_heat(model, sun), testing::IsEmpty());
+  };
+}
+
+TEST(TemperatureOfBeams, TangentIsDerivativeOfResidual) {
+  for (const Kind& kind : kinds) kit::expect_tangent_is_derivative(filled(kind), effect);
+}
+TEST(TemperatureOfBeams, NullSpaceResidualIsProjected) {
+  for (const Kind& kind : kinds) kit::expect_residual_is_projected(filled(kind), effect);
+}
+TEST(TemperatureOfBeams, AssemblesWithoutHeap) {
+  for (const Kind& kind : kinds) kit::expect_no_allocation(filled(kind), effect);
+}
+TEST(TemperatureOfBeams, AttemptsLeaveNoTrace) {
+  for (const Kind& kind : kinds) kit::expect_attempts_leave_no_trace(filled(kind), effect);
+}
+
+// Work of all stresses = change of the energy in strain less free strain - work of heat.
+TEST(TemperatureOfBeams, EnergyBalanceIsExact) {
+  for (const Kind& kind : kinds) {
+    if (kind.effect.empty()) continue;
+    SCOPED_TRACE(kind.effect);
+    model::Model model;
+    filled(kind)(model);
+    model.freeze(model::Form::multipliers);
+    kit::DenseAssembly dense(model);
+    const std::vector<model::Batch*> batches{kit::find_batch(model, kind.effect),
+                                             kit::find_batch(model, effect)};
+    const auto stored = [&](const model::Coordinates& q) {
+      return batches[0]->stored_energy(q) + batches[1]->stored_energy(q);
+    };
+    model::State state = kit::random_state(model, 3);
+    const double h = state.time - state.time_prev;
+    const Stencil stencil{h, 0.5, 0.5, 0.0};  // of a step without inertia
+    model::State start = state;
+    start.time = start.time_prev;
+    dense.prepare(start, stencil);
+    const double before = stored(state.prev);
+    dense.prepare(state, stencil);
+    const Eigen::VectorXd force = dense.residual(state, stencil, batches);
+    double work = 0.0;
+    for (int node = 0; node < model.nodes().size(); ++node) {
+      const model::NodeSlots moved =
+          model::NodeTable::slots(state.next, node) - model::NodeTable::slots(state.prev, node);
+      work += force.segment<12>(12 * node).dot(moved.reshaped());
+    }
+    const double after = stored(state.next);
+    const double drives = batches[1]->step_work(state, stencil).drives;
+    EXPECT_GT(std::abs(drives), 1e-3);
+    EXPECT_NEAR(work, after - before - drives, 1e-12 * (before + after));
+  }
+}
+
+// Held at its length and straight, a beam has the stresses of the free strains, reversed.
+TEST(TemperatureOfBeams, ResultantsAreThoseOfStrainLessFreeStrain) {
+  model::Model model;
+  add_beam(model, {{"Order", 2}});
+  ASSERT_THAT(add_heat(model, sun), testing::IsEmpty());
+  model.freeze(model::Form::null_space);
+  model::State state = model.initial_state();
+  state.time = state.time_prev = 0.5;
+  kit::DenseAssembly dense(model);
+  dense.prepare(state, Stencil::statics());
+  Vec6 free;
+  free << 0.0, 0.0, 0.8, -0.7, -0.4, 0.0;
+  const Vec6 expected = -1.25 * expansion * section().stiffness * free;
+  const model::Cell& cell = model.find_structure("bridge")->cells[1];
+  std::vector<double> found;
+  cell.source->resultants(cell.item, state.next, found);
+  EXPECT_LT((Eigen::Map<const Vec6>(found.data()) - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST(TemperatureOfBeams, MistakesAreNamed) {
+  const auto message = [](const GivenValues& beam, const GivenValues& heat, double of_expansion) {
+    model::Model model;
+    add_beam(model, beam, of_expansion);
+    return add_heat(model, heat);
+  };
+  EXPECT_THAT(message({}, sun, 0.0), ElementsAre(HasSubstr("its sections need an 'Expansion'")));
+  EXPECT_THAT(message({{"Fidelity", std::string("Kirchhoff")}}, sun, expansion),
+              ElementsAre(HasSubstr("holds its length")));
+  EXPECT_THAT(message({{"Element", std::string("Helical")}}, sun, expansion),
+              ElementsAre(HasSubstr("has helical elements")));
+  EXPECT_THAT(message({{"Fidelity", std::string("Rigid")}}, sun, expansion),
+              ElementsAre(HasSubstr("no elements that expand")));
+  EXPECT_THAT(message({}, {{"Structure", std::string("bridge")}}, expansion),
+              ElementsAre(HasSubstr("heats nothing")));
+  GivenValues noisy{
+      {"Structure", std::string("bridge")}, {"Value", 1.0}, {"Function", std::string("noise")}};
+  EXPECT_THAT(message({}, noisy, expansion), ElementsAre(HasSubstr("one value per step")));
+}
+
+}  // namespace
+}  // namespace culm::heat

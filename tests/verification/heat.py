@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""C23, C24: heated bars and columns, the work of heat. Page: doc/verification/heat.md."""
+
+import math
+
+from verify import main
+
+E, ALPHA, SIDE, LENGTH = 210e9, 1.2e-5, 0.02, 2.0
+AREA, INERTIA = SIDE**2, SIDE**4 / 12.0
+# P / GA per kelvin: k E / G, Cowper's k of a rectangle
+SOFTNESS = ALPHA * 2.6 * (12.0 + 11.0 * 0.3) / (10.0 * 1.3)
+BENT = "heat/bent_bar.xml"
+
+
+def constraint(name, kind, node, key, direction):
+    entry = f"Constraints/{name}"
+    return [f"{entry}/Type={kind}", f"{entry}/Node=bar/{node}", f"{entry}/{key}={direction}"]
+
+
+def rotation(name, node, axis):
+    return constraint(name, "Rotation", node, "Axis", axis)
+
+
+# the head of the column may not move sideways, nor turn; a foot that may turn must not twist
+SIDEWAYS = [*constraint("y", "Simple Support", "last", "Direction", "{0, 1, 0}"),
+            *constraint("z", "Simple Support", "last", "Direction", "{0, 0, 1}")]
+UPRIGHT = [*rotation("about y", "last", "{0, 1, 0}"), *rotation("about z", "last", "{0, 0, 1}")]
+HINGE = ["Constraints/foot/Type=Spherical Support", *rotation("twist", "first", "{1, 0, 0}")]
+# c of Euler's load c pi^2 EI / L^2; clamped and hinged: the smallest root of tan x = x
+COLUMNS = {"clamped and free": ([], 0.25),
+           "hinges": ([*HINGE, *SIDEWAYS], 1.0),
+           "clamped and hinged": (SIDEWAYS, 20.190728557 / math.pi**2),
+           "clamped": ([*SIDEWAYS, *UPRIGHT], 4.0)}
+
+
+def last(history, column):
+    return history.column(column)[-1]
+
+
+def verify_bar(culm, report):
+    report.title("C23: bar, 50 K")
+    force = E * AREA * ALPHA * 50.0
+    history = culm.history("heat/held_bar.xml")
+    report.relative("held, N [N]", last(history, "middle N3 [N]"), -force, 1e-9)
+    report.relative("held, reaction [N]", last(history, "head Fx [N]"), -force, 1e-9)
+    history = culm.history(BENT, ["Loads/sun/Value=50", 'Loads/sun/Gradient={0, 0}'])
+    report.relative("free, growth [m]", last(history, "tip ux [m]"), ALPHA * 50.0 * LENGTH, 1e-9)
+    report.check("free, N / (E A alpha T)", last(history, "middle N3 [N]") / force, 0.0, 1e-9)
+
+
+def verify_columns(culm, report):
+    report.title("C23: buckling by heat, c pi^2 I / (alpha A L^2)")
+    for name, (settings, c) in COLUMNS.items():
+        table = culm.table("buckling/buckling", "heat/column.xml", settings)
+        wanted = c * math.pi**2 * INERTIA / (ALPHA * AREA * LENGTH**2)
+        found = min(factor for factor in table.column("factor") if factor > 0.0)
+        report.relative(f"{name} [K]", found, wanted, 1e-3)
+        if name != "clamped and hinged":  # with shear, P (1 + P / GA) = Euler's load
+            sheared = (math.sqrt(1.0 + 4.0 * wanted * SOFTNESS) - 1.0) / (2.0 * SOFTNESS)
+            report.relative(f"{name}, with shear [K]", found, sheared, 2e-4)
+
+
+def verify_gradient(culm, report):
+    report.title("C24: 30 K over the height")
+    curvature = ALPHA * 30.0 / SIDE
+    history = culm.history(BENT)
+    arc = (1.0 - math.cos(curvature * LENGTH)) / curvature
+    report.relative("tip sinks [m]", -last(history, "tip uz [m]"), arc, 1e-7)
+    report.check("M / (E I kappa)", last(history, "middle M2 [N m]") / 50.4, 0.0, 1e-7)
+    head = [f"Constraints/head/{one}" for one in ("Type=Rigid Support", "Node=bar/last")]
+    history = culm.history(BENT, head)
+    report.relative("clamped, M [N m]", abs(last(history, "middle M2 [N m]")), E * INERTIA * curvature, 1e-9)
+    report.check("clamped, tip [m]", last(history, "tip uz [m]"), 0.0, 1e-12)
+
+
+def verify_work(culm, report):
+    report.title("Work of heat, conserving scheme: of what the beam holds and heat puts in")
+    for form in ("Null Space", "Multipliers"):
+        run = culm.run("heat/flying_bar.xml", [f"Solver/Form={form}"], quiet=False)
+        report.holds(f"{form}: energy balance", run.drift("energy balance"), 1e-11)
+        report.holds(f"{form}: angular momentum", run.drift("angular momentum"), 1e-11)
+
+
+def verify(culm, report):
+    verify_bar(culm, report)
+    verify_columns(culm, report)
+    verify_gradient(culm, report)
+    verify_work(culm, report)
+
+
+main(verify)
