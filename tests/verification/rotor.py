@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""Rotor in the wind: the rigid NREL 5 MW rotor, the turbine in a gust. Page: doc/verification/rotor.md."""
+
+import math
+
+import numpy as np
+from verify import figure, main, save
+
+RIGID = "turbine/nrel5mw/rotor.xml"
+GUST = "turbine/nrel5mw/turbine_gust.xml"
+
+# A prototype of the same balance: 8 m/s, 9.1552 rpm, without tilt and cone: station of 45, its twist [deg],
+# angle of the inflow [deg], force normal to the rotor and against its motion [N/m].
+STATIONS = [(7, 13.308, 26.5121, 718.82, 290.87), (16, 9.011, 14.3392, 1471.80, 360.64),
+            (25, 5.361, 8.8811, 2561.27, 381.95), (34, 2.319, 6.5469, 3468.77, 377.22)]
+
+# Jonkman et al., NREL/TP-500-38060 (2009): wind, rpm, pitch, thrust without weight [kN], torque [kN m]
+SWEEP = [(5, 7.506, 0, 174.9, 544.3), (6, 7.942, 0, 236.3, 939.5), (8, 9.156, 0, 384.0, 1956.9),
+         (10, 11.431, 0, 597.5, 3051.1), (11, 11.890, 0, 696.6, 3881.3),
+         (12, 12.1, 3.823, 596.0, 4180.1), (15, 12.1, 10.450, 426.5, 4180.1),
+         (20, 12.1, 17.473, 324.8, 4180.1), (25, 12.1, 23.469, 275.3, 4180.1)]
+
+
+def mean(history, name):
+    return float(np.mean(history.column(name)[1:]))
+
+
+def station(culm, number, twist):
+    """Angle of the inflow [deg], forces normal to the rotor and along its motion [N/m]."""
+    history = culm.history(RIGID, ["V=8", "W=9.1552", "tilt=0", "cone=0", "stations=45", "turn=pi/90",
+                                   f"Output/History/tip/Station={number}"])
+    alpha, across, along = (history.column(f"tip {name}")[-1]
+                            for name in ("alpha [rad]", "Fn [N/m]", "Ft [N/m]"))
+    c, s = math.cos(math.radians(twist)), math.sin(math.radians(twist))
+    return math.degrees(alpha) + twist, c * across + s * along, s * across - c * along
+
+
+def sweep(culm):
+    """Mean thrust [kN] and torque [kN m] by wind."""
+    found = []
+    for wind, rpm, pitch, *_ in SWEEP:
+        history = culm.history(RIGID, [f"V={wind}", f"W={rpm}", f"pitch={pitch}"])
+        found.append((mean(history, "rotor thrust [N]") / 1e3, mean(history, "rotor torque [N m]") / 1e3))
+    return found
+
+
+def gust(culm, induction, *overrides):
+    return culm.history(GUST, [f"Loads/rotor/Induction={induction}", *overrides])
+
+
+def peak(history):
+    return 1e-3 * max(t for t, time in zip(history.column("rotor thrust [N]"), history.levels) if time > 10)
+
+
+def faster(culm, induction):
+    return culm.history(RIGID, ["tilt=0", "step=pi/60", "turn=22*W", f"Loads/rotor/Induction={induction}",
+                                "Functions/angle/Expression=W*t + (t > 1 ? 0.1*W*(t - 1) : 0)"])
+
+
+def response(time, induction, ratio=0.7):
+    """Of the induced velocity at a share of the radius to a jump of what the balance asks for (Oye)."""
+    slow = 1.1 / (1 - 1.3 * induction) * 63 / 8
+    fast = (0.39 - 0.26 * ratio**2) * slow
+    part = 0.4 * slow / (slow - fast)
+    return 1 - part * math.exp(-time / slow) - (1 - part) * math.exp(-time / fast)
+
+
+def verify(culm, report):
+    report.title("Stations of the rigid rotor: balance, induced velocity and load of the strip")
+    for number, twist, phi, normal, along in STATIONS:
+        found = station(culm, number, twist)
+        report.relative(f"station {number}: angle [deg], forces [N/m]", found, [phi, normal, along], 1e-4)
+    report.title("Rigid rotor by wind, tilt 5, cone 2.5 degrees; thrust [kN], torque [kN m]")
+    for row, (thrust, torque) in zip(SWEEP, sweep(culm)):
+        wind, _, _, wanted_thrust, wanted_torque = row
+        if 7 < wind < 11.5:  # where pitch does not decide, and the blades bend little
+            report.relative(f"{wind} m/s: thrust", thrust, wanted_thrust, 0.015)
+            report.relative(f"{wind} m/s: torque", torque, wanted_torque, 0.015)
+        else:
+            report.note(f"{wind} m/s: thrust {thrust:.1f} ({100 * (thrust / wanted_thrust - 1):+.1f} %), "
+                        f"torque {torque:.1f} ({100 * (torque / wanted_torque - 1):+.1f} %)")
+    report.title("Wakes in a wind along the axis, which does not change: with and without lags")
+    steady, lagging = (culm.history(RIGID, ["tilt=0", "turn=pi/18", f"Loads/rotor/Induction={induction}"])
+                       for induction in ("Steady", "Dynamic"))
+    report.relative("thrust [N]", lagging.column("rotor thrust [N]")[-1],
+                    steady.column("rotor thrust [N]")[-1], 1e-9)
+    report.title("The rotor turns 10 % faster from 1 s on: share of the wake that followed, by the thrust")
+    frozen, lagging, steady = (faster(culm, induction) for induction in ("Frozen", "Dynamic", "Steady"))
+    thrust = "rotor thrust [N]"
+    for time in (1.0, 2.0, 5.0, 10.0, 20.0):
+        row = int(np.argmin(np.abs(np.array(steady.levels) - 1.0 - time)))
+        start, now, end = (history.column(thrust)[row] for history in (frozen, lagging, steady))
+        wanted = response(steady.levels[row] - 1.0, steady.column("rotor a [1]")[row])
+        # the rotor has all radii, and its thrust is not linear in what is induced
+        report.check(f"{time:g} s later", (start - now) / (start - end), wanted, 0.05)
+    report.title("Extreme operating gust on the whole elastic turbine, at constant speed: largest thrust [kN]")
+    for induction in ("Frozen", "Dynamic", "Steady"):
+        report.note(f"{induction}: {peak(gust(culm, induction, 'start=6', 'end=14')):.1f}")
+
+
+def plot(culm, path):
+    fig, axes = figure()
+    axes = np.atleast_1d(axes)[0]
+    for induction in ("Frozen", "Steady", "Dynamic"):
+        history = gust(culm, induction)
+        times = np.array(history.levels)
+        axes.plot(times[times > 15], 1e-3 * np.array(history.column("rotor thrust [N]"))[times > 15],
+                  label=induction)
+    axes.set(title="Gust on the NREL 5 MW turbine", xlabel="time [s]", ylabel="thrust [kN]")
+    axes.legend()
+    save(fig, path)
+
+
+if __name__ == "__main__":
+    main(verify, plot)
