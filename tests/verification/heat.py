@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""C23, C24: heated bars and columns, the work of heat. Page: doc/verification/heat.md."""
+"""C23 to C25: heated bars and columns, bimetals, the work of heat. Page: doc/verification/heat.md."""
 
 import math
 
@@ -9,6 +9,9 @@ E, ALPHA, SIDE, LENGTH = 210e9, 1.2e-5, 0.02, 2.0
 AREA, INERTIA = SIDE**2, SIDE**4 / 12.0
 # P / GA per kelvin: k E / G, Cowper's k of a rectangle
 SOFTNESS = ALPHA * 2.6 * (12.0 + 11.0 * 0.3) / (10.0 * 1.3)
+# curvature of Timoshenko (1925) for 1 and 1.5 mm, 200 and 100 GPa, 12e-6 and 23e-6 1/K, 100 K
+BIMETAL = 0.65945046
+MIDDLE = [f"Output/History/middle/{one}" for one in ("Type=Stress Resultants", "Structure=plate", "Element=27")]
 BENT = "heat/bent_bar.xml"
 
 
@@ -81,10 +84,27 @@ def verify_work(culm, report):
         report.holds(f"{form}: angular momentum", run.drift("angular momentum"), 1e-11)
 
 
+def verify_bimetal(culm, report):
+    report.title("C25: bimetal, 100 K")
+    strip = culm.history("heat/bimetal_strip.xml")
+    report.relative("tip sinks [m]", -last(strip, "tip uz [m]"), 3.296058e-3, 1e-5)
+    report.title("C25: a little warmer, per 100 K")
+    strip = culm.history("heat/bimetal_strip.xml", ["Loads/heat/Value=0.01"])
+    linear = 0.5 * BIMETAL * 0.1**2
+    report.relative("strip, tip sinks [m]", -1e4 * last(strip, "tip uz [m]"), linear, 1e-6)
+    for nu in (0, 0.3):
+        plate = culm.history("heat/bimetal_plate.xml", [f"nu={nu}", *MIDDLE])
+        rise = 1e5 * last(plate, "centre uz [m]")
+        report.relative(f"plate, nu = {nu}, centre rises [m]", rise, 0.25 * BIMETAL * 0.1**2, 1e-6)
+        force = 1e5 * last(plate, "middle N11 [N/m]") / (200e9 * 1e-3 * 11e-4)
+        report.check(f"plate, nu = {nu}, N / (E t (alpha2 - alpha1) T)", force, 0.0, 1e-5)
+
+
 def verify(culm, report):
     verify_bar(culm, report)
     verify_columns(culm, report)
     verify_gradient(culm, report)
+    verify_bimetal(culm, report)
     verify_work(culm, report)
 
 

@@ -11,6 +11,7 @@ namespace {
 Vec6 free_strain(const Temperature& temperature) {
   Vec6 e = Vec6::Zero();
   e[2] = temperature.value;
+  if (temperature.gradient.empty()) return e;
   e[3] = temperature.gradient[1];
   e[4] = -temperature.gradient[0];
   return e;
@@ -30,7 +31,7 @@ HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, int ite
     auto& stress = heated.stress[static_cast<std::size_t>(p)];
     stress = beam.stiffness(p) * e;
     heated.energy += 0.5 * e.dot(stress);
-    heated.resultants += beam.resultants(p, e) / Beam::num_points;
+    heated.resultants -= beam.resultants(p, e) / Beam::num_points;
   }
   return heated;
 }
@@ -39,6 +40,7 @@ template <class Beam>
 bool heat(const HeatRequest& request) {
   auto* batch = batch_of<Beam>(request.structure.cells.front(), request.context.model);
   if (batch == nullptr) return false;
+  if (!has_gradients(2, "beam", request)) return true;
   const Where where = request.options.where("Structure");
   const std::string& name = request.structure.name;
   bool expands = false;

@@ -6,13 +6,14 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace culm::heat {
 
 /// A temperature as the deck describes it, at amplitude 1.
 struct Temperature {
-  double value = 0.0;                ///< above the stress-free state, on the axis or surface [K]
-  Vec<2> gradient = Vec<2>::Zero();  ///< by xi1 and xi2 of a beam, by zeta of a shell [K/m]
+  double value = 0.0;            ///< above the stress-free state, on the axis or surface [K]
+  std::vector<double> gradient;  ///< by xi1 and xi2 of a beam, by zeta of a shell [K/m]
   model::Amplitude amplitude;
 };
 
@@ -27,6 +28,10 @@ struct HeatRequest {
 /// Heats the structure if its elements are those of a family; a mistake is an issue.
 /// @return whether they are
 bool heat_beams(const HeatRequest& request);
+bool heat_shells(const HeatRequest& request);
+
+/// Whether 'Gradient' has none or `size` values; an issue if not.
+bool has_gradients(std::size_t size, const std::string& kind, const HeatRequest& request);
 
 /// The batch of elements E of a model that is the source of a cell, or null.
 template <class E>

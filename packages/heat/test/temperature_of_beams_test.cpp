@@ -1,8 +1,7 @@
 #include <culm/beam/beam_structure.hpp>
-#include <culm/heat/register_heat.hpp>
 
-#include <culm_kit/batch_laws.hpp>
-#include <culm_kit/deck_list.hpp>
+#include "heat_case.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,22 +49,6 @@ void add_beam(model::Model& model, const GivenValues& values, double of_expansio
   beam::add_beam(options, context);
 }
 
-// What the load says; empty if nothing.
-std::vector<std::string> add_heat(model::Model& model, const GivenValues& values) {
-  model::BuilderRegistry registry;
-  register_heat(registry);
-  const std::map<std::string, model::Amplitude> functions{
-      {"day", model::Amplitude::of_time([](double t) { return 1.0 + t * t; })},
-      {"noise", model::Amplitude::of_step([](double, double end) { return end; })}};
-  InputIssues issues;
-  model::BuildContext context{model, functions, issues};
-  const Schema schema = registry.variants().at("Temperature");
-  registry.make("Temperature", kit::deck_list(schema, values, "sun"), context);
-  std::vector<std::string> messages;
-  for (const InputIssue& issue : issues.sorted()) messages.push_back(issue.message);
-  return messages;
-}
-
 const GivenValues sun{{"Structure", std::string("bridge")},
                       {"Value", 0.8},
                       {"Gradient", Numbers{0.4, -0.7}},
@@ -102,39 +85,9 @@ TEST(TemperatureOfBeams, AttemptsLeaveNoTrace) {
   for (const Kind& kind : kinds) kit::expect_attempts_leave_no_trace(filled(kind), effect);
 }
 
-// Work of all stresses = change of the energy in strain less free strain - work of heat.
 TEST(TemperatureOfBeams, EnergyBalanceIsExact) {
   for (const Kind& kind : kinds) {
-    if (kind.effect.empty()) continue;
-    SCOPED_TRACE(kind.effect);
-    model::Model model;
-    filled(kind)(model);
-    model.freeze(model::Form::multipliers);
-    kit::DenseAssembly dense(model);
-    const std::vector<model::Batch*> batches{kit::find_batch(model, kind.effect),
-                                             kit::find_batch(model, effect)};
-    const auto stored = [&](const model::Coordinates& q) {
-      return batches[0]->stored_energy(q) + batches[1]->stored_energy(q);
-    };
-    model::State state = kit::random_state(model, 3);
-    const double h = state.time - state.time_prev;
-    const Stencil stencil{h, 0.5, 0.5, 0.0};  // of a step without inertia
-    model::State start = state;
-    start.time = start.time_prev;
-    dense.prepare(start, stencil);
-    const double before = stored(state.prev);
-    dense.prepare(state, stencil);
-    const Eigen::VectorXd force = dense.residual(state, stencil, batches);
-    double work = 0.0;
-    for (int node = 0; node < model.nodes().size(); ++node) {
-      const model::NodeSlots moved =
-          model::NodeTable::slots(state.next, node) - model::NodeTable::slots(state.prev, node);
-      work += force.segment<12>(12 * node).dot(moved.reshaped());
-    }
-    const double after = stored(state.next);
-    const double drives = batches[1]->step_work(state, stencil).drives;
-    EXPECT_GT(std::abs(drives), 1e-3);
-    EXPECT_NEAR(work, after - before - drives, 1e-12 * (before + after));
+    if (!kind.effect.empty()) expect_energy_balance(filled(kind), kind.effect, effect);
   }
 }
 

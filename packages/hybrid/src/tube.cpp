@@ -81,7 +81,9 @@ Moduli isotropic_moduli(const material::Material& material, const Options& optio
   const Mat6& C = material::small_strain_stiffness(material.law);
   const double lambda = C(0, 1);
   const double mu = C(5, 5);
-  if ((C - material::lame_stiffness(lambda, mu)).norm() > 1e-9 * C.norm()) {
+  const Vec3& expansion = material.expansion;
+  const bool grows_alike = expansion == Vec3::Constant(expansion[0]);
+  if ((C - material::lame_stiffness(lambda, mu)).norm() > 1e-9 * C.norm() || !grows_alike) {
     throw InputError(options.where("Material"),
                      fmt::format("'{}' is not isotropic", options.text("Material")));
   }
@@ -104,6 +106,7 @@ material::Section tube_section(const Options& options, const material::Material&
   section.mass = material::mass_matrix(
       {.rhoA = rho * shape.area, .rhoI1 = rho * shape.I1, .rhoI2 = rho * shape.I2});
   section.outline = shape.outline;
+  section.expansion = material.expansion[0];
   return section;
 }
 

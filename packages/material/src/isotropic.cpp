@@ -1,3 +1,4 @@
+#include <culm/material/expansion.hpp>
 #include <culm/material/isotropic.hpp>
 
 #include <utility>
@@ -27,13 +28,17 @@ StVenantKirchhoff IsotropicMaterial::law(double E, double nu) {
 }
 
 Schema IsotropicMaterial::schema() {
-  return isotropic_constants_schema(
+  Schema schema = isotropic_constants_schema(
       "Isotropic", "Stress proportional to Green-Lagrange strain, the same in all directions.");
+  schema.add(expansion_field());
+  return schema;
 }
 
 Material IsotropicMaterial::make(const Options& options) {
-  return make_material(law(options.number("Young Modulus"), options.number("Poisson Ratio")),
-                       options);
+  Material material =
+      make_material(law(options.number("Young Modulus"), options.number("Poisson Ratio")), options);
+  material.expansion.setConstant(options.number("Expansion"));
+  return material;
 }
 
 }  // namespace culm::material

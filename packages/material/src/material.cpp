@@ -35,8 +35,12 @@ Schema common_material_schema() {
 }
 
 Material make_material(Material::Law law, const Options& options) {
-  return {std::move(law), options.number("Density"), options.number("Dissipation"),
-          options.number("Damping"), read_relaxation(options.list("Relaxation"), 1)};
+  return {std::move(law),
+          options.number("Density"),
+          options.number("Dissipation"),
+          options.number("Damping"),
+          read_relaxation(options.list("Relaxation"), 1),
+          Vec3::Zero()};
 }
 
 }  // namespace culm::material

@@ -78,6 +78,11 @@ Schema OrthotropicMaterial::schema() {
       .add(number("G12", "N/m^2", "Shear modulus in the layer.").positive())
       .add(number("G13", "N/m^2", "Transverse shear modulus, along the fibre.").positive())
       .add(number("G23", "N/m^2", "Transverse shear modulus, across the fibre.").positive())
+      .add(numbers("Expansions", "1/K",
+                   "Coefficients of thermal expansion along the fibre, across it in the layer and "
+                   "through the thickness, for heat.")
+               .size(3)
+               .optional({0.0, 0.0, 0.0}))
       .add_all(common_material_schema())
       .check([](const Options& options, InputIssues& issues) {
         for (const std::string& message : mistakes(read(options))) {
@@ -88,7 +93,9 @@ Schema OrthotropicMaterial::schema() {
 }
 
 Material OrthotropicMaterial::make(const Options& options) {
-  return make_material(law(read(options)), options);
+  Material material = make_material(law(read(options)), options);
+  material.expansion = Eigen::Map<const Vec3>(options.numbers("Expansions").data());
+  return material;
 }
 
 }  // namespace culm::material

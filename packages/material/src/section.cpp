@@ -56,10 +56,6 @@ Mat<2, 2> turn(double angle) {
 
 }  // namespace
 
-Field expansion_field() {
-  return number("Expansion", "1/K", "Coefficient of thermal expansion, for heat.").optional(0.0);
-}
-
 Mat6 stiffness_matrix(const StiffnessValues& v) {
   Mat6 C;
   C << v.GA1, 0.0, 0.0, 0.0, 0.0, -v.GS1,     //

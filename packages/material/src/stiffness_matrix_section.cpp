@@ -1,3 +1,4 @@
+#include <culm/material/expansion.hpp>
 #include <culm/material/outline.hpp>
 #include <culm/material/placement.hpp>
 #include <culm/material/stiffness_matrix_section.hpp>

@@ -3,46 +3,13 @@
 #include <culm/shell/layer_quadrature.hpp>
 #include <culm/shell/shell_mass.hpp>
 
+#include "shell_integrals.hpp"
+
 #include <Eigen/Cholesky>
 
 #include <utility>
-#include <variant>
 
 namespace culm::shell {
-
-namespace {
-
-const Mat6& modulus(const material::Layer& layer) {
-  return std::get<material::StVenantKirchhoff>(layer.material.law).C;
-}
-
-// Integrals over an element of products of the strains L y + M α with a modulus between them.
-struct Integrals {
-  explicit Integrals(int parameters)
-      : forms(ShellForms::Stiffness::Zero()),
-        coupling(Eigen::MatrixXd::Zero(parameters, ShellForms::num_strains)),
-        enhanced(Eigen::MatrixXd::Zero(parameters, parameters)) {}
-
-  void add(const ShellGeometry::Point& point, const Mat6& C) {
-    const ShellGeometry::StrainMap CL = C * point.strain;
-    forms.noalias() += point.strain.transpose() * CL;
-    coupling.noalias() += point.enhanced.transpose() * CL;
-    enhanced.noalias() += point.enhanced.transpose() * C * point.enhanced;
-  }
-  // With parameters that follow the forms, α = P y.
-  ShellForms::Stiffness condensed(const Eigen::MatrixXd& P) const {
-    ShellForms::Stiffness all = forms;
-    all.noalias() += coupling.transpose() * P;
-    all.noalias() += P.transpose() * coupling;
-    all.noalias() += P.transpose() * enhanced * P;
-    return 0.5 * (all + all.transpose());
-  }
-
-  ShellForms::Stiffness forms;
-  Eigen::MatrixXd coupling, enhanced;
-};
-
-}  // namespace
 
 // W = min over α of 1/2 int (L y + M α) . C (L y + M α), eq. (1.21)
 ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const material::Layup> layup,
@@ -53,9 +20,9 @@ ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const materia
       mass_(shell_mass(wall_.geometry, *layup)) {
   internal_check(layup->is_linear(), "ElasticShell wants a linear layup");
   const int enhanced = options.enhancement.size();
-  Integrals lasting(enhanced);
+  ShellIntegrals lasting(enhanced);
   const std::vector<double> times = layup->relaxation_times();
-  std::vector<Integrals> branches(times.size(), Integrals(enhanced));
+  std::vector<ShellIntegrals> branches(times.size(), ShellIntegrals(enhanced));
   visit_volume(
       *layup, 2,
       [&](const material::Layer& layer, double xi, double eta, double zeta, double weight) {
@@ -79,7 +46,7 @@ ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const materia
     }
   }
   stiffness_ = 0.5 * (stiffness_ + stiffness_.transpose()).eval();
-  for (const Integrals& branch : branches) branches_.push_back(branch.condensed(parameters));
+  for (const ShellIntegrals& branch : branches) branches_.push_back(branch.condensed(parameters));
 }
 
 Verdict ElasticShell::respond(int, const Strain& prev, const Strain& next, const Stencil& stencil,

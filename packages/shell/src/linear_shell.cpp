@@ -81,6 +81,12 @@ ShellForms::Strain LinearShell::products(const Strain& y) const noexcept {
   return all;
 }
 
+LinearShell::Strain LinearShell::seen_from_frame(const ShellForms::Strain& stress) const noexcept {
+  Strain seen;
+  for (int n = 0; n < num_strains; ++n) seen[n] = products(Strain::Unit(n)).dot(stress);
+  return seen;
+}
+
 void LinearShell::strain(int, const Nodes& q, Strain& y) const noexcept {
   Eigen::Map<Modes>(y.data()) = frame(q).transpose() * modes(q) - reference_;
 }

@@ -53,8 +53,10 @@ class ShellLayers final : public model::LayerSource, public model::ShearSource {
         return element.layer_state(layer, height, y, internals);
       });
     } else {
-      return collect(
-          [&](int layer, double height) { return element.layer_state(layer, height, y); });
+      std::vector<LayerState> states =
+          collect([&](int layer, double height) { return element.layer_state(layer, height, y); });
+      for (const auto* more : batch_.added_stresses()) more->add_layer_states(item, states);
+      return states;
     }
   }
 

@@ -9,8 +9,9 @@ LayerState DeformedShell::at(const material::Layer& layer, double zeta) const {
   const ShellGeometry::Point point = geometry.at(0.0, 0.0, zeta, layer.angle);
   LayerState state;
   state.strain = point.strain * forms + point.enhanced * enhanced;
+  const Vec6 stressed = free == nullptr ? state.strain : Vec6(state.strain - (*free)(layer, zeta));
   Mat6 tangent;
-  std::visit([&](const auto& law) { law.respond(state.strain, state.stress, tangent); },
+  std::visit([&](const auto& law) { law.respond(stressed, state.stress, tangent); },
              layer.material.law);
   return state;
 }

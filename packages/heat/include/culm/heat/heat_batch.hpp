@@ -21,7 +21,9 @@ struct HeatedElement {
   /// At each point, C e_T with the weight of the point: what holds the strains at zero.
   std::array<Strain, E::num_points> stress;
   double energy = 0.0;                ///< stored at strains of zero, 1/2 e_T . C e_T [J]
-  Vec<E::num_resultants> resultants;  ///< that hold the strains at zero, mean over the points
+  Vec<E::num_resultants> resultants;  ///< at strains of zero, mean over the points
+  /// At strains of zero, in the order of model::LayerSource; none of a beam.
+  std::vector<model::LayerState> layer_states = {};
 };
 
 /// Heat on linear elements: stress answers the strain less what the temperature makes of a body
@@ -32,7 +34,7 @@ struct HeatedElement {
 ///   S . De = DW - D,   D = (a C e_T . e_T - C e_T . e) Da     at the means of a and e,
 /// of which D is the work that heat does on the structure.
 template <class E>
-class HeatBatch final : public model::Batch, public model::AddedResultants {
+class HeatBatch final : public model::Batch, public model::AddedStresses {
  public:
   static constexpr int N = E::num_nodes;
   static constexpr int S = E::num_slots;
@@ -74,6 +76,7 @@ class HeatBatch final : public model::Batch, public model::AddedResultants {
   double stored_energy(const model::Coordinates& q) const override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
   void add_resultants(int item, std::span<double> resultants) const override;
+  void add_layer_states(int item, std::span<model::LayerState> states) const override;
 
  private:
   static constexpr int K = slots_of(E::node_kind);
@@ -84,6 +87,8 @@ class HeatBatch final : public model::Batch, public model::AddedResultants {
   Slots<S> gather(int item, const model::Coordinates& q) const {
     return model::gather_slots<K>(elements_.nodes(item), q);
   }
+  // null if an item of the batch of elements is not heated
+  const HeatedElement<E>* find(int item) const;
   // sum over the points of C e_T . e
   double product(const HeatedElement<E>& heated, const model::Coordinates& q) const;
   template <class Space>
@@ -191,12 +196,27 @@ model::StepWork HeatBatch<E>::step_work(const model::State& state, const Stencil
 }
 
 template <class E>
-void HeatBatch<E>::add_resultants(int item, std::span<double> resultants) const {
+const HeatedElement<E>* HeatBatch<E>::find(int item) const {
   const auto i = static_cast<std::size_t>(item);
-  if (i >= numbers_.size() || numbers_[i] < 0) return;
-  const auto& free = heated(numbers_[i]).resultants;
+  return i < numbers_.size() && numbers_[i] >= 0 ? &heated(numbers_[i]) : nullptr;
+}
+
+template <class E>
+void HeatBatch<E>::add_resultants(int item, std::span<double> resultants) const {
+  const HeatedElement<E>* heated = find(item);
+  if (heated == nullptr) return;
   for (std::size_t k = 0; k < resultants.size(); ++k) {
-    resultants[k] -= present_ * free[static_cast<Eigen::Index>(k)];
+    resultants[k] += present_ * heated->resultants[static_cast<Eigen::Index>(k)];
+  }
+}
+
+template <class E>
+void HeatBatch<E>::add_layer_states(int item, std::span<model::LayerState> states) const {
+  const HeatedElement<E>* heated = find(item);
+  if (heated == nullptr) return;
+  for (std::size_t k = 0; k < heated->layer_states.size(); ++k) {
+    states[k].strain += present_ * heated->layer_states[k].strain;
+    states[k].stress += present_ * heated->layer_states[k].stress;
   }
 }
 

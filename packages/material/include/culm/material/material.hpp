@@ -21,6 +21,8 @@ struct Material {
   double dissipation = 0.0;                    ///< numerical dissipation χ, formulation 4.5 [-]
   double damping = 0.0;                        ///< time by which stress runs ahead of strain [s]
   std::vector<MaxwellBranch> relaxation = {};  ///< each with one ratio
+  /// Coefficients of thermal expansion along the axes of the material [1/K]
+  Vec3 expansion = Vec3::Zero();
 
   /// Stiffness of the branches of one time over the lasting one; 0 if there are none [-]
   double ratio_of(double time) const;

@@ -1,7 +1,6 @@
 /// The cross-section of a beam: what it resists with, what it weighs, what it looks like.
 #pragma once
 
-#include <culm/base/schema.hpp>
 #include <culm/math/types.hpp>
 
 #include <string>
@@ -21,9 +20,6 @@ struct Section {
   /// Coefficient of thermal expansion, the same all over the section [1/K]
   double expansion = 0.0;
 };
-
-/// Parameter "Expansion" of types of sections.
-Field expansion_field();
 
 /// The independent entries of eq. (1.9), axes d1 and d2 through the reference point.
 struct StiffnessValues {

@@ -5,6 +5,7 @@
 #include <culm/model/element_contribution.hpp>
 #include <culm/model/element_motion.hpp>
 #include <culm/model/inertia.hpp>
+#include <culm/model/layer_source.hpp>
 #include <culm/model/model.hpp>
 #include <culm/model/point_laws.hpp>
 #include <culm/model/projection.hpp>
@@ -19,12 +20,14 @@
 
 namespace culm::model {
 
-/// Adds to the stress resultants that the strains of elements make, as heat does.
-class AddedResultants {
+/// Adds to the stresses that the strains of elements make, as heat does.
+class AddedStresses {
  public:
-  virtual ~AddedResultants() = default;
+  virtual ~AddedStresses() = default;
   /// @param item  of the batch of elements @param resultants  in the order of its names
   virtual void add_resultants(int item, std::span<double> resultants) const = 0;
+  /// @param states  of the layers of a wall, in the order of LayerSource
+  virtual void add_layer_states(int item, std::span<LayerState> states) const = 0;
 };
 
 /// Elements as plain values. Forces, tangents, stress extrapolation, energy and inertia follow from
@@ -66,9 +69,10 @@ class ElementBatch final : public Batch,
     const auto i = static_cast<std::size_t>(item);
     return i < expansions_.size() ? expansions_[i] : Vec<E::num_points>(Vec<E::num_points>::Zero());
   }
-  /// Stress resultants are from now on with what `more` adds, which must live as long as they are
+  /// Stresses are from now on shown with what `more` adds, which must live as long as they are
   /// asked for.
-  void show_with(const AddedResultants& more) { added_.push_back(&more); }
+  void show_with(const AddedStresses& more) { added_.push_back(&more); }
+  const std::vector<const AddedStresses*>& added_stresses() const { return added_; }
 
   const StrainDamping& damping() const { return laws_.damping(); }
   const Effect& effect() const override { return effect_; }
@@ -275,7 +279,7 @@ class ElementBatch final : public Batch,
         mean += element(item).resultants(p, y) / E::num_points;
       }
     }
-    for (const AddedResultants* more : added_)
+    for (const AddedStresses* more : added_)
       more->add_resultants(item, {mean.data(), E::num_resultants});
     out.insert(out.end(), mean.data(), mean.data() + mean.size());
   }
@@ -519,7 +523,7 @@ class ElementBatch final : public Batch,
   std::vector<E> elements_;
   std::vector<std::array<int, N>> connectivity_;
   std::vector<Vec<E::num_points>> expansions_;  // by item; empty where nothing expands
-  std::vector<const AddedResultants*> added_;
+  std::vector<const AddedStresses*> added_;
   Placement placement_;
   Form form_ = Form::null_space;
   std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia is wanted

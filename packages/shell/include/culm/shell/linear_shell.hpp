@@ -63,6 +63,9 @@ class LinearShell {
     return wall_.layer_state(layer, height, products(y));
   }
   const material::Layup& layup() const { return *wall_.layup; }
+  const ElasticWall& wall() const { return wall_; }
+  /// A stress against the forms of the full shell, against those seen from the frame.
+  Strain seen_from_frame(const ShellForms::Strain& stress) const noexcept;
 
  private:
   /// Forms of the full shell, to first order.

@@ -6,6 +6,7 @@
 #include <culm/shell/shell_geometry.hpp>
 
 #include <array>
+#include <functional>
 
 namespace culm::shell {
 
@@ -18,12 +19,16 @@ inline constexpr std::array<const char*, 8> shell_resultant_names{"N11", "N22", 
 
 using LayerState = model::LayerState;
 
+/// A strain of a layer at ζ in its axes, Voigt order 11, 22, 33, 23, 13, 12.
+using LayerStrain = std::function<Vec6(const material::Layer& layer, double zeta)>;
+
 /// A layered element that is deformed.
 struct DeformedShell {
   const ShellGeometry& geometry;
   const material::Layup& layup;
   const ShellForms::Strain& forms;
   const EnhancedParameters& enhanced;
+  const LayerStrain* free = nullptr;  ///< strain without stress; null: none
 
   ShellResultants resultants() const;
   /// At `height` within a layer: -1 bottom, 0 middle, 1 top.
