@@ -5,7 +5,7 @@ import math
 
 from verify import main
 
-E, ALPHA, SIDE, LENGTH = 210e9, 1.2e-5, 0.02, 2.0
+E, DENSITY, ALPHA, SIDE, LENGTH = 210e9, 7850.0, 1.2e-5, 0.02, 2.0
 AREA, INERTIA = SIDE**2, SIDE**4 / 12.0
 # P / GA per kelvin: k E / G, Cowper's k of a rectangle
 SOFTNESS = ALPHA * 2.6 * (12.0 + 11.0 * 0.3) / (10.0 * 1.3)
@@ -29,6 +29,7 @@ SIDEWAYS = [*constraint("y", "Simple Support", "last", "Direction", "{0, 1, 0}")
             *constraint("z", "Simple Support", "last", "Direction", "{0, 0, 1}")]
 UPRIGHT = [*rotation("about y", "last", "{0, 1, 0}"), *rotation("about z", "last", "{0, 0, 1}")]
 HINGE = ["Constraints/foot/Type=Spherical Support", *rotation("twist", "first", "{1, 0, 0}")]
+BETWEEN_HINGES = [*HINGE, "Constraints/head/Type=Spherical Support", "Structures/bar/Curve/Elements=16"]
 # c of Euler's load c pi^2 EI / L^2; clamped and hinged: the smallest root of tan x = x
 COLUMNS = {"clamped and free": ([], 0.25),
            "hinges": ([*HINGE, *SIDEWAYS], 1.0),
@@ -61,6 +62,26 @@ def verify_columns(culm, report):
         if name != "clamped and hinged":  # with shear, P (1 + P / GA) = Euler's load
             sheared = (math.sqrt(1.0 + 4.0 * wanted * SOFTNESS) - 1.0) / (2.0 * SOFTNESS)
             report.relative(f"{name}, with shear [K]", found, sheared, 2e-4)
+
+
+def frequency(culm, temperature):
+    """The lowest one of the bar between hinges [Hz]."""
+    settings = [f"Loads/sun/Value={temperature}", *BETWEEN_HINGES, "Analyses/modes/Type=Modal"]
+    return culm.table("modes/modes", "heat/held_bar.xml", settings).at(1, "frequency [Hz]")
+
+
+def verify_heated_states(culm, report):
+    report.title("C23: about a heated state, hinges: f^2 / f0^2 = 1 - T / T_E; level of buckling")
+    critical = math.pi**2 * INERTIA / (ALPHA * AREA * LENGTH**2)
+    cold = frequency(culm, 1e-9)
+    report.relative("cold [Hz]", cold, 0.5 * math.pi / LENGTH**2 * math.sqrt(E * INERTIA / (DENSITY * AREA)), 1e-3)
+    for share in (0.5, 0.9):
+        found = (frequency(culm, share * critical) / cold) ** 2
+        report.check(f"T / T_E = {share}", found, 1.0 - share, 1e-3)
+    settings = [f"Loads/sun/Value={critical}", *BETWEEN_HINGES, "Analyses/heating/Final Level=0.9",
+                "Analyses/buckling/Type=Buckling"]
+    table = culm.table("buckling/buckling", "heat/held_bar.xml", settings)
+    report.relative("buckling about 90 %, level", min(table.column("critical level"), key=lambda x: abs(x - 1.0)), 1.0, 1e-3)
 
 
 def verify_gradient(culm, report):
@@ -103,6 +124,7 @@ def verify_bimetal(culm, report):
 def verify(culm, report):
     verify_bar(culm, report)
     verify_columns(culm, report)
+    verify_heated_states(culm, report)
     verify_gradient(culm, report)
     verify_bimetal(culm, report)
     verify_work(culm, report)

@@ -26,7 +26,8 @@ constexpr double notable_share = 5e-4;
 // with short ones beyond.
 constexpr double notable_wall = 0.9;
 
-// The linear response to the loads of another level. The matrix of the system is the tangent then.
+// The linear response to the loads of another level, zero where they do not move anything, as heat
+// does not between supports. The matrix of the system is the tangent then.
 Vector linear_step(Context& context, model::State at, double level) {
   assembly::System& system = context.system;
   const Stencil stencil = Stencil::statics();
@@ -41,13 +42,8 @@ Vector linear_step(Context& context, model::State at, double level) {
   const assembly::Evaluation found = system.evaluate(at, stencil, Want::residual_and_tangent);
   load.update(1.0, system.residual(), -1.0);
   const double size = system.comm().max(load.normInf());
-  if (size <= 1e-12 * found.force_scale || size == 0.0) {
-    throw NumericalError(
-        fmt::format("There is no reference load: loads at level {:g} are those at level {:g}.\n"
-                    "Try: a 'Reference Level' at which the functions of the loads differ.",
-                    level, present));
-  }
   Vector step(load.getMap());
+  if (size <= 1e-12 * found.force_scale || size == 0.0) return step;
   if (!context.linear.factor() || !context.linear.solve(load, step).is_sound()) {
     throw NumericalError(
         "The tangent at the present state is singular, so there is no linear response to the "
@@ -75,6 +71,17 @@ Teuchos::RCP<const CrsMatrix> stress_stiffness(Context& context, model::State at
   const auto before = tangent.getLocalMatrixHost().values;
   for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= before(k);
   return change;
+}
+
+// A load moves the structure, or it stresses it where it is.
+void require_load(const Vector& step, const CrsMatrix& change, const CrsMatrix& tangent,
+                  double level, double present) {
+  if (step.normInf() > 0.0) return;
+  if (change.getFrobeniusNorm() > 1e-12 * tangent.getFrobeniusNorm()) return;
+  throw NumericalError(
+      fmt::format("There is no reference load: loads at level {:g} are those at level {:g}.\n"
+                  "Try: a 'Reference Level' at which the functions of the loads differ.",
+                  level, present));
 }
 
 // A largest displacement of 1 m, or a largest rotation of 1 rad where nothing is displaced.
@@ -188,6 +195,7 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   model::Coordinates motion = system.linear_motion(state, *step_, 1.0);
   system.complete(motion);
   const auto change = stress_stiffness(context, state, level, *step_, *linear.stiffness);
+  require_load(*step_, *change, *linear.stiffness, level, state.time);
   system.prepare(state, Stencil::statics());  // back from the other level, for results
   const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
                             solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
