@@ -10,16 +10,19 @@ namespace {
 
 constexpr const char* effect = "beam";
 
-/// One element of a case, and on demand a master that its last node follows.
+/// Elements of a case, and on demand a master that the last node of all follows.
 template <class Case>
-void fill(model::Model& model, bool with_slave) {
+void fill(model::Model& model, bool with_slave, int num_elements = 1) {
   using E = typename Case::Type;
   const auto reference = Case::reference();
   std::array<int, E::num_nodes> nodes{};
-  for (int a = 0; a < E::num_nodes; ++a) {
-    nodes[static_cast<std::size_t>(a)] = model.nodes().add(reference.template middleCols<4>(4 * a));
+  for (int e = 0; e < num_elements; ++e) {
+    for (int a = 0; a < E::num_nodes; ++a) {
+      nodes[static_cast<std::size_t>(a)] =
+          model.nodes().add(reference.template middleCols<4>(4 * a));
+    }
+    model::elements<E>(model, effect).add(Case::make(), nodes);
   }
-  model::elements<E>(model, effect).add(Case::make(), nodes);
   if (with_slave) {
     model.add_rigid_link("link", nodes.back(), model.nodes().add(kit::random_node(20)));
   }
@@ -29,7 +32,8 @@ void fill(model::Model& model, bool with_slave) {
 template <class Case>
 class ProjectedElement : public testing::Test {};
 
-using Cases = testing::Types<DirectorBeamCase<1>, DirectorBeamCase<2>, HelicalBeamCase>;
+using Cases =
+    testing::Types<DirectorBeamCase<1>, DirectorBeamCase<2>, DirectorBeamCase<3>, HelicalBeamCase>;
 TYPED_TEST_SUITE(ProjectedElement, Cases);
 
 TYPED_TEST(ProjectedElement, TangentIsDerivativeOfResidual) {
@@ -46,6 +50,12 @@ TYPED_TEST(ProjectedElement, NullSpaceResidualIsProjected) {
     kit::expect_residual_is_projected(
         [&](model::Model& model) { fill<TypeParam>(model, with_slave); }, effect);
   }
+}
+
+// More than a pack of them, and not full packs.
+TYPED_TEST(ProjectedElement, ResidualOfManyIsProjected) {
+  kit::expect_residual_is_projected(
+      [&](model::Model& model) { fill<TypeParam>(model, true, pack_lanes + 3); }, effect);
 }
 
 TYPED_TEST(ProjectedElement, AttemptsLeaveNoTrace) {

@@ -1,17 +1,11 @@
 #include <culm/lattice/biot_savart.hpp>
+#include <culm/math/vector_units.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-// Compiled with -O3 -ffast-math, see CMakeLists.txt. One function per kernel is compiled for each
-// kind of vector unit; the program takes the widest that the processor has.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define CULM_FOR_EACH_VECTOR_UNIT \
-  __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
-#else
-#define CULM_FOR_EACH_VECTOR_UNIT
-#endif
+// Compiled with -O3 -ffast-math, see CMakeLists.txt.
 
 namespace culm::lattice {
 namespace {

@@ -1,5 +1,7 @@
 #include "block_lu.hpp"
 
+#include <culm/math/vector_units.hpp>
+
 #include "block_hosts.hpp"
 #include "block_kernels.hpp"
 #include "blocks.hpp"
@@ -174,7 +176,8 @@ double BlockLu::largest_in_row(int row) const {
   return largest;
 }
 
-bool BlockLu::eliminate(const BlockPlan::Panel& panel, double least) {
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
+                                                                   double least) {
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
@@ -209,7 +212,7 @@ void BlockLu::update(const BlockPlan::Panel& panel, std::size_t from) {
   }
 }
 
-void BlockLu::solve(std::span<double> x) {
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::solve(std::span<double> x) {
   for (std::size_t place = 0; place < x_.size(); ++place) {
     x_[place] = x[index(plan_.unknown[place])];
   }

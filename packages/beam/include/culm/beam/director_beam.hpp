@@ -8,6 +8,9 @@
 
 namespace culm::beam {
 
+template <int Order>
+class DirectorPack;
+
 /// Beam element with `Order + 1` nodes. Positions and directors are interpolated by Lagrange
 /// polynomials and the strains taken at `Order` Gauss points, which avoids shear and membrane
 /// locking. Strains are objective although interpolated directors are not orthonormal.
@@ -28,6 +31,7 @@ class DirectorBeam {
 
   using Strain = Vec<num_strains>;
   using Nodes = Slots<num_slots>;
+  using Pack = DirectorPack<Order>;
 
   /// @param reference  stress-free nodes; orthonormal triads
   /// @param stiffness  section stiffness (1.9) at the Gauss points, symmetric [N, N m, N m^2]

@@ -2,7 +2,7 @@
 /// include this where it is called.
 #pragma once
 
-#include <culm/beam/director_beam.hpp>
+#include <culm/beam/director_pack.hpp>
 #include <culm/beam/helical_beam.hpp>
 #include <culm/model/element_batch.hpp>
 

@@ -139,19 +139,16 @@ Verdict HeatBatch<E>::assemble_item(std::size_t i, const model::State& state,
   const E& element = elements_.element(heated.item);
   const Motion motion(nodes_, elements_.nodes(heated.item), state, stencil.theta, form_);
   model::ElementContribution<Space, E> c(tangent);
-  Vec<3 * S> force = Vec<3 * S>::Zero();
+  Slots<S> force = Slots<S>::Zero();
   Gradient<S, M> B;
   for (int p = 0; p < E::num_points; ++p) {
     const Strain stress = -amplitude * heated.stress[static_cast<std::size_t>(p)];
     element.gradient(p, motion.mid, B);
-    force.noalias() += B.lazyProduct(stress);
-    if (!tangent) continue;
-    SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
-    element.add_curvature(p, stress, curvature);
-    c.scalars += stencil.theta * curvature;
+    Eigen::Map<Vec<3 * S>>(force.data()).noalias() += B.lazyProduct(stress);
+    if (tangent) element.add_curvature(p, stencil.theta * stress, c.scalars);
   }
   if (!std::isfinite(force.sum())) return Verdict::not_finite;
-  c.add_slot_force(Eigen::Map<const Slots<S>>(force.data()), motion);
+  c.add_slot_force(force, motion);
   if (tangent) c.slot_force = force;
   c.scatter(i, motion, stencil.theta, placement_.scatter, target);
   return Verdict::ok;

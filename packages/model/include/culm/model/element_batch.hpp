@@ -1,9 +1,11 @@
 /// All elements of one type: the mechanics every element shares, written once.
 #pragma once
 
+#include <culm/math/small_product.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/element_contribution.hpp>
 #include <culm/model/element_motion.hpp>
+#include <culm/model/element_packs.hpp>
 #include <culm/model/inertia.hpp>
 #include <culm/model/layer_source.hpp>
 #include <culm/model/model.hpp>
@@ -91,6 +93,10 @@ class ElementBatch final : public Batch,
     laws_.resize(points);
     predicted_stress_.resize(points);
     use_predicted_ = false;
+    if constexpr (ComesInPacks<E>) {
+      packs_.make(form == Form::null_space ? placement_.items.size() : 0,
+                  [&](std::size_t i) -> const E& { return element(placement_.items[i]); });
+    }
   }
 
   void prepare(const State& state, const Stencil& stencil) override {
@@ -162,6 +168,10 @@ class ElementBatch final : public Batch,
 
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
     const Stencil damped = laws_.damped(stencil);
+    if constexpr (ComesInPacks<E>) {
+      const bool is_in_packs = form_ == Form::null_space && want != Want::mass;
+      if (is_in_packs && laws_.is_plain(damped)) return assemble_packs(state, damped, want, target);
+    }
     return in_space(
         [&](auto space) { return assemble_as<decltype(space)>(state, damped, want, target); });
   }
@@ -369,6 +379,16 @@ class ElementBatch final : public Batch,
     return verdict;
   }
 
+  Verdict assemble_packs(const State& state, const Stencil& stencil, Want want,
+                         Target& target) requires ComesInPacks<E> {
+    const std::vector<int>& items = placement_.items;
+    return packs_.evaluate(
+        items.size(), [&](std::size_t i) -> const auto& { return nodes(items[i]); },
+        {nodes_, state, stencil, laws_.prev(), use_predicted_ ? &predicted_stress_ : nullptr,
+         want == Want::residual_and_tangent},
+        [&](std::size_t i, auto& c) { c.scatter(i, placement_.scatter, target); });
+  }
+
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) {
@@ -406,12 +426,13 @@ class ElementBatch final : public Batch,
       if (!c.with_tangent) continue;
 
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
-      c.slot_force.noalias() += B.lazyProduct(stress);
-      SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
-      element.add_curvature(p, stress, curvature);
-      c.scalars += stencil.theta * curvature;
+      Eigen::Map<Vec<3 * S>>(c.slot_force.data()).noalias() += B.lazyProduct(stress);
+      element.add_curvature(p, stencil.theta * stress, c.scalars);
       RowMat<W, M> RD;
-      laws_.multiply_tangent(element, p, stencil, response, R, RD);
+      laws_.with_tangent(element, p, stencil, response, [&](const auto& C, double factor) {
+        multiply(R, C, RD);
+        RD *= factor;
+      });
       if (stencil.theta != 1.0) {
         element.gradient(p, motion.next, B);
         reduce<Space>(B, motion.arms_next, R);
@@ -437,19 +458,16 @@ class ElementBatch final : public Batch,
       E::add_force(motion.mid, response.stress, force);
       if (!c.with_tangent) continue;
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
-      Eigen::Map<ItemSlots> slot_forces(c.slot_force.data());
-      ItemSlots predicted = ItemSlots::Zero();
-      E::add_force(motion.mid, stress, predicted);
-      slot_forces += predicted;
-      SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
-      element.add_curvature(p, stress, curvature);
-      c.scalars += stencil.theta * curvature;
+      if (use_predicted_) E::add_force(motion.mid, stress, c.slot_force);
+      element.add_curvature(p, stencil.theta * stress, c.scalars);
       laws_.with_tangent(element, p, stencil, response, [&](const auto& C, double factor) {
         E::add_stiffness(motion.mid, motion.next, C, factor, c.tangent);
       });
     }
     c.add_slot_force(force, motion);
-    if (c.with_tangent) c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
+    if (!c.with_tangent) return verdict;
+    if (!use_predicted_) c.slot_force += force;
+    c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
     return verdict;
   }
 
@@ -494,7 +512,7 @@ class ElementBatch final : public Batch,
     force = inertia_force<S>(mass, force);
     c.add_slot_force(force, motion);
     if (!c.with_tangent) return;
-    c.slot_force += force.template reshaped<Eigen::AutoOrder>();
+    c.slot_force += force;
     c.scalars += stencil.inertia * mass;
   }
 
@@ -529,6 +547,8 @@ class ElementBatch final : public Batch,
   std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia is wanted
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
+  struct NoPacks {};
+  [[no_unique_address]] std::conditional_t<ComesInPacks<E>, ElementPacks<E>, NoPacks> packs_;
 };
 
 /// The batch of elements E of a model with this ledger name and damping, made when it is first

@@ -3,6 +3,7 @@
 
 #include <culm/model/batch.hpp>
 #include <culm/model/element_motion.hpp>
+#include <culm/model/triad_tangent.hpp>
 
 #include <algorithm>
 
@@ -58,20 +59,18 @@ struct ElementContribution {
   /// Adds everything to the global residual and matrix. @param i  local number of the element
   void scatter(std::size_t i, const Motion& motion, double theta, const Scatter& places,
                Target& target) {
+    if (with_tangent) add_scalars_and_forces(motion, theta);
+    scatter(i, places, target);
+  }
+
+  /// The same where the tangent is complete.
+  void scatter(std::size_t i, const Scatter& places, Target& target) {
     target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
     for (int a = 0; a < N; ++a) places.add_residual(i, a, residual.data() + W * a, target);
     if (!with_tangent) return;
-    const Eigen::Map<const Slots<S>> slot_forces(slot_force.data());
     for (int a = 0; a < N; ++a) {
       for (int b = 0; b < N; ++b) {
-        auto block = tangent.template block<W, W>(W * a, W * b);
-        const Arms<K>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
-        Space::add_pairs(scalars.template block<K, K>(K * a, K * b),
-                         motion.arms_mid[static_cast<std::size_t>(a)], arms_next, block);
-        if (a == b) {
-          Space::add_turning(slot_forces.template middleCols<K>(K * a), arms_next, theta, block);
-        }
-        places.add_tangent(i, a, b, block, target);
+        places.add_tangent(i, a, b, tangent.template block<W, W>(W * a, W * b), target);
       }
     }
   }
@@ -79,8 +78,29 @@ struct ElementContribution {
   Vec<W* N> residual = Vec<W * N>::Zero();
   RowMat<W * N, W * N> tangent;
   SlotMatrix<S> scalars;
-  Vec<3 * S> slot_force;
+  Slots<S> slot_force;
   bool with_tangent;
+
+ private:
+  // Triads of chains turn all.
+  static constexpr bool is_chain = Space::form == Form::null_space && K == 4 && N >= 2 && N <= 4;
+
+  void add_scalars_and_forces(const Motion& motion, double theta) {
+    if constexpr (is_chain) {
+      add_triad_tangent<N>(scalars, slot_force, motion.arms_mid, motion.arms_next, theta, tangent);
+    } else {
+      for (int a = 0; a < N; ++a) {
+        const Arms<K>& arms_mid = motion.arms_mid[static_cast<std::size_t>(a)];
+        for (int b = 0; b < N; ++b) {
+          auto block = tangent.template block<W, W>(W * a, W * b);
+          const Arms<K>& arms_next = motion.arms_next[static_cast<std::size_t>(b)];
+          Space::add_pairs(scalars.template block<K, K>(K * a, K * b), arms_mid, arms_next, block);
+          if (a != b) continue;
+          Space::add_turning(slot_force.template middleCols<K>(K * a), arms_next, theta, block);
+        }
+      }
+    }
+  }
 };
 
 }  // namespace culm::model

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <culm/base/error.hpp>
-#include <culm/math/small_product.hpp>
 #include <culm/mechanics/element.hpp>
 #include <culm/model/branch_store.hpp>
 #include <culm/model/internal_store.hpp>
@@ -35,7 +34,7 @@ class PointLaws {
         branches_.roots().size() == (HasBranchStiffness<E> ? 0 : branches_.times().size()),
         "branches have ratios or stiffnesses of elements");
     if (damping.viscosities.empty()) return;
-    internal_check(damps_each_strain && damping.viscosities.size() == M,
+    internal_check(HasStiffness<E> && damping.viscosities.size() == M,
                    "these elements do not damp strains one by one");
     roots_ = Eigen::Map<const Strain>(damping.viscosities.data()).cwiseSqrt();
   }
@@ -56,6 +55,7 @@ class PointLaws {
     return stencil.step != 0.0 || has_internals;  // in statics the old strain has no weight
   }
   Strain& prev(std::size_t point) { return prev_[point]; }
+  const std::vector<Strain>& prev() const { return prev_; }
   const Strain& prev(std::size_t point) const { return prev_[point]; }
   /// Whether points carry something from step to step.
   bool remembers() const { return has_internals || !branches_.empty(); }
@@ -84,37 +84,20 @@ class PointLaws {
     }
   }
 
-  /// product = R dS/dy, of the stress that was found last.
-  template <int W>
-  void multiply_tangent(const E& element, int p, const Stencil& stencil,
-                        const Response<M>& response, const RowMat<W, M>& R,
-                        RowMat<W, M>& product) const {
-    if constexpr (HasStiffness<E>) {
-      multiply(R, element.stiffness(p), product);
-      product *= stencil.theta_strain;
-      if constexpr (damps_each_strain) {
-        if (roots_ && stencil.step > 0.0) add_damping(R, element.stiffness(p), stencil, product);
-      }
-      if (branches_.acts()) {
-        RowMat<M, M> stiffness = RowMat<M, M>::Zero();
-        branches_.add_stiffness(branch_law(element, p), stencil.theta, stiffness);
-        RowMat<W, M> of_branches;
-        multiply(R, stiffness, of_branches);
-        product += of_branches;
-      }
-    } else {
-      multiply(R, response.tangent, product);
-    }
-  }
-
-  /// Calls add(matrix, factor) with dS/dy = factor matrix, which is not copied where it need not.
+  /// Calls add(matrix, factor) with dS/dy = factor matrix, of the stress that was found last; the
+  /// matrix is not copied where it need not.
   template <class Add>
   void with_tangent(const E& element, int p, const Stencil& stencil, const Response<M>& response,
                     Add add) const {
     if constexpr (HasStiffness<E>) {
-      if (!branches_.acts()) return add(element.stiffness(p), stencil.theta_strain);
-      RowMat<M, M> tangent = stencil.theta_strain * element.stiffness(p);
-      branches_.add_stiffness(branch_law(element, p), stencil.theta, tangent);
+      const RowMat<M, M>& C = element.stiffness(p);
+      const bool damps = roots_ && stencil.step > 0.0;
+      if (!damps && !branches_.acts()) return add(C, stencil.theta_strain);
+      RowMat<M, M> tangent = stencil.theta_strain * C;
+      if (damps) tangent += roots_->asDiagonal() * C * (*roots_ / stencil.step).asDiagonal();
+      if (branches_.acts()) {
+        branches_.add_stiffness(branch_law(element, p), stencil.theta, tangent);
+      }
       add(tangent, 1.0);
     } else {
       add(response.tangent, 1.0);
@@ -139,6 +122,11 @@ class PointLaws {
       if (!branches_.empty()) sum += branches_.energy(point, branch_law(element, p));
     }
     return sum;
+  }
+
+  /// Whether the stress is nothing but C times a mean of the strains at both ends of the step.
+  bool is_plain(const Stencil& stencil) const {
+    return HasStiffness<E> && !branches_.acts() && !(roots_ && stencil.step > 0.0);
   }
 
   /// What the stresses of a step took beyond the change of the stored energy.
@@ -188,7 +176,6 @@ class PointLaws {
   }
 
  private:
-  static constexpr bool damps_each_strain = HasStiffness<E> && !ActsOnUnknowns<E>;
   struct Nothing {};
   template <class T, bool wanted>
   struct InternalTypes {
@@ -223,13 +210,11 @@ class PointLaws {
       Strain e = (1.0 - weight) * prev + weight * y;
       if (dy != nullptr) e += weight * *dy;
       response.stress.noalias() = element.stiffness(p) * e;
-      if constexpr (damps_each_strain) {
-        if (roots_ && stencil.step > 0.0) {
-          Strain rate = y - prev;
-          if (dy != nullptr) rate += *dy;
-          rate = roots_->cwiseProduct(rate) / stencil.step;
-          response.stress += roots_->cwiseProduct((element.stiffness(p) * rate).eval());
-        }
+      if (roots_ && stencil.step > 0.0) {
+        Strain rate = y - prev;
+        if (dy != nullptr) rate += *dy;
+        rate = roots_->cwiseProduct(rate) / stencil.step;
+        response.stress += roots_->cwiseProduct((element.stiffness(p) * rate).eval());
       }
       if (branches_.acts()) {
         Strain change = y - prev;
@@ -256,16 +241,6 @@ class PointLaws {
     } else {
       return element.energy(p, y);
     }
-  }
-
-  // product += R sqrt(eta) C sqrt(eta) / step
-  template <int W>
-  void add_damping(const RowMat<W, M>& R, const RowMat<M, M>& C, const Stencil& stencil,
-                   RowMat<W, M>& product) const {
-    const RowMat<M, M> damping = roots_->asDiagonal() * C * (*roots_ / stencil.step).asDiagonal();
-    RowMat<W, M> of_damping;
-    multiply(R, damping, of_damping);
-    product += of_damping;
   }
 
   StrainDamping damping_;

@@ -66,6 +66,15 @@ class Scatter {
     const BlockShape& column_shape = *rows_[first + static_cast<std::size_t>(b)].shape;
     const auto blocks = static_cast<int>(first_block_[item + 1] - first);
     const int offset = offsets_[first_pair_[item] + static_cast<std::size_t>(a * blocks + b)];
+    if (row_shape.full() && column_shape.full() && row_shape.width == 6 &&
+        column_shape.width == 6) {
+      const std::size_t* row = target.row_begin.data() + rows.first;
+      for (int i = 0; i < 6; ++i) {
+        double* out = target.values.data() + row[i] + offset;
+        for (int j = 0; j < 6; ++j) out[j] += K(i, j);
+      }
+      return;
+    }
     for (int i = 0; i < row_shape.width; ++i) {
       const int row = row_shape.position[static_cast<std::size_t>(i)];
       if (row < 0) continue;

@@ -1,0 +1,51 @@
+/// Director beams side by side.
+#pragma once
+
+#include <culm/beam/director_beam.hpp>
+#include <culm/mechanics/pack.hpp>
+
+#include <array>
+
+namespace culm::beam {
+
+/// Elements of one order in a pack. Forces and tangents are those that ElementBatch makes of the
+/// strains, their gradients and curvatures, in closed form. @source formulation 1.3.1, 5.2
+template <int Order>
+class DirectorPack {
+ public:
+  static constexpr int num_nodes = Order + 1;
+  using Motion = PackMotion<num_nodes>;
+  using Sum = PackSum<num_nodes>;
+
+  explicit DirectorPack(const std::array<const DirectorBeam<Order>*, pack_lanes>& elements);
+
+  /// @see ComesInPacks
+  /// @param prev  strains at the start of the step, shape (Order, 6); no weight in statics
+  /// @param predicted  stress that the tangent is to have, shape (Order, 6), or nullptr
+  void evaluate(const Motion& motion, const Pack* prev, const Pack* predicted,
+                const Stencil& stencil, bool with_tangent, Sum& sum) const noexcept;
+
+  /// Constants of the elements at a Gauss point.
+  struct Point {
+    std::array<double, num_nodes> N;
+    Packs<num_nodes> dN;
+    Packs<6> reference;
+    Packs<36> stiffness;
+  };
+  using Points = std::array<Point, Order>;
+  /// Scalars between slots, by rows.
+  using Mass = Packs<16 * num_nodes * num_nodes>;
+
+ private:
+  Points points_;
+  Mass mass_;
+};
+
+extern template class DirectorPack<1>;
+extern template class DirectorPack<2>;
+extern template class DirectorPack<3>;
+
+static_assert(ComesInPacks<DirectorBeam<1>> && ComesInPacks<DirectorBeam<2>> &&
+              ComesInPacks<DirectorBeam<3>>);
+
+}  // namespace culm::beam

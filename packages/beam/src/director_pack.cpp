@@ -1,0 +1,338 @@
+#include <culm/beam/director_pack.hpp>
+#include <culm/math/vector_units.hpp>
+
+#define CULM_INLINE [[gnu::always_inline]] inline
+
+namespace culm::beam {
+
+namespace {
+
+// Cyclic partners of a director: (i, j, k) = (0, 1, 2), (1, 2, 0), (2, 0, 1).
+constexpr int after(int i) { return (i + 1) % 3; }
+
+// Coordinates of the slots x, d1, d2, d3, interpolated: those of director i start here.
+constexpr int director(int i) { return 3 * (1 + i); }
+
+// sum += factor a x b
+CULM_INLINE void add_cross(const Pack* a, const Pack* b, const Pack& factor, Pack* sum) {
+  sum[0] += factor * (a[1] * b[2] - a[2] * b[1]);
+  sum[1] += factor * (a[2] * b[0] - a[0] * b[2]);
+  sum[2] += factor * (a[0] * b[1] - a[1] * b[0]);
+}
+
+// Axis and triad at a point, and their derivatives by arc length.
+template <int Order>
+struct Frame {
+  Pack f[12], df[12];
+
+  CULM_INLINE Frame(const typename DirectorPack<Order>::Point& p, const Pack* q) {
+    for (int c = 0; c < 12; ++c) {
+      f[c] = p.N[0] * q[c];
+      df[c] = p.dN[0] * q[c];
+      for (std::size_t a = 1; a <= Order; ++a) {
+        f[c] += p.N[a] * q[12 * a + static_cast<std::size_t>(c)];
+        df[c] += p.dN[a] * q[12 * a + static_cast<std::size_t>(c)];
+      }
+    }
+  }
+};
+
+// Γ_i = d_i . x' ,  K_i = 1/2 (d_j' . d_k - d_k' . d_j), less those of the reference
+template <int Order>
+CULM_INLINE void find_strain(const typename DirectorPack<Order>::Point& p,
+                             const Frame<Order>& frame, Pack* e) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = after(i);
+    const int k = after(j);
+    Pack shear = -p.reference[static_cast<std::size_t>(i)];
+    Pack bend = {};
+    for (int c = 0; c < 3; ++c) {
+      shear += frame.f[director(i) + c] * frame.df[c];
+      bend += frame.df[director(j) + c] * frame.f[director(k) + c] -
+              frame.df[director(k) + c] * frame.f[director(j) + c];
+    }
+    e[i] = shear;
+    e[3 + i] = 0.5 * bend - p.reference[static_cast<std::size_t>(3 + i)];
+  }
+}
+
+// force += B^T S on slots: on x_a  N'_a Σ S_i d_i,  on d_i,a  N_a S_i x' + S_3+k h_j - S_3+j h_k
+// with h_i = 1/2 (N'_a d_i - N_a d_i')
+template <int Order>
+CULM_INLINE void add_force(const typename DirectorPack<Order>::Point& p, const Frame<Order>& frame,
+                           const Pack* S, Pack* force) {
+  Pack resultant[3], by_derivative[9], by_value[9];
+  for (int c = 0; c < 3; ++c) {
+    resultant[c] = S[0] * frame.f[director(0) + c] + S[1] * frame.f[director(1) + c] +
+                   S[2] * frame.f[director(2) + c];
+    for (int i = 0; i < 3; ++i) {
+      const int j = after(i);
+      const int k = after(j);
+      by_derivative[3 * i + c] =
+          0.5 * (S[3 + k] * frame.f[director(j) + c] - S[3 + j] * frame.f[director(k) + c]);
+      by_value[3 * i + c] = S[i] * frame.df[c] - 0.5 * (S[3 + k] * frame.df[director(j) + c] -
+                                                        S[3 + j] * frame.df[director(k) + c]);
+    }
+  }
+  for (std::size_t a = 0; a <= Order; ++a) {
+    Pack* on_node = force + 12 * a;
+    for (int c = 0; c < 3; ++c) on_node[c] += p.dN[a] * resultant[c];
+    for (int c = 0; c < 9; ++c) {
+      on_node[3 + c] += p.dN[a] * by_derivative[c] + p.N[a] * by_value[c];
+    }
+  }
+}
+
+// Γ_i: A[x_b, d_i,a] = N_a N'_b S_i      K_i: A[d_j,a, d_k,b] = 1/2 (N'_a N_b - N_a N'_b) S_3+i
+template <int Order>
+CULM_INLINE void add_curvature(const typename DirectorPack<Order>::Point& p, const Pack* S,
+                               double factor, Pack* A) {
+  constexpr std::size_t row = 4 * (Order + 1);
+  for (std::size_t a = 0; a <= Order; ++a) {
+    for (std::size_t b = 0; b <= Order; ++b) {
+      const Pack shear = factor * p.N[a] * p.dN[b];
+      const Pack bend = 0.5 * factor * (p.N[b] * p.dN[a] - p.N[a] * p.dN[b]);
+      for (int i = 0; i < 3; ++i) {
+        const auto d_i = static_cast<std::size_t>(1 + i);
+        const auto d_j = static_cast<std::size_t>(1 + after(i));
+        const auto d_k = static_cast<std::size_t>(1 + after(after(i)));
+        A[row * (4 * b) + 4 * a + d_i] += shear * S[i];
+        A[row * (4 * a + d_i) + 4 * b] += shear * S[i];
+        A[row * (4 * a + d_j) + 4 * b + d_k] += bend * S[3 + i];
+        A[row * (4 * b + d_k) + 4 * a + d_j] += bend * S[3 + i];
+      }
+    }
+  }
+}
+
+// Derivatives of the strains by dx and dθ of the nodes, a strain per row; dx bends nothing.
+template <int Order>
+CULM_INLINE void find_rows(const typename DirectorPack<Order>::Point& p, const Frame<Order>& frame,
+                           const Pack* q, Pack* R) {
+  constexpr std::size_t row = 6 * (Order + 1);
+  constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
+  for (std::size_t a = 0; a <= Order; ++a) {
+    const Pack* own = q + 12 * a;
+    Pack h[9], pull[3];
+    for (int c = 0; c < 9; ++c) {
+      h[c] = 0.5 * (p.dN[a] * frame.f[3 + c] - p.N[a] * frame.df[3 + c]);
+    }
+    for (int c = 0; c < 3; ++c) pull[c] = p.N[a] * frame.df[c];
+    for (int i = 0; i < 3; ++i) {
+      const int j = after(i);
+      const int k = after(j);
+      Pack* shear = R + row * static_cast<std::size_t>(i) + 6 * a;
+      Pack* bend = R + row * static_cast<std::size_t>(3 + i) + 6 * a;
+      for (int c = 0; c < 3; ++c) {
+        shear[c] = p.dN[a] * frame.f[director(i) + c];
+        shear[3 + c] = bend[c] = bend[3 + c] = Pack{};
+      }
+      add_cross(own + director(i), pull, one, shear + 3);
+      add_cross(own + director(j), h + 3 * k, one, bend + 3);
+      add_cross(own + director(k), h + 3 * j, -one, bend + 3);
+    }
+  }
+}
+
+// How many strains an unknown stretches: dx those of shear and stretch alone.
+constexpr int strains_of(int unknown) { return unknown % 6 < 3 ? 3 : 6; }
+
+// K += factor R_mid^T C R_next
+template <int Order>
+CULM_INLINE void add_product(const Pack* C, double factor, const Pack* R_mid, const Pack* R_next,
+                             Pack* K) {
+  constexpr int W = 6 * (Order + 1);
+  Pack CR[6 * W];
+  for (int i = 0; i < 6; ++i) {
+    for (int w = 0; w < W; ++w) {
+      Pack sum = C[6 * i] * R_next[w];
+      for (int j = 1; j < strains_of(w); ++j) sum += C[6 * i + j] * R_next[W * j + w];
+      CR[W * i + w] = factor * sum;
+    }
+  }
+  for (int u = 0; u < W; ++u) {
+    for (int w = 0; w < W; ++w) {
+      Pack sum = R_mid[u] * CR[w];
+      for (int i = 1; i < strains_of(u); ++i) sum += R_mid[W * i + u] * CR[W * i + w];
+      K[W * u + w] += sum;
+    }
+  }
+}
+
+// block += sign [a], in rows of this length
+CULM_INLINE void add_skew(const Pack* a, double sign, Pack* block, int row) {
+  block[1] -= sign * a[2];
+  block[2] += sign * a[1];
+  block[row] += sign * a[2];
+  block[row + 2] -= sign * a[0];
+  block[2 * row] -= sign * a[1];
+  block[2 * row + 1] += sign * a[0];
+}
+
+// What model::add_triad_tangent adds, where no node is at a lever: see there.
+template <int Order>
+CULM_INLINE void add_geometry(const Pack* A, const Pack* force, const Pack* mid, const Pack* next,
+                              double theta, Pack* K) {
+  constexpr int N = Order + 1;
+  constexpr int S = 4 * N;
+  constexpr int row = 6 * N;
+  for (int b = 0; b < N; ++b) {
+    const Pack* arms = next + 12 * b;
+    for (int a = 0; a < N; ++a) {
+      const Pack* own = mid + 12 * a;
+      Pack v[12], W[9] = {}, lever[3] = {};
+      for (int s = 0; s < 4; ++s) {
+        const Pack* of_slot = A + S * (4 * a + s) + 4 * b;
+        for (int c = 0; c < 3; ++c) {
+          v[3 * s + c] =
+              of_slot[1] * arms[3 + c] + of_slot[2] * arms[6 + c] + of_slot[3] * arms[9 + c];
+        }
+      }
+      for (int s = 1; s < 4; ++s) {
+        const Pack& by_position = A[S * (4 * a + s) + 4 * b];
+        for (int c = 0; c < 3; ++c) {
+          lever[c] += by_position * own[3 * s + c];
+          for (int d = 0; d < 3; ++d) {
+            W[3 * c + d] += v[3 * s + c] * own[3 * s + d];
+            if (a == b) W[3 * c + d] -= theta * arms[3 * s + c] * force[12 * a + 3 * s + d];
+          }
+        }
+      }
+      Pack* block = K + 6 * row * a + 6 * b;
+      const Pack trace = W[0] + W[4] + W[8];
+      for (int c = 0; c < 3; ++c) {
+        block[row * c + c] += A[S * 4 * a + 4 * b];
+        block[row * (3 + c) + 3 + c] += trace;
+        for (int d = 0; d < 3; ++d) block[row * (3 + c) + 3 + d] -= W[3 * c + d];
+      }
+      add_skew(v, -1.0, block + 3, row);
+      add_skew(lever, 1.0, block + 3 * row, row);
+    }
+  }
+}
+
+// force += M a, A += inertia M. The slot d3 carries no mass.
+template <int Order>
+CULM_INLINE void add_inertia(const Pack* mass, const Pack* acceleration, double inertia, Pack* A,
+                             Pack* force) {
+  constexpr int S = 4 * (Order + 1);
+  for (int s = 0; s < S; ++s) {
+    if (s % 4 == 3) continue;
+    for (int t = 0; t < S; ++t) {
+      if (t % 4 == 3) continue;
+      const Pack& m = mass[S * s + t];
+      for (int c = 0; c < 3; ++c) force[3 * s + c] += m * acceleration[3 * t + c];
+      A[S * s + t] += inertia * m;
+    }
+  }
+}
+
+template <int Order>
+CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>::Points& points,
+                                             const typename DirectorPack<Order>::Mass& mass,
+                                             const PackMotion<Order + 1>& motion, const Pack* prev,
+                                             const Pack* predicted, const Stencil& stencil,
+                                             bool with_tangent, PackSum<Order + 1>& sum) noexcept {
+  constexpr int N = Order + 1;
+  constexpr int W = 6 * N;
+  const double theta = stencil.theta;
+  const double weight = stencil.theta_strain;
+  Pack mid[12 * N];
+  for (int c = 0; c < 12 * N; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    mid[c] =
+        theta == 1.0 ? motion.next[at] : (1.0 - theta) * motion.prev[at] + theta * motion.next[at];
+  }
+  Pack force[12 * N] = {};          // on slots
+  Pack tangent_force[12 * N] = {};  // that the tangent belongs to
+  Pack A[16 * N * N] = {};
+  if (with_tangent) sum.tangent = {};
+  for (std::size_t g = 0; g < Order; ++g) {
+    const auto& p = points[g];
+    const Frame<Order> next_frame(p, motion.next.data());
+    const Frame<Order> mid_frame(p, mid);
+    Pack e[6], stress[6];
+    find_strain<Order>(p, next_frame, e);
+    for (std::size_t i = 0; i < 6; ++i) e[i] = weight * e[i] + (1.0 - weight) * prev[6 * g + i];
+    for (std::size_t i = 0; i < 6; ++i) {
+      stress[i] = p.stiffness[6 * i] * e[0];
+      for (std::size_t j = 1; j < 6; ++j) stress[i] += p.stiffness[6 * i + j] * e[j];
+    }
+    add_force<Order>(p, mid_frame, stress, force);
+    if (!with_tangent) continue;
+    const Pack* S = stress;
+    if (predicted != nullptr) {
+      S = predicted + 6 * g;
+      add_force<Order>(p, mid_frame, S, tangent_force);
+    }
+    add_curvature<Order>(p, S, theta, A);
+    Pack R_next[6 * W], R_mid[6 * W];
+    find_rows<Order>(p, next_frame, motion.next.data(), R_next);
+    find_rows<Order>(p, mid_frame, mid, R_mid);
+    add_product<Order>(p.stiffness.data(), weight, R_mid, R_next, sum.tangent.data());
+  }
+  if (with_tangent && predicted == nullptr) {
+    for (int c = 0; c < 12 * N; ++c) tangent_force[c] = force[c];
+  }
+  if (stencil.inertia != 0.0) {
+    Pack inertia_force[12 * N] = {};
+    add_inertia<Order>(mass.data(), motion.acceleration.data(), stencil.inertia, A, inertia_force);
+    for (int c = 0; c < 12 * N; ++c) {
+      force[c] += inertia_force[c];
+      tangent_force[c] += inertia_force[c];
+    }
+  }
+  constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
+  for (int a = 0; a < N; ++a) {
+    Pack* residual = sum.residual.data() + 6 * a;
+    for (int c = 0; c < 3; ++c) {
+      residual[c] = force[12 * a + c];
+      residual[3 + c] = Pack{};
+      sum.pull[static_cast<std::size_t>(3 * a + c)] = tangent_force[12 * a + c];
+    }
+    for (int i = 0; i < 3; ++i) {
+      add_cross(mid + 12 * a + director(i), force + 12 * a + director(i), one, residual + 3);
+    }
+  }
+  if (with_tangent) {
+    add_geometry<Order>(A, tangent_force, mid, motion.next.data(), theta, sum.tangent.data());
+  }
+}
+
+}  // namespace
+
+template <int Order>
+DirectorPack<Order>::DirectorPack(
+    const std::array<const DirectorBeam<Order>*, pack_lanes>& elements) {
+  for (int l = 0; l < pack_lanes; ++l) {
+    const DirectorBeam<Order>& element = *elements[static_cast<std::size_t>(l)];
+    for (int g = 0; g < Order; ++g) {
+      Point& point = points_[static_cast<std::size_t>(g)];
+      for (int a = 0; a < num_nodes; ++a) {
+        point.N[static_cast<std::size_t>(a)] = element.shape(g)[a];
+        point.dN.of(l, a) = element.shape_derivative(g)[a];
+      }
+      for (int i = 0; i < 6; ++i) {
+        point.reference.of(l, i) = element.reference_strain(g)[i];
+        for (int j = 0; j < 6; ++j) {
+          point.stiffness.of(l, 6 * i + j) = element.stiffness(g)(i, j);
+        }
+      }
+    }
+    const SlotMatrix<4 * num_nodes> mass = element.mass();
+    for (int s = 0; s < mass.size(); ++s) mass_.of(l, s) = mass.data()[s];
+  }
+}
+
+template <int Order>
+void DirectorPack<Order>::evaluate(const Motion& motion, const Pack* prev, const Pack* predicted,
+                                   const Stencil& stencil, bool with_tangent,
+                                   Sum& sum) const noexcept {
+  evaluate_pack<Order>(points_, mass_, motion, prev, predicted, stencil, with_tangent, sum);
+}
+
+template class DirectorPack<1>;
+template class DirectorPack<2>;
+template class DirectorPack<3>;
+
+}  // namespace culm::beam

@@ -1,0 +1,61 @@
+/// Several elements of one kind side by side, one in each lane of a vector.
+#pragma once
+
+#include <culm/mechanics/element.hpp>
+
+#include <cstddef>
+
+namespace culm {
+
+/// Elements in a pack; lanes beyond the last element repeat it.
+inline constexpr int pack_lanes = 8;
+
+/// A number of each element of a pack. What is done with it is done in all lanes at once; functions
+/// take it by reference and are inlined, as no convention for calls fits all vector units.
+using Pack = double
+    __attribute__((vector_size(pack_lanes * sizeof(double)), aligned(pack_lanes * sizeof(double))));
+
+/// An array of numbers of each element; std::array would lose the alignment.
+template <int size>
+struct Packs {
+  Pack numbers[size];
+
+  Pack* data() { return numbers; }
+  const Pack* data() const { return numbers; }
+  Pack& operator[](std::size_t at) { return numbers[at]; }
+  const Pack& operator[](std::size_t at) const { return numbers[at]; }
+  /// Those of the element in lane l.
+  double& of(int l, int at) { return reinterpret_cast<double*>(numbers + at)[l]; }
+  double of(int l, int at) const { return reinterpret_cast<const double*>(numbers + at)[l]; }
+};
+
+/// Where N triads of each element are in a step, by coordinates of their slots.
+template <int N>
+struct PackMotion {
+  Packs<12 * N> prev;  ///< wanted unless stencil.theta is 1
+  Packs<12 * N> next;
+  Packs<12 * N> acceleration;  ///< wanted with inertia: M a acts
+};
+
+/// What a pack answers, in six unknowns of each of N triads: dx and dtheta, with dd = dtheta x d
+/// for d where forces act in rows and at the end of the step in columns.
+template <int N>
+struct PackSum {
+  Packs<6 * N> residual;
+  Packs<36 * N * N> tangent;  ///< by rows
+  Packs<3 * N> pull;          ///< forces on positions that the tangent belongs to
+};
+
+/// Elements of triads whose law is linear, and that come in packs: E::Pack holds the constants of
+/// pack_lanes elements; evaluate() is what ElementBatch does for one of them.
+template <class E>
+concept ComesInPacks = HasStiffness<E> &&
+    requires(const typename E::Pack& pack, const PackMotion<E::num_nodes>& motion,
+             const ::culm::Pack* strains, const Stencil& stencil, PackSum<E::num_nodes>& sum) {
+  // strains: at the start of the step, num_points x num_strains; stress of the tangent in the
+  // same order, or nullptr for that of the motion; without tangent only the residual is written
+  { pack.evaluate(motion, strains, strains, stencil, true, sum) }
+  noexcept->std::same_as<void>;
+};
+
+}  // namespace culm
