@@ -14,6 +14,7 @@ import numpy
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "src/python"))
 from culm.program import Program  # noqa: E402
+from culm.state_tables import read_field  # noqa: E402
 from culm.view.packing import unpacked  # noqa: E402
 
 INPUTS = ROOT / "inputs"
@@ -57,15 +58,16 @@ class Check:
             for structure in scene["structures"]:
                 name = structure["name"]
                 for state, index in enumerate(scene["indices"]):
-                    step = file[f"steps/{index:06}/{name}"]
+                    step = file[f"steps/{index:06}"]
+                    mesh = next(group for group in file["mesh"].values() if group.attrs["name"] == name)
                     shown = unpacked(structure["displacement"])[state]
                     scale = numpy.abs(unpacked(structure["displacement"])).max() or 1.0
                     self.expect(
-                        numpy.abs(shown - step["displacement"][()]).max() <= SINGLE * scale, f"{name}, displacement {index}"
+                        numpy.abs(shown - read_field(step, mesh, "displacement")).max() <= SINGLE * scale, f"{name}, displacement {index}"
                     )
                     for column, field in enumerate(structure["fields"]):
                         values = unpacked(field["values"])
-                        error = numpy.abs(values[state, :, 0] - step["resultants"][:, column]).max()
+                        error = numpy.abs(values[state, :, 0] - read_field(step, mesh, "resultants")[:, column]).max()
                         self.expect(error <= SINGLE * (numpy.abs(values).max() or 1.0), f"{name}, {field['name']} {index}")
 
 

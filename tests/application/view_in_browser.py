@@ -72,10 +72,10 @@ class Check:
 
 def check_picked(check, page, file, state, element, node):
     """Every number of the panel against the file."""
-    step = file[f"steps/{state:06}/shell"]
+    step = file[f"steps/{state:06}"]
     shown = page.numbers()
     u = step["displacement"][node]
-    most = max(numpy.abs(one["shell/displacement"]).max() for one in file["steps"].values())
+    most = max(numpy.abs(one["displacement"]).max() for one in file["steps"].values())
     for k, name in enumerate("xyz"):
         check.close(shown[f"displacement {name} [m]"], u[k], most, f"displacement {name}")
         check.close(shown[f"{name} [m]"], step["position"][node, k], 2540.0, name)
@@ -113,7 +113,7 @@ def check_states(check, browser, run):
         check_picked(check, page, file, 70, element, node)
         page.choose("field", "M11")
         page.choose("range", "one")
-        moments = [row[3] for row in file["steps/000070/shell/resultants"]]
+        moments = [row[3] for row in file["steps/000070/resultants"]]
         ticks = browser.run("[...document.querySelectorAll('#bar-ticks li')].map((t) => t.textContent.replace('−', '-'))")
         check.equal(page.text("bar-title"), "M11 (bending moment) [N m/m]", "title of the bar")
         for tick, expected in ((ticks[0], max(moments)), (ticks[-1], min(moments))):

@@ -9,6 +9,7 @@
 #include "mesh_tables.hpp"
 #include "names.hpp"
 #include "replace_file.hpp"
+#include "state_tables.hpp"
 
 #include <chrono>
 #include <utility>
@@ -18,7 +19,7 @@ namespace culm::output {
 namespace {
 
 // Version of the layout of the file, for readers.
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 // Of tables: the number that stands for none, as netCDF has it.
 constexpr const char* fill_value = "_FillValue";
@@ -98,11 +99,30 @@ void write_loaded(Hdf5File& file, hid_t mesh, const std::vector<LoadedNodes>& lo
   }
 }
 
-void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int number) {
+// Where the fields of a structure stand in each state.
+void write_fields(Hdf5File& file, hid_t mesh, const std::vector<FieldRows>& fields,
+                  const std::vector<StateTable>& tables) {
+  std::vector<std::string> names, places;
+  std::vector<int> rows;
+  for (const FieldRows& field : fields) {
+    names.push_back(field.field);
+    places.push_back(tables[field.table].name);
+    rows.push_back(static_cast<int>(field.first));
+    rows.push_back(static_cast<int>(field.first + field.rows));
+  }
+  file.set_attribute(mesh, "fields", names);
+  file.set_attribute(mesh, "tables", places);
+  file.write(mesh, "field_rows", rows);
+}
+
+void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int number,
+                const StateTables& tables) {
   const Handle group = file.make_group(parent, link_name(mesh.name));
   file.set_attribute(group.id(), "name", mesh.name);
   file.set_attribute(group.id(), "type", mesh.type);
   file.set_attribute(group.id(), "number", number);
+  file.set_attribute(group.id(), "topology_size",
+                     static_cast<int>(xdmf_topology(mesh.cells).size()));
   file.set_attribute(group.id(), "resultant_names", mesh.resultant_names);
   write_node_array_names(file, group.id(), mesh.node_arrays);
   write_cell_array_names(file, group.id(), mesh.cell_arrays);
@@ -113,8 +133,8 @@ void write_mesh(Hdf5File& file, hid_t parent, const StructureMesh& mesh, int num
   file.write(group.id(), "cell_types", cells.types);
   file.write(group.id(), "cell_offsets", cells.offsets);
   file.write(group.id(), "connectivity", cells.connectivity);
-  file.write(group.id(), "topology", xdmf_topology(mesh.cells));
   write_outlines(file, group.id(), mesh.outlines);
+  write_fields(file, group.id(), tables.fields(static_cast<std::size_t>(number)), tables.tables());
   write_held(file, group.id(), mesh.held);
   write_loaded(file, group.id(), mesh.loaded);
 }
@@ -137,32 +157,6 @@ Handle make_history(Hdf5File& file, const std::vector<HistoryColumn>& columns) {
 Shape table_shape(std::size_t size, int columns) {
   const auto width = static_cast<hsize_t>(columns);
   return columns == 1 ? Shape{size} : Shape{size / width, width};
-}
-
-void write_state(Hdf5File& file, hid_t parent, const StructureMesh& mesh,
-                 const StructureState& state) {
-  const Handle group = file.make_group(parent, link_name(mesh.name));
-  const Shape shape{state.positions.size(), 3};
-  file.write(group.id(), "position", flatten(state.positions), shape);
-  file.write(group.id(), "displacement", flatten_difference(state.positions, mesh.positions),
-             shape);
-  write_directors(file, group.id(), mesh.directors, state.triads);
-  if (!mesh.resultant_names.empty()) {
-    file.write(group.id(), "resultants", flatten_rows(state.resultants),
-               {mesh.cells.size(), mesh.resultant_names.size()});
-  }
-  for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
-    const NodeArray& array = mesh.node_arrays[a];
-    const std::vector<double>& values = state.node_values[a];
-    file.write(group.id(), link_name(array.name), values,
-               table_shape(values.size(), array.columns));
-  }
-  for (std::size_t a = 0; a < mesh.cell_arrays.size(); ++a) {
-    const CellArray& array = mesh.cell_arrays[a];
-    const std::vector<double>& values = state.cell_values[a];
-    file.write(group.id(), link_name(array.name), values,
-               table_shape(values.size(), static_cast<int>(array.columns.size())));
-  }
 }
 
 // Removes a file that was never finished.
@@ -209,8 +203,10 @@ class Recorder::File {
     const Handle step = file_.make_group(steps_.id(), step_name(frame.index));
     file_.set_attribute(step.id(), "time", frame.time);
     file_.set_attribute(step.id(), "index", frame.index);
-    for (std::size_t s = 0; s < meshes_.size(); ++s) {
-      write_state(file_, step.id(), meshes_[s], frame.structures[s]);
+    const auto values = tables_.values(meshes_, frame.structures);
+    for (std::size_t t = 0; t < values.size(); ++t) {
+      const StateTable& table = tables_.tables()[t];
+      file_.write(step.id(), table.name, values[t], table_shape(values[t].size(), table.columns));
     }
     if (!frame.arrays.empty()) write_arrays(step.id(), frame.arrays);
     ++mark_.steps;
@@ -301,6 +297,7 @@ class Recorder::File {
   File(const std::filesystem::path& temporary, const RunInfo& info,
        std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history, Unnamed)
       : meshes_(std::move(meshes)),
+        tables_(fields_of(meshes_)),
         columns_(history.size()),
         cleanup_(temporary),
         file_(Hdf5File::create(temporary)) {
@@ -313,7 +310,14 @@ class Recorder::File {
     file_.take_sum();
     const Handle mesh_group = file_.make_group(file_.id(), "mesh");
     int number = 0;
-    for (const StructureMesh& mesh : meshes_) write_mesh(file_, mesh_group.id(), mesh, number++);
+    for (const StructureMesh& mesh : meshes_) {
+      write_mesh(file_, mesh_group.id(), mesh, number++, tables_);
+    }
+    const Handle topologies = file_.make_group(file_.id(), "topologies");
+    number = 0;
+    for (const StateGroup& group : tables_.groups()) {
+      file_.write(topologies.id(), step_name(number++), StateTables::topology(group, meshes_));
+    }
     steps_ = file_.make_group(file_.id(), "steps");
     history_ = make_history(file_, history);
     mark_.head_sum = file_.take_sum();
@@ -381,7 +385,7 @@ class Recorder::File {
   }
 
   void write_arrays(hid_t step, const std::vector<NamedArray>& arrays) {
-    // A structure may have any name, so free arrays stand in a place that no structure name makes.
+    // An array may have any name, so free ones stand in a place that no name makes.
     const Handle group = file_.make_group(step, "%arrays");
     for (const NamedArray& array : arrays) {
       file_.write(group.id(), link_name(array.name), array.values,
@@ -390,6 +394,7 @@ class Recorder::File {
   }
 
   std::vector<StructureMesh> meshes_;
+  StateTables tables_;
   std::size_t columns_;
   Cleanup cleanup_;
   Hdf5File file_;

@@ -52,27 +52,28 @@ std::size_t read_length(const Hdf5File& file, hid_t group, const std::string& na
   return shape[0];
 }
 
-XdmfStructure read_structure(const Hdf5File& file, hid_t group) {
+StructureFields read_structure(const Hdf5File& file, hid_t group) {
   return {.name = read_text(file, group, "name"),
+          .type = read_text(file, group, "type"),
           .nodes = read_length(file, group, "position"),
           .cells = read_length(file, group, "cell_types"),
-          .topology_size = read_length(file, group, "topology"),
+          .topology_size = static_cast<std::size_t>(read_int(file, group, "topology_size")),
           .directors = find_directors(file, group),
           .resultant_names = read_texts(file, group, "resultant_names"),
           .node_arrays = read_node_arrays(file, group),
           .cell_arrays = read_cell_arrays(file, group)};
 }
 
-std::vector<XdmfStructure> read_structures(const Hdf5File& file) {
+std::vector<StructureFields> read_structures(const Hdf5File& file) {
   const Handle meshes = open_group(file, file.id(), "mesh");
-  std::vector<std::pair<int, XdmfStructure>> numbered;
+  std::vector<std::pair<int, StructureFields>> numbered;
   for (const std::string& name : list_links(file, meshes.id())) {
     const Handle group = open_group(file, meshes.id(), name);
     numbered.emplace_back(read_int(file, group.id(), "number"), read_structure(file, group.id()));
   }
   std::sort(numbered.begin(), numbered.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<XdmfStructure> structures;
+  std::vector<StructureFields> structures;
   for (auto& [number, structure] : numbered) structures.push_back(std::move(structure));
   return structures;
 }

@@ -39,7 +39,17 @@ import xml.etree.ElementTree as E
 folder = os.path.dirname(sys.argv[1])
 root = E.parse(sys.argv[1]).getroot()
 times = [float(t.get('Value')) for t in root.iter('Time')]
-items = list(root.iter('DataItem'))
+items = [item for item in root.iter('DataItem') if item.get('Format') == 'HDF']
+for slab in root.iter('DataItem'):
+    if slab.get('ItemType') != 'HyperSlab': continue
+    rows, table = (item for item in slab)
+    numbers = [int(n) for n in rows.text.split()]
+    wanted = [int(n) for n in slab.get('Dimensions').split()]
+    whole = [int(n) for n in table.get('Dimensions').split()]
+    rank = len(wanted)
+    first, stride, count = (numbers[rank * i:rank * i + rank] for i in range(3))
+    fits = all(f + c <= w for f, c, w in zip(first, count, whole))
+    if count != wanted or set(stride) != {1} or not fits: print('wrong rows', rows.text)
 for item in items:
     name, path = item.text.split(':')
     data = h5py.File(os.path.join(folder, name), 'r')[path]
@@ -50,6 +60,22 @@ print(root.get('Version'), times, len(items))
 )",
                                       folder / "run.xdmf");
   EXPECT_EQ(text, "3.0 [0.0, 0.1, 0.2] 63\n");
+}
+
+// Many bodies are one grid, so that the index does not grow with them.
+TEST(Xdmf, StructuresOfATypeAreOneGrid) {
+  const TemporaryFolder folder;
+  std::vector<StructureMesh> meshes = sample_meshes(4);
+  for (int i = 0; i < 100; ++i) {
+    meshes.push_back(body_mesh());
+    meshes.back().name = std::to_string(i);
+  }
+  XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
+  xdmf.add_step(0, 0.0);
+  const std::string text = read_text_file(folder / "run.xdmf");
+  EXPECT_THAT(text, HasSubstr(R"(<Grid Name="Rigid Body" GridType="Uniform">)"));
+  EXPECT_THAT(text, HasSubstr(R"(NumberOfElements="101")"));
+  EXPECT_LT(text.size(), 8000U);
 }
 
 TEST(Xdmf, CanBeMadeFromTheResultFileAlone) {
@@ -71,10 +97,11 @@ TEST(Xdmf, ForeignFilesAreFileErrors) {
 TEST(Xdmf, NamesAreEscaped) {
   const TemporaryFolder folder;
   StructureMesh mesh = body_mesh();
-  mesh.name = "a<b&\"c\"";
+  mesh.type = "a<b&\"c\"";
   XdmfFile xdmf(folder / "run.xdmf", "run.h5", {mesh});
   xdmf.add_step(0, 0.0);
-  EXPECT_THAT(read_text_file(folder / "run.xdmf"), HasSubstr("/mesh/a&lt;b&amp;&quot;c&quot;/"));
+  EXPECT_THAT(read_text_file(folder / "run.xdmf"),
+              HasSubstr("<Grid Name=\"a&lt;b&amp;&quot;c&quot;\""));
 }
 
 TEST(Xdmf, IndexOfALongRunIsWrittenInLinearTime) {

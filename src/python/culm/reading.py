@@ -10,6 +10,7 @@ import pandas
 from .errors import CulmError
 from .history import quantity_of
 from .results import Results, _text, _without_escapes
+from .state_tables import read_field
 
 
 @dataclasses.dataclass
@@ -49,11 +50,10 @@ class State:
 
     def _array(self, structure, name):
         with h5py.File(self.path) as file:
-            link = _group(file["mesh"], structure).name.rsplit("/", 1)[1]
-            group = file[f"steps/{self.index:06}/{link}"]
-            if name not in group:
-                raise KeyError(f"'{structure}' has no {name}")
-            return group[name][()]
+            values = read_field(file[f"steps/{self.index:06}"], _group(file["mesh"], structure), name)
+        if values is None:
+            raise KeyError(f"'{structure}' has no {name}")
+        return values
 
 
 @dataclasses.dataclass

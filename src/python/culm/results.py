@@ -7,6 +7,8 @@ import xml.etree.ElementTree as ElementTree
 import h5py
 import numpy
 
+from .state_tables import read_field
+
 
 @dataclasses.dataclass
 class Effect:
@@ -140,9 +142,8 @@ class Results:
         """Time of the last recorded state, and positions by structure."""
         with h5py.File(self.path) as file:
             last = file["steps"][max(file["steps"])]
-            names = {link: _text(g.attrs["name"]) for link, g in file["mesh"].items()}
             return float(last.attrs["time"]), {
-                names[link]: group["position"][()] for link, group in last.items() if link in names
+                _text(group.attrs["name"]): read_field(last, group, "position") for group in file["mesh"].values()
             }
 
     def analyses(self):

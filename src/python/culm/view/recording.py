@@ -9,6 +9,7 @@ import numpy
 from ..errors import CulmError
 from ..resolved_deck import ResolvedDeck
 from ..results import Results
+from ..state_tables import read_field
 
 
 @dataclasses.dataclass
@@ -154,8 +155,8 @@ class Recording:
         return [_structure(link, group) for link, group in groups]
 
     def values(self, state, structure, name):
-        """A dataset of a state, with the number of a state in the order of `times`."""
-        return self._steps[state][structure.link][name][()]
+        """A field of a structure, with the number of a state in the order of `times`."""
+        return read_field(self._steps[state], self._file["mesh"][structure.link], name)
 
     def shapes(self):
         """By the order of the names of analyses."""

@@ -27,11 +27,14 @@ struct RunInfo {
 ///
 /// - attributes run, deck, model: identities
 /// - /deck: xml; attributes title, version
-/// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity, topology,
+/// - /mesh/<structure>: position, director1..3, cell_types, cell_offsets, connectivity,
 ///   outline_of_node, outline_ends, outline_points; constraints/<number>: nodes, attributes name,
-///   type; loads/<number>: nodes, actions, the same attributes
-/// - /steps/000000/<structure>: position, displacement, director1..3, resultants, node and cell
-///   arrays; whatever Frame::arrays holds in /steps/000000/%arrays
+///   type; loads/<number>: nodes, actions, the same attributes; fields, tables and field_rows: what
+///   each state holds of the structure, in which table and there from which row to which
+/// - /topologies/<group>: cells of structures of one type with the same fields, as XDMF wants them
+/// - /steps/000000: tables position, displacement, director1..3, resultants, node and cell arrays,
+///   of all structures that have them, one after the other; if numbers of columns differ there is
+///   more than one, as resultants%2F2; whatever Frame::arrays holds in /steps/000000/%arrays
 /// - /history/values: one row per add_history(); attributes names, units; first column time
 /// - /report: text, scalars/<name>, and tables, attributes as below; findings/<number>, with
 ///   attributes grade ("broken", "warning"), kind, text, analysis, time

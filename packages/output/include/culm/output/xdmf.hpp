@@ -2,36 +2,32 @@
 
 #include <culm/output/growing_file.hpp>
 #include <culm/output/picture_mesh.hpp>
+#include <culm/output/structure_fields.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace culm::output {
 
-/// What the XDMF index must know of a structure: names and sizes.
-struct XdmfStructure {
-  std::string name;
-  std::size_t nodes = 0;
-  std::size_t cells = 0;
-  std::size_t topology_size = 0;
-  std::vector<int> directors;  ///< numbers of those written
-  std::vector<std::string> resultant_names;
-  std::vector<NodeArray> node_arrays;
-  std::vector<CellArray> cell_arrays;
-};
+class StateTables;
 
 /// Index in XDMF 3 through which ParaView shows the steps of a result file: a temporal collection
-/// with one group of datasets per step. The numbers stay in the HDF5 file.
+/// with a grid for each
+/// type of structure (those with other fields by themselves). The numbers stay in the HDF5 file.
 class XdmfFile {
  public:
   /// @param path  of the index; the result file stands beside it
   /// @param h5    file name of the result file, without folder
   /// Throws FileError.
   XdmfFile(const std::filesystem::path& path, std::string h5,
-           std::vector<XdmfStructure> structures);
+           const std::vector<StructureFields>& structures);
   XdmfFile(const std::filesystem::path& path, std::string h5,
            const std::vector<StructureMesh>& meshes);
+  XdmfFile(XdmfFile&&) noexcept;
+  XdmfFile& operator=(XdmfFile&&) noexcept;
+  ~XdmfFile();
 
   /// Adds a step that the result file holds already. The index may lag behind, see GrowingFile.
   /// Throws FileError.
@@ -42,7 +38,7 @@ class XdmfFile {
 
  private:
   std::string h5_;
-  std::vector<XdmfStructure> structures_;
+  std::unique_ptr<const StateTables> tables_;
   GrowingFile file_;
 };
 
