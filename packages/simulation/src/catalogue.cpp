@@ -10,6 +10,7 @@
 #include <culm/rotor/register_rotor.hpp>
 #include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/catalogue.hpp>
+#include <culm/water/register_water.hpp>
 
 #include "earlier_states.hpp"
 #include "fluid_quantities.hpp"
@@ -40,6 +41,7 @@ Catalogue::Catalogue() {
   load::register_loads(loads);
   heat::register_heat(loads);
   flow::register_flows(flows);
+  water::register_seas(flows);
   strip::register_airfoils(airfoils);
   strip::register_strips(strips);
   rotor::register_rotors(strips);

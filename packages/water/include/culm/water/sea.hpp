@@ -1,0 +1,72 @@
+/// Water with waves and a current.
+#pragma once
+
+#include <culm/flow/flow.hpp>
+#include <culm/water/current.hpp>
+#include <culm/water/wave.hpp>
+
+#include <span>
+#include <vector>
+
+namespace culm::water {
+
+/// Where the water is, and what it is.
+struct Site {
+  double density = 0.0;     ///< [kg/m^3]
+  double depth = 0.0;       ///< [m]
+  double gravity = 0.0;     ///< [m/s^2]
+  double level = 0.0;       ///< of still water above the origin, along `up` [m]
+  Vec3 up = Vec3::UnitZ();  ///< unit vector
+};
+
+/// How the theory of small waves, which ends at still water, reaches up to the surface.
+enum class Stretching {
+  none,      ///< nothing is wet above still water
+  vertical,  ///< above still water as at it
+  wheeler,   ///< profiles are stretched from the sea bed to the surface
+};
+
+/// What water does at a place.
+struct WaterMotion {
+  Vec3 velocity = Vec3::Zero();      ///< with the current [m/s]
+  Vec3 acceleration = Vec3::Zero();  ///< of the waves at the place, without convection [m/s^2]
+  double pressure = 0.0;             ///< of the waves, beside that of water at rest [Pa]
+};
+
+/// A sea of constant depth with waves by Airy's theory and a current, which do not know of each
+/// other. Places below the bed count as at it. @source fluids B7
+class Sea final : public flow::Flow {
+ public:
+  /// @param rise  time in which waves grow to their height, by half a cosine; 0: they are there [s]
+  Sea(const Site& site, std::vector<Wave> waves, Current current, Stretching stretching,
+      double rise);
+
+  const Site& site() const { return site_; }
+  std::span<const Wave> waves() const { return waves_; }
+  /// Of a place over still water [m].
+  double height(const Vec3& place) const { return site_.up.dot(place) - site_.level; }
+  /// Of the surface over still water [m].
+  double elevation(const Vec3& place, double time) const;
+  /// Up to which height over still water things are wet [m].
+  double wet_to(const Vec3& place, double time) const {
+    return stretching_ == Stretching::none ? 0.0 : elevation(place, time);
+  }
+  /// No surface is farther from still water [m].
+  double highest() const { return highest_; }
+  WaterMotion motion(const Vec3& place, double time) const;
+  void velocities(std::span<const Vec3> places, double time,
+                  std::span<Vec3> velocities) const override;
+
+ private:
+  double growth(double time) const;
+  double profile_height(const Vec3& place, double time) const;
+
+  Site site_;
+  std::vector<Wave> waves_;
+  Current current_;
+  Stretching stretching_;
+  double rise_;
+  double highest_ = 0.0;
+};
+
+}  // namespace culm::water

@@ -1,0 +1,44 @@
+#include <culm/water/wave.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace culm::water {
+namespace {
+
+// The mixing function of splitmix64 (Steele, Lea, Flood 2014), a bijection of 64-bit words.
+std::uint64_t mix(std::uint64_t z) {
+  z += 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return z ^ (z >> 31U);
+}
+
+// From 0 to below 1; it follows from seed and number alone.
+double draw(std::uint64_t seed, std::uint64_t number) {
+  return std::ldexp(static_cast<double>(mix(mix(seed) ^ number) >> 11U), -53);
+}
+
+}  // namespace
+
+std::vector<Wave> random_waves(const SeaState& sea, Band band, int count, std::uint64_t seed) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const double part = (band.highest - band.lowest) / count;
+  std::vector<Wave> waves;
+  double variance = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const auto number = 2 * static_cast<std::uint64_t>(i);
+    const double frequency = band.lowest + (i + draw(seed, number)) * part;
+    Wave wave;
+    wave.amplitude = std::sqrt(2.0 * jonswap(sea, frequency) * part);
+    wave.frequency = turn * frequency;
+    wave.phase = turn * draw(seed, number + 1);
+    variance += 0.5 * wave.amplitude * wave.amplitude;
+    waves.push_back(wave);
+  }
+  const double factor = 0.25 * sea.height / std::sqrt(variance);
+  for (Wave& wave : waves) wave.amplitude *= factor;
+  return waves;
+}
+
+}  // namespace culm::water
