@@ -46,6 +46,7 @@ Catalogue::Catalogue() {
   strip::register_strips(strips);
   rotor::register_rotors(strips);
   lattice::register_lattice(fluid_loads);
+  water::register_water_loads(fluid_loads);
   port::register_ports(ports);
   coupling::register_partners(partners);
   register_mpi_partner(partners);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -24,6 +25,13 @@ Sea::Sea(const Site& site, std::vector<Wave> waves, Current current, Stretching 
       stretching_(stretching),
       rise_(rise) {
   for (const Wave& wave : waves_) highest_ += std::abs(wave.amplitude);
+}
+
+double Sea::main_length() const {
+  if (highest_ == 0.0) return std::numeric_limits<double>::infinity();
+  const auto main = std::ranges::max_element(
+      waves_, {}, [](const Wave& wave) { return std::abs(wave.amplitude); });
+  return 2.0 * std::numbers::pi / main->number;
 }
 
 double Sea::growth(double time) const {

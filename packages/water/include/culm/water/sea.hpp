@@ -53,6 +53,8 @@ class Sea final : public flow::Flow {
   }
   /// No surface is farther from still water [m].
   double highest() const { return highest_; }
+  /// Length of the highest wave; infinite where there are none [m].
+  double main_length() const;
   WaterMotion motion(const Vec3& place, double time) const;
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override;

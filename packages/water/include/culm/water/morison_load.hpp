@@ -1,0 +1,89 @@
+/// Loads of water on slender members.
+#pragma once
+
+#include <culm/flow/fluid_force.hpp>
+#include <culm/model/amplitude.hpp>
+#include <culm/model/memoryless_batch.hpp>
+#include <culm/model/method_limits.hpp>
+#include <culm/water/member.hpp>
+#include <culm/water/sea.hpp>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::water {
+
+/// Water on straight segments of members with circular sections: pressure of the undisturbed
+/// water, drag and added mass after Morison in velocity and acceleration relative to the member, up
+/// to the surface that cuts it. Points of a segment are linear between its ends, so forces come to
+/// the slots by the transpose of the same map, and their work over a step is F . Dx. In statics
+/// nothing moves, and the sea is as it is at time 0. @source fluids B7
+class MorisonLoad final : public model::MemorylessBatch,
+                          public model::LimitedRange,
+                          public flow::FluidForce {
+ public:
+  static constexpr int max_nodes = 8;
+
+  MorisonLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
+              std::shared_ptr<const Sea> sea, MorisonModel model)
+      : MemorylessBatch(std::move(effect)),
+        nodes_(nodes),
+        amplitude_(std::move(amplitude)),
+        sea_(std::move(sea)),
+        model_(model) {}
+
+  void add(Segment segment);
+
+  const Sea& sea() const { return *sea_; }
+
+  int size() const override { return static_cast<int>(items_.size()); }
+  std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
+  bool has_tangent() const override { return true; }
+  void place(model::Placement placement, model::Form form) override;
+  Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
+                   model::Target& target) override;
+  void accept(model::State& state) override;
+  /// Velocities are those in the middle of the step, which other schemes do not know.
+  bool needs_mean_velocity() const override { return true; }
+  std::optional<Resultant> resultant() const override;
+  double range_used() const override;
+  std::string range_warning(double used) const override;
+  std::size_t memory_size() const override { return 1 + 6 * items_.size(); }
+  void save(model::Items items, std::span<double> numbers) const override;
+  void restore(std::span<const double> numbers) override;
+  model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+
+ private:
+  /// What the slots of a node do for the ends of a segment.
+  using Factors = Mat<4, 2>;
+  struct Item {
+    Segment segment;
+    std::vector<int> nodes;        ///< of both ends, each once
+    std::vector<Factors> factors;  ///< one per node
+    bool owned = false;            ///< whether this rank counts it in sums
+    Resultant accepted, trial;
+  };
+  struct Evaluation;
+
+  template <class Number>
+  Evaluation evaluate(const Item& item, const model::State& state, const Stencil& stencil,
+                      Want want) const;
+  template <class Space>
+  Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
+                        model::Target& target);
+
+  const model::NodeTable& nodes_;
+  model::Amplitude amplitude_;
+  std::shared_ptr<const Sea> sea_;
+  MorisonModel model_;
+  std::vector<Item> items_;
+  bool has_stepped_ = false;
+};
+
+}  // namespace culm::water

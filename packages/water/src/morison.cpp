@@ -1,0 +1,354 @@
+#include <culm/base/nearest.hpp>
+#include <culm/joint/triad_nodes.hpp>
+#include <culm/water/morison_load.hpp>
+#include <culm/water/register_water.hpp>
+
+#include "distribution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culm::water {
+namespace {
+
+// Parameters for one value and for one at each position.
+struct Varied {
+  const char *one, *several, *unit, *doc;
+};
+constexpr Varied varied[] = {
+    {"Drag", "Drags", "1", "Coefficient of the drag across the axis, over the diameter."},
+    {"Added Mass", "Added Masses", "1",
+     "Water that moves along across the axis, over that in the volume."},
+    {"Axial Drag", "Axial Drags", "1",
+     "Coefficient of the friction along the axis, over the surface."},
+    {"Axial Added Mass", "Axial Added Masses", "1", "As 'Added Mass', along the axis."},
+    {"Growth", "Growths", "m", "Thickness of what has grown on the outside."}};
+
+Schema geometry_schema() {
+  return Schema("Morison")
+      .add(text("Structure", "The beam that it acts on.").optional())
+      .add(text("Node", "Instead, a node that carries a straight member.").optional())
+      .add(model::vector_field("From", "m", "Of this member, from the node along its directors.")
+               .optional())
+      .add(model::vector_field("To", "m", "Likewise, its other end.").optional())
+      .add(numbers("Range", "1", "Part of the length that water may reach, as fractions.")
+               .between(0.0, 1.0)
+               .size(2)
+               .optional(std::vector<double>{0.0, 1.0}))
+      .add(integer("Segments",
+                   "Straight pieces of equal length, more where 'Positions' lie between; each is "
+                   "wet up to the surface that cuts it.")
+               .between(1, 100000)
+               .optional(20))
+      .add(numbers("Positions", "1",
+                   "Fractions of the length at which the lists below have their values, linear in "
+                   "between; where two are equal, values jump.")
+               .min_size(2)
+               .optional())
+      .add(number("Diameter", "m", "Outer diameter, the same everywhere.").positive().optional())
+      .add(numbers("Diameters", "m", "Outer diameters at the positions.").positive().optional())
+      .add(number("Flooded Diameter", "m",
+                  "Inner diameter of what is open to the water; none if absent.")
+               .positive()
+               .optional())
+      .add(numbers("Flooded Diameters", "m", "The same at the positions; 0 where it is closed.")
+               .non_negative()
+               .optional());
+}
+
+bool has_ends(const Options& options) { return options.has("From") && options.has("To"); }
+
+void check_place(const Options& options, InputIssues& issues) {
+  if (options.has("Structure") == options.has("Node")) {
+    issues.add(options.where(), "give one of 'Structure' and 'Node'");
+  }
+  if (options.has("Node") != has_ends(options) || options.has("From") != options.has("To")) {
+    issues.add(options.where(), "'Node', 'From' and 'To' need each other");
+  }
+  const std::vector<double>& range = options.numbers("Range");
+  if (range[0] >= range[1]) issues.add(options.where("Range"), "must rise");
+  if (options.has("Diameter") == options.has("Diameters")) {
+    issues.add(options.where(), "give one of 'Diameter' and 'Diameters'");
+  }
+  if (options.has("Flooded Diameter") && options.has("Flooded Diameters")) {
+    issues.add(options.where(), "give one of 'Flooded Diameter' and 'Flooded Diameters'");
+  }
+}
+
+std::vector<std::string> tables_of(const Options& options) {
+  std::vector<std::string> tables;
+  const auto add = [&](const char* name) {
+    if (options.has(name)) tables.emplace_back(name);
+  };
+  add("Diameters");
+  add("Flooded Diameters");
+  for (const Varied& one : varied) add(one.several);
+  return tables;
+}
+
+void check_tables(const Options& options, InputIssues& issues) {
+  const std::vector<std::string> tables = tables_of(options);
+  if (tables.empty() == options.has("Positions")) {
+    issues.add(options.where(), tables.empty() ? "'Positions' needs lists with values there"
+                                               : fmt::format("'{}' needs 'Positions'", tables[0]));
+    return;
+  }
+  if (tables.empty()) return;
+  const std::vector<double>& positions = options.numbers("Positions");
+  if (positions.front() != 0.0 || positions.back() != 1.0 || !std::ranges::is_sorted(positions)) {
+    issues.add(options.where("Positions"),
+               "must rise from 0 to 1, as fractions of the length of the member");
+  }
+  for (const std::string& table : tables) {
+    const std::size_t count = options.numbers(table).size();
+    if (count == positions.size()) continue;
+    issues.add(options.where(table),
+               fmt::format("must have one value for each of {} positions, got {}", positions.size(),
+                           count));
+  }
+}
+
+void check_growth(const Options& options, InputIssues& issues) {
+  if (options.has("Growth Density")) return;
+  const bool grows = options.has("Growths") || options.number("Growth") > 0.0;
+  if (grows) issues.add(options.where(), "'Growth' needs 'Growth Density'");
+}
+
+Schema morison_schema() {
+  Schema schema("Morison",
+                "Waves, current and buoyancy on members with circular sections: the pressure of "
+                "the undisturbed water, drag and added mass, up to the surface.");
+  schema.add_all(geometry_schema()).add(flow::flow_field()).add(model::function_field("Constant"));
+  for (const Varied& one : varied) {
+    const std::string name = one.one;
+    const double usual = name == "Drag" || name == "Added Mass" ? 1.0 : 0.0;
+    schema.add(number(one.one, one.unit, one.doc).non_negative().optional(usual))
+        .add(
+            numbers(one.several, one.unit, "The same at the positions.").non_negative().optional());
+  }
+  return schema
+      .add(number("Growth Density", "kg/m^3", "Mass of the growth per volume.")
+               .positive()
+               .optional())
+      .add(flag("Buoyancy",
+                "Whether the pressure of the water acts with weight and along the axis, beside its "
+                "pull across.")
+               .optional(true))
+      .add(texts("Dry Ends",
+                 "Ends whose face no water touches: in the soil, or inside of another member.")
+               .one_of({"first", "last"})
+               .optional(std::vector<std::string>{}))
+      .add(number("End Drag", "1", "Coefficient of the drag of the wet end faces along the axis.")
+               .non_negative()
+               .optional(0.0))
+      .add(number("End Added Mass", "1",
+                  "Water that moves along with wet end faces, over that in a half sphere.")
+               .non_negative()
+               .optional(0.0))
+      .check(check_place)
+      .check(check_tables)
+      .check(check_growth);
+}
+
+// A point of the axis at a fraction of its length.
+using Axis = std::function<std::optional<model::Marker>(double)>;
+
+struct Member {
+  Axis axis;
+  double length = 0.0;  // [m]
+};
+
+std::optional<Member> member_on_line(const Options& options, model::BuildContext& context) {
+  const model::Structure* structure = model::select_structure(options, context);
+  if (structure == nullptr) return {};
+  Member member;
+  for (const model::LinePoint& point : structure->line_points) member.length += point.length;
+  member.axis = [structure](double s) { return model::marker_at_fraction(*structure, s); };
+  if (member.axis(0.0)) return member;
+  context.issues.add(options.where("Structure"),
+                     "structure '" + structure->name + "' is not a line: it has no axis");
+  return {};
+}
+
+std::optional<Member> member_on_node(const Options& options, model::BuildContext& context) {
+  const std::vector<int> nodes = model::select_nodes(options, "Node", context);
+  if (nodes.empty() || !joint::have_triads(nodes, "Node", options, context)) return {};
+  if (nodes.size() > 1) {
+    context.issues.add(
+        options.where("Node"),
+        fmt::format("must be one node, which carries the member, got {}", nodes.size()));
+    return {};
+  }
+  const Vec3 from = model::vector(options, "From"), to = model::vector(options, "To");
+  if ((to - from).norm() <= 0.0) {
+    context.issues.add(options.where("To"), "must not be the same place as 'From'");
+    return {};
+  }
+  const Axis axis = [node = nodes.front(), from, to](double s) {
+    model::Marker point = model::marker_at(node);
+    point.offset = (1.0 - s) * from + s * to;
+    return std::optional(point);
+  };
+  return Member{axis, (to - from).norm()};
+}
+
+// Ends of segments: equal parts of the range, and the positions within.
+std::vector<double> divide(const Options& options) {
+  const std::vector<double>& range = options.numbers("Range");
+  const int count = options.integer("Segments");
+  std::vector<double> ends;
+  for (int i = 0; i <= count; ++i) ends.push_back(std::lerp(range[0], range[1], double(i) / count));
+  if (options.has("Positions")) {
+    for (const double s : options.numbers("Positions")) {
+      if (s > range[0] && s < range[1]) ends.push_back(s);
+    }
+  }
+  std::ranges::sort(ends);
+  constexpr double same = 1e-9;
+  const auto [first, last] =
+      std::ranges::unique(ends, [](double a, double b) { return b - a < same; });
+  ends.erase(first, last);
+  ends.back() = range[1];
+  return ends;
+}
+
+// Reads the sections along a member.
+class Sections {
+ public:
+  explicit Sections(const Options& options)
+      : diameter_(options, "Diameter", "Diameters"),
+        flooded_(options, "Flooded Diameter", "Flooded Diameters"),
+        density_(options.has("Growth Density") ? options.number("Growth Density") : 0.0) {
+    for (const Varied& one : varied) values_.emplace_back(options, one.one, one.several);
+  }
+  WetSection at(double place, double middle) const {
+    const auto value = [&](std::size_t i) { return values_[i].at(place, middle); };
+    const double bare = diameter_.at(place, middle), growth = value(4);
+    const double grown = bare + 2.0 * growth;
+    return {grown,
+            flooded_.at(place, middle),
+            value(0),
+            value(1),
+            value(2),
+            value(3),
+            density_ * 0.25 * std::numbers::pi * (grown * grown - bare * bare)};
+  }
+
+ private:
+  Distribution diameter_, flooded_;
+  std::vector<Distribution> values_;
+  double density_;
+};
+
+std::array<Face, 2> read_faces(const Options& options) {
+  std::array<Face, 2> faces = {Face::wet, Face::wet};
+  for (const std::string& end : options.texts("Dry Ends")) faces[end == "last"] = Face::dry;
+  return faces;
+}
+
+std::vector<Segment> segments_of(const Options& options, const Member& member) {
+  const Sections sections(options);
+  const std::vector<double> ends = divide(options);
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const double middle = 0.5 * (ends[i] + ends[i + 1]);
+    Segment segment;
+    segment.length = (ends[i + 1] - ends[i]) * member.length;
+    for (std::size_t end = 0; end < 2; ++end) {
+      segment.ends[end] = *member.axis(ends[i + end]);
+      segment.sections[end] = sections.at(ends[i + end], middle);
+    }
+    segments.push_back(std::move(segment));
+  }
+  const std::array<Face, 2> faces = read_faces(options);
+  segments.front().faces[0] = faces[0];
+  segments.back().faces[1] = faces[1];
+  return segments;
+}
+
+Vec3 place_of(const model::Marker& point, const model::NodeTable& nodes) {
+  Vec3 place = Vec3::Zero();
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    const auto slots = model::NodeTable::slots(nodes.reference(), point.nodes[a]);
+    place += point.weights[a] * (slots.col(0) + slots.rightCols<3>() * point.offset);
+  }
+  return place;
+}
+
+bool is_sound(const std::vector<Segment>& segments, const Sea& sea, const Options& options,
+              model::BuildContext& context) {
+  const double bed = -sea.site().depth;
+  double lowest = 0.0;
+  for (const Segment& segment : segments) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const WetSection& section = segment.sections[end];
+      if (section.flooded_diameter >= section.diameter) {
+        const char* name =
+            options.has("Flooded Diameters") ? "Flooded Diameters" : "Flooded Diameter";
+        context.issues.add(options.where(name),
+                           fmt::format("must be below the outer diameter, {:g} m, got {:g} m",
+                                       section.diameter, section.flooded_diameter));
+        return false;
+      }
+      const Vec3 place = place_of(segment.ends[end], context.model.nodes());
+      lowest = std::min(lowest, sea.height(place) - bed);
+    }
+  }
+  if (lowest >= -1e-6 * sea.site().depth) return true;
+  context.issues.add(options.where(),
+                     fmt::format("the member reaches {:.4g} m below the bed of '{}'; let 'Range' "
+                                 "end at the bed, and name this end in 'Dry Ends'",
+                                 -lowest, options.text("Flow")));
+  return false;
+}
+
+std::shared_ptr<const Sea> find_sea(const Options& options, flow::FluidContext& context) {
+  const flow::SharedFlow found = flow::find_flow(options, context);
+  if (found == nullptr) return nullptr;
+  auto sea = std::dynamic_pointer_cast<const Sea>(found);
+  if (sea != nullptr) return sea;
+  std::vector<std::string> names;
+  for (const auto& [name, flow] : context.flows) {
+    if (std::dynamic_pointer_cast<const Sea>(flow) != nullptr) names.push_back(name);
+  }
+  const std::string& name = options.text("Flow");
+  context.build.issues.add(options.where("Flow"),
+                           "'" + name +
+                               "' has no surface: it must be a sea, such as 'Still Water'" +
+                               did_you_mean(name, names));
+  return nullptr;
+}
+
+void make(const Options& options, flow::FluidContext& context) {
+  model::BuildContext& build = context.build;
+  const auto sea = find_sea(options, context);
+  const auto function = model::find_function(options, build);
+  const auto member =
+      options.has("Structure") ? member_on_line(options, build) : member_on_node(options, build);
+  if (!sea || !function || !member) return;
+  std::vector<Segment> segments = segments_of(options, *member);
+  if (!is_sound(segments, *sea, options, build)) return;
+  const MorisonModel model{options.flag("Buoyancy"), options.number("End Drag"),
+                           options.number("End Added Mass")};
+  auto load = std::make_unique<MorisonLoad>(model::Effect("Morison", options.name()),
+                                            build.model.nodes(), *function, sea, model);
+  for (Segment& segment : segments) load->add(std::move(segment));
+  build.model.add_load(std::move(load));
+}
+
+}  // namespace
+
+void register_water_loads(flow::FluidLoadRegistry& registry) {
+  registry.add("Morison", morison_schema(), make);
+}
+
+}  // namespace culm::water
