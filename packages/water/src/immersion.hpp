@@ -75,50 +75,105 @@ WetSlice<Number> slice_at(const Cone& cone, const Immersion<Number>& immersion,
   return cut_slice<Number>(Number(depth / immersion.sine), radius);
 }
 
-/// Where a linear function with these values at shares 0 and 1 is zero; 0 if it is nowhere.
+/// Whether a linear function with these values at shares 0 and 1 is zero between them.
 template <class Number>
-Number root(const Number& at_start, const Number& at_end) {
-  if (value_of(at_start) * value_of(at_end) >= 0.0) return Number(0.0);
-  return at_start / (at_start - at_end);
+bool changes_sign(const Number& at_start, const Number& at_end) {
+  return value_of(at_start) * value_of(at_end) < 0.0;
+}
+
+/// A run of slices that the surface cuts, as places m + a sin(angle): the square roots that widths
+/// of slices have where slices begin to be cut are smooth in the angle.
+template <class Number>
+struct CutRun {
+  Number middle, amplitude;      ///< m and a [shares]
+  std::array<Number, 2> angles;  ///< of its ends [rad]
+
+  /// Calls visit(share, weight).
+  template <class Visit>
+  void visit(Visit visit) const {
+    using std::cos;
+    using std::sin;
+    constexpr int panels = 3;
+    const Number half = (angles[1] - angles[0]) * Number(0.5 / panels);
+    for (int k = 0; k < panels; ++k) {
+      const Number centre = angles[0] + half * Number(2.0 * k + 1.0);
+      for (const auto& [xi, weight] : gauss_legendre(6)) {
+        const Number angle = centre + half * Number(xi);
+        visit(Number(middle + amplitude * sin(angle)),
+              Number(amplitude * cos(angle) * half * Number(weight)));
+      }
+    }
+  }
+};
+
+/// The slices between two shares, all cut. @param full, dry  where slices begin to be cut: linear
+/// functions by their values at shares 0 and 1
+template <class Number>
+CutRun<Number> cut_run(const Number& from, const Number& to, const std::array<Number, 2>& full,
+                       const std::array<Number, 2>& dry) {
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  constexpr double longest = 1e3;  // beyond, slices hardly differ, and places would lose digits
+  const auto slope = [](const std::array<Number, 2>& f) { return value_of(f[1]) - value_of(f[0]); };
+  const auto root = [](const std::array<Number, 2>& f) {
+    return value_of(f[0]) / (value_of(f[0]) - value_of(f[1]));
+  };
+  const bool has_roots = slope(full) != 0.0 && slope(dry) != 0.0;
+  const double low = has_roots ? std::min(root(full), root(dry)) : 0.0;
+  const double high = has_roots ? std::max(root(full), root(dry)) : 0.0;
+  constexpr double rounding = 1e-12;
+  if (!has_roots || high - low > longest || value_of(from) < low - rounding ||
+      value_of(to) > high + rounding) {
+    return {Number(0.5) * (from + to),
+            Number(0.5) * (to - from),
+            {Number(-right_angle), Number(right_angle)}};
+  }
+  const Number r0 = full[0] / (full[0] - full[1]), r1 = dry[0] / (dry[0] - dry[1]);
+  const bool rises = value_of(r1) > value_of(r0);
+  CutRun<Number> run;
+  run.middle = Number(0.5) * (r0 + r1);
+  run.amplitude = Number(rises ? 0.5 : -0.5) * (r1 - r0);
+  const auto angle_of = [&](const Number& share) {
+    const Number sine = (share - run.middle) / run.amplitude;
+    const double s = value_of(sine), square = 1.0 - s * s;
+    // an end where slices begin to be cut
+    if (square <= rounding) return Number(s > 0.0 ? right_angle : -right_angle);
+    return chain(std::asin(s), sine, 1.0 / std::sqrt(square), sine, 0.0);
+  };
+  run.angles = {angle_of(from), angle_of(to)};
+  return run;
 }
 
 /// Calls visit(share, weight, slice) for points of a quadrature over the wet slices; weights are in
-/// shares of the axis. Exact for cubic functions of the share where slices are wet as a whole;
-/// where the surface cuts them, to about 1e-10.
+/// shares of the axis. Exact for cubic functions of the share where slices are wet as a whole, and
+/// to about 1e-12 where the surface cuts them.
 template <class Number, class Visit>
 void visit_wet(const Cone& cone, const Immersion<Number>& immersion, Visit visit) {
   const auto& [h0, h1] = immersion.depths;
   const Number reach0 = Number(cone.radii[0]) * immersion.sine;
   const Number reach1 = Number(cone.radii[1]) * immersion.sine;
-  std::array<Number, 4> ends = {Number(0.0), root<Number>(h0 - reach0, h1 - reach1),
-                                root<Number>(h0 + reach0, h1 + reach1), Number(1.0)};
+  // positive where slices are wet as a whole, and where they are not dry
+  const std::array<Number, 2> full = {Number(h0 - reach0), Number(h1 - reach1)};
+  const std::array<Number, 2> dry = {Number(h0 + reach0), Number(h1 + reach1)};
+  std::array<Number, 4> ends = {Number(0.0), Number(0.0), Number(0.0), Number(1.0)};
+  if (changes_sign(full[0], full[1])) ends[1] = full[0] / (full[0] - full[1]);
+  if (changes_sign(dry[0], dry[1])) ends[2] = dry[0] / (dry[0] - dry[1]);
   if (value_of(ends[1]) > value_of(ends[2])) std::swap(ends[1], ends[2]);
   constexpr double nothing = 1e-14;
   for (std::size_t i = 0; i < 3; ++i) {
     const Number &from = ends[i], &to = ends[i + 1];
     if (value_of(to) - value_of(from) < nothing) continue;
-    const Number middle = Number(0.5) * (from + to), half = Number(0.5) * (to - from);
-    const double share = value_of(middle);
-    const double depth = std::lerp(value_of(h0), value_of(h1), share);
-    const double reach = cone.radius(share) * value_of(immersion.sine);
-    if (depth <= -reach) continue;
-    if (depth >= reach) {
-      for (const auto& [xi, weight] : gauss_legendre(2)) {
-        const Number at = middle + half * Number(xi);
-        visit(at, Number(half * Number(weight)), whole_slice<Number>(cone.radius(at)));
-      }
+    const double share = 0.5 * (value_of(from) + value_of(to));
+    if (std::lerp(value_of(dry[0]), value_of(dry[1]), share) <= 0.0) continue;
+    if (std::lerp(value_of(full[0]), value_of(full[1]), share) < 0.0) {
+      cut_run<Number>(from, to, full, dry).visit([&](const Number& at, const Number& weight) {
+        visit(at, weight, slice_at<Number>(cone, immersion, at));
+      });
       continue;
     }
-    // sines of an angle as places, so that square roots at both ends are smooth in the angle
-    constexpr int panels = 3;
-    constexpr double panel = std::numbers::pi / panels;
-    for (int k = 0; k < panels; ++k) {
-      for (const auto& [xi, weight] : gauss_legendre(6)) {
-        const double angle = panel * (k + 0.5 * (1.0 + xi)) - 0.5 * std::numbers::pi;
-        const Number at = middle + half * Number(std::sin(angle));
-        visit(at, Number(half * Number(0.5 * panel * weight * std::cos(angle))),
-              slice_at<Number>(cone, immersion, at));
-      }
+    const Number middle = Number(0.5) * (from + to), half = Number(0.5) * (to - from);
+    for (const auto& [xi, weight] : gauss_legendre(2)) {
+      const Number at = middle + half * Number(xi);
+      visit(at, Number(half * Number(weight)), whole_slice<Number>(cone.radius(at)));
     }
   }
 }

@@ -159,21 +159,44 @@ Schema morison_schema() {
       .check(check_growth);
 }
 
-// A point of the axis at a fraction of its length.
-using Axis = std::function<std::optional<model::Marker>(double)>;
+// The ends of a straight piece of the axis between two fractions of its length.
+using Piece = std::array<model::Marker, 2>;
 
 struct Member {
-  Axis axis;
+  std::function<Piece(double, double)> piece;
   double length = 0.0;  // [m]
 };
+
+// The ends of the line that meets a curve in the two Gauss points of a piece: there a bent beam
+// moves as the piece does, so that what is summed over them converges with the fourth order.
+Piece through_gauss_points(const model::Structure& line, double begin, double end) {
+  const double distance = 1.0 / std::sqrt(3.0);
+  const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin);
+  Piece points;
+  points[0] = *model::marker_at_fraction(line, middle - distance * half);
+  points[1] = *model::marker_at_fraction(line, middle + distance * half);
+  const double near = 0.5 * (1.0 + 1.0 / distance), far = 1.0 - near;
+  Piece ends;
+  for (std::size_t e = 0; e < 2; ++e) {
+    for (std::size_t p = 0; p < 2; ++p) {
+      for (std::size_t a = 0; a < points[p].nodes.size(); ++a) {
+        ends[e].nodes.push_back(points[p].nodes[a]);
+        ends[e].weights.push_back((e == p ? near : far) * points[p].weights[a]);
+      }
+    }
+  }
+  return ends;
+}
 
 std::optional<Member> member_on_line(const Options& options, model::BuildContext& context) {
   const model::Structure* structure = model::select_structure(options, context);
   if (structure == nullptr) return {};
   Member member;
   for (const model::LinePoint& point : structure->line_points) member.length += point.length;
-  member.axis = [structure](double s) { return model::marker_at_fraction(*structure, s); };
-  if (member.axis(0.0)) return member;
+  member.piece = [structure](double begin, double end) {
+    return through_gauss_points(*structure, begin, end);
+  };
+  if (model::marker_at_fraction(*structure, 0.0)) return member;
   context.issues.add(options.where("Structure"),
                      "structure '" + structure->name + "' is not a line: it has no axis");
   return {};
@@ -193,12 +216,13 @@ std::optional<Member> member_on_node(const Options& options, model::BuildContext
     context.issues.add(options.where("To"), "must not be the same place as 'From'");
     return {};
   }
-  const Axis axis = [node = nodes.front(), from, to](double s) {
-    model::Marker point = model::marker_at(node);
-    point.offset = (1.0 - s) * from + s * to;
-    return std::optional(point);
+  const auto piece = [node = nodes.front(), from, to](double begin, double end) {
+    Piece ends = {model::marker_at(node), model::marker_at(node)};
+    ends[0].offset = (1.0 - begin) * from + begin * to;
+    ends[1].offset = (1.0 - end) * from + end * to;
+    return ends;
   };
-  return Member{axis, (to - from).norm()};
+  return Member{piece, (to - from).norm()};
 }
 
 // Ends of segments: equal parts of the range, and the positions within.
@@ -263,8 +287,8 @@ std::vector<Segment> segments_of(const Options& options, const Member& member) {
     const double middle = 0.5 * (ends[i] + ends[i + 1]);
     Segment segment;
     segment.length = (ends[i + 1] - ends[i]) * member.length;
+    segment.ends = member.piece(ends[i], ends[i + 1]);
     for (std::size_t end = 0; end < 2; ++end) {
-      segment.ends[end] = *member.axis(ends[i + end]);
       segment.sections[end] = sections.at(ends[i + end], middle);
     }
     segments.push_back(std::move(segment));

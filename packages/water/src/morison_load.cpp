@@ -61,8 +61,9 @@ void MorisonLoad::add(Segment segment) {
         item.nodes.push_back(point.nodes[a]);
         item.factors.emplace_back(Factors::Zero());
       }
-      item.factors[place].col(static_cast<int>(end)) << point.weights[a],
-          point.weights[a] * point.offset;
+      Vec<4> factors;
+      factors << point.weights[a], point.weights[a] * point.offset;
+      item.factors[place].col(static_cast<int>(end)) += factors;
     }
   }
   internal_check(item.nodes.size() <= max_nodes, "a segment has more nodes than MorisonLoad takes");

@@ -87,7 +87,7 @@ flow::SharedFlow make_sea(const Options& options, std::vector<Wave> waves) {
 }
 
 Wave wave_of(double amplitude, double period, double phase) {
-  return {amplitude, turn / period, 0.0, phase, Vec3::Zero()};
+  return {amplitude, turn / period, 0.0, phase};
 }
 
 // Waves higher than this share of their length, or of the depth, have broken.

@@ -151,6 +151,17 @@ TEST(MorisonLoad, WaterMovesAlong) {
   }
 }
 
+// What stands more than once in a point adds up.
+TEST(MorisonLoad, OnANodeThatIsNamedTwice) {
+  std::vector<Segment> once = {segment({0, 0, -6}, {0, 0, -2}, 1.0, 1.0)}, twice = once;
+  for (model::Marker& point : twice[0].ends) point = {{0, 0}, {1.4, -0.4}, point.offset};
+  const auto q = MovedMember::placed({1.0, 0.0, 0.0}, Mat3::Identity());
+  const auto expected = MovedMember(once, still_water()).stand(q);
+  const auto found = MovedMember(twice, still_water()).stand(q);
+  EXPECT_NEAR((found.force - expected.force).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((found.moment - expected.moment).norm(), 0.0, 1e-9);
+}
+
 TEST(MorisonLoad, WorkIsForceTimesMotion) {
   model::Model model;
   fill(model, false, 0.3);

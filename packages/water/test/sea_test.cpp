@@ -159,6 +159,16 @@ TEST(IrregularWaves, HaveTheHeightThatIsAskedFor) {
   EXPECT_NEAR(4.0 * std::sqrt(squares / count), 6.0, 0.1);
 }
 
+TEST(IrregularWaves, GoWhereTheyAreTold) {
+  kit::GivenValues values = storm(1);
+  values.emplace_back("Direction", std::vector{3.0, 4.0, 1.0});
+  const auto sea = make_sea("Irregular Waves", values);
+  for (const Wave& wave : sea->waves()) {
+    EXPECT_NEAR((wave.direction - Vec3(0.6, 0.8, 0.0)).norm(), 0.0, 1e-15);
+    EXPECT_EQ(wave.number, wave_number(wave.frequency, 50.0, 9.81));
+  }
+}
+
 TEST(IrregularWaves, FollowFromTheirSeed) {
   const auto one = make_sea("Irregular Waves", storm(1)),
              same = make_sea("Irregular Waves", storm(1)),

@@ -27,8 +27,8 @@ enum class Face {
 
 /// A straight piece between two material points.
 struct Segment {
-  std::array<model::Marker, 2> ends;
-  double length = 0.0;  ///< of the reference [m]
+  std::array<model::Marker, 2> ends;  ///< in which a node may stand more than once
+  double length = 0.0;                ///< of the reference [m]
   std::array<WetSection, 2> sections;
   std::array<Face, 2> faces = {Face::none, Face::none};
 };

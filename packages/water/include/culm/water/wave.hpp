@@ -12,11 +12,11 @@ namespace culm::water {
 /// One harmonic wave of Airy's theory: the surface rises by
 /// amplitude cos(number direction . x - frequency t + phase).
 struct Wave {
-  double amplitude = 0.0;  ///< [m]
-  double frequency = 0.0;  ///< omega [rad/s]
-  double number = 0.0;     ///< k [rad/m]
-  double phase = 0.0;      ///< [rad]
-  Vec3 direction;          ///< horizontal unit vector, where it goes to
+  double amplitude = 0.0;         ///< [m]
+  double frequency = 0.0;         ///< omega [rad/s]
+  double number = 0.0;            ///< k [rad/m]
+  double phase = 0.0;             ///< [rad]
+  Vec3 direction = Vec3::Zero();  ///< horizontal unit vector, where it goes to
 };
 
 /// Frequencies between which a spectrum is cut into waves [Hz].
