@@ -17,6 +17,7 @@ void register_loads(model::BuilderRegistry& registry) {
   register_gravity(registry);
   register_external(registry);
   register_rotating_frame(registry);
+  register_catenary(registry);
   register_spring(registry);
   register_directed_spring(registry);
   register_ground_spring(registry);

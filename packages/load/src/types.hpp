@@ -18,6 +18,7 @@ void register_gravity(model::BuilderRegistry& registry);         // Gravity
 void register_external(model::BuilderRegistry& registry);        // External
 
 void register_rotating_frame(model::BuilderRegistry& registry);  // Rotating Frame
+void register_catenary(model::BuilderRegistry& registry);        // Catenary
 
 // … Spring and … Damper, all of them
 void register_spring(model::BuilderRegistry& registry);

@@ -101,6 +101,26 @@ TEST_F(LinkTypes, DirectedSpringSeesItsDirectionOnly) {
   EXPECT_LT((f.head<3>() - Vec3(-5.0, 0.0, 0.0)).norm(), 10.0 * round_off);
 }
 
+// The digits are those of catenary_test.cpp.
+TEST_F(LinkTypes, CatenaryPullsTowardsItsAnchorAndDown) {
+  build("Catenary", node({{"Anchor", Numbers{-97.0, 4.0, -20.0}},
+                          {"Length", 130.0},
+                          {"EA", 1e18},
+                          {"Weight", 1000.0},
+                          {"Seabed", false}}));
+  const Vec6 f = force_on_second(Vec3::Zero(), Vec3::Zero());
+  EXPECT_LT((f.head<3>() - Vec3(-39804.646976, 0.0, -76764.775284)).norm(), 2e-5);
+}
+
+TEST_F(LinkTypes, CatenaryNeedsToKnowWhereUpIs) {
+  EXPECT_THAT(mistakes("Catenary", node({{"Anchor", Numbers{0.0, 0.0, -20.0}},
+                                         {"Length", 130.0},
+                                         {"EA", 1e9},
+                                         {"Weight", 1000.0},
+                                         {"Up", Numbers{0.0, 0.0, 0.0}}})),
+              ElementsAre("must not be zero"));
+}
+
 TEST_F(LinkTypes, GroundSpringActsAtItsOffset) {
   build("Ground Spring", node({{"Stiffness", 10.0}, {"Offset", Numbers{0.0, 0.0, 1.0}}}));
   const Vec6 f = force_on_second(Vec3(0.5, 0.0, 0.0), Vec3::Zero());

@@ -144,14 +144,14 @@ class Loads : public testing::Test {
 TEST_F(Loads, TheTypes) {
   EXPECT_THAT(
       registry.names(),
-      ElementsAre("Damper", "Directed Damper", "Directed Ground Damper", "Directed Ground Spring",
-                  "Directed Spring", "Director Force", "External", "Field Force", "Follower Force",
-                  "Follower Line Force", "Follower Line Load", "Follower Line Moment",
-                  "Follower Moment", "Force", "Gravity", "Ground Damper", "Ground Spring",
-                  "Line Force", "Line Load", "Line Moment", "Moment", "Plane Ground Damper",
-                  "Plane Ground Spring", "Pressure", "Rotating Frame", "Rotation Damper",
-                  "Rotation Damper Local", "Spring", "Surface Force", "Torsion Damper",
-                  "Torsion Drive", "Torsion Spring"));
+      ElementsAre("Catenary", "Damper", "Directed Damper", "Directed Ground Damper",
+                  "Directed Ground Spring", "Directed Spring", "Director Force", "External",
+                  "Field Force", "Follower Force", "Follower Line Force", "Follower Line Load",
+                  "Follower Line Moment", "Follower Moment", "Force", "Gravity", "Ground Damper",
+                  "Ground Spring", "Line Force", "Line Load", "Line Moment", "Moment",
+                  "Plane Ground Damper", "Plane Ground Spring", "Pressure", "Rotating Frame",
+                  "Rotation Damper", "Rotation Damper Local", "Spring", "Surface Force",
+                  "Torsion Damper", "Torsion Drive", "Torsion Spring"));
 }
 
 TEST_F(Loads, VirtualWorkOfALineForceIsThatOfItsPoints) {

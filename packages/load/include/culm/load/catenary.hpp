@@ -1,0 +1,31 @@
+/// The line that hangs at rest between two points.
+#pragma once
+
+#include <culm/math/types.hpp>
+
+namespace culm::load {
+
+/// An elastic line of one weight, without bending.
+struct CatenaryLine {
+  double length = 0.0;     ///< unstretched [m]
+  double stiffness = 0.0;  ///< EA [N]
+  double weight = 0.0;     ///< per unstretched length, in what surrounds it [N/m]
+  bool on_seabed = false;  ///< rests, without friction, on the plane through its anchor
+};
+
+/// A line whose upper end, the fairlead, is held.
+struct CatenaryEnds {
+  double horizontal = 0.0;  ///< tension H in the plane, the same at both ends [N]
+  double vertical = 0.0;    ///< V at the fairlead, positive downwards on it [N]
+  double grounded = 0.0;    ///< unstretched length on the seabed [m]
+  double energy = 0.0;      ///< weight and strain; its derivatives by h and z are H and V [J]
+  Mat<2, 2> K = Mat<2, 2>::Zero();  ///< derivative of (H, V) by (h, z) [N/m]
+  bool found = false;               ///< H and V were found
+};
+
+/// The line with its fairlead at the horizontal distance h > 0 from the anchor and z above it.
+/// @source Jonkman, Dynamics modeling and loads analysis of an offshore floating wind turbine,
+/// NREL/TP-500-41958 (2007), section 2.4
+CatenaryEnds hang(const CatenaryLine& line, double h, double z);
+
+}  // namespace culm::load

@@ -1,0 +1,51 @@
+#include <culm/load/catenary_load.hpp>
+
+#include "both_frames.hpp"
+#include "link_type.hpp"
+#include "types.hpp"
+
+#include <memory>
+
+namespace culm::load {
+namespace {
+
+Schema schema() {
+  Schema fields("Catenary",
+                "Mooring line at rest, without inertia and drag, from an anchor to a point.");
+  fields.add_all(ground_schema())
+      .add(model::vector_field("Anchor", "m", "Fixed end of the line, in space."))
+      .add(number("Length", "m", "Unstretched.").positive())
+      .add(number("EA", "N", "Stiffness of the line in tension.").positive())
+      .add(number("Weight", "N/m", "Per unstretched length, less buoyancy.").positive())
+      .add(flag("Seabed", "Whether the line rests, without friction, on the plane of its anchor.")
+               .optional(true))
+      .add(model::vector_field("Up", "1", "Against gravity, of any length.")
+               .optional({0.0, 0.0, 1.0}))
+      .check([](const Options& options, InputIssues& issues) {
+        if (model::vector(options, "Up").isZero(0.0)) {
+          issues.add(options.where("Up"), "must not be zero");
+        }
+      });
+  return fields;
+}
+
+void build(const Options& options, model::BuildContext& context) {
+  const auto points = select_ground_points(options, context);
+  if (points.empty()) return;
+  auto load = std::make_unique<CatenaryLoad>(effect_of("Catenary", options), context.model.nodes());
+  const CatenaryLine line{options.number("Length"), options.number("EA"), options.number("Weight"),
+                          options.flag("Seabed")};
+  for (const LinkPoint& point : points) {
+    load->add(point, model::vector(options, "Anchor"), model::vector(options, "Up").normalized(),
+              line);
+  }
+  context.model.add_load(std::move(load));
+}
+
+}  // namespace
+
+void register_catenary(model::BuilderRegistry& registry) {
+  registry.add("Catenary", schema(), build);
+}
+
+}  // namespace culm::load

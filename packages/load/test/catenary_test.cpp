@@ -1,0 +1,138 @@
+#include <culm/load/catenary.hpp>
+#include <culm/load/catenary_load.hpp>
+
+#include <culm_kit/batch_laws.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace culm::load {
+namespace {
+
+constexpr double inextensible = 1e15;
+
+// Digits of the equations of the inextensible line.
+TEST(Catenary, HangsFreely) {
+  const CatenaryEnds ends = hang({130.0, inextensible, 1000.0, false}, 100.0, 20.0);
+  ASSERT_TRUE(ends.found);
+  EXPECT_NEAR(ends.horizontal, 39804.646976, 2e-5);
+  EXPECT_NEAR(ends.vertical, 76764.775284, 2e-5);
+}
+
+// The elastic line by a solution of the equations with 40 digits.
+TEST(Catenary, RestsOnTheSeabed) {
+  const CatenaryEnds ends = hang({500.0, 1e18, 800.0, true}, 400.0, 200.0);
+  ASSERT_TRUE(ends.found);
+  EXPECT_NEAR(ends.horizontal, 96643.4804, 1e-4);
+  EXPECT_NEAR(ends.vertical, 237751.7901, 1e-4);
+  EXPECT_NEAR(ends.grounded, 202.81026, 1e-5);
+  const CatenaryEnds elastic = hang({500.0, 7.51e12, 800.0, true}, 400.0, 200.0);
+  EXPECT_NEAR(elastic.horizontal, 96643.45354712, 1e-6);
+  EXPECT_NEAR(elastic.vertical, 237751.76803420, 1e-6);
+  EXPECT_NEAR(elastic.grounded, 202.810289957, 1e-8);
+}
+
+struct Hung {
+  double h, z;
+  bool on_seabed;
+};
+
+// Slack, touching, just lifted, hanging, taut, vertical, level and below the anchor.
+const Hung hung[] = {{20.0, 60.0, true},  {45.0, 60.0, true},   {80.0, 30.0, true},
+                     {80.0, 1.0, true},   {100.5, 10.0, true},  {80.0, 59.0, true},
+                     {80.0, 30.0, false}, {80.0, -30.0, false}, {99.0, 30.0, false},
+                     {110.0, 0.0, false}, {1e-6, 50.0, false},  {1e-6, 101.0, false},
+                     {50.0, 0.0, false},  {102.0, -1.0, true},  {1e-6, 101.0, true}};
+
+TEST(Catenary, ForcesAreDerivativesOfTheEnergyAndStiffnessOfForces) {
+  for (const double EA : {1e5, 1e8}) {
+    for (const Hung& at : hung) {
+      const CatenaryLine line{100.0, EA, 50.0, at.on_seabed};
+      const CatenaryEnds ends = hang(line, at.h, at.z);
+      ASSERT_TRUE(ends.found) << at.h << " " << at.z;
+      const double step = at.h < 1e-3 ? 1e-9 : 1e-4;
+      const double size = std::hypot(ends.horizontal, ends.vertical) + line.weight;
+      const auto difference = [&](double h, double z, auto read) {
+        return (read(hang(line, at.h + h, at.z + z)) - read(hang(line, at.h - h, at.z - z))) /
+               (2.0 * std::hypot(h, z));
+      };
+      const auto energy = [](const CatenaryEnds& e) { return e.energy; };
+      const auto H = [](const CatenaryEnds& e) { return e.horizontal; };
+      const auto V = [](const CatenaryEnds& e) { return e.vertical; };
+      if (at.h > 1e-3) {
+        EXPECT_NEAR(difference(step, 0.0, energy), ends.horizontal, 1e-5 * size) << at.h;
+        EXPECT_NEAR(difference(0.0, step, energy), ends.vertical, 1e-5 * size) << at.h;
+      }
+      const double K = ends.K.norm() + 1.0;
+      EXPECT_NEAR(difference(step, 0.0, H), ends.K(0, 0), 1e-4 * K) << at.h << " " << at.z;
+      EXPECT_NEAR(difference(step, 0.0, V), ends.K(1, 0), 1e-4 * K) << at.h << " " << at.z;
+      if (at.h > 1e-3) {
+        EXPECT_NEAR(difference(0.0, step, V), ends.K(1, 1), 1e-4 * K) << at.h << " " << at.z;
+      }
+    }
+  }
+}
+
+// What hangs down without reaching the anchor weighs w z, and nothing pulls sideways.
+TEST(Catenary, SlackLineHangsStraight) {
+  const CatenaryEnds ends = hang({100.0, inextensible, 50.0, true}, 20.0, 60.0);
+  EXPECT_EQ(ends.horizontal, 0.0);
+  EXPECT_NEAR(ends.vertical, 3000.0, 1e-8);
+  EXPECT_NEAR(ends.grounded, 40.0, 1e-9);
+  EXPECT_NEAR(ends.energy, 90000.0, 1e-6);
+}
+
+constexpr const char* effect = "line";
+
+/// A fairlead off its node, and a line long enough to move slowly, or taut.
+void fill(model::Model& model, const CatenaryLine& line, bool with_slave) {
+  model.nodes().add(kit::random_node(10));
+  auto load = std::make_unique<CatenaryLoad>(effect, model.nodes());
+  load->add({0, Vec3(1.2, -1.5, 0.7)}, Vec3(9.0, -7.0, -8.0), Vec3::UnitZ(), line);
+  model.add_load(std::move(load));
+  if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
+}
+
+const CatenaryLine lines[] = {
+    {24.0, 500.0, 0.3, true}, {24.0, 500.0, 0.3, false}, {12.0, 20.0, 0.3, false}};
+
+TEST(CatenaryLoad, TangentIsDerivativeOfResidual) {
+  for (const CatenaryLine& line : lines) {
+    for (const bool slave : {false, true}) {
+      kit::expect_tangent_is_derivative([&](model::Model& m) { fill(m, line, slave); }, effect,
+                                        3e-4);
+    }
+  }
+}
+
+TEST(CatenaryLoad, NullSpaceResidualIsProjected) {
+  kit::expect_residual_is_projected([](model::Model& m) { fill(m, lines[0], true); }, effect);
+}
+
+TEST(CatenaryLoad, AllocatesNothingAndLeavesNoTrace) {
+  kit::expect_no_allocation([](model::Model& m) { fill(m, lines[0], true); }, effect);
+  kit::expect_attempts_leave_no_trace([](model::Model& m) { fill(m, lines[0], true); }, effect);
+}
+
+TEST(CatenaryLoad, WorkOfAStepIsTheEnergyItStores) {
+  for (const CatenaryLine& line : lines) {
+    model::Model model;
+    fill(model, line, false);
+    model.freeze(model::Form::multipliers);
+    const model::State state = kit::random_state(model, 3);
+    kit::DenseAssembly dense(model);
+    model::Batch* batch = kit::find_batch(model, effect);
+    const Stencil stencil = Stencil::midpoint(0.4);
+    const Eigen::VectorXd r = dense.residual(state, stencil, {batch}).head(12);
+    const Eigen::Map<const Eigen::VectorXd> prev(state.prev.data(), 12);
+    const Eigen::Map<const Eigen::VectorXd> next(state.next.data(), 12);
+    const double stored = batch->stored_energy(state.next) - batch->stored_energy(state.prev);
+    EXPECT_GT(std::abs(stored), 1e-3);
+    EXPECT_NEAR(r.dot(next - prev), stored, 1e-11 * (1.0 + std::abs(stored)));
+    EXPECT_NEAR(batch->step_work(state, stencil).dissipation, 0.0, 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace culm::load
