@@ -15,6 +15,7 @@
 #include "earlier_states.hpp"
 #include "fluid_quantities.hpp"
 #include "imperfections.hpp"
+#include "line_quantity.hpp"
 #include "mpi_partner.hpp"
 #include "sampled_signals.hpp"
 
@@ -54,6 +55,7 @@ Catalogue::Catalogue() {
   register_node_quantities(quantities);
   register_signal_quantity(quantities);
   register_link_quantities(quantities);
+  register_line_quantity(quantities);
   register_fluid_quantities(quantities);
   register_element_quantities(quantities);
   register_section_loads(quantities);

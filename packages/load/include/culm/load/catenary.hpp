@@ -3,6 +3,8 @@
 
 #include <culm/math/types.hpp>
 
+#include <cmath>
+
 namespace culm::load {
 
 /// An elastic line of one weight, without bending.
@@ -21,6 +23,14 @@ struct CatenaryEnds {
   double energy = 0.0;      ///< weight and strain; its derivatives by h and z are H and V [J]
   Mat<2, 2> K = Mat<2, 2>::Zero();  ///< derivative of (H, V) by (h, z) [N/m]
   bool found = false;               ///< H and V were found
+
+  /// Tension at the fairlead [N].
+  double fairlead_tension() const { return std::hypot(horizontal, vertical); }
+  /// Tension at the anchor, which carries no weight of a line that rests on the seabed [N].
+  double anchor_tension(const CatenaryLine& line) const {
+    if (grounded > 0.0) return horizontal;
+    return std::hypot(horizontal, vertical - line.weight * line.length);
+  }
 };
 
 /// The line with its fairlead at the horizontal distance h > 0 from the anchor and z above it.

@@ -29,6 +29,7 @@ class CatenaryLoad final : public model::MemorylessBatch {
                    model::Target& target) override;
   double stored_energy(const model::Coordinates& q) const override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+  const CatenaryLine& line(int item) const { return items_[static_cast<std::size_t>(item)].line; }
   /// The line of an item with the fairlead where it is at q.
   CatenaryEnds ends(int item, const model::Coordinates& q) const;
 

@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""C20: mooring lines at rest, a spar on three of them. Page: doc/verification/mooring.md."""
+
+from verify import main
+
+DECK = "offshore/moored_spar.xml"
+HELD = [f"Constraints/{axis}/{one}" for axis, direction in
+        (("roll", "{1, 0, 0}"), ("pitch", "{0, 1, 0}"), ("yaw", "{0, 0, 1}"))
+        for one in ("Type=Rotation", "Node=spar", f"Axis={direction}")]
+# h, z, L, w, EA, whether there is a seabed; H, V and the length on it; allowed [m]
+LINES = {
+    "hanging free, inextensible": ((100, 20, 130, 1000, 1e16, "false"), (39804.646976, 76764.775284, 0.0), 1e-8),
+    "on the ground, inextensible": ((400, 200, 500, 800, 1e17, "true"), (96643.4804, 237751.7901, 202.81026), 1e-5),
+    "on the ground, MoorPy": ((400, 200, 500, 800, 7.51e12, "true"), (96643.428, 237751.755, 202.810306), 1e-4)}
+ALONE = [f"Analyses/{one}/Inactive={{weight, buoyancy, waterplane, line 2, line 3}}" for one in ("rest", "pulled", "decay")]
+
+
+def pulled_line(culm, data, H, V):
+    """How far the fairlead of line 1 moves from (h, z) under H and V, and its length on the ground."""
+    h, z, length, weight, stiffness, seabed = data
+    entry = "Loads/line 1"
+    # nothing moves, so the certificate of the motion that follows has nothing to relate rounding to
+    history = culm.run(DECK, [
+        f"{entry}/Offset={{0, 0, 0}}", f"{entry}/Anchor={{{h}, 0, {-z}}}", f"{entry}/Length={length}",
+        f"{entry}/Weight={weight}", f"{entry}/EA={stiffness}", f"{entry}/Seabed={seabed}", *HELD, *ALONE,
+        f"Loads/pull/Force={{{-H}, 0, {V}}}", "Loads/pull/Function=Constant", "Output/History/line 2/Load=line 1",
+        "Analyses/decay/End Time=0.5"]).history
+    return max(abs(history.column(f"spar u{x} [m]")[1]) for x in "xz"), history.column("line 1 grounded [m]")[1]
+
+
+def verify_lines(culm, report):
+    report.title("C20: a fairlead pulled by H and V stays at (h, z) [m]")
+    for name, (data, (H, V, grounded), allowed) in LINES.items():
+        moved, found = pulled_line(culm, data, H, V)
+        report.check(f"{name}: moves", moved, 0.0, allowed)
+        report.check(f"{name}: on the ground", found, grounded, 1e-4)
+
+
+def verify_spar(culm, report):
+    report.title("OC3-Hywind's lines at rest: Jonkman (2010), four digits")
+    settings = [*HELD, "Loads/pull/Force={-100, 0, 0}", "Analyses/decay/End Time=0.5"]
+    history = culm.run(DECK, settings).history
+    pull = 3.0 * history.column("line 1 V [N]")[1]
+    report.relative("vertical force of three lines [N]", pull, 1607000.0, 5e-4)
+    moved = history.column("spar ux [m]")
+    report.relative("stiffness in surge [N/m]", -100.0 / (moved[6] - moved[1]), 41180.0, 5e-4)
+    report.title("free decay, 200 s")
+    for form in ("Null Space", "Multipliers"):
+        run = culm.run(DECK, [f"Solver/Form={form}"], quiet=False)
+        report.holds(f"{form}: energy balance", run.drift("energy balance"), 1e-9)
+
+
+def verify(culm, report):
+    verify_lines(culm, report)
+    verify_spar(culm, report)
+
+
+main(verify)
