@@ -147,6 +147,14 @@ double count_nodes(const Options& curve, const Density& density) {
   return elements * density.intervals();
 }
 
+void check_yielding(const ElementFamily& family, const SectionTable& sections,
+                    const Options& options) {
+  if (!sections.yields() || family.yields || family.fidelity == "Rigid") return;
+  throw InputError(options.where(),
+                   "its sections yield ('Plasticity'): take 'Element' = 'Director' with 'Fidelity' "
+                   "= 'Full' or 'Linear', and leave 'Torsion' out");
+}
+
 void check_turn(const ElementFamily& family, double turn, const Options& options) {
   if (turn < family.most_turn) return;
   throw InputError(options.list("Curve").where(),
@@ -232,6 +240,7 @@ void add_beam(const Options& options, structure::StructureContext& context) {
                                      options.numbers("Strain Damping"),
                                      read_relaxation(options.list("Relaxation"), 6)};
   const SectionTable sections = read_sections(options, context.sections);
+  check_yielding(*family, sections, options);
   const Options& curve = options.list("Curve");
   const Density density{family->order, context.refinement};
   if (context.budget != nullptr) {

@@ -34,6 +34,7 @@ struct ElementFamily {
   std::string fidelity = {};
   bool twists = true;         ///< false: twist is held
   bool damps_strains = true;  ///< has 'Strain Damping' and 'Relaxation'
+  bool yields = false;        ///< sections may be plastic
   /// How far the ends of an element may be turned against each other in the reference [rad].
   double most_turn = std::numeric_limits<double>::infinity();
   /// Adds the elements of a chain. @return largest turn of an element in the reference [rad]

@@ -1,6 +1,7 @@
 #include <culm/beam/linear_beam.hpp>
 
 #include "director_elements.hpp"
+#include "yielding_fibres.hpp"
 
 namespace culm::beam {
 namespace {
@@ -16,6 +17,7 @@ double add_linear(const std::string& effect, const Place& to) {
     std::copy(stretch.nodes.begin(), stretch.nodes.end(), nodes.begin() + 1);
     const int item = batch.add(LinearBeam<Order>(element, reference), nodes);
     set_expansion(batch, item, stretch, to.sections);
+    add_yielding(batch, item, element, stretch, to);
     return Source{&batch, item};
   });
 }
@@ -23,7 +25,7 @@ double add_linear(const std::string& effect, const Place& to) {
 }  // namespace
 
 void register_linear_elements(ElementFamilies& families) {
-  add_director_families(families, {.fidelity = "Linear"}, "linear",
+  add_director_families(families, {.fidelity = "Linear", .yields = true}, "linear",
                         []<int Order>(std::integral_constant<int, Order>, const std::string& effect,
                                       const Place& to) { return add_linear<Order>(effect, to); });
 }

@@ -84,6 +84,12 @@ SectionTable read_sections(const Options& options,
   if (options.has("Section")) return SectionTable(find(options.text("Section")), rotary);
   std::vector<material::Section> along;
   for (const std::string& name : options.texts("Sections")) along.push_back(find(name));
+  for (const material::Section& section : along) {
+    if (section.fibres.size() == along.front().fibres.size()) continue;
+    throw InputError(options.where(field),
+                     "sections along one beam must yield with the same 'Type' and 'Cells', or all "
+                     "be elastic");
+  }
   return {std::move(along), options.numbers("Section Positions"), rotary};
 }
 

@@ -6,6 +6,22 @@ namespace culm::material {
 
 namespace {
 
+// Flanges over the whole width, webs between them.
+std::vector<Fibre> wall_fibres(const BoxSection::Walls& w, const Cells& cells) {
+  const Vec<2> outer(0.5 * w.width, 0.5 * w.height);
+  const Vec<2> inner = outer - Vec<2>(w.web, w.flange);
+  std::vector<Fibre> fibres;
+  const auto add = [&](const Vec<2>& from, const Vec<2>& to, const Cells& of_wall) {
+    const std::vector<Fibre> wall = rectangle_fibres(from, to, of_wall);
+    fibres.insert(fibres.end(), wall.begin(), wall.end());
+  };
+  add(-outer, {outer[0], -inner[1]}, {cells[0], 1});
+  add({-outer[0], inner[1]}, outer, {cells[0], 1});
+  add({-outer[0], -inner[1]}, {-inner[0], inner[1]}, {1, cells[1]});
+  add({inner[0], -inner[1]}, {outer[0], inner[1]}, {1, cells[1]});
+  return fibres;
+}
+
 // Shear along the walls of thickness t and depth h, between walls of thickness t1 and width b, all
 // on the midline; m = b t1 / (h t), n = b / h:
 //   k = 10 (1 + nu) (1 + 3 m)^2 / ( 12 + 72 m + 150 m^2 + 90 m^3
@@ -64,7 +80,9 @@ Section BoxSection::make(const Options& options) {
                     .height = options.number("Height"),
                     .flange = options.number("Flange Thickness"),
                     .web = options.number("Web Thickness")};
-  return make_section(shape(walls, poisson_ratio(options)), options);
+  Shape box = shape(walls, poisson_ratio(options));
+  if (yields(options)) box.fibres = wall_fibres(walls, cells_of(options, {8, 8}));
+  return make_section(box, options);
 }
 
 }  // namespace culm::material

@@ -20,12 +20,15 @@ Shape CircleSection::shape(double radius, double nu) {
 
 Schema CircleSection::schema() {
   Schema schema = shape_schema("Circle", "Solid circular section of one isotropic material.");
-  schema.add(number("Radius", "m", "Radius of the circle.").positive());
+  schema.add(number("Radius", "m", "Radius of the circle.").positive()).check(check_cells_around);
   return schema;
 }
 
 Section CircleSection::make(const Options& options) {
-  return make_section(shape(options.number("Radius"), poisson_ratio(options)), options);
+  const double radius = options.number("Radius");
+  Shape circle = shape(radius, poisson_ratio(options));
+  if (yields(options)) circle.fibres = ring_fibres(0.0, radius, cells_of(options, {24, 6}));
+  return make_section(circle, options);
 }
 
 }  // namespace culm::material

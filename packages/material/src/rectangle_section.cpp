@@ -47,8 +47,13 @@ Schema RectangleSection::schema() {
 }
 
 Section RectangleSection::make(const Options& options) {
-  const Shape rectangle =
-      shape(options.number("Width"), options.number("Height"), poisson_ratio(options));
+  const double width = options.number("Width");
+  const double height = options.number("Height");
+  Shape rectangle = shape(width, height, poisson_ratio(options));
+  if (yields(options)) {
+    const Vec<2> corner(0.5 * width, 0.5 * height);
+    rectangle.fibres = rectangle_fibres(-corner, corner, cells_of(options, {8, 8}));
+  }
   return make_section(rectangle, options);
 }
 

@@ -113,8 +113,11 @@ Section rotated(const Section& section, double angle) {
   Section result{T.transpose() * section.stiffness * T,
                  P * section.mass * P.transpose(),
                  {},
-                 section.expansion};
+                 section.expansion,
+                 section.fibres,
+                 section.plasticity};
   for (const Vec<2>& point : section.outline) result.outline.emplace_back(Q2 * point);
+  for (Fibre& fibre : result.fibres) fibre.place = Q2 * fibre.place;
   return result;
 }
 
@@ -128,14 +131,26 @@ Section shifted(const Section& section, const Vec<2>& offset) {
   Section result{T.transpose() * section.stiffness * T,
                  P * section.mass * P.transpose(),
                  {},
-                 section.expansion};
+                 section.expansion,
+                 section.fibres,
+                 section.plasticity};
   for (const Vec<2>& point : section.outline) result.outline.emplace_back(point + offset);
+  for (Fibre& fibre : result.fibres) fibre.place += offset;
   return result;
 }
 
 Section interpolate(const Section& a, const Section& b, double t) {
-  Section result{(1.0 - t) * a.stiffness + t * b.stiffness, (1.0 - t) * a.mass + t * b.mass,
-                 t < 0.5 ? a.outline : b.outline, (1.0 - t) * a.expansion + t * b.expansion};
+  Section result{(1.0 - t) * a.stiffness + t * b.stiffness,
+                 (1.0 - t) * a.mass + t * b.mass,
+                 t < 0.5 ? a.outline : b.outline,
+                 (1.0 - t) * a.expansion + t * b.expansion,
+                 a.fibres,
+                 UniaxialPlasticity::interpolate(a.plasticity, b.plasticity, t)};
+  for (std::size_t i = 0; i < result.fibres.size(); ++i) {
+    Fibre& fibre = result.fibres[i];
+    fibre.place = (1.0 - t) * fibre.place + t * b.fibres[i].place;
+    fibre.area = (1.0 - t) * fibre.area + t * b.fibres[i].area;
+  }
   if (a.outline.size() == b.outline.size()) {
     for (std::size_t i = 0; i < a.outline.size(); ++i) {
       result.outline[i] = (1.0 - t) * a.outline[i] + t * b.outline[i];

@@ -1,5 +1,6 @@
 #include <culm/material/expansion.hpp>
 #include <culm/material/placement.hpp>
+#include <culm/material/plasticity.hpp>
 #include <culm/material/shape.hpp>
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ Schema shape_schema(std::string type, std::string doc) {
                .optional())
       .add(expansion_field())
       .add_all(placement_schema())
+      .add_all(fibre_schema())
       .check(check_material);
   return schema;
 }
@@ -91,6 +93,10 @@ Section make_section(const Shape& shape, const Options& options) {
       mass_matrix({.rhoA = rho * shape.area, .rhoI1 = rho * shape.I1, .rhoI2 = rho * shape.I2});
   section.outline = shape.outline;
   section.expansion = options.number("Expansion");
+  if (const auto plasticity = read_plasticity(options)) {
+    section.fibres = shape.fibres;
+    section.plasticity = {E, *plasticity};
+  }
   return place(section, options);
 }
 

@@ -30,7 +30,7 @@ Schema TubeSection::schema() {
   Schema schema = shape_schema("Tube", "Circular hollow section of one isotropic material.");
   schema.add(number("Outer Radius", "m", "Radius of the outer circle.").positive())
       .add(number("Wall Thickness", "m", "Thickness of the wall.").positive())
-
+      .check(check_cells_around)
       .check([](const Options& tube, InputIssues& issues) {
         const double radius = tube.number("Outer Radius");
         const double wall = tube.number("Wall Thickness");
@@ -43,8 +43,12 @@ Schema TubeSection::schema() {
 }
 
 Section TubeSection::make(const Options& options) {
-  const Shape tube = shape(options.number("Outer Radius"), options.number("Wall Thickness"),
-                           poisson_ratio(options));
+  const double radius = options.number("Outer Radius");
+  const double wall = options.number("Wall Thickness");
+  Shape tube = shape(radius, wall, poisson_ratio(options));
+  if (yields(options)) {
+    tube.fibres = ring_fibres(radius - wall, radius, cells_of(options, {32, 1}));
+  }
   return make_section(tube, options);
 }
 

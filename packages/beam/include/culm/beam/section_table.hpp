@@ -24,6 +24,8 @@ class SectionTable {
   material::Section at(double span) const;
   /// Mean of the mass per length between two spans, exact [kg/m]. @pre from < to
   double mean_mass(double from, double to) const;
+  /// Whether the sections are made of fibres that yield.
+  bool yields() const { return !sections_.front().fibres.empty(); }
 
  private:
   std::vector<material::Section> sections_;

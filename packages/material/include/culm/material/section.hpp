@@ -1,6 +1,8 @@
 /// The cross-section of a beam: what it resists with, what it weighs, what it looks like.
 #pragma once
 
+#include <culm/material/fibres.hpp>
+#include <culm/material/uniaxial_plasticity.hpp>
 #include <culm/math/types.hpp>
 
 #include <string>
@@ -19,6 +21,10 @@ struct Section {
   std::vector<Vec<2>> outline;
   /// Coefficient of thermal expansion, the same all over the section [1/K]
   double expansion = 0.0;
+  /// What it is made of where it can yield, and how; none of a section that is elastic. Their
+  /// stiffness in stretch and bending is that of `stiffness`.
+  std::vector<Fibre> fibres = {};
+  UniaxialPlasticity plasticity = {};
 };
 
 /// The independent entries of eq. (1.9), axes d1 and d2 through the reference point.
@@ -69,8 +75,8 @@ Section rotated(const Section& section, double angle);
 /// The section whose own origin lies at `offset` (xi1, xi2) [m] from the axis of the beam.
 Section shifted(const Section& section, const Vec<2>& offset);
 
-/// (1 - t) a + t b. Outlines are joined point by point if they have the same number of points,
-/// otherwise the nearer one is taken.
+/// (1 - t) a + t b. @pre as many fibres in both. Outlines are joined point by point if they have
+/// the same number of points, otherwise the nearer one is taken.
 Section interpolate(const Section& a, const Section& b, double t);
 
 /// What makes a stiffness or a mass impossible, one sentence each; empty if nothing does. Both

@@ -16,6 +16,7 @@ struct Shape {
   double k1 = 1.0;       ///< shear factor for forces along d1 [-]
   double k2 = 1.0;       ///< shear factor for forces along d2 [-]
   std::vector<Vec<2>> outline;
+  std::vector<Fibre> fibres = {};  ///< where it yields
 };
 
 /// The beginning of the schema of a type with a shape: material, placement, the parameters that
