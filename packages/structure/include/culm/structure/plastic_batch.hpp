@@ -251,7 +251,7 @@ Verdict PlasticBatch<E, Law>::assemble_item(std::size_t i, const model::State& s
     c.residual.noalias() -= R.lazyProduct(answers[at].relief);
     if (!tangent) continue;
     const Strain stress = -(use_predicted_ ? predicted_[i][at] : answers[at].relief);
-    c.slot_force.noalias() += B.lazyProduct(stress);
+    Eigen::Map<Vec<3 * S>>(c.slot_force.data()).noalias() += B.lazyProduct(stress);
     SlotMatrix<S> curvature = SlotMatrix<S>::Zero();
     element.add_curvature(p, stress, curvature);
     c.scalars += stencil.theta * curvature;
