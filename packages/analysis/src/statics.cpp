@@ -147,11 +147,18 @@ void Statics::do_restore(const Snapshot& snapshot) {
   trend_.restore(snapshot);
 }
 
+// A pivot that is nothing but rounding has any sign, as where a structure may be turned freely.
+bool Statics::is_singular() {
+  constexpr double rounding = 1e-13;
+  assembly::Vector motion(system().layout().row_map());
+  return context().linear.weakest_direction(motion) < rounding;
+}
+
 void Statics::watch_stability(const StepReport& report) {
   const auto& outcome = report.outcome;
   if (outcome.last_determinant.sign == 0) return;
   if (determinant_sign_ == 0) determinant_sign_ = outcome.first_determinant.sign;
-  if (outcome.last_determinant.sign == determinant_sign_) return;
+  if (outcome.last_determinant.sign == determinant_sign_ || is_singular()) return;
   determinant_sign_ = outcome.last_determinant.sign;
   crossings_.push_back(report.time);
   context().findings.warn(

@@ -51,6 +51,8 @@ class Statics final : public Stepper {
   void do_save(Snapshot& snapshot) const override;
   void do_restore(const Snapshot& snapshot) override;
   double next_level(double level, double increment) const;
+  /// Whether the last stiffness resists some motion by no more than rounding.
+  bool is_singular();
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
 
