@@ -5,6 +5,7 @@
 #include <culm/flow/fluid_force.hpp>
 #include <culm/rotor/rotor_load.hpp>
 #include <culm/strip/strip_load.hpp>
+#include <culm/water/morison_load.hpp>
 
 #include <Eigen/Geometry>
 
@@ -208,6 +209,46 @@ std::unique_ptr<Quantity> make_rotor(const Options& options, model::BuildContext
   return nullptr;
 }
 
+// The sea of a load, which no structure disturbs, at a place.
+class WavesQuantity final : public Quantity {
+ public:
+  WavesQuantity(const water::Sea& sea, Vec3 place) : sea_(sea), place_(std::move(place)) {}
+
+  std::vector<HistoryColumn> columns() const override {
+    return {{"elevation", "m"}, {"vx", "m/s"},   {"vy", "m/s"},   {"vz", "m/s"},
+            {"ax", "m/s^2"},    {"ay", "m/s^2"}, {"az", "m/s^2"}, {"p", "Pa"}};
+  }
+  void evaluate(const assembly::System&, const model::State& state,
+                std::vector<double>& numbers) const override {
+    // in statics time is the load level, and the sea is that at time 0
+    const double time = state.velocity.empty() ? 0.0 : state.time;
+    const water::WaterMotion water = sea_.motion(place_, time);
+    numbers.push_back(sea_.elevation(place_, time));
+    numbers.insert(numbers.end(), water.velocity.begin(), water.velocity.end());
+    numbers.insert(numbers.end(), water.acceleration.begin(), water.acceleration.end());
+    numbers.push_back(water.pressure);
+  }
+
+ private:
+  const water::Sea& sea_;
+  Vec3 place_;
+};
+
+std::unique_ptr<Quantity> make_waves(const Options& options, model::BuildContext& context) {
+  const std::string& name = options.text("Load");
+  std::vector<std::string> names;
+  for (const auto& batch : context.model.loads()) {
+    const auto* load = dynamic_cast<const water::MorisonLoad*>(batch.get());
+    if (load == nullptr) continue;
+    names.push_back(batch->effect().name);
+    if (names.back() != name) continue;
+    return std::make_unique<WavesQuantity>(load->sea(), model::vector(options, "Point"));
+  }
+  context.issues.add(options.where("Load"),
+                     "no load of a sea '" + name + "'" + did_you_mean(name, names));
+  return nullptr;
+}
+
 }  // namespace
 
 void register_fluid_quantities(QuantityRegistry& registry) {
@@ -247,6 +288,15 @@ void register_fluid_quantities(QuantityRegistry& registry) {
              "and the mean axial induction that the balance of momentum asks for.")
           .add(text("Load", "Name of the rotor in the list Loads.")),
       make_rotor);
+  registry.add(
+      "Waves",
+      Schema("Waves",
+             "The sea that a load stands in, at a point, as if no structure were there: height of "
+             "the surface over still water, velocity with the current, acceleration, and the "
+             "pressure of the waves.")
+          .add(text("Load", "Name of the load of type Morison in the list Loads."))
+          .add(model::vector_field("Point", "m", "Where.").optional({0.0, 0.0, 0.0})),
+      make_waves);
 }
 
 }  // namespace culm::simulation

@@ -24,7 +24,10 @@ Sea::Sea(const Site& site, std::vector<Wave> waves, Current current, Stretching 
       current_(std::move(current)),
       stretching_(stretching),
       rise_(rise) {
-  for (const Wave& wave : waves_) highest_ += std::abs(wave.amplitude);
+  for (const Wave& wave : waves_) {
+    highest_ += std::abs(wave.amplitude);
+    at_bed_.push_back(std::exp(-2.0 * wave.number * site.depth));
+  }
 }
 
 double Sea::main_length() const {
@@ -63,12 +66,13 @@ WaterMotion Sea::motion(const Vec3& place, double time) const {
   const double g = growth(time);
   WaterMotion motion;
   motion.velocity = current_.at(z);
-  for (const Wave& wave : waves_) {
+  for (std::size_t i = 0; i < waves_.size(); ++i) {
+    const Wave& wave = waves_[i];
     const double phase = phase_of(wave, place, time);
     const double c = std::cos(phase), s = std::sin(phase);
     const double upward = std::exp(wave.number * z);
+    const double whole = at_bed_[i];
     const double mirrored = std::exp(-2.0 * wave.number * (z + site_.depth));
-    const double whole = std::exp(-2.0 * wave.number * site_.depth);
     const double across = upward * (1.0 + mirrored) / (1.0 - whole);
     const double along = upward * (1.0 - mirrored) / (1.0 - whole);
     const double speed = g * wave.amplitude * wave.frequency;

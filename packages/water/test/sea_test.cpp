@@ -103,6 +103,14 @@ TEST(Airy, InertiaOfALargeCylinderAtTheSurface) {
   EXPECT_NEAR(load, 60539.634967, 1e-5);
 }
 
+TEST(Airy, WavesDoNotReachTheBedOfDeepWater) {
+  const auto sea = make_sea("Regular Waves", {{"Depth", 5000.0}, {"Height", 0.1}, {"Period", 1.5}});
+  for (const double z : {-100.0, -2000.0, -4999.0, -5000.0}) {
+    const WaterMotion water = sea->motion(Vec3(0.0, 0.0, z), 0.3);
+    EXPECT_NEAR(water.velocity.norm() + water.acceleration.norm() + water.pressure, 0.0, 1e-40);
+  }
+}
+
 TEST(Airy, WavesRiseAsTheyAreTold) {
   const auto sea = make_sea("Regular Waves",
                             {{"Depth", 30.0}, {"Height", 6.0}, {"Period", 12.0}, {"Rise", 24.0}});

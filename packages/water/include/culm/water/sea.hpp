@@ -65,6 +65,7 @@ class Sea final : public flow::Flow {
 
   Site site_;
   std::vector<Wave> waves_;
+  std::vector<double> at_bed_;  // exp(-2 k d) of each
   Current current_;
   Stretching stretching_;
   double rise_;
