@@ -1,10 +1,15 @@
 #!/usr/bin/python3
 """C17 to C19: waves on a pile, pressure on a brace, floating and wet frequencies. Page: doc/verification/water.md."""
 
+import base64
 import math
+import pathlib
+import re
+import subprocess
+import tempfile
 
 import numpy as np
-from verify import figure, main, save
+from verify import INPUTS, figure, main, save
 
 G, RHO = 9.80665, 1025.0
 PILE, BRACE, HEAVE, TUBE = (f"water/{name}.xml" for name in ("wave_on_pile", "brace", "heave", "wet_tube"))
@@ -177,12 +182,38 @@ def verify_energy(culm, report):
             report.holds(f"{deck}, {what}", run.drift(what), 1e-9)
 
 
+def array_of(picture, name, kind):
+    """An array of a VTU file by the name, or the last one of this kind of list."""
+    text = re.findall(rf'<{kind}>(.*?)</{kind}>', picture, re.DOTALL)[0]
+    data = re.findall(rf'<DataArray[^>]*{re.escape(name)}[^>]*>([^<]*)<', text)[-1]
+    return np.frombuffer(base64.b64decode(data)[8:], dtype="<f8")
+
+
+def verify_surface(culm, report):
+    report.title("surface in pictures, at the end")
+    settings = ["Flows/sea/Shown=90", "Analyses/motion/End Time=5", "Output/Every=50"]
+    with tempfile.TemporaryDirectory(prefix="culm") as folder:
+        command = [culm.program, "run", "--quiet", str(INPUTS / "water/floating_pipe.xml"), "--output", folder]
+        subprocess.run(command + [w for one in settings for w in ("--set", one)], check=True)
+        picture = sorted((pathlib.Path(folder) / "run_fluid_vtu").iterdir())[-1].read_text()
+    places = array_of(picture, "", "Points").reshape(-1, 3)
+    found = array_of(picture, "elevation [m]", "PointData")
+    omega = 2.0 * math.pi / 7.0
+    ahead = places[:, :2] @ np.array((1.0, 0.3)) / math.hypot(1.0, 0.3)
+    k = omega**2 / 9.81  # the water is deep: tanh k d is 1 - 1e-7
+    wanted = 1.5 * np.cos(k * ahead - omega * 5.0)
+    report.holds("elevation [m]", float(np.max(np.abs(found - wanted))), 3e-6)
+    report.check("places: largest x, y [m]", [float(v) for v in places.max(axis=0)[:2]], [45.0, 45.0], 1e-9)
+    report.holds("height of the places [m]", float(np.max(np.abs(places[:, 2] - found))), 1e-12)
+
+
 def verify(culm, report):
     verify_pile(culm, report)
     verify_brace(culm, report)
     verify_heave(culm, report)
     verify_modes(culm, report)
     verify_energy(culm, report)
+    verify_surface(culm, report)
 
 
 def plot(culm, path):

@@ -1,8 +1,13 @@
 #include "fluid_pictures.hpp"
 
 #include <culm/lattice/lattice_load.hpp>
+#include <culm/water/morison_load.hpp>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 namespace culm::simulation {
@@ -116,6 +121,62 @@ output::StructureState wake_state(const LatticeLoad& load, const model::Coordina
   return state;
 }
 
+// A sea that pictures show, by the first load that stands in it.
+struct ShownSea {
+  const water::Sea* sea;
+  std::string title;
+};
+
+std::vector<ShownSea> seas_of(const model::Model& model) {
+  std::vector<ShownSea> seas;
+  for (const model::Batch* batch : model.batches()) {
+    const auto* load = dynamic_cast<const water::MorisonLoad*>(batch);
+    if (load == nullptr || load->sea().shown() == 0.0) continue;
+    const bool is_known = std::ranges::any_of(
+        seas, [load](const ShownSea& known) { return known.sea == &load->sea(); });
+    if (!is_known) seas.push_back({&load->sea(), batch->effect().title()});
+  }
+  return seas;
+}
+
+constexpr int surface_cells = 48;  // along each side of a sea
+
+// Elevations of the points of the surface, and their places.
+std::pair<std::vector<double>, std::vector<Vec3>> surface_of(const water::Sea& sea, double time) {
+  const Vec3& up = sea.site().up;
+  const Vec3 along = up.unitOrthogonal(), across = up.cross(along);
+  std::pair<std::vector<double>, std::vector<Vec3>> points;
+  for (int i = 0; i <= surface_cells; ++i) {
+    for (int j = 0; j <= surface_cells; ++j) {
+      const double x = static_cast<double>(i) / surface_cells - 0.5;
+      const double y = static_cast<double>(j) / surface_cells - 0.5;
+      const Vec3 still = sea.shown() * (x * along + y * across) + sea.site().level * up;
+      points.first.push_back(sea.elevation(still, time));
+      points.second.emplace_back(still + points.first.back() * up);
+    }
+  }
+  return points;
+}
+
+output::StructureMesh surface_mesh(const ShownSea& shown) {
+  output::StructureMesh mesh;
+  mesh.name = shown.title + ", surface";
+  mesh.type = "Surface";
+  mesh.directors = output::Directors::none;
+  mesh.positions = surface_of(*shown.sea, 0.0).second;
+  add_quads(mesh.cells, surface_cells, surface_cells, 0, surface_cells + 1);
+  mesh.node_arrays = {{"elevation [m]", 1}};
+  return mesh;
+}
+
+output::StructureState surface_state(const ShownSea& shown, double time) {
+  auto [elevations, places] = surface_of(*shown.sea, time);
+  output::StructureState state;
+  state.positions = std::move(places);
+  state.node_values = {std::move(elevations)};
+  return state;
+}
+
 }  // namespace
 
 std::vector<output::StructureMesh> fluid_meshes(const model::Model& model) {
@@ -124,15 +185,19 @@ std::vector<output::StructureMesh> fluid_meshes(const model::Model& model) {
     meshes.push_back(panels_mesh(*load, model.nodes().reference()));
     meshes.push_back(wake_mesh(*load, model.nodes().reference()));
   }
+  for (const ShownSea& sea : seas_of(model)) meshes.push_back(surface_mesh(sea));
   return meshes;
 }
 
-output::Frame fluid_frame(const model::Model& model, const model::Coordinates& q) {
+output::Frame fluid_frame(const model::Model& model, const model::State& at) {
   output::Frame frame;
   for (const LatticeLoad* load : lattices_of(model)) {
-    frame.structures.push_back(panels_state(*load, q));
-    frame.structures.push_back(wake_state(*load, q));
+    frame.structures.push_back(panels_state(*load, at.next));
+    frame.structures.push_back(wake_state(*load, at.next));
   }
+  // in statics time is the load level, and the sea is that at time 0
+  const double time = at.velocity.empty() ? 0.0 : at.time;
+  for (const ShownSea& sea : seas_of(model)) frame.structures.push_back(surface_state(sea, time));
   return frame;
 }
 

@@ -202,7 +202,7 @@ void ResultFiles::record(double time, model::State& state) {
 
 // Analyses without the loads that show something have no such picture.
 void ResultFiles::add_fluid(int index, double time, const model::State& state) {
-  output::Frame frame = fluid_frame(system_->model(), state.next);
+  output::Frame frame = fluid_frame(system_->model(), state);
   if (frame.structures.empty()) return;
   frame.index = index;
   frame.time = time;

@@ -29,6 +29,11 @@ Schema still_schema(const std::string& name, const std::string& doc) {
                                "Where waves and current go to, of any length, without its vertical "
                                "part.")
                .optional({1.0, 0.0, 0.0}))
+      .add(number("Shown", "m",
+                  "Side of the square of the surface around the origin that pictures show, in "
+                  "run_fluid.pvd; none if absent.")
+               .positive()
+               .optional())
       .list_by_type("Current", current_types(), Presence::optional)
       .check([](const Options& options, InputIssues& issues) {
         const Vec3 direction = model::vector(options, "Direction");
@@ -79,7 +84,8 @@ flow::SharedFlow make_sea(const Options& options, std::vector<Wave> waves, Stret
   if (options.has_list("Current")) {
     current = read_current(options.list("Current"), direction, site.up, site.depth);
   }
-  return std::make_shared<Sea>(site, std::move(waves), std::move(current), stretching, rise);
+  return std::make_shared<Sea>(site, std::move(waves), std::move(current), stretching, rise,
+                               options.has("Shown") ? options.number("Shown") : 0.0);
 }
 
 flow::SharedFlow make_sea(const Options& options, std::vector<Wave> waves) {

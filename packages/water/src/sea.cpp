@@ -17,13 +17,14 @@ double phase_of(const Wave& wave, const Vec3& place, double time) {
 }  // namespace
 
 Sea::Sea(const Site& site, std::vector<Wave> waves, Current current, Stretching stretching,
-         double rise)
+         double rise, double shown)
     : Flow(site.density),
       site_(site),
       waves_(std::move(waves)),
       current_(std::move(current)),
       stretching_(stretching),
-      rise_(rise) {
+      rise_(rise),
+      shown_(shown) {
   for (const Wave& wave : waves_) {
     highest_ += std::abs(wave.amplitude);
     at_bed_.push_back(std::exp(-2.0 * wave.number * site.depth));

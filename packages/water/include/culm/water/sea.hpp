@@ -37,9 +37,11 @@ struct WaterMotion {
 /// other. Places below the bed count as at it. @source fluids B7
 class Sea final : public flow::Flow {
  public:
-  /// @param rise  time in which waves grow to their height, by half a cosine; 0: they are there [s]
+  /// @param rise   time in which waves grow to their height, by half a cosine; 0: they are there
+  /// [s]
+  /// @param shown  side of the square around the origin that pictures show; 0: none [m]
   Sea(const Site& site, std::vector<Wave> waves, Current current, Stretching stretching,
-      double rise);
+      double rise, double shown);
 
   const Site& site() const { return site_; }
   std::span<const Wave> waves() const { return waves_; }
@@ -55,6 +57,7 @@ class Sea final : public flow::Flow {
   double highest() const { return highest_; }
   /// Length of the highest wave; infinite where there are none [m].
   double main_length() const;
+  double shown() const { return shown_; }
   WaterMotion motion(const Vec3& place, double time) const;
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override;
@@ -68,7 +71,7 @@ class Sea final : public flow::Flow {
   std::vector<double> at_bed_;  // exp(-2 k d) of each
   Current current_;
   Stretching stretching_;
-  double rise_;
+  double rise_, shown_;
   double highest_ = 0.0;
 };
 
