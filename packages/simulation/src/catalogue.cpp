@@ -1,5 +1,6 @@
 #include <culm/beam/register_beam.hpp>
 #include <culm/body/register_body.hpp>
+#include <culm/contact/register_contact.hpp>
 #include <culm/heat/register_heat.hpp>
 #include <culm/hybrid/tube.hpp>
 #include <culm/joint/register_joint.hpp>
@@ -12,6 +13,7 @@
 #include <culm/simulation/catalogue.hpp>
 #include <culm/water/register_water.hpp>
 
+#include "contact_quantity.hpp"
 #include "earlier_states.hpp"
 #include "fluid_quantities.hpp"
 #include "imperfections.hpp"
@@ -41,6 +43,7 @@ Catalogue::Catalogue() {
   joint::register_joints(constraints);
   load::register_loads(loads);
   heat::register_heat(loads);
+  contact::register_contact(loads);
   flow::register_flows(flows);
   water::register_seas(flows);
   strip::register_airfoils(airfoils);
@@ -56,6 +59,7 @@ Catalogue::Catalogue() {
   register_signal_quantity(quantities);
   register_link_quantities(quantities);
   register_line_quantity(quantities);
+  register_contact_quantity(quantities);
   register_fluid_quantities(quantities);
   register_element_quantities(quantities);
   register_section_loads(quantities);

@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""C22: contact with planes: impacts, friction, a chain, a line on the seabed. Page: doc/verification/contact.md."""
+
+import math
+
+from verify import main
+
+BEAM, BALL, CHAIN, LINE = (f"contact/{name}.xml" for name in ("dropped_beam", "sliding_ball", "laid_chain", "catenary_of_beams"))
+FORMS = ("Null Space", "Multipliers")
+
+
+def last(history, column):
+    return history.column(column)[-1]
+
+
+def taken(run):
+    """What dampers, with them friction, took [J]."""
+    line = next(line for line in run.output.splitlines() if "taken by dampers" in line)
+    return float(line.split()[-2])
+
+
+def verify_impacts(culm, report):
+    report.title("A tube that bounces on a plane for 0.8 s")
+    for form in FORMS:
+        run = culm.run(BEAM, [f"Solver/Form={form}"], quiet=False)
+        report.holds(f"{form}: energy balance", run.drift("energy balance"), 1e-10)
+        report.holds(f"{form}: horizontal momentum", run.drift("linear momentum"), 1e-9)
+    sudden = culm.run(BEAM, ["Loads/ground/Smoothing=0"], quiet=False)
+    report.holds("without smoothing: energy balance", sudden.drift("energy balance"), 1e-10)
+    rough = culm.run(BEAM, ["Loads/ground/Friction=0.3", "Loads/ground/Slip Speed=0.01", "Loads/ground/Damping=0.5"], quiet=False)
+    report.holds("friction and damping: energy balance", rough.drift("energy balance"), 1e-10)
+    report.note(f"they took {taken(rough):.3f} J; iterations per step {rough.iterations() / 1600:.1f}, at most {rough.most_iterations()}")
+    report.holds("they take energy", 0.0 if taken(rough) > 0.0 else 1.0, 0.0)
+
+
+def restitution(damping, speed):
+    """Of Hunt and Crossley's law: d v0 - ln(1 + d v0) = -d v1 - ln(1 - d v1)."""
+    wanted = damping * speed - math.log1p(damping * speed)
+    low, high = 0.0, min(speed, (1.0 - 1e-12) / damping)
+    for _ in range(200):
+        v = 0.5 * (low + high)
+        low, high = (v, high) if -damping * v - math.log1p(-damping * v) < wanted else (low, v)
+    return v
+
+
+def verify_restitution(culm, report):
+    report.title("A ball of 1 kg that meets the plane with 1 m/s, without weight: speed after the impact")
+    for damping in (0.1, 0.5):
+        settings = [f"Loads/ground/Damping={damping}", "Loads/ground/Friction=0", "Loads/ground/Smoothing=0",
+                    "Loads/weight/Acceleration={0, 0, -1e-9}", "Structures/ball/Position={0, 0, 0.15}",
+                    "Initial Conditions/throw/Velocity={0, 0, -1}", "Analyses/motion/Step=2e-4"]
+        found = last(culm.history(BALL, settings), "ball vz [m/s]")
+        report.relative(f"d = {damping} s/m", found, restitution(damping, 1.0), 1e-4)
+
+
+def verify_friction(culm, report):
+    report.title("A ball that slides until it rolls")
+    run = culm.run(BALL, quiet=False)
+    report.relative("speed [m/s]", last(run.history, "ball vx [m/s]"), 5.0 / 7.0, 2e-4)
+    report.relative("spin [rad/s]", last(run.history, "spin wy [rad/s]"), 50.0 / 7.0, 2e-4)
+    report.relative("taken by friction [J]", taken(run), 1.0 / 7.0, 2e-4)
+    report.holds("energy balance", run.drift("energy balance"), 1e-10)
+    # x = v t - mu g t^2 / 2 until it rolls, then 5/7 v
+    rolls = 2.0 / (7.0 * 0.2 * 9.81)
+    way = rolls - 0.981 * rolls**2 + 5.0 / 7.0 * (0.3 - rolls)
+    report.relative("way [m]", last(run.history, "place x [m]"), way, 2e-4)
+
+
+def verify_chain(culm, report):
+    report.title("C22: a chain that lays itself on the seabed, 2 s")
+    run = culm.run(CHAIN, quiet=False)
+    report.holds("energy balance", run.drift("energy balance"), 1e-10)
+    report.relative("depth of its end [mm]", -1e3 * last(run.history, "end z [m]"), 98.1 / 300.0, 2e-2)
+    report.note(f"damping and friction took {taken(run):.1f} J; iterations per step {run.iterations() / 2000:.1f}, "
+                f"at most {run.most_iterations()}; {run.cut_back()} steps cut back")
+
+
+def verify_line(culm, report):
+    report.title("C22: the catenary of C20 made of 50 beams")
+    bed = [f"Output/History/bed/{one}" for one in ("Type=Position", "Node=line/20")]
+    run = culm.run(LINE, bed, quiet=False)
+    report.relative("H [N]", last(run.history, "fairlead Fx [N]"), 96643.4804, 5e-3)
+    report.relative("V [N]", last(run.history, "fairlead Fz [N]"), 237751.7901, 5e-3)
+    report.relative("on the ground [m]", last(run.history, "seabed area [m^2]") / 0.1, 202.81026, 2e-2)
+    report.relative("depth on the ground, w / (k D) [mm]", -1e3 * last(run.history, "bed z [m]"), 800.0 / 300.0, 1e-3)
+    report.note(f"iterations per step {run.iterations() / 10:.1f}, at most {run.most_iterations()}")
+
+
+def verify(culm, report):
+    verify_impacts(culm, report)
+    verify_restitution(culm, report)
+    verify_friction(culm, report)
+    verify_chain(culm, report)
+    verify_line(culm, report)
+
+
+main(verify)
