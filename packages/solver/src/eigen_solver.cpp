@@ -145,8 +145,10 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
   Eigen::VectorXd Ax(inverse.size()), Bx(inverse.size());
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::VectorXd x = pairs.vectors.col(i);
-    found.push_back({inverse.quotient(*pencil.A, x),
-                     eps * x.cwiseAbs().dot(inverse.absolute(*pencil.A, x)), i});
+    // motions that nothing resists, such as those of a ship across the sea, have no A
+    const Eigen::VectorXd size =
+        inverse.absolute(*pencil.A, x) + std::abs(settings.shift) * inverse.absolute(*pencil.B, x);
+    found.push_back({inverse.quotient(*pencil.A, x), eps * x.cwiseAbs().dot(size), i});
   }
   std::sort(found.begin(), found.end(),
             [](const Found& a, const Found& b) { return a.value < b.value; });
@@ -161,9 +163,10 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
     const Eigen::VectorXd x = result.vectors.col(static_cast<Eigen::Index>(i));
     inverse.multiply(*pencil.A, x, Ax);
     inverse.multiply(*pencil.B, x, Bx);
-    result.worst_residual =
-        std::max(result.worst_residual, (Ax - result.values[i] * Bx).lpNorm<Eigen::Infinity>() /
-                                            inverse.absolute(*pencil.A, x).maxCoeff());
+    const double size = inverse.absolute(*pencil.A, x).maxCoeff() +
+                        std::abs(settings.shift) * inverse.absolute(*pencil.B, x).maxCoeff();
+    result.worst_residual = std::max(result.worst_residual,
+                                     (Ax - result.values[i] * Bx).lpNorm<Eigen::Infinity>() / size);
   }
   constexpr double useless = 1e-3;  // sound vectors have 1e-8 and less
   if (result.worst_residual > useless) throw_broken_down();

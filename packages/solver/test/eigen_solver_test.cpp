@@ -196,6 +196,13 @@ TEST(EigenSolver, GivesAsManyAsThereAre) {
   EXPECT_EQ(pencil.solve({"Automatic", "KLU2", 10, -1e-3}).values.size(), 3U);
 }
 
+TEST(EigenSolver, FindsMotionsThatNothingResists) {
+  const Pencil pencil({5, 1, false});
+  const EigenPairs pairs = pencil.solve({"Dense", "KLU2", 5, -1e-3});
+  pencil.expect_right(pairs, 5);
+  EXPECT_LT(pairs.worst_residual, 1e-12);
+}
+
 TEST(EigenSolver, RefusesAShiftThatIsAnEigenvalue) {
   const Pencil pencil({1, 40, false});
   EXPECT_THROW(pencil.solve({"Spectra", "KLU2", 3, 0.0}), NumericalError);
