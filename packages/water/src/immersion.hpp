@@ -75,10 +75,11 @@ WetSlice<Number> slice_at(const Cone& cone, const Immersion<Number>& immersion,
   return cut_slice<Number>(Number(depth / immersion.sine), radius);
 }
 
-/// Whether a linear function with these values at shares 0 and 1 is zero between them.
+/// Whether a linear function with these values at shares 0 and 1 is zero between them; a zero that
+/// two pieces share belongs to one of them, so that its motion counts, and counts once.
 template <class Number>
 bool changes_sign(const Number& at_start, const Number& at_end) {
-  return value_of(at_start) * value_of(at_end) < 0.0;
+  return (value_of(at_start) > 0.0) != (value_of(at_end) > 0.0);
 }
 
 /// A run of slices that the surface cuts, as places m + a sin(angle): the square roots that widths
@@ -151,17 +152,23 @@ void visit_wet(const Cone& cone, const Immersion<Number>& immersion, Visit visit
   const auto& [h0, h1] = immersion.depths;
   const Number reach0 = Number(cone.radii[0]) * immersion.sine;
   const Number reach1 = Number(cone.radii[1]) * immersion.sine;
+  // rounding must not decide in which of two pieces the surface stands
+  constexpr double rounding = 1e-12;
+  const double nothing = rounding * (std::abs(value_of(h0)) + std::abs(value_of(h1)) +
+                                     value_of(reach0) + value_of(reach1));
+  const auto snapped = [nothing](const Number& depth) {
+    return std::abs(value_of(depth)) > nothing ? depth : Number(depth - value_of(depth));
+  };
   // positive where slices are wet as a whole, and where they are not dry
-  const std::array<Number, 2> full = {Number(h0 - reach0), Number(h1 - reach1)};
-  const std::array<Number, 2> dry = {Number(h0 + reach0), Number(h1 + reach1)};
+  const std::array<Number, 2> full = {snapped(Number(h0 - reach0)), snapped(Number(h1 - reach1))};
+  const std::array<Number, 2> dry = {snapped(Number(h0 + reach0)), snapped(Number(h1 + reach1))};
   std::array<Number, 4> ends = {Number(0.0), Number(0.0), Number(0.0), Number(1.0)};
   if (changes_sign(full[0], full[1])) ends[1] = full[0] / (full[0] - full[1]);
   if (changes_sign(dry[0], dry[1])) ends[2] = dry[0] / (dry[0] - dry[1]);
   if (value_of(ends[1]) > value_of(ends[2])) std::swap(ends[1], ends[2]);
-  constexpr double nothing = 1e-14;
   for (std::size_t i = 0; i < 3; ++i) {
     const Number &from = ends[i], &to = ends[i + 1];
-    if (value_of(to) - value_of(from) < nothing) continue;
+    if (value_of(to) - value_of(from) < 0.1 * rounding) continue;
     const double share = 0.5 * (value_of(from) + value_of(to));
     if (std::lerp(value_of(dry[0]), value_of(dry[1]), share) <= 0.0) continue;
     if (std::lerp(value_of(full[0]), value_of(full[1]), share) < 0.0) {

@@ -145,6 +145,20 @@ TEST(Buoyancy, OfAFloodedMemberIsThatOfItsWall) {
   }
 }
 
+// Also where the surface stands at the end of a segment.
+TEST(Buoyancy, HasTheStiffnessOfItsWaterplane) {
+  for (const double tilt : {0.0, 0.3}) {
+    MovedMember pile(member(Vec3::Zero(), {0, 0, 20}, pipe(4.0), pipe(4.0), 4), still_water());
+    for (const double axis :
+         {-5.0, -10.0, -10.0 - 1e-14, -10.0 + 1e-14, -10.3}) {  // m of it in the water
+      const auto q = MovedMember::placed({0.0, 0.0, axis * std::cos(tilt)}, tilted(tilt));
+      const Mat3 K = pile.stiffness(q);
+      EXPECT_NEAR(K(2, 2), weight * 4.0 * pi / std::cos(tilt), 1e-8 * weight) << tilt << axis;
+      EXPECT_NEAR(K.norm(), K(2, 2), 1e-9 * weight);
+    }
+  }
+}
+
 TEST(Buoyancy, OffMeansOff) {
   MovedMember pile(member(Vec3::Zero(), {0, 0, 20}, pipe(4.0), pipe(4.0), 3), still_water(),
                    {.buoyancy = false});

@@ -87,6 +87,11 @@ class MovedMember {
     load_->accept(state_);
     return *load_->resultant();
   }
+  /// Derivative of minus the forces by the place, at rest there [N/m].
+  Mat3 stiffness(const model::Coordinates& q) {
+    state_.prev = state_.next = q;
+    return dense_->tangent(state_, Stencil::statics(), {load_}).topLeftCorner<3, 3>();
+  }
   /// A step between two places, by the plain acceleration of it.
   flow::FluidForce::Resultant move(const model::Coordinates& from, const model::Coordinates& to,
                                    const model::Coordinates& velocity, double time, double step) {
