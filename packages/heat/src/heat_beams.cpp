@@ -53,6 +53,9 @@ bool heat(const HeatRequest& request) {
   } else if (!batch->relaxation_times().empty()) {
     request.context.issues.add(
         where, "beam '" + name + "' relaxes; heat acts on beams without 'Relaxation'");
+  } else if (structure::yields(*batch)) {
+    request.context.issues.add(
+        where, "beam '" + name + "' yields; heat acts on beams without 'Plasticity'");
   } else {
     add_heat(request, *batch,
              [&](int item) { return heat_element(*batch, item, request.temperature); });

@@ -3,6 +3,7 @@
 
 #include <culm/heat/heat_batch.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/structure/plastic_batch.hpp>
 
 #include <memory>
 #include <string>

@@ -77,6 +77,8 @@ bool heat(const HeatRequest& request) {
         where, shell + "does not expand: its materials need an 'Expansion' or 'Expansions'");
   } else if (!batch->relaxation_times().empty()) {
     request.context.issues.add(where, shell + "relaxes; heat acts on shells without 'Relaxation'");
+  } else if (structure::yields(*batch)) {
+    request.context.issues.add(where, shell + "yields; heat acts on shells without 'Plasticity'");
   } else {
     const shell::LayerStrain strain =
         free_strain(request.temperature, batch->element(first.item).layup());

@@ -30,7 +30,14 @@ StVenantKirchhoff IsotropicMaterial::law(double E, double nu) {
 Schema IsotropicMaterial::schema() {
   Schema schema = isotropic_constants_schema(
       "Isotropic", "Stress proportional to Green-Lagrange strain, the same in all directions.");
-  schema.add(expansion_field());
+  Schema plasticity = plasticity_schema();
+  plasticity.add(
+      integer("Cells",
+              "Cells across the thickness of each layer, with three points each; an even number "
+              "gives the full plastic moment of one layer exactly.")
+          .between(1, 100)
+          .optional(4));
+  schema.add(expansion_field()).list("Plasticity", std::move(plasticity), Presence::optional);
   return schema;
 }
 
@@ -38,6 +45,11 @@ Material IsotropicMaterial::make(const Options& options) {
   Material material =
       make_material(law(options.number("Young Modulus"), options.number("Poisson Ratio")), options);
   material.expansion.setConstant(options.number("Expansion"));
+  if (const auto constants = read_plasticity(options)) {
+    material.plasticity = {
+        {options.number("Young Modulus"), options.number("Poisson Ratio"), *constants},
+        options.list("Plasticity").integer("Cells")};
+  }
   return material;
 }
 

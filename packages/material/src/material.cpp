@@ -40,7 +40,8 @@ Material make_material(Material::Law law, const Options& options) {
           options.number("Dissipation"),
           options.number("Damping"),
           read_relaxation(options.list("Relaxation"), 1),
-          Vec3::Zero()};
+          Vec3::Zero(),
+          {}};
 }
 
 }  // namespace culm::material

@@ -9,6 +9,7 @@
 
 #include "shell_frame.hpp"
 #include "shell_layers.hpp"
+#include "yielding_layers.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -277,6 +279,9 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
     structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
     structure.faces.push_back({nodes, layup->thickness()});
   }
+  if constexpr (std::is_same_v<E, ElasticShell>) {
+    add_yielding_layers(batch, items, structure.name, model);
+  }
   structure.layers =
       std::make_shared<ShellLayers<E>>(batch, std::move(items), left_out(*layup, options));
 }
@@ -410,6 +415,10 @@ void add_shell(const Options& options, structure::StructureContext& context) {
         options.where("Fidelity"),
         "'Linear' is for small strains, but a material of this shell is for large ones "
         "(Neo-Hooke): take 'Full' or 'Rigid', or a linear material");
+  }
+  if (options.text("Fidelity") == "Linear" && yields(*layup)) {
+    throw InputError(options.where("Fidelity"),
+                     "a material of this shell yields ('Plasticity'): take 'Full' or 'Rigid'");
   }
   const Options& list = options.list("Mesh");
   const MeshRegistry types = meshes();

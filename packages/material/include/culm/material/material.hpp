@@ -4,13 +4,21 @@
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
 #include <culm/material/neo_hooke.hpp>
+#include <culm/material/plane_stress_plasticity.hpp>
 #include <culm/material/st_venant_kirchhoff.hpp>
 #include <culm/mechanics/relaxation.hpp>
 
+#include <optional>
 #include <variant>
 #include <vector>
 
 namespace culm::material {
+
+/// Plasticity of a layer, at the points of some Simpson rules across its thickness.
+struct LayerPlasticity {
+  PlaneStressPlasticity law;
+  int cells = 0;  ///< each with a rule of three points
+};
 
 /// A law with the density and the losses of the solid. Laws answer in the axes of the material.
 struct Material {
@@ -23,6 +31,8 @@ struct Material {
   std::vector<MaxwellBranch> relaxation = {};  ///< each with one ratio
   /// Coefficients of thermal expansion along the axes of the material [1/K]
   Vec3 expansion = Vec3::Zero();
+  /// How layers yield, if they do, in their plane.
+  std::optional<LayerPlasticity> plasticity = {};
 
   /// Stiffness of the branches of one time over the lasting one; 0 if there are none [-]
   double ratio_of(double time) const;
