@@ -11,6 +11,7 @@
 #include <culm/rotor/register_rotor.hpp>
 #include <culm/shell/shell_structure.hpp>
 #include <culm/simulation/catalogue.hpp>
+#include <culm/soil/register_soil.hpp>
 #include <culm/water/register_water.hpp>
 
 #include "contact_quantity.hpp"
@@ -44,6 +45,7 @@ Catalogue::Catalogue() {
   load::register_loads(loads);
   heat::register_heat(loads);
   contact::register_contact(loads);
+  soil::register_soil(loads);
   flow::register_flows(flows);
   water::register_seas(flows);
   strip::register_airfoils(airfoils);
