@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""C22: contact with planes: impacts, friction, a chain, a line on the seabed. Page: doc/verification/contact.md."""
+"""C22: contact with planes and bars: impacts, friction, a chain, a line on the seabed. Page: doc/verification/contact.md."""
 
 import math
 
@@ -86,11 +86,29 @@ def verify_line(culm, report):
     report.note(f"iterations per step {run.iterations() / 10:.1f}, at most {run.most_iterations()}")
 
 
+def verify_bars(culm, report):
+    report.title("A rod between three bars, 100 N")
+    run = culm.run("contact/pressed_rod.xml", quiet=False)
+    sinks = 0.5 * sum(last(run.history, f"{end} end z [m]") for end in ("left", "right")) - last(run.history, "middle z [m]")
+    report.relative("the middle sinks [mm]", 1e3 * sinks, 1e3 * (100.0 / (48.0 * 1649.3) + 100.0 / (4.0 * 2.2e7)), 5e-3)
+    # pressures on a round bar are a little aslant, so their sum is larger than their resultant
+    for name, force in (("left", 50.0), ("right", 50.0), ("top", 100.0)):
+        report.relative(f"{name} [N]", last(run.history, f"{name} F [N]"), force, 2e-3)
+    report.note(f"iterations per step {run.iterations() / 4:.1f}, at most {run.most_iterations()}")
+    report.title("A bar that strikes a free tube")
+    for settings in (*([f"Solver/Form={form}"] for form in FORMS), ["Loads/blow/Smoothing=0"]):
+        run = culm.run("contact/struck_beam.xml", settings, quiet=False)
+        for what in ("energy balance", "linear momentum", "angular momentum"):
+            report.holds(f"{settings[0].split('/')[-1]}: {what}", run.drift(what), 1e-10)
+    report.note(f"iterations per step {run.iterations() / 500:.1f}, at most {run.most_iterations()}")
+
+
 def verify(culm, report):
     verify_impacts(culm, report)
     verify_restitution(culm, report)
     verify_friction(culm, report)
     verify_chain(culm, report)
+    verify_bars(culm, report)
     verify_line(culm, report)
 
 

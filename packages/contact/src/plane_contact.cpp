@@ -19,15 +19,6 @@ Factors factors_of(const model::Marker& point) {
   return T;
 }
 
-Vec3 place_of(const model::Marker& point, const model::Coordinates& q) {
-  Vec3 place = Vec3::Zero();
-  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
-    const auto slots = model::NodeTable::slots(q, point.nodes[a]);
-    place += point.weights[a] * (slots.col(0) + slots.rightCols<3>() * point.offset);
-  }
-  return place;
-}
-
 }  // namespace
 
 /// A point in a step.
@@ -54,8 +45,8 @@ double PlaneContact::depth(const ContactPoint& point, const model::Coordinates& 
   return point.radius - plane_.normal.dot(place_of(point.centre, q) - plane_.point);
 }
 
-PlaneTouch PlaneContact::touch(const model::Coordinates& q) const {
-  PlaneTouch touch;
+Touch PlaneContact::touch(const model::Coordinates& q) const {
+  Touch touch;
   touch.depth = -std::numeric_limits<double>::max();
   for (const ContactPoint& point : points_) {
     const double inside = depth(point, q);

@@ -1,10 +1,10 @@
 /// Contact of lines and bodies with a fixed plane.
 #pragma once
 
+#include <culm/contact/contact_point.hpp>
 #include <culm/contact/friction.hpp>
 #include <culm/contact/penalty.hpp>
 #include <culm/model/memoryless_batch.hpp>
-#include <culm/model/structure.hpp>
 
 #include <cstddef>
 #include <utility>
@@ -18,26 +18,12 @@ struct Plane {
   Vec3 normal = Vec3::UnitZ();  ///< unit vector
 };
 
-/// A point with a round surface, which stands for an area.
-struct ContactPoint {
-  model::Marker centre;
-  double radius = 0.0;  ///< [m]
-  double area = 0.0;    ///< on which the pressure acts [m^2]
-};
-
-/// What touches the plane.
-struct PlaneTouch {
-  double force = 0.0;  ///< normal force by the depths, without damping [N]
-  double depth = 0.0;  ///< the largest one; negative: the least distance [m]
-  double area = 0.0;   ///< that is pressed [m^2]
-};
-
 /// Points x = sum_s T_s q_s with the depth r - n . (x - p). The pressure acts at the point along n,
 /// so that its work is the difference of its energy; friction acts where the surface touches,
 ///   x_c = x + sum_i xi_i d_i,   xi_i = -r n . d_i   in the middle of the step,
 /// against the velocity Dx_c / step of this material point, so that it only takes energy. In
 /// statics there is none. @source fluids B8
-class PlaneContact final : public model::MemorylessBatch {
+class PlaneContact final : public model::MemorylessBatch, public Contact {
  public:
   static constexpr int max_nodes = 4;
 
@@ -51,8 +37,7 @@ class PlaneContact final : public model::MemorylessBatch {
 
   void add(ContactPoint point) { points_.push_back(std::move(point)); }
 
-  /// Of all points, where they are at q.
-  PlaneTouch touch(const model::Coordinates& q) const;
+  Touch touch(const model::Coordinates& q) const override;
 
   int size() const override { return static_cast<int>(points_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;

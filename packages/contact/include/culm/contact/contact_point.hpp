@@ -1,0 +1,34 @@
+/// Points that touch, and what is known of them.
+#pragma once
+
+#include <culm/model/state.hpp>
+#include <culm/model/structure.hpp>
+
+namespace culm::contact {
+
+/// A point with a round surface, which stands for an area.
+struct ContactPoint {
+  model::Marker centre;
+  double radius = 0.0;  ///< [m]
+  double area = 0.0;    ///< on which the pressure acts [m^2]
+};
+
+/// What touches.
+struct Touch {
+  double force = 0.0;  ///< normal force by the depths, without damping [N]
+  double depth = 0.0;  ///< the largest one; negative: the least distance [m]
+  double area = 0.0;   ///< that is pressed [m^2]
+};
+
+/// A load by contact.
+class Contact {
+ public:
+  virtual ~Contact() = default;
+  /// Of all points, where they are at q.
+  virtual Touch touch(const model::Coordinates& q) const = 0;
+};
+
+/// The place of a marker.
+Vec3 place_of(const model::Marker& marker, const model::Coordinates& q);
+
+}  // namespace culm::contact

@@ -1,0 +1,237 @@
+#include <culm/contact/cylinder_contact.hpp>
+#include <culm/load/slot_kernel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace culm::contact {
+namespace {
+
+using Motion = model::ItemMotion<CylinderContact::max_nodes>;
+
+/// The nearest place on the axis over a step, from 0 to 1: its mean, and the mean of s c'(s), which
+/// is the derivative of the mean by the end.
+struct MeanPlace {
+  double mean = 0.0;
+  double derivative = 0.0;
+};
+
+MeanPlace mean_place(double prev, double next, const std::optional<double>& length) {
+  if (!length) return {0.5 * (prev + next), 0.5};
+  double ends[] = {0.0, 0.0, 0.0, 1.0};  // the place stands still beyond the ends of the axis
+  if (next != prev) {
+    ends[1] = std::clamp(-prev / (next - prev), 0.0, 1.0);
+    ends[2] = std::clamp((*length - prev) / (next - prev), 0.0, 1.0);
+    if (ends[1] > ends[2]) std::swap(ends[1], ends[2]);
+  }
+  MeanPlace place;
+  for (int piece = 0; piece < 3; ++piece) {
+    const double part = ends[piece + 1] - ends[piece];
+    const double middle = 0.5 * (ends[piece] + ends[piece + 1]);
+    const double y = prev + middle * (next - prev);
+    place.mean += part * std::clamp(y, 0.0, *length);
+    if (y > 0.0 && y < *length) place.derivative += part * middle;
+  }
+  return place;
+}
+
+}  // namespace
+
+/// Stress S of the forms in a step, dS/dy at its end, and what is stored and damped.
+struct CylinderContact::Response {
+  Vec<2> stress = Vec<2>::Zero();
+  Mat<2, 2> tangent = Mat<2, 2>::Zero();
+  double elastic_work = 0.0;  ///< of the part that the step stores [J]
+  double work = 0.0;          ///< of all of it [J]
+};
+
+void CylinderContact::add(const ContactPoint& point) {
+  Item item;
+  item.nodes = point.centre.nodes;
+  item.reach = point.radius + cylinder_.radius;
+  item.area = point.area;
+  item.R.setZero();
+  item.E.setZero();
+  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+    item.R.segment<4>(4 * static_cast<int>(a)) << point.centre.weights[a],
+        point.centre.weights[a] * point.centre.offset;
+  }
+  if (cylinder_.node < 0) {
+    item.r0 = -cylinder_.a;
+    item.e0 = cylinder_.along;
+  } else {
+    const int at = 4 * static_cast<int>(item.nodes.size());
+    item.R.segment<4>(at) << -1.0, -cylinder_.a;
+    item.E.segment<3>(at + 1) = cylinder_.along;
+    item.nodes.push_back(cylinder_.node);
+  }
+  items_.push_back(std::move(item));
+}
+
+std::vector<int> CylinderContact::blocks(int item, const model::UnknownTable& unknowns) const {
+  return blocks_of(items_[static_cast<std::size_t>(item)].nodes, unknowns);
+}
+
+Vec<2> CylinderContact::forms(const Item& item, const model::Coordinates& q) const {
+  Vec3 r = item.r0;
+  Vec3 e = item.e0;
+  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+    const auto slots = model::NodeTable::slots(q, item.nodes[a]);
+    r += slots * item.R.segment<4>(4 * static_cast<int>(a));
+    e += slots * item.E.segment<4>(4 * static_cast<int>(a));
+  }
+  return {r.squaredNorm(), r.dot(e)};
+}
+
+double CylinderContact::distance(const Vec<2>& y) const {
+  const double c = cylinder_.length ? std::clamp(y[1], 0.0, *cylinder_.length) : y[1];
+  return std::sqrt(std::max(y[0] - 2.0 * c * y[1] + c * c, 0.0));
+}
+
+// A step that starts at its end has the gradient there: so statics is the same formula.
+CylinderContact::Response CylinderContact::respond(const Item& item, const model::State& state,
+                                                   const Stencil& stencil) const {
+  const double end = 2.0 * stencil.theta_strain - 1.0;
+  const Vec<2> y0 = forms(item, state.prev);
+  const Vec<2> y1 = forms(item, state.next);
+  const double D0 = distance(y0);
+  const double D1 = distance(y1);
+  const MeanPlace last = mean_place(y1[1], y1[1], cylinder_.length);
+  const Vec<2> D1_y = Vec<2>(0.5, -last.mean) / D1;
+  Response response;
+  const auto add = [&](double weight, double from, const MeanPlace& place, double share,
+                       const PenaltyResponse& law) {
+    const double sum = from + D1;
+    const Vec<2> G = Vec<2>(1.0, -2.0 * place.mean) / sum;
+    // the end of the step moves all of the distance, or of a sum that is twice that
+    Mat<2, 2> G_y = -share / sum * G * D1_y.transpose();
+    G_y(1, 1) -= 2.0 * place.derivative * share / sum;
+    response.stress -= weight * item.area * law.pressure * G;
+    response.tangent +=
+        weight * item.area * (law.tangent * G * D1_y.transpose() - law.pressure * G_y);
+    response.work -= weight * item.area * law.pressure * G.dot(y1 - y0);
+    response.elastic_work -= weight * item.area * law.elastic * G.dot(y1 - y0);
+  };
+  const double depth0 = item.reach - D0;
+  const double depth1 = item.reach - D1;
+  if (end != 1.0) {
+    Stencil mean = stencil;
+    mean.theta_strain = 0.5;
+    add(1.0 - end, D0, mean_place(y0[1], y1[1], cylinder_.length), 1.0,
+        contact::respond(penalty_, depth0, depth1, mean));
+  }
+  if (end != 0.0) {
+    Stencil late = stencil;
+    late.theta_strain = 1.0;
+    add(end, D1, last, 2.0, contact::respond(penalty_, depth0, depth1, late));
+  }
+  return response;
+}
+
+Touch CylinderContact::touch(const model::Coordinates& q) const {
+  Touch touch;
+  touch.depth = -std::numeric_limits<double>::max();
+  for (const Item& item : items_) {
+    const double depth = item.reach - distance(forms(item, q));
+    const double pressure = penalty_.pressure(depth);
+    touch.force += item.area * pressure;
+    touch.depth = std::max(touch.depth, depth);
+    if (pressure > 0.0) touch.area += item.area;
+  }
+  return touch;
+}
+
+Verdict CylinderContact::assemble(const model::State& state, const Stencil& stencil, Want want,
+                                  model::Target& target) {
+  if (want == Want::mass) return Verdict::ok;
+  const bool tangent = want == Want::residual_and_tangent;
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, tangent, target);
+  });
+}
+
+// dy1 = 2 r . dr, dy2 = e . dr + r . de
+template <class Space>
+Verdict CylinderContact::assemble_item(std::size_t i, const model::State& state,
+                                       const Stencil& stencil, bool tangent,
+                                       model::Target& target) const {
+  const Item& item = local(i);
+  const Motion motion(nodes_, item.nodes, state, stencil.theta);
+  const Response response = respond(item, state, stencil);
+  const auto vectors = [&](const Motion::Slots& q) {
+    const auto n = static_cast<int>(q.cols());
+    return std::pair<Vec3, Vec3>(q * item.R.head(n) + item.r0, q * item.E.head(n) + item.e0);
+  };
+  const auto [r, e] = vectors(motion.mid);
+  const Vec<2>& S = response.stress;
+  const Vec3 on_r = 2.0 * S[0] * r + S[1] * e;
+  const Vec3 on_e = S[1] * r;
+  Motion::Slots forces(3, motion.mid.cols());
+  for (int s = 0; s < forces.cols(); ++s) forces.col(s) = on_r * item.R[s] + on_e * item.E[s];
+  const Verdict verdict =
+      load::add_slot_residual<Space>(placement(), i, forces, motion.arms_mid, target);
+  if (!tangent || verdict != Verdict::ok) return verdict;
+
+  const auto [r_next, e_next] = vectors(motion.next);
+  using Columns = Eigen::Matrix<double, 3, 2>;
+  const auto gradient = [&](int s, const Vec3& at_r, const Vec3& at_e) {
+    Columns B;
+    B << 2.0 * item.R[s] * at_r, item.R[s] * at_e + item.E[s] * at_r;
+    return B;
+  };
+  const auto by_slots = [&](int a, int b) {
+    Mat<12, 12> K;
+    for (int s = 0; s < 4; ++s) {
+      const int row = 4 * a + s;
+      const Columns stiff = gradient(row, r, e) * response.tangent;
+      for (int t = 0; t < 4; ++t) {
+        const int column = 4 * b + t;
+        const double geometric =
+            2.0 * S[0] * item.R[row] * item.R[column] +
+            S[1] * (item.R[row] * item.E[column] + item.E[row] * item.R[column]);
+        K.block<3, 3>(3 * s, 3 * t) = stiff * gradient(column, r_next, e_next).transpose() +
+                                      stencil.theta * geometric * Mat3::Identity();
+      }
+    }
+    return K;
+  };
+  load::add_dense_derivative<Space>(placement(), i, forces, motion, stencil.theta, by_slots,
+                                    target);
+  return Verdict::ok;
+}
+
+double CylinderContact::stored_energy(const model::Coordinates& q) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    energy += local(i).area * penalty_.energy(local(i).reach - distance(forms(local(i), q)));
+  }
+  return energy;
+}
+
+model::StepWork CylinderContact::step_work(const model::State& state,
+                                           const Stencil& stencil) const {
+  model::StepWork work;
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (!placement().owned[i]) continue;
+    const Item& item = local(i);
+    const Response response = respond(item, state, stencil);
+    work.damping += response.work - response.elastic_work;
+    work.dissipation +=
+        response.elastic_work -
+        item.area * (penalty_.energy(item.reach - distance(forms(item, state.next))) -
+                     penalty_.energy(item.reach - distance(forms(item, state.prev))));
+    if (cylinder_.node >= 0) continue;  // between bodies there is no resultant
+    const Motion motion(nodes_, item.nodes, state, stencil.theta);
+    const auto n = static_cast<int>(motion.mid.cols());
+    const Vec3 r = motion.mid * item.R.head(n) + item.r0;
+    const Vec3 f = -2.0 * response.stress[0] * r - response.stress[1] * item.e0;
+    Motion::Slots forces(3, n);
+    for (int s = 0; s < n; ++s) forces.col(s) = f * item.R[s];
+    load::add_item_work(forces, motion, item.nodes, state, false, work);
+  }
+  return work;
+}
+
+}  // namespace culm::contact
