@@ -195,6 +195,36 @@ TEST(Fibres, HaveTheStiffnessOfTheirSection) {
       {{"Width", 0.3}, {"Height", 0.7}, {"Flange Thickness", 0.05}, {"Web Thickness", 0.02}}));
 }
 
+TEST(Fibres, AreInTheMiddleOfTwoSectionsInBetween) {
+  Section thin, thick;
+  thin.fibres = rectangle_fibres({-1.0, -1.0}, {1.0, 1.0}, {1, 1});
+  thick.fibres = rectangle_fibres({-2.0, -2.0}, {2.0, 2.0}, {1, 1});
+  thin.plasticity = {E, metal};
+  thick.plasticity = {3.0 * E, {.yield_stress = 3.0, .isotropic = 60.0, .kinematic = 90.0}};
+  const Section middle = interpolate(thin, thick, 0.5);
+  ASSERT_EQ(middle.fibres.size(), 4u);
+  EXPECT_NEAR(middle.fibres[0].place[0], -1.5 / std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(middle.fibres[0].area, 2.5, 1e-15);
+  const UniaxialPlasticity expected(2.0 * E,
+                                    {.yield_stress = 2.0, .isotropic = 40.0, .kinematic = 60.0});
+  const auto step = middle.plasticity.step(Vec<1>(0.0), Vec<1>(0.02), {}, 1.0);
+  EXPECT_NEAR(step.relief[0], expected.step(Vec<1>(0.0), Vec<1>(0.02), {}, 1.0).relief[0], 1e-13);
+}
+
+TEST(Fibres, OfRingsNeedSomeDirections) {
+  Options options = kit::deck_list(CircleSection::schema(),
+                                   {{"Young Modulus", E}, {"Poisson Ratio", nu}, {"Radius", 0.3}});
+  const auto mistakes = [&](int around) {
+    Options with = options;
+    with.add_list(kit::deck_list(*CircleSection::schema().find_slot("Plasticity")->find(""),
+                                 {{"Yield Stress", 1.0}, {"Cells", std::vector<int>{around, 2}}},
+                                 "Plasticity"));
+    return kit::mistakes_in(CircleSection::schema(), with).size();
+  };
+  EXPECT_EQ(mistakes(3), 1u);
+  EXPECT_EQ(mistakes(4), 0u);
+}
+
 // Even numbers of cells give the plastic moment of a rectangle, b h^2 / 4.
 TEST(Fibres, BundlesHaveThePlasticMoment) {
   double moment = 0.0;
