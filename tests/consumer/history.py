@@ -14,6 +14,7 @@ assert frame.index.name == header[0] and list(frame.columns) == header[1:], fram
 assert len(frame) == len(rows) > 10
 assert frame.index.is_monotonic_increasing
 for found, written in zip(frame.itertuples(), rows):
-    assert list(found) == [float(value) for value in written], (found, written)
-assert all(kind == "float64" for kind in frame.dtypes)
+    assert list(found) == [*map(float, written[:-2]), *map(int, written[-2:])], (found, written)
+assert list(frame.columns[-2:]) == ["analysis", "step"]
+assert all(kind == "float64" for kind in frame.dtypes[:-2])
 print(f"history: {len(frame)} rows of {', '.join(frame.columns[:2])} …")

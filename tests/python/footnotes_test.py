@@ -25,7 +25,7 @@ class FootnotesTest(unittest.TestCase):
     def test_an_empty_cell_is_no_number(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "history.csv"
-            path.write_text("time,F [N]\n0,\n1,0\n")
+            path.write_text("time,F [N],analysis,step\n0,,0,0\n1,0,0,1\n")
             first, last = History(path).column("F [N]")
         self.assertNotEqual(first, first)  # nan
         self.assertEqual(last, 0.0)

@@ -39,6 +39,15 @@ class ModeNames(unittest.TestCase):
         rigid[:, :3] = [5.0, 0.0, 0.0]
         self.assertEqual(describe(blade(), rigid), "")
 
+    def test_a_beam_that_twists_more_than_it_bends_is_in_torsion(self):
+        twisted = shape([0, 0, 0.01])
+        twisted[:, 3:] = numpy.outer(numpy.arange(5.0), [0.0, 0.3, 0.1])  # the axis is y
+        self.assertEqual(describe(blade(), twisted), "torsion, 90 %")
+        bent = shape([0, 0, 1])
+        bent[:, 3:] = numpy.outer(2.0 * numpy.arange(5.0), [1.0, 0.4, 0.0])
+        self.assertEqual(describe(blade(), bent), "along d1, 100 %")
+        self.assertEqual(describe(blade(), shape([0, 1, 0])), "along d3, 100 %")
+
     def test_bodies_and_shells_move_along_axes_in_space(self):
         body = Mesh(numpy.zeros((1, 3)), [(0,)], False, numpy.tile(ROTOR, (1, 1, 1)))
         self.assertEqual(describe(body, numpy.array([[3.0, 1.0, 0.0, 9.0, 9.0, 9.0]])), "along x, 90 %")

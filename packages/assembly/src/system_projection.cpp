@@ -59,7 +59,7 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
     largest = std::max(largest, change.cwiseAbs().maxCoeff());
   }
   state.prev = state.next;
-  std::fill(reactions_.begin(), reactions_.end(), 0.0);
+  forget_reactions();
   return comm_.max(largest);
 }
 
@@ -230,7 +230,7 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
       node = block.owner;
     }
   });
-  std::fill(reactions_.begin(), reactions_.end(), 0.0);
+  forget_reactions();
   const auto [most, where] = find_largest(largest, node);
   return {most, where, largest_equation(b, negligible * multiplier_scale_ * most)};
 }

@@ -9,6 +9,7 @@ void register_flows(FlowRegistry& registry) {
   register_table(registry);
   register_gust(registry);
   register_turbsim_box(registry);
+  register_mann_box(registry);
 }
 
 }  // namespace culm::flow

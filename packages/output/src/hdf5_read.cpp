@@ -140,7 +140,8 @@ std::vector<Recorded::Step> read_steps(const Hdf5File& file) {
   std::vector<Recorded::Step> found;
   for (const std::string& name : list_links(file, steps.id())) {
     const Handle group = open_group(file, steps.id(), name);
-    found.push_back({read_int(file, group.id(), "index"), read_double(file, group.id(), "time")});
+    found.push_back({read_int(file, group.id(), "index"), read_double(file, group.id(), "time"),
+                     read_int(file, group.id(), "analysis")});
   }
   // Alphabetical order is not that of the indices once these have more than six digits.
   std::sort(found.begin(), found.end(),

@@ -2,6 +2,7 @@
 #include <culm/base/error.hpp>
 #include <culm/output/history_csv.hpp>
 
+#include "history_table.hpp"
 #include "replace_file.hpp"
 
 #include <fmt/format.h>
@@ -32,17 +33,17 @@ std::string header(const std::vector<HistoryColumn>& columns) {
     line += ',' + field(column.unit.empty() ? column.name
                                             : fmt::format("{} [{}]", column.name, column.unit));
   }
-  return line + '\n';
+  return line + ",analysis,step\n";
 }
 
-std::string line(double time, std::span<const double> values) {
+std::string line(const HistoryRow& row) {
   fmt::memory_buffer line;
-  fmt::format_to(std::back_inserter(line), "{:.17g}", time);
-  for (const double value : values) {
+  fmt::format_to(std::back_inserter(line), "{:.17g}", row.time);
+  for (const double value : row.values) {
     line.push_back(',');
     if (value != absent) fmt::format_to(std::back_inserter(line), "{:.17g}", value);
   }
-  line.push_back('\n');
+  fmt::format_to(std::back_inserter(line), ",{},{}\n", row.analysis, row.step);
   return fmt::to_string(line);
 }
 
@@ -56,17 +57,17 @@ HistoryCsv::HistoryCsv(std::filesystem::path path, const std::vector<HistoryColu
   file_.reset(std::fopen(name.c_str(), "w"));
   if (!file_) give_up();
   write(header(columns));
-  for (; !rows.empty(); rows = rows.subspan(column_count_ + 1)) {
-    write(line(rows[0], rows.subspan(1, column_count_)));
+  for (; !rows.empty(); rows = rows.subspan(history_width(column_count_))) {
+    write(line(unpack_history(rows.first(history_width(column_count_)))));
   }
   flush();
   if (name != path_) move_into_place(name, path_);
   identity_.emplace(path_);
 }
 
-void HistoryCsv::add(double time, std::span<const double> values) {
-  internal_check(values.size() == column_count_, "one value per history column");
-  write(line(time, values));
+void HistoryCsv::add(const HistoryRow& row) {
+  internal_check(row.values.size() == column_count_, "one value per history column");
+  write(line(row));
   flush();
   identity_->check(path_);
 }

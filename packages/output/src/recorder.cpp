@@ -6,6 +6,7 @@
 #include "content_sum.hpp"
 #include "hdf5_copy.hpp"
 #include "hdf5_read.hpp"
+#include "history_table.hpp"
 #include "mesh_tables.hpp"
 #include "names.hpp"
 #include "replace_file.hpp"
@@ -19,7 +20,7 @@ namespace culm::output {
 namespace {
 
 // Version of the layout of the file, for readers.
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 
 // Of tables: the number that stands for none, as netCDF has it.
 constexpr const char* fill_value = "_FillValue";
@@ -146,6 +147,10 @@ Handle make_history(Hdf5File& file, const std::vector<HistoryColumn>& columns) {
     names.push_back(column.name);
     units.push_back(column.unit);
   }
+  for (const char* place : {"analysis", "step"}) {
+    names.emplace_back(place);
+    units.emplace_back();
+  }
   const Handle group = file.make_group(file.id(), "history");
   Handle table = file.make_growing_table(group.id(), "values", names.size());
   file.set_attribute(table.id(), "names", names);
@@ -203,6 +208,8 @@ class Recorder::File {
     const Handle step = file_.make_group(steps_.id(), step_name(frame.index));
     file_.set_attribute(step.id(), "time", frame.time);
     file_.set_attribute(step.id(), "index", frame.index);
+    file_.set_attribute(step.id(), "analysis", frame.analysis);
+    file_.set_attribute(step.id(), "step", frame.step);
     const auto values = tables_.values(meshes_, frame.structures);
     for (std::size_t t = 0; t < values.size(); ++t) {
       const StateTable& table = tables_.tables()[t];
@@ -214,20 +221,20 @@ class Recorder::File {
     if (is_due()) commit();
   }
 
-  void add_history(double time, std::span<const double> values) {
-    internal_check(values.size() == columns_, "one value per history column");
-    pending_.push_back(time);
-    pending_.insert(pending_.end(), values.begin(), values.end());
+  void add_history(const HistoryRow& row) {
+    internal_check(row.values.size() == columns_, "one value per history column");
+    pack_history(row, pending_);
     ++mark_.rows;
     mark_.history_sum =
-        chain(mark_.history_sum, std::as_bytes(std::span(pending_).last(columns_ + 1)));
+        chain(mark_.history_sum, std::as_bytes(std::span(pending_).last(history_width(columns_))));
     if (is_due()) commit();
   }
 
   // Brings the file up to date.
   void commit() {
-    const std::size_t rows = pending_.size() / (columns_ + 1);
-    if (rows > 0) file_.append_rows(history_.id(), mark_.rows - rows, columns_ + 1, pending_);
+    const std::size_t width = history_width(columns_);
+    const std::size_t rows = pending_.size() / width;
+    if (rows > 0) file_.append_rows(history_.id(), mark_.rows - rows, width, pending_);
     pending_.clear();
     file_.flush();
     committed_at_ = Clock::now();
@@ -335,7 +342,7 @@ class Recorder::File {
     for (const Recorded::Step& step : recorded.steps) {
       copy_group(from, steps.id(), file_, steps_.id(), step_name(step.index));
     }
-    const std::size_t width = columns_ + 1;
+    const std::size_t width = history_width(columns_);
     if (mark.rows > 0) {
       file_.append_rows(history_.id(), 0, width,
                         std::span(recorded.history).first(mark.rows * width));
@@ -449,10 +456,10 @@ void Recorder::record(const Frame& frame) {
   file_->record(frame);
 }
 
-void Recorder::add_history(double time, std::span<const double> values) {
+void Recorder::add_history(const HistoryRow& row) {
   internal_check(file_ != nullptr, "the recorder is closed");
   const QuietHdf5 quiet;
-  file_->add_history(time, values);
+  file_->add_history(row);
 }
 
 void Recorder::write_results(const AnalysisResults& results) {

@@ -30,11 +30,14 @@ std::string collection_entry(double time, std::size_t part, const std::string& f
 }  // namespace
 
 Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
-                   std::vector<StructureMesh> meshes)
+                   std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses)
     : folder_(folder),
       vtu_folder_(stem + "_vtu"),
       meshes_(std::move(meshes)),
-      collection_(make_collection(folder / (stem + ".pvd"))) {
+      centres_(begin(stem)) {
+  if (analyses.size() > 1) {
+    for (const std::string& name : analyses) analyses_.push_back(file_part(name));
+  }
   check_meshes(meshes_);
   make_folder(folder_ / vtu_folder_);
   for (const StructureMesh& mesh : meshes_) names_.push_back(mesh.name);
@@ -42,10 +45,23 @@ Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
   make_groups();
   const bool skinned =
       std::any_of(skins_.begin(), skins_.end(), [](const Skin& skin) { return !skin.empty(); });
-  if (skinned) {
-    skin_collection_ =
-        std::make_unique<GrowingFile>(make_collection(folder / (stem + "_skin.pvd")));
+  if (skinned) skins_listed_ = begin(stem + "_skin");
+}
+
+Pictures::Collections Pictures::begin(const std::string& stem) const {
+  return {stem, std::make_unique<GrowingFile>(make_collection(folder_ / (stem + ".pvd"))), {}};
+}
+
+void Pictures::list(Collections& collections, int analysis, const std::string& entry) {
+  collections.whole->add(entry);
+  if (analyses_.empty()) return;
+  auto part = collections.parts.find(analysis);
+  if (part == collections.parts.end()) {
+    const std::string& name = analyses_.at(static_cast<std::size_t>(analysis));
+    const std::string file = collections.stem + "." + name + ".pvd";
+    part = collections.parts.emplace(analysis, make_collection(folder_ / file)).first;
   }
+  part->second.add(entry);
 }
 
 void Pictures::make_skins() {
@@ -88,10 +104,10 @@ void Pictures::add(const Frame& frame) {
     }
     const std::string file = stem(group, frame.index);
     write_picture(file + ".vtu", vtu_text(merge(centres), frame.time, names_));
-    collection_.add(collection_entry(frame.time, g, file + ".vtu"));
+    list(centres_, frame.analysis, collection_entry(frame.time, g, file + ".vtu"));
     if (skins.empty()) continue;
     write_picture(file + "_skin.vtu", vtu_text(merge(skins), frame.time, names_));
-    skin_collection_->add(collection_entry(frame.time, g, file + "_skin.vtu"));
+    list(*skins_listed_, frame.analysis, collection_entry(frame.time, g, file + "_skin.vtu"));
   }
 }
 
@@ -100,14 +116,14 @@ void Pictures::write_picture(const std::string& file, const std::string& text) {
   written_.emplace_back(file, folder_ / file);
 }
 
-void Pictures::add_earlier(int index, double time) {
+void Pictures::add_earlier(int index, double time, int analysis) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::string file = stem(groups_[g], index);
     if (std::filesystem::exists(folder_ / (file + ".vtu"))) {
-      collection_.add(collection_entry(time, g, file + ".vtu"));
+      list(centres_, analysis, collection_entry(time, g, file + ".vtu"));
     }
     if (!groups_[g].skinned.empty() && std::filesystem::exists(folder_ / (file + "_skin.vtu"))) {
-      skin_collection_->add(collection_entry(time, g, file + "_skin.vtu"));
+      list(*skins_listed_, analysis, collection_entry(time, g, file + "_skin.vtu"));
     }
   }
 }
@@ -118,8 +134,11 @@ std::string Pictures::stem(const Group& group, int index) const {
 
 void Pictures::write() {
   for (const auto& [file, identity] : written_) identity.check_whole(folder_ / file);
-  collection_.write();
-  if (skin_collection_) skin_collection_->write();
+  for (Collections* collections : {&centres_, skins_listed_ ? &*skins_listed_ : nullptr}) {
+    if (collections == nullptr) continue;
+    collections->whole->write();
+    for (auto& [analysis, file] : collections->parts) file.write();
+  }
 }
 
 }  // namespace culm::output

@@ -19,7 +19,8 @@ namespace {
 TEST(HistoryCsv, HeaderNamesColumnsAndUnits) {
   const TemporaryFolder folder;
   const HistoryCsv history(folder / "h.csv", {{"energy", "J"}, {"steps", ""}, {"a,\"b\"", "m"}});
-  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,energy [J],steps,\"a,\"\"b\"\" [m]\"\n");
+  EXPECT_EQ(read_text_file(folder / "h.csv"),
+            "time,energy [J],steps,\"a,\"\"b\"\" [m]\",analysis,step\n");
 }
 
 TEST(HistoryCsv, NumbersReadBackExactlyWhileTheFileIsOpen) {
@@ -27,7 +28,7 @@ TEST(HistoryCsv, NumbersReadBackExactlyWhileTheFileIsOpen) {
   HistoryCsv history(folder / "h.csv", {{"x", "m"}});
   const double values[] = {0.1, 1.0 / 3.0, -std::numeric_limits<double>::denorm_min(),
                            std::numeric_limits<double>::max(), 123456789.123456789};
-  for (const double value : values) history.add(value, std::array{-value});
+  for (const double value : values) history.add({value, std::array{-value}, 0, 7});
   std::string text = read_text_file(folder / "h.csv");
   const char* cursor = text.c_str() + text.find('\n') + 1;
   for (const double value : values) {
@@ -35,8 +36,8 @@ TEST(HistoryCsv, NumbersReadBackExactlyWhileTheFileIsOpen) {
     EXPECT_EQ(std::strtod(cursor, &end), value);
     EXPECT_EQ(*end, ',');
     EXPECT_EQ(std::strtod(end + 1, &end), -value);
-    EXPECT_EQ(*end, '\n');
-    cursor = end + 1;
+    EXPECT_EQ(std::string_view(end, 5), ",0,7\n");
+    cursor = end + 5;
   }
   EXPECT_EQ(*cursor, '\0');
 }
@@ -54,18 +55,22 @@ TEST(HistoryCsv, UnwritablePlacesAreFileErrors) {
 
 TEST(HistoryCsv, AnEarlierHistoryGoesOn) {
   const TemporaryFolder folder;
-  { HistoryCsv(folder / "h.csv", {{"x", "m"}}).add(7.0, std::array{7.0}); }
-  HistoryCsv history(folder / "h.csv", {{"x", "m"}}, std::array{0.0, 0.1, 1.0, -0.0});
-  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m]\n0,0.10000000000000001\n1,-0\n");
-  history.add(2.0, std::array{3.0});
-  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m]\n0,0.10000000000000001\n1,-0\n2,3\n");
+  { HistoryCsv(folder / "h.csv", {{"x", "m"}}).add({7.0, std::array{7.0}}); }
+  HistoryCsv history(folder / "h.csv", {{"x", "m"}},
+                     std::array{0.0, 0.1, 0.0, 0.0, 1.0, -0.0, 0.0, 1.0});
+  const std::string earlier = "time,x [m],analysis,step\n0,0.10000000000000001,0,0\n1,-0,0,1\n";
+  EXPECT_EQ(read_text_file(folder / "h.csv"), earlier);
+  history.add({2.0, std::array{3.0}, 1, 12});
+  EXPECT_EQ(read_text_file(folder / "h.csv"), earlier + "2,3,1,12\n");
 }
 
 TEST(HistoryCsv, WhatIsAbsentIsAnEmptyCell) {
   const TemporaryFolder folder;
-  HistoryCsv history(folder / "h.csv", {{"x", "m"}, {"F", "N"}}, std::array{0.0, 1.0, absent});
-  history.add(1.0, std::array{absent, 2.0});
-  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,x [m],F [N]\n0,1,\n1,,2\n");
+  HistoryCsv history(folder / "h.csv", {{"x", "m"}, {"F", "N"}},
+                     std::array{0.0, 1.0, absent, 0.0, 0.0});
+  history.add({1.0, std::array{absent, 2.0}, 0, 1});
+  EXPECT_EQ(read_text_file(folder / "h.csv"),
+            "time,x [m],F [N],analysis,step\n0,1,,0,0\n1,,2,0,1\n");
 }
 
 TEST(HistoryCsv, AFileThatVanishesOrIsReplacedIsAFileError) {
@@ -73,10 +78,10 @@ TEST(HistoryCsv, AFileThatVanishesOrIsReplacedIsAFileError) {
   const auto path = folder / "h.csv";
   const auto add = [&](auto change) -> std::string {
     HistoryCsv history(path, {{"x", "m"}});
-    history.add(0.0, std::array{1.0});
+    history.add({0.0, std::array{1.0}});
     change();
     try {
-      history.add(1.0, std::array{2.0});
+      history.add({1.0, std::array{2.0}});
     } catch (const FileError& error) {
       return error.what();
     }
@@ -100,7 +105,7 @@ TEST(HistoryCsv, FullDiskIsAFileError) {
 TEST(HistoryCsv, WrongNumberOfValuesIsABug) {
   const TemporaryFolder folder;
   HistoryCsv history(folder / "h.csv", {{"x", "m"}});
-  EXPECT_THROW(history.add(0.0, std::array{1.0, 2.0}), InternalError);
+  EXPECT_THROW(history.add({0.0, std::array{1.0, 2.0}}), InternalError);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(Recorder, AFileThatVanishesOrIsReplacedIsAFileErrorAtTheNextCommit) {
   const auto path = folder / "run.h5";
   const auto add = [&](auto change) {
     Recorder recorder = make_recorder(path);
-    recorder.add_history(0.0, std::array{1.0, 2.0});
+    recorder.add_history({0.0, std::array{1.0, 2.0}});
     change();
     recorder.commit();
   };
@@ -148,8 +148,8 @@ TEST(Recorder, HistoryGrowsRowByRow) {
   Recorder recorder = make_recorder(folder / "run.h5");
   std::vector<double> expected;
   for (int i = 0; i < 1000; ++i) {  // several chunks
-    recorder.add_history(0.5 * i, std::array{1.0 * i, -2.0 * i});
-    expected.insert(expected.end(), {0.5 * i, 1.0 * i, -2.0 * i});
+    recorder.add_history({0.5 * i, std::array{1.0 * i, -2.0 * i}, i / 500, i % 500});
+    expected.insert(expected.end(), {0.5 * i, 1.0 * i, -2.0 * i, 1.0 * (i / 500), 1.0 * (i % 500)});
   }
   EXPECT_EQ(recorder.commit().rows, 1000U);
   EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values"), expected);
@@ -162,7 +162,7 @@ TEST(Recorder, PythonReadsTheWholeFile) {
   Recorder recorder = make_recorder(folder / "run.h5");
   recorder.record(sample_frame(sample_meshes(4), 0));
   recorder.record(sample_frame(sample_meshes(4), 7));
-  recorder.add_history(0.25, std::array{1.0, std::numeric_limits<double>::quiet_NaN()});
+  recorder.add_history({0.25, std::array{1.0, std::numeric_limits<double>::quiet_NaN()}, 1, 4});
   recorder.write_report("first", {});
   const NamedScalar scalars[] = {{"energy drift", "J", 1e-12}, {"a/b", "", 2.0}};
   recorder.write_report("finished\n", scalars);
@@ -184,7 +184,7 @@ print(repr(f['report/text'].asstr()[()]), {k: (s[k][()], s[k].attrs['unit']) for
 )",
                                       folder / "run.h5");
   EXPECT_EQ(text,
-            "culm run 2\n"
+            "culm run 3\n"
             "bent tube 0.1.0 '<ParameterList name=\"µ\"/>\\n'\n"
             "['000000', '000007'] [0.0, 0.7000000000000001]\n"
             "Beam ['N1', 'N2', 'N3', 'M1', 'M2', 'M3']\n"
@@ -192,18 +192,19 @@ print(repr(f['report/text'].asstr()[()]), {k: (s[k][()], s[k].attrs['unit']) for
             "(10, 3) (4, 6)\n"
             "['position', 'displacement', 'director3', 'resultants', 'stress'] "
             "['position', 'displacement', 'director3', 'resultants%2F2', 'stress']\n"
-            "['time', 'energy', 'drift'] ['s', 'J', ''] [[0.25, 1.0, nan]]\n"
+            "['time', 'energy', 'drift', 'analysis', 'step'] ['s', 'J', '', '', ''] "
+            "[[0.25, 1.0, nan, 1.0, 4.0]]\n"
             "'finished\\n' {'a%2Fb': (2.0, ''), 'energy drift': (1e-12, 'J')}\n");
 }
 
 TEST(Recorder, WhatIsAddedIsInTheFileWithinATenthOfASecond) {
   const TemporaryFolder folder;
   Recorder recorder = make_recorder(folder / "run.h5");
-  recorder.add_history(0.0, std::array{1.0, 2.0});
-  recorder.add_history(1.0, std::array{1.0, 2.0});
+  recorder.add_history({0.0, std::array{1.0, 2.0}});
+  recorder.add_history({1.0, std::array{1.0, 2.0}});
   std::this_thread::sleep_for(std::chrono::milliseconds(101));
-  recorder.add_history(2.0, std::array{1.0, 2.0});
-  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values").size(), 9U);
+  recorder.add_history({2.0, std::array{1.0, 2.0}});
+  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values").size(), 15U);
 }
 
 TEST(Recorder, WithoutACloseTheFileIsCompleteAllTheSame) {
@@ -212,11 +213,11 @@ TEST(Recorder, WithoutACloseTheFileIsCompleteAllTheSame) {
     Recorder recorder = make_recorder(folder / "run.h5");
     for (int i = 0; i < 50; ++i) {
       recorder.record(sample_frame(sample_meshes(4), i));
-      recorder.add_history(i, std::array{1.0, 2.0});
+      recorder.add_history({1.0 * i, std::array{1.0, 2.0}});
     }
   }
   EXPECT_EQ(count_links(folder / "run.h5", "/steps"), 50);
-  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values").size(), 150U);
+  EXPECT_EQ(read_dataset(folder / "run.h5", "/history/values").size(), 250U);
 }
 
 TEST(Recorder, KilledRunLosesAtMostWhatCameAfterItsLastCommit) {
@@ -230,7 +231,7 @@ TEST(Recorder, KilledRunLosesAtMostWhatCameAfterItsLastCommit) {
       Frame frame = sample_frame(sample_meshes(4), 1);
       for (frame.index = 0;; ++frame.index) {
         recorder.record(frame);
-        recorder.add_history(frame.index, std::array{1.0 * frame.index, 0.0});
+        recorder.add_history({1.0 * frame.index, std::array{1.0 * frame.index, 0.0}});
         if (frame.index % 5 != 4) continue;
         recorder.commit();
         if (::write(progress[1], &frame.index, sizeof frame.index) < 0) ::_exit(1);
@@ -248,7 +249,7 @@ TEST(Recorder, KilledRunLosesAtMostWhatCameAfterItsLastCommit) {
     EXPECT_GE(count_links(folder / "run.h5", "/steps"), last + 1);
     const std::string step = "/steps/" + std::to_string(1000000 + last).substr(1);
     EXPECT_EQ(read_dataset(folder / "run.h5", step + "/position").size(), 30U);
-    EXPECT_GE(read_dataset(folder / "run.h5", "/history/values").size(), 3U * (last + 1U));
+    EXPECT_GE(read_dataset(folder / "run.h5", "/history/values").size(), 5U * (last + 1U));
   }
 }
 
@@ -262,7 +263,7 @@ RecordMark write_run(const std::filesystem::path& path, int steps) {
       mark = recorder.commit();
     }
     recorder.record(sample_frame(sample_meshes(4), i));
-    recorder.add_history(i, std::array{10.0 * i, 0.5});
+    recorder.add_history({1.0 * i, std::array{10.0 * i, 0.5}});
   }
   recorder.write_report("stopped", {});
   return mark;
@@ -286,8 +287,8 @@ TEST(Recorder, AnEarlierRunGoesOnAsItWasThen) {
   const Recorded recorded = find_recorded(path, info.run, mark);
   EXPECT_EQ(recorded.steps.size(), 3U);
   EXPECT_EQ(recorded.steps.back().index, 2);
-  EXPECT_EQ(recorded.history.size(), 9U);
-  EXPECT_EQ(recorded.history[7], 20.0);
+  EXPECT_EQ(recorded.history.size(), 15U);
+  EXPECT_EQ(recorded.history[11], 20.0);
   {
     Recorder recorder(path, {"longer", "0.2.0", "<deck/>", info.run}, meshes, columns, mark,
                       recorded);
@@ -297,14 +298,14 @@ TEST(Recorder, AnEarlierRunGoesOnAsItWasThen) {
     EXPECT_EQ(read_dataset(path, "/history/values"), recorded.history);
     for (int i = 3; i < 5; ++i) {
       recorder.record(sample_frame(meshes, i));
-      recorder.add_history(i, std::array{10.0 * i, 0.5});
+      recorder.add_history({1.0 * i, std::array{10.0 * i, 0.5}});
     }
     EXPECT_EQ(find_recorded(path, info.run, recorder.commit()).steps.size(), 5U);
     recorder.close();
   }
   EXPECT_EQ(count_links(path, "/steps"), 5);
-  EXPECT_EQ(read_dataset(path, "/history/values").size(), 15U);
-  EXPECT_EQ(read_dataset(path, "/history/values").back(), 0.5);
+  EXPECT_EQ(read_dataset(path, "/history/values").size(), 25U);
+  EXPECT_EQ(read_dataset(path, "/history/values")[22], 0.5);
   EXPECT_EQ(read_dataset(path, "/steps/000004/position").size(), 30U);
 }
 
@@ -451,7 +452,7 @@ TEST(Recorder, WrongSizesAreABug) {
   Frame frame = sample_frame(sample_meshes(4), 0);
   frame.structures[0].positions.pop_back();
   EXPECT_THROW(recorder.record(frame), InternalError);
-  EXPECT_THROW(recorder.add_history(0.0, std::array{1.0}), InternalError);
+  EXPECT_THROW(recorder.add_history({0.0, std::array{1.0}}), InternalError);
   recorder.close();
   EXPECT_THROW(recorder.record(sample_frame(sample_meshes(4), 0)), InternalError);
   std::vector<StructureMesh> twins = {body_mesh(), body_mesh()};

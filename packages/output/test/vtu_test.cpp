@@ -142,6 +142,39 @@ print(len(sets), len(set(files)), len(times), times[1], sorted({s.get('part') fo
   EXPECT_EQ(run_python(script, folder / "run_skin.pvd"), "20 20 20 0.1 ['0']\n");
 }
 
+TEST(Vtu, EachOfSeveralAnalysesHasCollectionsOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::vector<StructureMesh> meshes = sample_meshes(2);
+  const auto write = [&](auto add) {
+    Pictures pictures(folder.path(), "run", meshes, {"up", "modes", "down/1"});
+    for (int i = 0; i < 5; ++i) add(pictures, i, i < 2 ? 0 : 2);
+    pictures.write();
+  };
+  const auto check = [&] {
+    for (const auto& [file, times] : {std::pair{"run.pvd", "01234"},
+                                      {"run_skin.pvd", "01234"},
+                                      {"run.up.pvd", "01"},
+                                      {"run_skin.down_1.pvd", "234"}}) {
+      const std::string text = read_text_file(folder / file);
+      for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(text.find("_00000" + std::to_string(i)) != std::string::npos,
+                  std::string(times).find(std::to_string(i)) != std::string::npos)
+            << file << " " << i;
+      }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "run.modes.pvd")) << "no state is its own";
+  };
+  write([&](Pictures& pictures, int i, int analysis) {
+    Frame frame = sample_frame(meshes, i);
+    frame.analysis = analysis;
+    pictures.add(frame);
+  });
+  check();
+  write(
+      [](Pictures& pictures, int i, int analysis) { pictures.add_earlier(i, 1.0 * i, analysis); });
+  check();
+}
+
 TEST(Vtu, WithoutOutlinesThereIsNoSkinCollection) {
   const TemporaryFolder folder;
   const Pictures pictures(folder.path(), "run", {body_mesh()});

@@ -14,6 +14,7 @@
 #include <culm/soil/register_soil.hpp>
 #include <culm/water/register_water.hpp>
 
+#include "acceleration_quantity.hpp"
 #include "contact_quantity.hpp"
 #include "earlier_states.hpp"
 #include "fluid_quantities.hpp"
@@ -58,6 +59,7 @@ Catalogue::Catalogue() {
   register_mpi_partner(partners);
   analysis::register_analyses(analyses);
   register_node_quantities(quantities);
+  register_acceleration_quantity(quantities);
   register_signal_quantity(quantities);
   register_link_quantities(quantities);
   register_line_quantity(quantities);

@@ -16,8 +16,11 @@ using Path = std::filesystem::path;
 
 void add_named_files(const Options& list, std::vector<Path>& files) {
   for (const Options::Parameter& parameter : list.parameters()) {
-    if (parameter.name != "File Name" || !parameter.value) continue;
-    files.push_back(Path(parameter.where.file).parent_path() / list.text(parameter.name));
+    if (!parameter.value) continue;
+    const Path folder = Path(parameter.where.file).parent_path();
+    if (parameter.name == "File Name") files.push_back(folder / list.text(parameter.name));
+    if (parameter.name != "File Names") continue;
+    for (const std::string& name : list.texts(parameter.name)) files.push_back(folder / name);
   }
   for (const auto* lists : {&list.lists(), &list.entries()}) {
     for (const Options& below : *lists) add_named_files(below, files);

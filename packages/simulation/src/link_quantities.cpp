@@ -80,8 +80,8 @@ class JointAngle final : public Quantity {
     angle_ += std::remainder(std::atan2(y[1], y[0]) - angle_, full);
     numbers.push_back(turns_ ? angle_ : angle_ - full * std::floor(angle_ / full));
   }
-  double memory() const override { return angle_; }
-  void restore(double memory) override { angle_ = memory; }
+  std::vector<double> memory() const override { return {angle_}; }
+  void restore(std::span<const double> memory) override { angle_ = memory.front(); }
 
  private:
   static Mat3 directors(const Eigen::Matrix3Xd& q, int first) { return q.middleCols<3>(first + 1); }

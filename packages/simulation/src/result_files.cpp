@@ -86,9 +86,13 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
 void ResultFiles::restore_counts(const Snapshot& saved) {
   frames_ = static_cast<std::size_t>(saved.integer("output/states"));
   rows_ = static_cast<std::size_t>(saved.integer("output/rows"));
-  const std::vector<double>& memories = saved.numbers("output/memories", watched_->size());
-  for (std::size_t i = 0; i < memories.size(); ++i) {
-    (*watched_)[i].quantity->restore(memories[i]);
+  std::size_t count = 0;
+  for (const WatchedQuantity& watched : *watched_) count += watched.quantity->memory().size();
+  std::span<const double> memories = saved.numbers("output/memories", count);
+  for (const WatchedQuantity& watched : *watched_) {
+    const std::size_t size = watched.quantity->memory().size();
+    watched.quantity->restore(memories.first(size));
+    memories = memories.subspan(size);
   }
 }
 
@@ -108,7 +112,10 @@ void ResultFiles::save(Snapshot& snapshot) const {
   snapshot.set_text("run/model", settings_.info.model);
   if (files_ != nullptr) save_mark(files_->recorder.commit(), snapshot);
   std::vector<double> memories;
-  for (const WatchedQuantity& watched : *watched_) memories.push_back(watched.quantity->memory());
+  for (const WatchedQuantity& watched : *watched_) {
+    const std::vector<double> memory = watched.quantity->memory();
+    memories.insert(memories.end(), memory.begin(), memory.end());
+  }
   snapshot.set("output/memories", std::move(memories));
 }
 
@@ -144,7 +151,7 @@ void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
   std::optional<output::Pictures> pictures;
-  if (settings_.pictures) pictures.emplace(folder, "run", meshes);
+  if (settings_.pictures) pictures.emplace(folder, "run", meshes, settings_.analyses);
   files_ = std::make_unique<Files>(Files{std::move(recorder), std::move(xdmf), std::move(history),
                                          std::move(pictures), open_fluid()});
 }
@@ -158,11 +165,11 @@ void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
   std::optional<output::Pictures> pictures;
-  if (settings_.pictures) pictures.emplace(folder, "run", meshes);
+  if (settings_.pictures) pictures.emplace(folder, "run", meshes, settings_.analyses);
   std::optional<output::Pictures> fluid = open_fluid();
   for (const auto& step : recorded.steps) {
     xdmf.add_step(step.index, step.time);
-    if (pictures) pictures->add_earlier(step.index, step.time);
+    if (pictures) pictures->add_earlier(step.index, step.time, step.analysis);
     if (fluid) fluid->add_earlier(step.index, step.time);
   }
   files_ = std::make_unique<Files>(Files{std::move(recorder), std::move(xdmf), std::move(history),
@@ -176,21 +183,23 @@ std::vector<double> ResultFiles::evaluate(model::State& state) const {
   return simulation::evaluate(*watched_, *system_, state);
 }
 
-void ResultFiles::add_history(double time, const std::vector<double>& numbers) {
+void ResultFiles::add_history(const output::HistoryRow& row) {
   on_root(system_->comm(), [&] {
-    files_->recorder.add_history(time, numbers);
-    files_->history.add(time, numbers);
+    files_->recorder.add_history(row);
+    files_->history.add(row);
   });
   ++rows_;
 }
 
-void ResultFiles::record(double time, model::State& state) {
+void ResultFiles::record(double time, int analysis, int step, model::State& state) {
   system_->synchronise(state);
   on_root(system_->comm(), [&] {
     output::Frame f = frame_of(system_->model(), settings_.layers, state.next);
     if (settings_.velocities) add_velocities(system_->model(), state, f);
     f.index = static_cast<int>(frames_);
     f.time = time;
+    f.analysis = analysis;
+    f.step = step;
     if (!is_finite(f)) refuse_infinite(meshes_in(system_->model()), f);
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);

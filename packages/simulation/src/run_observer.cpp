@@ -83,11 +83,19 @@ void RunObserver::resume(const Snapshot& snapshot) {
   balance_.row = snapshot.text("run/balance row");
 }
 
-void RunObserver::start(model::State& state) {
+void RunObserver::start_run(model::State& state) {
   if (has_started_) return;
   has_started_ = is_recorded_ = true;
-  record(state.time, state);
+  record(state.time, 0, state);
   add_history(state.time, 0, state);
+}
+
+void RunObserver::start(model::State& state) {
+  if (!has_started_) return start_run(state);
+  // nothing has been solved yet, so there are no reactions, in whatever form they are computed
+  model::State unsolved = state;
+  std::fill(unsolved.multipliers.begin(), unsolved.multipliers.end(), 0.0);
+  add_history(state.time, 0, unsolved);
 }
 
 void RunObserver::add_history(double time, int step, model::State& state) {
@@ -103,12 +111,12 @@ void RunObserver::add_history(double time, int step, model::State& state) {
     }
   }
   const Ledger::Scope scope(ledger_, history_effect_);
-  files_.add_history(time, numbers);
+  files_.add_history({time, numbers, static_cast<int>(number_), step});
 }
 
-void RunObserver::record(double time, model::State& state) {
+void RunObserver::record(double time, int step, model::State& state) {
   const Ledger::Scope scope(ledger_, states_effect_);
-  files_.record(time, state);
+  files_.record(time, static_cast<int>(number_), step, state);
 }
 
 void RunObserver::step(const analysis::StepReport& report, model::State& state) {
@@ -130,7 +138,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     loads_.step(context_->system, state);
     ranges_.step(context_->system);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
-    if (is_recorded_) record(report.time, state);
+    if (is_recorded_) record(report.time, report.step, state);
   } else {
     ++rejected_;
   }
@@ -298,10 +306,10 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
   report_turns(state.time);
   ranges_.report(state.time, findings_);
-  start(state);  // also where a run fails before its first step
-  const Ledger::Scope scope(ledger_, states_effect_);
+  start_run(state);  // also where a run fails before its first step
   // a run that fails leaves its last accepted state
-  if (!is_recorded_) files_.record(state.time, state);
+  if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state);
+  const Ledger::Scope scope(ledger_, states_effect_);
   std::vector<output::NamedScalar> numbers = {
       {"accepted steps", "", static_cast<double>(accepted_)},
       {"rejected steps", "", static_cast<double>(rejected_)},

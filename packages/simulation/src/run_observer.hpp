@@ -32,14 +32,16 @@ struct Balance {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 5;
+  static constexpr int checkpoint_format = 6;
 
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints& checkpoints,
               const DeckSource& source, const EarlierStates& earlier,
               const Imperfections& imperfections, const analysis::ElementTurn& reference_turn,
               Progress progress);
 
-  /// Records the state in which the first analysis begins.
+  /// Records the state in which the first analysis begins, whatever it does.
+  void start_run(model::State& state);
+  /// Adds the state from which an analysis makes steps to the history, and records the first one.
   void start(model::State& state) override;
   /// Goes on from a checkpoint instead.
   void restore(const Snapshot& snapshot);
@@ -81,7 +83,7 @@ class RunObserver final : public analysis::Observer {
   void watch_turns(double time, const model::State& state);
   void report_turns(double time);
   void add_history(double time, int step, model::State& state);
-  void record(double time, model::State& state);
+  void record(double time, int step, model::State& state);
 
   Ledger& ledger_;
   Findings& findings_;

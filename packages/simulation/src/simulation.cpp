@@ -64,6 +64,12 @@ output::RunInfo describe_run(const Options& deck, const model::Model& model,
   return info;
 }
 
+std::vector<std::string> names_of(const std::vector<Options>& entries) {
+  std::vector<std::string> names;
+  for (const Options& entry : entries) names.push_back(entry.name());
+  return names;
+}
+
 }  // namespace
 
 // Shapes that elements are too coarse for before any load.
@@ -147,10 +153,11 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
           : std::make_unique<ServedRun>(p.deck, settings.serve, phase.ports, p.comm);
   // from here on there is something on the disk
   const auto lock = take_folder(p.comm, settings.folder, p.log);
-  ResultFiles files(*phase.system, *p.phases.of(0).model,
-                    {settings.folder, info, output.integer("Every"), output.flag("Pictures"),
-                     layers, output.flag("Velocities")},
-                    phase.watched, from);
+  ResultFiles files(
+      *phase.system, *p.phases.of(0).model,
+      {settings.folder, info, names_of(p.deck.list("Analyses").entries()), output.integer("Every"),
+       output.flag("Pictures"), layers, output.flag("Velocities")},
+      phase.watched, from);
   RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
                        p.imperfections, p.reference_turn,
                        Progress(p.log, settings.quiet, settings.terminal));
@@ -210,6 +217,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     if (!resumes) start_analysis(i, state);
     files.use(*phase.system, phase.watched);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
+    if (!resumes) phase.system->forget_reactions();
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
     const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
@@ -227,7 +235,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   const std::string& type = entry.text("Type");
   if (known.inspections.contains(type)) {
     const auto inspection = known.inspections.make(type, entry);
-    observer.start(state);
+    observer.start_run(state);
     inspection->begin(context, state);
     const analysis::AnalysisReport report = inspection->inspect(context, state);
     observer.finish_analysis(report, state);

@@ -1,3 +1,5 @@
+#include <culm/base/absent.hpp>
+
 #include "live_deck.hpp"
 
 #include <Eigen/Geometry>
@@ -5,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace culm::simulation {
@@ -185,6 +188,26 @@ TEST(MotionQuantities, SpeedAndAzimuthOfARotor) {
     speed_before = run["speed"];
   });
   EXPECT_GT(before, 2.0 * std::numbers::pi) << "a full turn";
+}
+
+// Asked for each component anew, it stays that of the step.
+TEST(MotionQuantities, AccelerationIsTheMeanOfTheStep) {
+  Watching run(turbine(typed("root", "Velocity", set("Node", "blade/first")) +
+                       typed("root acceleration", "Acceleration", set("Node", "blade/first")) +
+                       typed("hub", "Angular Velocity", set("Node", "hub"))));
+  std::optional<Vec3> before;
+  run.run("turn", [&] {
+    const Vec3 velocity = run.vector("root", "v", "xyz");
+    const Vec3 found = run.vector("root acceleration", "a", "xyz");
+    if (before) {
+      EXPECT_LT((found - (velocity - *before) / step).norm(), 1e-9);
+      const double w = run["hub wx"];
+      EXPECT_NEAR(found.norm(), w * w, 0.02 * w * w) << "1 m from the axis";
+    } else {
+      EXPECT_EQ(found, Vec3::Constant(absent)) << "nothing is known of what was before";
+    }
+    before = velocity;
+  });
 }
 
 TEST(MotionQuantities, AnObserverOnTheHubSeesTheBladeAtRest) {

@@ -13,11 +13,14 @@ def __getattr__(name):
 
 
 def history(folder):
-    """The history of a run as a pandas frame, by time or level, number by number as the file has it."""
+    """The history of a run as a pandas frame, by time or level, number by number as the file has it; the last two columns
+    are the number of the analysis in the deck, from 0, and its step, 0 at its start."""
+    import collections
     import pathlib
 
     import pandas
-    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, dtype="float64", float_precision="round_trip")
+    types = collections.defaultdict(lambda: "float64", analysis="int64", step="int64")
+    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, dtype=types, float_precision="round_trip")
 
 
 def read(folder):

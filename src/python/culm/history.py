@@ -18,14 +18,17 @@ def quantity_of(column, quantities):
 
 
 class History:
-    """Columns of history.csv by name, such as 'tip ux [m]', and the levels of its rows. Where a cell is
-    empty, because the quantity does not exist there, stands nan."""
+    """Columns of history.csv by name, such as 'tip ux [m]', and of its rows the levels, the numbers of analyses in the deck
+    and their steps, from 1; 0 is the start of an analysis. Where a cell is empty, because the quantity does not exist there, stands
+    nan."""
 
     def __init__(self, path):
         with open(path, newline="") as file:
             rows = list(csv.reader(file))
-        self.names = rows[0][1:]
+        self.names = rows[0][1:-2]
         self.levels = [float(row[0]) for row in rows[1:]]
+        self.analyses = [int(row[-2]) for row in rows[1:]]
+        self.steps = [int(row[-1]) for row in rows[1:]]
         self.columns = {
             name: [float(row[i + 1] or math.nan) for row in rows[1:]] for i, name in enumerate(self.names)
         }

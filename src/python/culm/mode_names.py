@@ -1,4 +1,4 @@
-"""What moves in a mode, in a few words: the structure, and along which of its axes it bends."""
+"""What moves in a mode, in a few words: the structure, and along which of its axes it bends, or that it twists."""
 
 import numpy
 
@@ -8,7 +8,8 @@ def describe(mesh, shape):
 
     @param mesh   in the reference
     @param shape  (nodes, 6), displacement and rotation; complex for complex modes
-    @return such as 'along d1, 93 %' or, of a body, 'along x, 98 %'; empty if it does not move
+    @return such as 'along d1, 93 %', of a body 'along x, 98 %', of a beam that twists more than it bends
+        'torsion, 97 %', the share of the squared rotations; empty if it does not move
     """
     displacement = shape[:, :3]
     axes, names = numpy.eye(3), "xyz"
@@ -17,6 +18,9 @@ def describe(mesh, shape):
         displacement = displacement - shape[0, :3] - numpy.cross(shape[0, 3:], arm)
         if mesh.directors is not None:
             axes, names = mesh.directors, ("d1", "d2", "d3")
+            twist = _share_of_twist(mesh, shape, displacement)
+            if twist > 0.5:
+                return f"torsion, {100.0 * twist:.0f} %"
     along = numpy.einsum("...i,...ij->...j", displacement, axes)
     shares = numpy.sum(numpy.abs(along) ** 2, axis=0)
     total = shares.sum()
@@ -24,6 +28,19 @@ def describe(mesh, shape):
         return ""
     largest = int(numpy.argmax(shares))
     return f"along {names[largest]}, {100.0 * shares[largest] / total:.0f} %"
+
+
+def _share_of_twist(mesh, shape, displacement):
+    """Of the squared rotations against the first node those about d3; 0 where rotations are small beside displacements,
+    as in a mode along the axis."""
+    turns = numpy.einsum("...i,...ij->...j", shape[:, 3:] - shape[0, 3:], mesh.directors)
+    squares = numpy.sum(numpy.abs(turns) ** 2, axis=0)
+    length = numpy.linalg.norm(mesh.position - mesh.position[0], axis=1).max()
+    whole = numpy.sum(numpy.abs(shape[:, :3]) ** 2) + length**2 * numpy.sum(numpy.abs(shape[:, 3:]) ** 2)
+    noticeable = max(1e-6 * numpy.sum(numpy.abs(displacement) ** 2), 1e-12 * whole)
+    if squares.sum() * length**2 <= noticeable:
+        return 0.0
+    return squares[2] / squares.sum()
 
 
 def name_modes(meshes, shapes, remarks):

@@ -132,7 +132,7 @@ class Measure:
 
 def _last_stretch(levels):
     """The levels since they last went back or stood still."""
-    start = max((i + 1 for i in range(len(levels) - 1) if levels[i + 1] < levels[i]), default=0)
+    start = max((i + 1 for i in range(len(levels) - 1) if levels[i + 1] <= levels[i]), default=0)
     return levels[start:]
 
 

@@ -20,7 +20,8 @@ class State:
     path: pathlib.Path
     index: int  # number of the record
     time: float  # [s], or level
-    analysis: str  # that made it; "" of the state at the start, and where the run does not tell
+    analysis: str  # that made it, or that begins with it
+    step: int  # of the analysis; 0 is its start
 
     def position(self, structure):
         """(nodes, 3) [m]"""
@@ -89,7 +90,7 @@ class Run:
         self.scalars = results.scalars()
         self.findings = results.findings()
         self.report = results.report()
-        self.history = self._read_history(results)
+        self.history = self._read_history()
         self.states = self._read_states()
         self.tables = {
             name.replace(": ", "/"): _frame(columns, rows, remarks)
@@ -124,34 +125,23 @@ class Run:
         for (name, part), style in zip(_by_analysis(self.columns(quantity)), _STYLES * len(self.analyses)):
             times = part.index.get_level_values("time")
             for number, column in enumerate(part.columns):
-                axes.plot(times, part[column], style, color=f"C{number}", label=f"{column}, {name}" if name else column)
+                axes.plot(times, part[column], style, color=f"C{number}", label=f"{column}, {name}")
         axes.set(xlabel="time [s] or level", title=quantity)
         axes.legend(fontsize="small")
         return axes
 
-    def _read_history(self, results):
+    def _read_history(self):
         frame = pandas.read_csv(self.folder / "history.csv", float_precision="round_trip")
-        names, numbers = [""], [0]  # of the start
-        for step in results.steps():
-            if step.analysis is None:
-                break
-            names.append(self.analyses[step.analysis])
-            numbers.append(step.step)
-        if len(names) != len(frame):  # a run that was killed, or has not ended, or of an earlier version
-            names, numbers = [""] * len(frame), range(len(frame))
-        index = pandas.MultiIndex.from_arrays([names, numbers, frame["time"]], names=["analysis", "step", "time"])
-        return frame.drop(columns="time").set_index(index)
+        frame["analysis"] = [self.analyses[number] for number in frame["analysis"]]
+        return frame.set_index(["analysis", "step", "time"])
 
     def _read_states(self):
-        """The last state of each analysis is recorded, so times in their order tell the steps."""
         with h5py.File(self._path) as file:
-            stamps = sorted((int(s.attrs["index"]), float(s.attrs["time"])) for s in file["steps"].values())
-        rows = iter([(analysis, time) for analysis, _, time in self.history.index])
-        states = []
-        for index, time in stamps:
-            analysis = next((name for name, at in rows if at == time), "")
-            states.append(State(self._path, index, time, analysis))
-        return states
+            states = [
+                State(self._path, int(s["index"]), float(s["time"]), self.analyses[int(s["analysis"])], int(s["step"]))
+                for s in (group.attrs for group in file["steps"].values())
+            ]
+        return sorted(states, key=lambda state: state.index)
 
 
 _STYLES = ["-", "--", ":", "-."]
@@ -162,7 +152,7 @@ def _by_analysis(frame):
     names = frame.index.get_level_values("analysis")
     for name in dict.fromkeys(names):
         part = frame[names == name]
-        if name or len(part) > 1:  # the start alone is a point
+        if len(part) > 1:  # a start alone is a point
             yield name, part
 
 

@@ -81,7 +81,7 @@ def _add_histories(page, results, folder, drawing):
     if history is None or not history.names or len(history.levels) < 2:
         return
     page.heading("Histories")
-    parts = _parts(results, len(history.levels))
+    parts = _parts(results, history)
     quantities = results.quantities()
 
     def title_and_unit(column):
@@ -101,18 +101,15 @@ def _add_histories(page, results, folder, drawing):
         _add_figure(page, drawing, figure, f"histories of the quantities of the deck, {name}")
 
 
-def _parts(results, count):
-    """Name and type of each analysis that made steps, and its rows of the history, of the first one with the start. The
-    history as a whole where a run does not tell."""
-    steps = results.steps()
-    if len(steps) + 1 != count or any(step.analysis is None for step in steps):
-        return [("", "", slice(0, count))]
+def _parts(results, history):
+    """Name and type of each analysis that made steps, and its rows of the history."""
     analyses = results.analyses()
     parts = []
     first = 0
-    for number, own in itertools.groupby(steps, key=lambda step: step.analysis):
-        last = max(first, 1) + len(list(own))
-        parts.append((*analyses[number], slice(first, last)))
+    for number, rows in itertools.groupby(history.analyses):
+        last = first + len(list(rows))
+        if last > first + 1:  # a start alone is a point
+            parts.append((*analyses[number], slice(first, last)))
         first = last
     return parts
 

@@ -114,7 +114,7 @@ class Results:
             ]
 
     def history(self):
-        """Rows of time and quantities; None where a quantity does not exist."""
+        """Rows of time, quantities, number of the analysis and step; None where a quantity does not exist."""
         with h5py.File(self.path) as file:
             return _rows(file["history/values"])
 

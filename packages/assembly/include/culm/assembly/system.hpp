@@ -6,6 +6,7 @@
 #include <culm/base/snapshot.hpp>
 #include <culm/model/model.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -147,6 +148,8 @@ class System {
   /// there: of the last evaluation where they take unknowns away, of the state's multipliers where
   /// they are equations. Call synchronise first; the same on all ranks.
   Vec6 reaction(int node, const model::State& state) const;
+  /// No evaluation counts any more, as where another analysis begins.
+  void forget_reactions() { std::fill(reactions_.begin(), reactions_.end(), 0.0); }
   /// The share of one constraint that is kept as equations, by its name.
   Vec6 reaction_of(const std::string& constraint, int node, const model::State& state) const;
 

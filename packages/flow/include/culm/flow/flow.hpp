@@ -37,7 +37,7 @@ using SharedFlow = std::shared_ptr<const Flow>;
 /// Types of the deck's list "Flows", made when all structures are there.
 using FlowRegistry = Registry<SharedFlow, model::BuildContext&>;
 
-/// All types of this package: Uniform, Power Law, Log Law, Table, Gust, TurbSim Box.
+/// All types of this package: Uniform, Power Law, Log Law, Table, Gust, TurbSim Box, Mann Box.
 void register_flows(FlowRegistry& registry);
 
 }  // namespace culm::flow

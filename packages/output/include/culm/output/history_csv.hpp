@@ -8,25 +8,24 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace culm::output {
 
-/// History of a run as a text table: first line `time,<name> [unit],...`, then one line per step.
-/// Numbers have 17 digits and read back exactly; the cell of one that is `absent` is empty. Each
-/// line is in the file when add() returns.
+/// History of a run as a text table: first line `time,<name> [unit],...,analysis,step`, then one
+/// line per row. Numbers have 17 digits and read back exactly; the cell of one that is `absent` is
+/// empty. Each line is in the file when add() returns.
 class HistoryCsv {
  public:
   /// Replaces a file of this name. Throws FileError.
-  /// @param rows  of an earlier run, to go on with: time and values, row after row
+  /// @param rows  of an earlier run, to go on with: as Recorded::history
   HistoryCsv(std::filesystem::path path, const std::vector<HistoryColumn>& columns,
              std::span<const double> rows = {});
 
-  /// @param time    s
-  /// @param values  one per column
   /// Throws FileError, also if somebody removed or replaced the file.
-  void add(double time, std::span<const double> values);
+  void add(const HistoryRow& row);
 
  private:
   struct Closer {

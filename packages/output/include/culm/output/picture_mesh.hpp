@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,6 +105,8 @@ struct NamedArray {
 struct Frame {
   int index = 0;                           ///< number of the recorded step, from 0; increasing
   double time = 0.0;                       ///< s
+  int analysis = 0;                        ///< number in the deck, from 0
+  int step = 0;                            ///< of the analysis, from 1; 0 is its start
   std::vector<StructureState> structures;  ///< in the order of the meshes
   std::vector<NamedArray> arrays;          ///< further numbers of this step, kept in HDF5 only
 };
@@ -112,6 +115,14 @@ struct Frame {
 struct HistoryColumn {
   std::string name;
   std::string unit;
+};
+
+/// One row of the history table.
+struct HistoryRow {
+  double time = 0.0;               ///< [s], or level
+  std::span<const double> values;  ///< one per column
+  int analysis = 0;                ///< number in the deck, from 0
+  int step = 0;                    ///< of the analysis, from 1; 0 is its start
 };
 
 /// A number that a run reports at its end.

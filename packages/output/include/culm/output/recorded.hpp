@@ -25,9 +25,10 @@ struct Recorded {
   struct Step {
     int index = 0;
     double time = 0.0;
+    int analysis = 0;
   };
   std::vector<Step> steps;      ///< in the order of their indices
-  std::vector<double> history;  ///< time and values, row after row
+  std::vector<double> history;  ///< time, values, analysis, step, row after row
 };
 
 /// What a result file holds up to a mark, after recover_run(). Throws FileError if the file cannot

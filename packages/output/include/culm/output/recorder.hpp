@@ -33,9 +33,12 @@ struct RunInfo {
 ///   each state holds of the structure, in which table and there from which row to which
 /// - /topologies/<group>: cells of structures of one type with the same fields, as XDMF wants them
 /// - /steps/000000: tables position, displacement, director1..3, resultants, node and cell arrays,
-///   of all structures that have them, one after the other; if numbers of columns differ there is
+///   of all structures that have them, one after the other; attributes index, time, number of the
+///   analysis, step; if numbers of columns differ there is
 ///   more than one, as resultants%2F2; whatever Frame::arrays holds in /steps/000000/%arrays
-/// - /history/values: one row per add_history(); attributes names, units; first column time
+/// - /history/values: one row per add_history(); attributes names, units; first column time, the
+/// last
+///   two the number of the analysis and the step
 /// - /report: text, scalars/<name>, and tables, attributes as below; findings/<number>, with
 ///   attributes grade ("broken", "warning"), kind, text, analysis, time
 /// - /analyses/<analysis>: attributes state, content_sum (a checksum of the rest); one table per
@@ -74,9 +77,7 @@ class Recorder {
   void record(const Frame& frame);
 
   /// Adds a row to the history.
-  /// @param time    s
-  /// @param values  one per column given to the constructor
-  void add_history(double time, std::span<const double> values);
+  void add_history(const HistoryRow& row);
 
   /// Writes what an analysis found beside its steps, or replaces it.
   void write_results(const AnalysisResults& results);

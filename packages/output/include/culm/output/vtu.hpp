@@ -5,7 +5,9 @@
 #include <culm/output/skin.hpp>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,9 @@ namespace culm::output {
 ///
 ///     <stem>.pvd         all steps: centre lines, nodes and mid-surfaces
 ///     <stem>_skin.pvd    all steps: surface of structures with outlines; only if there are any
+///     <stem>.<analysis>.pvd, <stem>_skin.<analysis>.pvd   the same of each analysis that has
+///     steps,
+///                        if there are several in the deck: their times may overlap
 ///     <stem>_vtu/        per step and structure type one file of each kind
 ///
 /// Point data: displacement, director1..3, node arrays. Cell data: structure (its number; the names
@@ -24,8 +29,9 @@ namespace culm::output {
 class Pictures {
  public:
   /// Throws FileError; InternalError if a mesh contradicts itself.
+  /// @param analyses  names of those of the deck; none where collections of each are not wanted
   Pictures(const std::filesystem::path& folder, const std::string& stem,
-           std::vector<StructureMesh> meshes);
+           std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses = {});
 
   /// Writes the files of one step. The collections may lag behind, see GrowingFile. Throws
   /// FileError.
@@ -33,7 +39,8 @@ class Pictures {
 
   /// Lists a step of an earlier run whose files are there; those that are not are left out. Throws
   /// FileError.
-  void add_earlier(int index, double time);
+  /// @param analysis  its number in the deck
+  void add_earlier(int index, double time, int analysis = 0);
 
   /// Brings the collections up to date, as at the end of a run. Throws FileError, also if somebody
   /// removed or replaced a file that was written.
@@ -47,7 +54,16 @@ class Pictures {
     std::vector<std::size_t> skinned;  // those of them that have a skin
   };
 
+  /// The files that list pictures, of the centres or of the skins.
+  struct Collections {
+    std::string stem;
+    std::unique_ptr<GrowingFile> whole;
+    std::map<int, GrowingFile> parts;  ///< by the number of the analysis
+  };
+
   std::string stem(const Group& group, int index) const;
+  Collections begin(const std::string& stem) const;
+  void list(Collections& collections, int analysis, const std::string& entry);
   void write_picture(const std::string& file, const std::string& text);
   void make_groups();
   void make_skins();
@@ -60,8 +76,9 @@ class Pictures {
   std::vector<std::vector<Vec3>> reference_skins_;
   std::vector<Group> groups_;
   std::vector<std::pair<std::string, FileIdentity>> written_;  ///< pictures, in the folder
-  GrowingFile collection_;
-  std::unique_ptr<GrowingFile> skin_collection_;
+  std::vector<std::string> analyses_;                          ///< parts of file names
+  Collections centres_;
+  std::optional<Collections> skins_listed_;
 };
 
 }  // namespace culm::output

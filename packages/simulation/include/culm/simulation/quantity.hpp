@@ -7,6 +7,7 @@
 #include <culm/output/picture_mesh.hpp>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,12 @@ class Quantity {
   /// Appends the numbers. Called on all ranks, with state.next up to date on all of them.
   virtual void evaluate(const assembly::System& system, const model::State& state,
                         std::vector<double>& numbers) const = 0;
-  /// What it remembers of earlier states, such as turns that were counted.
-  virtual double memory() const { return 0.0; }
+  /// What it remembers of earlier states, such as turns that were counted; always as many numbers.
+  virtual std::vector<double> memory() const { return {}; }
+  /// Takes it back.
+  virtual void restore(std::span<const double> /*memory*/) {}
   /// Why a model whose unknowns are known does not have it; empty if it does.
   virtual std::string objection(const model::Model&) const { return {}; }
-  virtual void restore(double) {}
 };
 
 /// A quantity under the name that the deck gives it.

@@ -35,6 +35,7 @@ output::RecordMark restore_mark(const Snapshot& snapshot);
 struct ResultSettings {
   std::filesystem::path folder;  ///< which is there
   output::RunInfo info;
+  std::vector<std::string> analyses;  ///< their names
   int every = 1;
   bool pictures = true;
   LayerSettings layers = {};
@@ -63,12 +64,13 @@ class ResultFiles {
   std::vector<output::HistoryColumn> columns() const;
   /// The watched quantities of a state.
   std::vector<double> evaluate(model::State& state) const;
-  /// Adds a row of them to the history.
-  void add_history(double time, const std::vector<double>& numbers);
+  /// Adds a row to the history.
+  void add_history(const output::HistoryRow& row);
   /// Whether a step is one of those to be recorded.
   bool is_due(int step) const { return step % settings_.every == 0; }
   /// Records a whole state.
-  void record(double time, model::State& state);
+  /// @param analysis, step  as in output::HistoryRow
+  void record(double time, int analysis, int step, model::State& state);
   /// Records what an analysis says at its end; its pictures and tables go to a folder of its name.
   /// @param state up to date on all ranks
   void add_results(const std::string& name, const analysis::AnalysisReport& report,
