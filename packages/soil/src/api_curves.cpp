@@ -7,10 +7,21 @@
 namespace culm::soil {
 namespace {
 
-// ln cosh x, without overflow
+constexpr double far = 20.0;  // where cosh x is exp|x| / 2 to rounding
+
+// ln cosh x, without overflow, with all digits of small values
 double log_cosh(double x) {
   const double a = std::abs(x);
-  return a + std::log1p(std::exp(-2.0 * a)) - std::numbers::ln2;
+  if (a > far) return a - std::numbers::ln2;
+  const double half = std::sinh(0.5 * a);
+  return std::log1p(2.0 * half * half);
+}
+
+// ln cosh b - ln cosh a: cosh b - cosh a = 2 sinh (b + a)/2 sinh (b - a)/2
+double log_cosh_between(double a, double b) {
+  if (std::abs(b) < std::abs(a)) return -log_cosh_between(b, a);
+  if (std::abs(b) > far) return log_cosh(b) - log_cosh(a);
+  return std::log1p(2.0 * std::sinh(0.5 * (b + a)) * std::sinh(0.5 * (b - a)) / std::cosh(a));
 }
 
 double with_sign(double value, double of) { return of < 0.0 ? -value : value; }
@@ -48,6 +59,11 @@ double SandCurve::slope(double y) const {
 
 double SandCurve::energy(double y) const {
   return limit_ * limit_ / stiffness_ * log_cosh(stiffness_ * y / limit_);
+}
+
+double SandCurve::energy_between(double from, double to) const {
+  const double scale = stiffness_ / limit_;
+  return limit_ / scale * log_cosh_between(scale * from, scale * to);
 }
 
 double ClayCurve::ultimate(const Clay& clay, double X, double D) {

@@ -35,7 +35,7 @@ Curve::Mean Curve::mean(double from, double to) const {
   constexpr double close = 1e-5;
   const double way = to - from;
   if (std::abs(way) > close * std::max(std::abs(from), std::abs(to))) {
-    const double value = (energy(to) - energy(from)) / way;
+    const double value = energy_between(from, to) / way;
     return {value, (force(to) - value) / way};
   }
   Mean mean;
@@ -49,6 +49,13 @@ Curve::Mean Curve::mean(double from, double to) const {
 }
 
 TableCurve::TableCurve(std::vector<double> displacements, std::vector<double> forces, Sides sides)
-    : table_(extended(displacements, forces, sides)) {}
+    : table_(extended(displacements, forces, sides)), first_(displacements[1]) {}
+
+// The integral counts from the end of the table, beside which that of a small way is lost.
+double TableCurve::energy_between(double from, double to) const {
+  const bool is_line = from >= 0.0 && to >= 0.0 && std::max(from, to) <= first_;
+  if (is_line) return 0.5 * (force(from) + force(to)) * (to - from);
+  return energy(to) - energy(from);
+}
 
 }  // namespace culm::soil

@@ -104,5 +104,17 @@ TEST(Curves, HaveExactMeans) {
   }
 }
 
+// Near zero a curve is a line, and its mean the half sum of the forces, however small the way.
+TEST(Curves, KeepTheDigitsOfSmallMeans) {
+  for (const SharedCurve& curve : curves()) {
+    for (const double y : {1e-7, 1e-9, 1e-12}) {
+      for (const double to : {0.0, 0.5 * y, 3.0 * y}) {
+        const double mean = 0.5 * (curve->force(y) + curve->force(to));
+        EXPECT_NEAR(curve->mean(y, to).value, mean, 1e-10 * mean);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace culm::soil

@@ -43,6 +43,8 @@ class SandCurve final : public Curve {
   static double ultimate(const Sand& sand, double depth, double diameter);
 
  private:
+  double energy_between(double from, double to) const override;
+
   double limit_ = 0.0;      // A p_u
   double stiffness_ = 0.0;  // k X
 };

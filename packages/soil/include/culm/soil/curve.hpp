@@ -24,6 +24,10 @@ class Curve {
     double derivative = 0.0;
   };
   Mean mean(double from, double to) const;
+
+ protected:
+  /// Of the energies at two displacements, with all its digits where both are small.
+  virtual double energy_between(double from, double to) const { return energy(to) - energy(from); }
 };
 using SharedCurve = std::shared_ptr<const Curve>;
 
@@ -39,7 +43,10 @@ class TableCurve final : public Curve {
   double energy(double displacement) const override { return table_.integral(displacement); }
 
  private:
+  double energy_between(double from, double to) const override;
+
   load::PiecewiseLinear table_;
+  double first_ = 0.0;  // up to which displacement it is a line from zero
 };
 
 /// force = stiffness times displacement
@@ -51,6 +58,10 @@ class LinearCurve final : public Curve {
   double energy(double y) const override { return 0.5 * stiffness_ * y * y; }
 
  private:
+  double energy_between(double from, double to) const override {
+    return 0.5 * stiffness_ * (to + from) * (to - from);
+  }
+
   double stiffness_;
 };
 
