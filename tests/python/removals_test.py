@@ -97,5 +97,73 @@ class Removals(unittest.TestCase):
         self.assertEqual(settings(found, "strain damping"), [["Structures/a/Strain Damping={0, 0, 0, 0, 0, 0}"]])
 
 
+class RemovalsInMedia(unittest.TestCase):
+    def test_waves_shrink_and_currents_stop(self):
+        sea = {"Type": "Irregular Waves", "Height": "6", "Stretching": "Wheeler"}
+        current = entry("Current", {"Type": "Table", "Speeds": "{1, 0.5}"})
+        components = {"Type": "Wave Components", "Heights": "{1, 2}", "Stretching": "None"}
+        flows = entry("sea", sea, current) + entry("swell", components) + entry("pool", {"Type": "Still Water"})
+        found = removals.find(deck(entry("Flows", {}, flows)))
+        self.assertEqual(settings(found, "waves"), [["Flows/sea/Height=6e-06"], ["Flows/swell/Heights={1e-06, 2e-06}"]])
+        self.assertEqual(settings(found, "stretching of the waves"), [["Flows/sea/Stretching=None"]])
+        self.assertEqual(settings(found, "current"), [["Flows/sea/Current/Speeds={0.0, 0.0}"]])
+
+    def test_members_lose_buoyancy_drag_mass_and_growth(self):
+        member = {"Type": "Morison", "Buoyancy": "true", "Drag": "1", "Drags": "{1, 0.7}", "Axial Drag": "0", "End Drag": "0.5"}
+        member |= {"Added Mass": "1", "Axial Added Mass": "0", "End Added Mass": "0", "Growth": "0.1"}
+        found = removals.find(deck(entry("Loads", {}, entry("waves", member))))
+        self.assertEqual(settings(found, "buoyancy"), [["Loads/waves/Buoyancy=false"]])
+        self.assertEqual(settings(found, "drag of the water"), [["Loads/waves/Drags={0.0, 0.0}", "Loads/waves/End Drag=0.0"]])
+        self.assertEqual(settings(found, "added mass"), [["Loads/waves/Added Mass=0.0"]])
+        self.assertEqual(settings(found, "growth"), [["Loads/waves/Growth=0.0"]])
+
+    def test_rotors_follow_at_once(self):
+        rotor = {"Type": "Rotor", "Induction": "Dynamic", "Losses": "{Tip}", "Yaw": "None"}
+        found = removals.find(deck(entry("Loads", {}, entry("rotor", rotor))))
+        self.assertEqual(settings(found, "dynamic inflow"), [["Loads/rotor/Induction=Steady"]])
+        self.assertEqual(settings(found, "losses of tip and hub"), [["Loads/rotor/Losses={}"]])
+        self.assertEqual(settings(found, "skewed wake"), [])
+
+    def test_blades_lose_their_lag_together(self):
+        strip = {"Type": "Strip", "Lag": "Oye", "Apparent Mass": "false", "Chords": "{1, 2}"}
+        found = removals.find(deck(entry("Loads", {}, entry("a", strip) + entry("b", strip))))
+        self.assertEqual(settings(found, "lag of the air"), [["Loads/a/Lag=None", "Loads/b/Lag=None"]])
+
+    def soil(self, curve):
+        pile = {**BEAM, "Order": "2"}
+        soil = {"Type": "Soil", "Structure": "pile", "Ground": "{0, 0, -20}", "Down": "{0, 0, -1}"}
+        body = entry("Structures", {}, entry("pile", pile, entry("Curve", curve)))
+        body += entry("Loads", {}, entry("soil", soil))
+        return deck(body + entry("Analyses", {}, entry("start", {"Type": "Static", "Inactive": "{push}"})))
+
+    def test_soil_becomes_rigid(self):
+        line = {"Type": "Polyline", "Points": "{0, 0, -30, 0, 0, -10, 0, 0, 0}", "Elements": "{2, 1}"}
+        found = removals.find(self.soil(line))
+        self.assertEqual(
+            settings(found, "flexibility of the soil"),
+            [[
+                'Node Sets/rigid ground of soil/Nodes={"pile/0", "pile/1", "pile/2"}',
+                "Constraints/rigid ground of soil/Type=Rigid Support",
+                "Constraints/rigid ground of soil/Node=rigid ground of soil",
+                'Analyses/start/Inactive={"push", "soil"}',
+            ]],
+        )
+        self.assertEqual(settings(found, "soil"), [])
+
+    def test_soil_around_a_curve_goes_as_a_load(self):
+        found = removals.find(self.soil({"Type": "Arc", "Elements": "4"}))
+        self.assertEqual(settings(found, "flexibility of the soil"), [])
+        self.assertEqual(settings(found, "soil"), [['Analyses/start/Inactive={"push", "soil"}']])
+
+    def test_friction_gradients_and_yielding_go(self):
+        loads = entry("bed", {"Type": "Plane Contact", "Friction": "0.3", "Damping": "0"})
+        loads += entry("sun", {"Type": "Temperature", "Gradient": "{0, 150}"})
+        steel = entry("steel", {"Type": "Isotropic"}, entry("Plasticity", {"Yield Stress": "2e8"}))
+        found = removals.find(deck(entry("Loads", {}, loads) + entry("Materials", {}, steel)))
+        self.assertEqual(settings(found, "friction"), [["Loads/bed/Friction=0"]])
+        self.assertEqual(settings(found, "gradient of temperature"), [["Loads/sun/Gradient={0.0, 0.0}"]])
+        self.assertEqual(settings(found, "yielding"), [["Materials/steel/Plasticity/Yield Stress=200000000000000.0"]])
+
+
 if __name__ == "__main__":
     unittest.main()

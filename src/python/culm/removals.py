@@ -4,17 +4,8 @@ A finder looks at a resolved deck and yields removals. To add an effect, write a
 FINDERS.
 """
 
-import dataclasses
-
-LIGHT = 1e-6  # factor on an inertia that stands for none
-
-
-@dataclasses.dataclass
-class Removal:
-    effect: str
-    where: str  # structures, loads or sections it is taken from
-    settings: list  # path=value
-    note: str = ""  # what 'off' means where it is not exactly that
+from . import removals_in_media
+from .removal import LIGHT, Removal, array, inactive, of_types, parameters, words
 
 
 def find(deck):
@@ -24,14 +15,14 @@ def find(deck):
 
 def fidelities(deck):
     """Shear and extension, large rotations, all flexibility; beams that are alike go together."""
-    words = {
+    fidelity = {
         "shear and extension": ("Kirchhoff", lambda beam: beam["Element"] == "Director"),
         "large rotations": ("Linear", lambda beam: beam["Element"] == "Director"),
         "flexibility": ("Rigid", lambda beam: True),
     }
     for names in _alike(deck):
-        beam = _parameters(deck, f"Structures/{names[0]}")
-        for effect, (word, fits) in words.items():
+        beam = parameters(deck, f"Structures/{names[0]}")
+        for effect, (word, fits) in fidelity.items():
             if beam["Fidelity"] == "Full" and fits(beam):
                 settings = [f"Structures/{name}/Fidelity={word}" for name in names]
                 yield Removal(effect, ", ".join(names), settings)
@@ -39,7 +30,7 @@ def fidelities(deck):
 
 def fidelities_of_shells(deck):
     """Large rotations, where materials are linear; all flexibility."""
-    for name in _types(deck, "Structures", "Shell"):
+    for name in of_types(deck, "Structures", "Shell"):
         if deck.parameters[f"Structures/{name}/Fidelity"] != "Full":
             continue
         if not _stretches_far(deck, name):
@@ -50,27 +41,27 @@ def fidelities_of_shells(deck):
 def torsion(deck):
     """Twist, held by constraints as shear and extension are."""
     for names in _alike(deck):
-        beam = _parameters(deck, f"Structures/{names[0]}")
+        beam = parameters(deck, f"Structures/{names[0]}")
         if beam["Element"] == "Director" and beam["Fidelity"] in ("Full", "Kirchhoff") and beam["Torsion"] == "true":
             yield Removal("torsion", ", ".join(names), [f"Structures/{name}/Torsion=false" for name in names])
 
 
 def rotary_inertia(deck):
     """Inertia of sections against turning about their own centres of mass, where something moves."""
-    if not _types(deck, "Analyses", "Dynamic", "Modal", "Campbell", "Flutter"):
+    if not of_types(deck, "Analyses", "Dynamic", "Modal", "Campbell", "Flutter"):
         return
     for names in _alike(deck):
-        beam = _parameters(deck, f"Structures/{names[0]}")
-        sections = [beam["Section"]] if beam.get("Section") else _words(beam.get("Sections") or "{}")
+        beam = parameters(deck, f"Structures/{names[0]}")
+        sections = [beam["Section"]] if beam.get("Section") else words(beam.get("Sections") or "{}")
         factor = float(beam["Rotary Inertia"])
-        if factor > LIGHT and any(_weighs(_parameters(deck, f"Sections/{name}")) for name in sections):
+        if factor > LIGHT and any(_weighs(parameters(deck, f"Sections/{name}")) for name in sections):
             settings = [f"Structures/{name}/Rotary Inertia={LIGHT * factor!r}" for name in names]
             yield Removal("rotary inertia", ", ".join(names), settings, f"times {LIGHT:g}")
 
 
 def enhanced_strains(deck):
-    for name in _types(deck, "Structures", "Shell"):
-        shell = _parameters(deck, f"Structures/{name}")
+    for name in of_types(deck, "Structures", "Shell"):
+        shell = parameters(deck, f"Structures/{name}")
         for key, effect in (("Enhanced Membrane", "membrane"), ("Enhanced Thickness", "thickness")):
             if shell[key] != "None":
                 yield Removal(f"enhanced {effect} strain", name, [f"Structures/{name}/{key}=None"])
@@ -79,7 +70,7 @@ def enhanced_strains(deck):
 
 
 def thickness_stretch(deck):
-    for name in _types(deck, "Structures", "Shell"):
+    for name in of_types(deck, "Structures", "Shell"):
         entry = f"Constraints/{name} keeps its thickness"
         settings = [f"{entry}/Type=Inextensible Director", f"{entry}/Node={name}"]
         yield Removal("thickness stretch", name, settings)
@@ -88,11 +79,13 @@ def thickness_stretch(deck):
 def loads(deck):
     """Each load by itself: weight, frames, springs, dampers, forces."""
     for name in deck.names_in("Loads"):
+        if removals_in_media.is_ground(deck, name):
+            continue
         kind = deck.parameters[f"Loads/{name}/Type"].lower()
         settings = [
-            f"Analyses/{analysis}/Inactive={_array(_list(deck, analysis) + [name])}"
+            f"Analyses/{analysis}/Inactive={array(inactive(deck, analysis) + [name])}"
             for analysis in deck.names_in("Analyses")
-            if name not in _list(deck, analysis)
+            if name not in inactive(deck, analysis)
         ]
         if settings:
             yield Removal(kind, name, settings)
@@ -119,7 +112,7 @@ def dissipation(deck):
         groups += [[f"Materials/{name}"] for name in deck.names_in("Materials")]
         for group in groups:
             paths = [f"{place}/{key}" for place in group]
-            if any(float(number) > 0.0 for number in _words(deck.parameters.get(paths[0]) or "0")):
+            if any(float(number) > 0.0 for number in words(deck.parameters.get(paths[0]) or "0")):
                 where = ", ".join(place.split("/")[1] for place in group)
                 yield Removal(key.lower(), where, [f"{path}={none}" for path in paths])
 
@@ -136,7 +129,7 @@ def prestress(deck):
     names = deck.names_in("Analyses")
     if len(names) < 2:
         return
-    for name in _types(deck, "Analyses", "Modal"):
+    for name in of_types(deck, "Analyses", "Modal"):
         if name == names[-1] and not deck.parameters.get(f"Analyses/{name}/Start From"):
             yield Removal("geometric stiffness", name, [f"Analyses/{name}/Start From=Reference"])
 
@@ -154,14 +147,15 @@ FINDERS = [
     dissipation,
     two_way_coupling,
     prestress,
+    *removals_in_media.FINDERS,
 ]
 
 
 def _alike(deck):
     """Beams whose lists differ in their curves only, as lists of names."""
     groups = {}
-    for name in _types(deck, "Structures", "Beam"):
-        groups.setdefault(tuple(sorted(_parameters(deck, f"Structures/{name}").items())), []).append(name)
+    for name in of_types(deck, "Structures", "Beam"):
+        groups.setdefault(tuple(sorted(parameters(deck, f"Structures/{name}").items())), []).append(name)
     return groups.values()
 
 
@@ -171,32 +165,6 @@ def _weighs(section):
 
 def _stretches_far(deck, shell):
     """Whether a layer of a shell is of a material for large strains."""
-    entry = _parameters(deck, f"Structures/{shell}")
-    names = [entry["Material"]] if entry.get("Material") else _words(entry.get("Materials") or "{}")
+    entry = parameters(deck, f"Structures/{shell}")
+    names = [entry["Material"]] if entry.get("Material") else words(entry.get("Materials") or "{}")
     return any(deck.parameters.get(f"Materials/{name}/Type") == "Neo-Hooke" for name in names)
-
-
-def _parameters(deck, path):
-    """Parameters of a list by name, without those of lists below."""
-    start = path + "/"
-    return {
-        one[len(start) :]: value
-        for one, value in deck.parameters.items()
-        if one.startswith(start) and "/" not in one[len(start) :]
-    }
-
-
-def _types(deck, path, *types):
-    return [name for name in deck.names_in(path) if deck.parameters.get(f"{path}/{name}/Type") in types]
-
-
-def _list(deck, analysis):
-    return _words(deck.parameters.get(f"Analyses/{analysis}/Inactive") or "{}")
-
-
-def _words(text):
-    return [word.strip().strip('"') for word in text.strip("{}").split(",") if word.strip()]
-
-
-def _array(names):
-    return "{" + ", ".join(f'"{name}"' for name in names) + "}"
