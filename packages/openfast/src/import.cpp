@@ -6,6 +6,7 @@
 
 #include "beamdyn_deck.hpp"
 #include "headings.hpp"
+#include "offshore.hpp"
 #include "turbine_deck.hpp"
 
 #include <utility>
@@ -74,11 +75,14 @@ Imported import_file(const std::filesystem::path& path, const TurbineOptions& op
     throw InputError(file.where(0, ""),
                      "this is a blade or tower file of ElastoDyn: give the main file "
                      "that names it");
+  } else if (auto deck = import_offshore(file, report)) {
+    imported.deck = std::move(*deck);
   } else {
     throw InputError(
         file.where(0, ""),
         "not a file that can be imported: a driver or primary file of BeamDyn, a main file "
-        "of ElastoDyn, or the file that names both (.fst)");
+        "of ElastoDyn, the file that names both (.fst), or a file of SubDyn, HydroDyn, SeaState "
+        "or MoorDyn");
   }
   imported.report = report.text("Import of " + path.string());
   return imported;

@@ -133,6 +133,16 @@ bool InputFile::flag(const std::string& keyword) {
 
 std::string InputFile::text(const std::string& keyword) { return get(keyword).values.front(); }
 
+std::vector<double> InputFile::numbers(const std::string& keyword) {
+  std::vector<double> numbers;
+  for (const std::string& value : get(keyword).values) {
+    const auto number = find_number(value);
+    if (!number) throw InputError(where(keyword), "must be numbers, got '" + value + "'");
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::filesystem::path InputFile::file(const std::string& keyword) {
   std::string name = text(keyword);
   std::replace(name.begin(), name.end(), '\\', '/');
@@ -187,6 +197,38 @@ std::vector<NumberRow> InputFile::numbers_below(const std::string& heading) cons
     if (!row.values.empty()) rows.push_back(std::move(row));
   }
   return rows;
+}
+
+std::vector<TextRow> InputFile::rows_from(std::size_t line) const {
+  std::vector<TextRow> rows;
+  for (std::size_t i = line; i < lines_.size() && !is_heading(lines_[i]); ++i) {
+    TextRow row{static_cast<int>(i) + 1, {}};
+    for (const Word& word : split_words(lines_[i])) {
+      if (!word.quoted && (word.text.front() == '!' || word.text.front() == '#')) break;
+      row.words.push_back(word.text);
+    }
+    if (!row.words.empty()) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<TextRow> InputFile::rows_after(const std::string& keyword) {
+  return rows_from(static_cast<std::size_t>(get(keyword).line));
+}
+
+std::vector<TextRow> InputFile::rows_below(const std::string& heading) const {
+  return rows_from(find_heading(heading) + 1);
+}
+
+bool InputFile::has_line(const std::string& word) const {
+  const std::string wanted = to_lower(word);
+  return std::any_of(lines_.begin(), lines_.end(), [&](const std::string& line) {
+    return to_lower(trim(line)).starts_with(wanted);
+  });
+}
+
+bool InputFile::has_heading(const std::string& heading) const {
+  return find_heading(heading) < lines_.size();
 }
 
 std::vector<std::string> InputFile::columns_below(const std::string& heading) const {

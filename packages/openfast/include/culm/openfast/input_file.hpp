@@ -17,6 +17,12 @@ struct NumberRow {
   std::vector<double> values;
 };
 
+/// A line of a file, counted from 1, and its words up to a comment, which begins with ! or #.
+struct TextRow {
+  int line = 0;
+  std::vector<std::string> words;
+};
+
 /// A file whose lines hold a value, its keyword and a comment, `49  kp_total - Total number …`,
 /// with tables in between. Values are found by their keywords, whatever their order, so that
 /// formats of several years can be read; capitals do not matter, and `BldFile1` is `BldFile(1)`.
@@ -42,6 +48,8 @@ class InputFile {
   int integer(const std::string& keyword);
   bool flag(const std::string& keyword);
   std::string text(const std::string& keyword);
+  /// All values before the keyword.
+  std::vector<double> numbers(const std::string& keyword);
   /// The same, or `otherwise` where there is no such entry.
   double number(const std::string& keyword, double otherwise);
   /// A file that the entry names, relative to this one.
@@ -54,6 +62,13 @@ class InputFile {
   /// Lines of numbers below the first heading that contains `heading` (capitals do not matter); of
   /// any lengths, up to the next heading or the end. Empty if there is no such heading.
   std::vector<NumberRow> numbers_below(const std::string& heading) const;
+  /// Words of the lines below an entry, or below the first heading that contains a text, up to the
+  /// next heading or the end; without empty lines. Empty if there is no such heading.
+  std::vector<TextRow> rows_after(const std::string& keyword);
+  std::vector<TextRow> rows_below(const std::string& heading) const;
+  bool has_heading(const std::string& heading) const;
+  /// Whether a line begins with a word; capitals do not matter.
+  bool has_line(const std::string& word) const;
   /// Names of the columns of a table: the words of the first header line below an entry or heading.
   std::vector<std::string> columns_below(const std::string& heading) const;
 
@@ -74,6 +89,7 @@ class InputFile {
   const Entry* find(const std::string& keyword) const;
   const Entry& get(const std::string& keyword);
   std::size_t find_heading(const std::string& heading) const;
+  std::vector<TextRow> rows_from(std::size_t line) const;
   std::vector<NumberRow> numbers_from(std::size_t line, int count, int columns) const;
 
   std::filesystem::path path_;

@@ -1,0 +1,304 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
+#include <culm/openfast/hydrodyn.hpp>
+#include <culm/openfast/text_table.hpp>
+
+#include "headings.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace culm::openfast {
+
+namespace {
+
+using Rows = std::map<int, std::size_t>;
+
+std::size_t look_up(const Rows& rows, const TextTable& table, std::size_t row,
+                    TextTable::Names names, const std::string& what) {
+  const auto found = rows.find(table.integer(row, names));
+  if (found != rows.end()) return found->second;
+  throw InputError(table.where(row, names),
+                   fmt::format("there is no {} {}", what, table.integer(row, names)));
+}
+
+double bounded(const TextTable& table, std::size_t row, const std::string& name, double otherwise) {
+  const double value = table.number(row, {name.c_str()}, otherwise);
+  if (value >= 0.0) return value;
+  throw InputError(table.where(row, {name.c_str()}), fmt::format("must be >= 0, got {:g}", value));
+}
+
+// Columns such as SimplCd and SimplCdMG, MemberCd1 and MemberCdMG1.
+HydroPair read_pair(const TextTable& table, std::size_t row, const std::string& before,
+                    const std::string& after) {
+  HydroPair pair;
+  for (std::size_t grown = 0; grown < 2; ++grown) {
+    const std::string end = (grown == 1 ? "MG" : "") + after;
+    const auto required = [&](const char* name) {
+      const std::string column = before + name + end;
+      if (table.has({column.c_str()})) return bounded(table, row, column, 0.0);
+      throw InputError(table.where(row, {column.c_str()}), "the table has no such column");
+    };
+    pair[grown] = {required("Cd"), required("Ca"), bounded(table, row, before + "Cp" + end, 1.0),
+                   bounded(table, row, before + "Cb" + end, 1.0)};
+  }
+  return pair;
+}
+
+// The line below the simple coefficients has no count.
+HydroPair read_simple(const InputFile& file) {
+  const TextTable table(file, "simple coefficients",
+                        file.rows_below("SIMPLE HYDRODYNAMIC COEFFICIENTS"), 1);
+  return read_pair(table, 0, "Simpl", "");
+}
+
+std::vector<HydroDepth> read_by_depth(InputFile& file) {
+  std::vector<HydroDepth> depths;
+  const TextTable table = read_table(file, "NCoefDpth", "coefficients by depth");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    depths.push_back({table.number(i, {"Dpth"}), read_pair(table, i, "Dpth", "")});
+  }
+  std::sort(depths.begin(), depths.end(),
+            [](const HydroDepth& a, const HydroDepth& b) { return a.depth < b.depth; });
+  return depths;
+}
+
+void read_growth(InputFile& file, HydroDyn& hydro) {
+  const TextTable table = read_table(file, "NMGDepths", "marine growth");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    hydro.growth.push_back({table.number(i, {"MGDpth"}), bounded(table, i, "MGThck", 0.0),
+                            bounded(table, i, "MGDens", 0.0)});
+  }
+  std::sort(hydro.growth.begin(), hydro.growth.end(),
+            [](const HydroGrowth& a, const HydroGrowth& b) { return a.height < b.height; });
+}
+
+struct Lists {
+  Rows joints, sections, own;
+  std::vector<std::array<double, 2>> tubes;  // diameter and wall
+  std::vector<std::array<HydroPair, 2>> coefficients;
+};
+
+void read_joints(InputFile& file, HydroDyn& hydro, Lists& lists, Report& report) {
+  const TextTable axial = read_table(file, "NAxCoef", "axial coefficient");
+  const Rows axials = index_rows(axial, {"AxCoefID"});
+  const TextTable table = read_table(file, "NJoints", "joint");
+  lists.joints = index_rows(table, {"JointID"});
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::size_t row = look_up(axials, table, i, {"JointAxID"}, "axial coefficient");
+    hydro.joints.push_back(
+        {table.integer(i, {"JointID"}),
+         {table.number(i, {"Jointxi"}), table.number(i, {"Jointyi"}), table.number(i, {"Jointzi"})},
+         bounded(axial, row, "AxCd", 0.0),
+         bounded(axial, row, "AxCa", 0.0)});
+    if (bounded(axial, row, "AxCp", 1.0) != 1.0 && bounded(axial, row, "AxCa", 0.0) > 0.0) {
+      report.add(not_used, to_string(axial.where(row, {"AxCp"})) +
+                               ": pressure of waves on faces counts fully");
+    }
+    if (table.number(i, {"JointOvrlp"}, 0.0) != 0.0) {
+      report.add(not_used, to_string(table.where(i, {"JointOvrlp"})) +
+                               ": volumes that overlap at the joint are counted twice");
+    }
+  }
+}
+
+void read_sections(InputFile& file, Lists& lists) {
+  const char* keyword = file.has("NPropSetsCyl") ? "NPropSetsCyl" : "NPropSets";
+  const TextTable table = read_table(file, keyword, "section");
+  lists.sections = index_rows(table, {"PropSetID", "MPropSetID"});
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double diameter = bounded(table, i, "PropD", 0.0);
+    const double wall = bounded(table, i, "PropThck", 0.0);
+    if (!(diameter > 0.0) || wall > 0.5 * diameter) {
+      throw InputError(table.where(i, {diameter > 0.0 ? "PropThck" : "PropD"}),
+                       "the diameter must be > 0 and the wall at most half of it");
+    }
+    lists.tubes.push_back({diameter, wall});
+  }
+  if (file.has("NPropSetsRec") && file.integer("NPropSetsRec") != 0) {
+    throw InputError(file.where("NPropSetsRec"), "rectangular members are not imported; must be 0");
+  }
+}
+
+void read_own_coefficients(InputFile& file, Lists& lists) {
+  const char* keyword = file.has("NCoefMembersCyl") ? "NCoefMembersCyl" : "NCoefMembers";
+  const TextTable table = read_table(file, keyword, "coefficients of a member");
+  lists.own = index_rows(table, {"MemberID"});
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    lists.coefficients.push_back(
+        {read_pair(table, i, "Member", "1"), read_pair(table, i, "Member", "2")});
+  }
+}
+
+bool read_flag(const TextTable& table, std::size_t row, TextTable::Names names) {
+  const std::string word = to_lower(table.text(row, names));
+  if (word == "true" || word == "t") return true;
+  if (word == "false" || word == "f" || word == "0") return false;
+  throw InputError(table.where(row, names), "must be True or False, got '" + word + "'");
+}
+
+HydroMember read_member(const TextTable& table, std::size_t i, const Lists& lists) {
+  HydroMember member;
+  member.id = table.integer(i, {"MemberID"});
+  constexpr const char* joints[] = {"MJointID1", "MJointID2"};
+  constexpr const char* sections[] = {"MPropSetID1", "MPropSetID2"};
+  for (std::size_t end = 0; end < 2; ++end) {
+    member.joints[end] = look_up(lists.joints, table, i, {joints[end]}, "joint");
+    const auto tube = lists.tubes[look_up(lists.sections, table, i, {sections[end]}, "section")];
+    member.diameters[end] = tube[0];
+    member.walls[end] = tube[1];
+  }
+  if (table.has({"MSecGeom"}) && table.integer(i, {"MSecGeom"}) != 1) {
+    throw InputError(table.where(i, {"MSecGeom"}), "only 1, cylindrical members, are imported");
+  }
+  member.coefficients = table.integer(i, {"MCoefMod"});
+  if (member.coefficients < 1 || member.coefficients > 3) {
+    throw InputError(table.where(i, {"MCoefMod"}),
+                     fmt::format("must be 1, 2 or 3, got {}", member.coefficients));
+  }
+  if (member.coefficients == 3) {
+    const auto found = lists.own.find(member.id);
+    if (found == lists.own.end()) {
+      throw InputError(table.where(i, {"MCoefMod"}),
+                       fmt::format("there are no coefficients of member {}", member.id));
+    }
+    member.own = lists.coefficients[found->second];
+  }
+  member.has_buoyancy = table.number(i, {"MHstLMod"}, 1.0) != 0.0;
+  member.is_potential = read_flag(table, i, {"PropPot"});
+  return member;
+}
+
+// Members with sea water up to the still surface are flooded; other fillings are not there in culm.
+void read_fillings(InputFile& file, HydroDyn& hydro, Report& report) {
+  const TextTable table = read_table(file, "NFillGroups", "filling");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const int count = table.integer(i, {"FillNumM"});
+    const std::vector<std::string>& words = table.row(i).words;
+    if (count < 1 || words.size() < static_cast<std::size_t>(count) + 3) {
+      throw InputError(
+          table.where(i, {"FillNumM"}),
+          fmt::format("{} members, their level and density do not fit on the line", count));
+    }
+    const auto number = [&](std::size_t at) {
+      const auto value = find_number(words[at]);
+      if (value) return *value;
+      throw InputError(table.where(i, {"FillMList"}), "must be a number, got '" + words[at] + "'");
+    };
+    const std::size_t after = static_cast<std::size_t>(count) + 1;
+    const double level = number(after);
+    const bool by_default = to_lower(words[after + 1]) == "default";
+    const double density = by_default ? hydro.sea.density : number(after + 1);
+    const bool is_sea = std::abs(level - hydro.sea.level) < 1e-3 &&
+                        std::abs(density / hydro.sea.density - 1.0) < 1e-3;
+    for (std::size_t k = 1; k < after; ++k) {
+      const int id = static_cast<int>(number(k));
+      const auto found = std::find_if(hydro.members.begin(), hydro.members.end(),
+                                      [&](const HydroMember& member) { return member.id == id; });
+      if (found == hydro.members.end()) {
+        throw InputError(table.where(i, {"FillMList"}), fmt::format("there is no member {}", id));
+      }
+      found->is_flooded = is_sea;
+      if (is_sea) continue;
+      report.add(missing,
+                 to_string(table.where(i, {"FillMList"})) +
+                     fmt::format(": member {} is filled with {:g} kg/m^3 up to {:g} m, not "
+                                 "with the sea: give the body its mass",
+                                 id, density, level));
+    }
+  }
+}
+
+void report_rest(InputFile& file, Report& report) {
+  if (file.number("PotMod", 0.0) != 0.0) {
+    report.add(missing, to_string(file.where("PotMod")) + ": potential flow is not in the deck");
+  }
+  for (const char* keyword : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"}) {
+    if (file.number(keyword, 0.0) == 0.0) continue;
+    report.add(not_used, to_string(file.where(keyword)) + ": forces of second order");
+  }
+  for (const char* keyword : {"AddF0", "AddCLin", "AddBLin", "AddBQuad"}) {
+    if (!file.has(keyword)) continue;
+    const std::vector<NumberRow> rows =
+        file.numbers_below("PLATFORM ADDITIONAL STIFFNESS AND DAMPING");
+    const bool is_zero = std::all_of(rows.begin(), rows.end(), [](const NumberRow& row) {
+      return std::all_of(row.values.begin(), row.values.end(),
+                         [](double value) { return value == 0.0; });
+    });
+    if (!is_zero) {
+      report.add(missing, to_string(file.where(keyword)) +
+                              ": additional forces, stiffness or damping of the platform");
+    }
+    break;
+  }
+  if (file.number("WaveDisp", 1.0) == 0.0) {
+    report.add(assumed, to_string(file.where("WaveDisp")) +
+                            ": waves at the place without displacement; in the deck at the place "
+                            "that is");
+  }
+}
+
+// SeaState's file: named, or the only one beside this one, or this one.
+std::filesystem::path find_seastate(InputFile& file, const Surroundings& surroundings) {
+  if (file.has("WaveMod")) return file.path();
+  if (!surroundings.seastate.empty()) return surroundings.seastate;
+  std::vector<std::filesystem::path> found;
+  const auto folder = file.path().has_parent_path() ? file.path().parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (!entry.is_regular_file() || to_lower(entry.path().extension().string()) != ".dat") continue;
+    const InputFile other(entry.path());
+    if (other.has("WaveMod") && other.has("WtrDpth")) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  if (found.size() == 1) return found.front();
+  std::string names;
+  for (const auto& one : found) names += (names.empty() ? "" : ", ") + one.filename().string();
+  throw InputError(file.where(0, ""),
+                   found.empty() ? "the sea is missing: no file of SeaState is named or beside it"
+                                 : "which sea is it: beside it are " + names +
+                                       "; a .fst or a driver that names both files decides");
+}
+
+}  // namespace
+
+HydroDyn read_hydrodyn(const std::filesystem::path& path, Report& report) {
+  InputFile file(path);
+  HydroDyn hydro;
+  hydro.path = path;
+  hydro.title = file.title();
+  const Surroundings surroundings = find_surroundings(path);
+  hydro.sea = read_seastate(find_seastate(file, surroundings), surroundings, report);
+  Lists lists;
+  read_joints(file, hydro, lists, report);
+  read_sections(file, lists);
+  hydro.simple = read_simple(file);
+  hydro.by_depth = read_by_depth(file);
+  read_own_coefficients(file, lists);
+  const TextTable members = read_table(file, "NMembers", "member");
+  index_rows(members, {"MemberID"});
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    hydro.members.push_back(read_member(members, i, lists));
+    const HydroMember& member = hydro.members.back();
+    if (member.coefficients == 2 && hydro.by_depth.empty()) {
+      throw InputError(members.where(i, {"MCoefMod"}), "there are no coefficients by depth");
+    }
+    const Vec3 way = hydro.joints[member.joints[1]].place - hydro.joints[member.joints[0]].place;
+    if (way.isZero(0.0)) throw InputError(members.where(i, {"MJointID2"}), "it has no length");
+  }
+  read_growth(file, hydro);
+  read_fillings(file, hydro, report);
+  report_rest(file, report);
+  report.add(read, fmt::format("{}: HydroDyn, {} joints, {} members, {} depths with coefficients, "
+                               "{} with growth",
+                               path.string(), hydro.joints.size(), hydro.members.size(),
+                               hydro.by_depth.size(), hydro.growth.size()));
+  return hydro;
+}
+
+}  // namespace culm::openfast

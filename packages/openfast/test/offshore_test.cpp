@@ -1,0 +1,234 @@
+#include <culm/base/error.hpp>
+#include <culm/openfast/hydrodyn.hpp>
+#include <culm/openfast/import.hpp>
+#include <culm/openfast/moordyn.hpp>
+#include <culm/openfast/subdyn.hpp>
+
+#include "offshore_files.hpp"
+#include "sample_files.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+#include <vector>
+
+namespace culm::openfast {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class OffshoreFiles : public SampleFiles {
+ protected:
+  OffshoreFiles() { write("sea.dat", seastate_file); }
+
+  Imported import(const std::string& text) const { return import_file(write("given.dat", text)); }
+  std::string message_of(const std::string& text) const {
+    try {
+      import(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+};
+
+std::string parameter(const std::string& name, const std::string& value) {
+  return "<Parameter name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+
+double tube_area(double d, double t) { return std::numbers::pi * t * (d - t); }
+
+TEST_F(OffshoreFiles, MembersOfSubDynBecomeBeamsJoinedAtTheirJoints) {
+  const Imported imported = import(subdyn_file);
+  for (const std::string& part :
+       {parameter("Sections", "{tube 1, tube 2}"), parameter("To", "{-5, 0, 10}"),
+        parameter("EI1", "2000000000"), parameter("EI2", "4000000000"),
+        parameter("GA1", "4000000000"), parameter("Damping", "0.004"),
+        parameter("Up", "{0, -1, 0}"),  // of the brace along x: horizontal, to its right
+        parameter("Inertia", "{100000, 200000, 300000, 0, 0, 0}"), parameter("Centre", "{0, 0, 2}"),
+        parameter("Type", "Spherical Joint"), parameter("Node", "member 1/first"),
+        parameter("Type", "Weld")}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part));
+  }
+  // joint 12 is held at a point, joint 11 rigidly
+  EXPECT_THAT(imported.deck, HasSubstr("<ParameterList name=\"joint 12, held, z\">"));
+  EXPECT_THAT(imported.deck, Not(HasSubstr("joint 12, held, about")));
+  EXPECT_THAT(imported.report, HasSubstr("member 5: a cable becomes a spring"));
+}
+
+TEST_F(OffshoreFiles, MassesOfSubDynAreThoseOfItsTables) {
+  Report report;
+  const SubDyn sub = read_subdyn(write("sub.dat", subdyn_file), report);
+  const double a = tube_area(2.0, 0.04), b = tube_area(1.0, 0.02);
+  EXPECT_DOUBLE_EQ(mass_of(sub, sub.members[0]), 7850.0 * 0.5 * (a + b) * 30.0);
+  EXPECT_DOUBLE_EQ(mass_of(sub, sub.members[1]), 7850.0 * a * 30.0);
+  EXPECT_DOUBLE_EQ(mass_of(sub, sub.members[2]), 8000.0 * 0.1 * 10.0);
+  EXPECT_DOUBLE_EQ(mass_of(sub, sub.members[4]), 10.0 * std::sqrt(164.0));
+}
+
+// SubDyn's own summary of the OC3 monopile has 5.000841E-01 for 6 m by 60 mm.
+TEST_F(OffshoreFiles, ShearFactorsAreThoseOfSubDyn) {
+  const std::string text = change(subdyn_file, " 1         2.1e11   8.08e10   7850     2.0    0.04",
+                                  " 1         2.1e11   8.08e10   8500     6.0    0.06");
+  EXPECT_THAT(import(text).deck, HasSubstr("<Parameter name=\"Shear Factor\" value=\"{0.500084"));
+}
+
+TEST_F(OffshoreFiles, SeasHaveHeightPeriodHeadingAndCurrent) {
+  const Imported imported = import(seastate_file);
+  for (const std::string& part :
+       {parameter("Type", "Irregular Waves"), parameter("Height", "6"), parameter("Period", "10"),
+        parameter("Direction", "{0.866025403784, 0.5, 0}"), parameter("Stretching", "Wheeler"),
+        parameter("Lowest", "0.0250000585"), parameter("Speed", "0.5"), parameter("Depth", "20")}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part.substr(0, part.size() - 4)));
+  }
+  EXPECT_THAT(imported.deck, Not(HasSubstr("\"Peak\"")));
+  const std::string regular = change(seastate_file, "2         WaveMod", "1P90      WaveMod");
+  EXPECT_THAT(import(regular).deck, HasSubstr(parameter("Phase", "-1.57079632679")));
+  EXPECT_THAT(
+      message_of(change(seastate_file, "2         WaveMod", "5         WaveMod")),
+      HasSubstr("'5' is not imported (allowed: 0 still water, 1 or 1P# regular, 2 JONSWAP)"));
+}
+
+TEST_F(OffshoreFiles, DefaultsOfASeaComeFromTheFileThatNamesIt) {
+  const std::string text = change(seastate_file, "20        WtrDpth", "\"default\" WtrDpth");
+  EXPECT_THAT(message_of(text), HasSubstr("WtrDpth: is left to the file that names this one"));
+  write("whole.fst",
+        "--- a ---\nwhole\n\"given.dat\" SeaStFile - file\n9.8 Gravity - g\n"
+        "33 WtrDpth - depth\n2 MSL2SWL - level\n");
+  EXPECT_THAT(import(text).deck, HasSubstr(parameter("Depth", "33")));
+  EXPECT_THAT(import(text).deck, HasSubstr(parameter("Gravity", "9.8")));
+}
+
+TEST_F(OffshoreFiles, MembersOfHydroDynHaveTheirCoefficientsAlongTheirLength) {
+  const Imported imported = import(hydrodyn_file);
+  // growth from -15 to -2 m, coefficients linear from 0 to 10 m of depth, with growth there
+  for (const std::string& part :
+       {std::string("6, 5.49999166669, 5.49999166669, 4.99999333336"),
+        std::string("0.9, 0.9, 1.4, 1.4, 1.08, 0.74"), parameter("Growth Density", "1325"),
+        parameter("Flooded Diameter", "2.9"), parameter("End Drag", "0.6"),
+        parameter("End Added Mass", "1"), parameter("Drags", "{0.5, 0.8}"),
+        parameter("Dry Ends", "{first}")}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part));
+  }
+  EXPECT_THAT(imported.deck, HasSubstr("<Parameter name=\"Range\" value=\"{3.33"));
+  EXPECT_THAT(imported.report,
+              HasSubstr("member 3: is left to potential flow, and not in the deck"));
+  EXPECT_THAT(imported.deck, Not(HasSubstr("name=\"member 3\"")));
+}
+
+TEST_F(OffshoreFiles, LinesOfMoorDynLeadFromAnchorsToTheVessel) {
+  const Imported imported = import(moordyn_file);
+  const double chain = (120.0 - 1025.0 * 0.25 * std::numbers::pi * 0.0064) * 9.81;
+  Report report;
+  const MoorDyn file = read_moordyn(write("lines.dat", moordyn_file), report);
+  EXPECT_DOUBLE_EQ(wet_weight(file, file.types[0]), chain);
+  for (const std::string& part :
+       {parameter("Anchor", "{400, 0, -200}"), parameter("Offset", "{20, 0, -14}"),
+        parameter("Anchor", "{-400, 0, -200}"), parameter("Offset", "{-20, 0, -14}"),
+        parameter("Length", "436"), parameter("EA", "200000000")}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part));
+  }
+  EXPECT_THAT(import(old_moordyn_file).deck, HasSubstr(parameter("Offset", "{40.868, 0, -14}")));
+}
+
+TEST_F(OffshoreFiles, WhatHasNoCounterpartIsNamed) {
+  const std::string body = change(moordyn_file, "4      Coupled ", "4      Body1   ");
+  EXPECT_THAT(import(body).report, HasSubstr("point 4 is 'body1'"));
+  const std::string bodies =
+      change(moordyn_file, "------ POINTS",
+             "------ BODIES ------\nID Type\n(-) (-)\n1 free\n------ POINTS");
+  EXPECT_THAT(import(bodies).report, HasSubstr("1 lines below BODIES are not in the deck"));
+}
+
+TEST_F(OffshoreFiles, MistakesHaveTheirPlace) {
+  const std::pair<std::string, std::string> cases[] = {
+      {change(subdyn_file, " 4          14        15 ", " 4          14        16 "),
+       "given.dat:45: member, MJointID2: there is no joint 16 (there are: 11, 12, 13, 14, 15)"},
+      {change(subdyn_file, "6            NMembers", "7            NMembers"),
+       "member: must be 7 lines, as the file says, found 6"},
+      {change(subdyn_file, " 2         2.1e11   8.08e10   7850     1.0    0.02",
+              " 2         2.1e11   8.08e10   7850     1.0    0.6"),
+       "circular section, XsecT: must be at most half the diameter, 0.5 m, got 0.6 m"},
+      {change(moordyn_file, "1       chain       1", "1       chian       1"),
+       "unknown line type 'chian' – did you mean 'chain'?"},
+      {change(moordyn_file, "435.0      20       -", "435.0      2O       -   x"),
+       "line: must have 7 columns, found 8"},
+      {change(hydrodyn_file, "  2          3         4         2           2         0.5       3",
+              "  2          3         4         2           2         0.5       4"),
+       "member, MCoefMod: must be 1, 2 or 3, got 4"}};
+  for (const auto& [text, message] : cases) EXPECT_THAT(message_of(text), HasSubstr(message));
+}
+
+// What a deck holds: not how much of it is held, which is a number of the file.
+std::size_t count_parts(const std::string& deck) {
+  std::size_t count = 0;
+  for (const char* type : {"Beam", "Rigid Body", "Point Mass", "Spring", "Morison", "Catenary",
+                           "Rigid Connection", "Weld", "Spherical Joint", "Power Law", "Tube"}) {
+    const std::string text = parameter("Type", type);
+    for (std::size_t at = deck.find(text); at != std::string::npos; at = deck.find(text, at + 1)) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+// Lines of a report that complain.
+std::set<std::string> complaints(const std::string& report) {
+  std::istringstream lines(report);
+  std::set<std::string> found;
+  bool complains = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  ")) {
+      complains =
+          line.starts_with("not ") || line.starts_with("unknown") || line.starts_with("assumed");
+    } else if (complains) {
+      found.insert(line);
+    }
+  }
+  return found;
+}
+
+// Files that are cut or have a flipped bit give a message, or a deck that holds all that the whole
+// file gives, or says what is not there. CULM_FLIPS=500 flips more of them.
+TEST_F(OffshoreFiles, DamageIsNotSilent) {
+  const char* wanted = std::getenv("CULM_FLIPS");
+  const int flips = wanted != nullptr ? std::stoi(wanted) : 40;
+  std::mt19937 generator(1);
+  const auto below = [&](std::size_t limit) { return generator() % limit; };
+  for (const char* whole :
+       {subdyn_file, seastate_file, hydrodyn_file, moordyn_file, old_moordyn_file}) {
+    const std::string text = whole;
+    const Imported good = import(text);
+    const auto judge = [&](const std::string& damaged, const std::string& how) {
+      try {
+        const Imported made = import(damaged);
+        const bool is_whole = count_parts(made.deck) >= count_parts(good.deck);
+        const std::set<std::string> known = complaints(good.report), all = complaints(made.report);
+        const bool tells = std::any_of(
+            all.begin(), all.end(), [&](const std::string& line) { return !known.contains(line); });
+        EXPECT_TRUE(is_whole || tells) << text.substr(0, text.find('\n', 40)) << how;
+      } catch (const Error& error) {
+        EXPECT_STRNE(error.what(), "") << how;
+      }
+    };
+    for (std::size_t percent = 0; percent < 100; percent += 5) {
+      judge(text.substr(0, text.size() * percent / 100),
+            " cut at " + std::to_string(percent) + " %");
+    }
+    for (int i = 0; i < flips; ++i) {
+      std::string damaged = text;
+      const std::size_t place = below(text.size());
+      damaged[place] = static_cast<char>(damaged[place] ^ (1 << below(8)));
+      judge(damaged, " flipped at " + std::to_string(place));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace culm::openfast
