@@ -4,9 +4,11 @@
 import math
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from verify import figure, main, save
 
 ROTOR, PITCH = "control/speed_control.xml", "control/pitch_actuator.xml"
+VARIABLE = "control/variable_speed.xml"
 TURBINE = "turbine/nrel5mw/turbine_control.xml"
 J, T, P, I, SET_POINT = 2.0, 0.2, 3.0, 4.0, 1.5
 RATED = 12.1 * 2.0 * math.pi / 60.0
@@ -66,6 +68,47 @@ def verify_schedule(culm, report):
                 continue
             apart = min(abs(one - pole) for one in found)
             report.holds(f"halved at {halved_at:g}: pole {pole:.4f}, relative,", apart / abs(pole), 1e-9)
+
+
+def variable_at(times):
+    """Filtered speed, counter-torque and limited integral of the rotor at variable speed, by an integrator of its own."""
+
+    def torque(speed):
+        return max(min(np.interp(speed, [1.0, 1.4, 2.0], [0.0, 2.0, 8.0]), 12.0 / speed), 0.5)
+
+    def rates(t, y):
+        speed, filtered, excess = y
+        drive = 3.0 + 5.0 * math.sin(1.3 * t)
+        beyond = min(max(excess, 0.0), 0.2) - excess
+        return [(drive - torque(filtered)) / 2.0, (speed - filtered) / 0.2, filtered - 1.6 + beyond / 0.05]
+
+    found = solve_ivp(rates, (0.0, times[-1]), [1.5, 1.5, 0.0], t_eval=times, rtol=1e-10, atol=1e-12, max_step=1e-3).y
+    return found[1], [torque(speed) for speed in found[1]], found[2]
+
+
+def variable_error(culm, step):
+    history = culm.history(VARIABLE, [f"Analyses/motion/Step={step}"])
+    times = np.array(history.levels)
+    speed, _, excess = variable_at(times)
+    return [np.abs(np.array(history.column(name)) - wanted).max()
+            for name, wanted in (("speed [1]", speed), ("turned too far [1]", excess))]
+
+
+def verify_variable_speed(culm, report):
+    report.title("Rotor at variable speed: table, power over speed, least, greatest, limited integral")
+    coarse, fine = (variable_error(culm, step) for step in (0.02, 0.0025))
+    for name, a, b in zip(("filtered speed", "limited integral"), coarse, fine):
+        report.holds(f"{name} at 0.0025 s", b, 1e-4)
+        # corners lie within steps, here early and there late
+        report.check(f"{name}: order of the step", math.log2(a / b) / 3.0, 2.0, 0.6)
+    for what, speed, drive, slope in (("table", 1.5, 3.0, 10.0), ("constant power", 2.4, 5.0, -12.0 / 2.4**2)):
+        table = culm.table("modes/modes", VARIABLE, [
+            f"W={speed}", f"M={drive}", "swing=0", "end=0.01", "Signals/turned too far/Initial=-0.1",
+            "Analyses/modes/Type=Modal", "Analyses/modes/Modes=3"])
+        found = [complex(a, b) for a, b in zip(*(table.column(f"eigenvalue {part} [1/s]") for part in ("real", "imaginary")))]
+        for pole in np.roots([J * T, J, slope]):
+            if pole.imag >= 0.0:
+                report.holds(f"{what}: pole {pole:.4f}, relative,", min(abs(one - pole) for one in found) / 5.0, 1e-6)
 
 
 def actuator_at(times, step=1e-4):
@@ -167,6 +210,7 @@ def verify_turbine(culm, report):
 def verify(culm, report):
     verify_rotor(culm, report)
     verify_schedule(culm, report)
+    verify_variable_speed(culm, report)
     verify_actuator(culm, report)
     verify_delay(culm, report)
     verify_turbine(culm, report)

@@ -6,10 +6,40 @@
 #include <culm/control/block.hpp>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace culm::control {
 
 inline Field input_field() { return text("Signal", "The signal or function that it follows."); }
+
+/// Parameter "Signals".
+inline void add_signals(Schema& schema) {
+  schema.add(texts("Signals", "Names of up to eight signals or functions.").min_size(1))
+      .check([](const Options& options, InputIssues& issues) {
+        const std::size_t count = options.texts("Signals").size();
+        if (count <= Block::max_inputs) return;
+        issues.add(options.where("Signals"), "must be up to " + std::to_string(Block::max_inputs) +
+                                                 ", got " + std::to_string(count));
+      });
+}
+
+/// An issue where a parameter has not one number for each of "Signals".
+inline void check_one_each(const Options& options, const std::string& parameter,
+                           InputIssues& issues) {
+  const std::size_t count = options.texts("Signals").size();
+  const std::size_t found = options.numbers(parameter).size();
+  if (count == found) return;
+  issues.add(options.where(parameter), "must be as many as 'Signals', which are " +
+                                           std::to_string(count) + "; got " +
+                                           std::to_string(found));
+}
+
+/// One number per input. @pre up to Block::max_inputs
+inline Block::Inputs as_inputs(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
 
 inline void add_scale(Schema& schema) {
   schema.add(

@@ -1,10 +1,15 @@
 #include <culm/control/actuator.hpp>
 #include <culm/control/external_signal.hpp>
+#include <culm/control/extreme.hpp>
 #include <culm/control/integral.hpp>
 #include <culm/control/lag.hpp>
+#include <culm/control/library.hpp>
+#include <culm/control/library_batch.hpp>
 #include <culm/control/pi_controller.hpp>
+#include <culm/control/product.hpp>
 #include <culm/control/register_control.hpp>
 #include <culm/control/sensor.hpp>
+#include <culm/control/table.hpp>
 #include <culm/control/weighted_sum.hpp>
 
 #include <utility>
@@ -18,7 +23,8 @@ ControlContext::ControlContext(model::Model& model,
       build_{model, functions, issues},
       blocks_(std::make_unique<BlockBatch>("Signals", model)),
       sensors_(std::make_unique<SensorBatch>("Sensors", model)),
-      samples_(std::make_unique<SampleBatch>("Samples", model)) {}
+      samples_(std::make_unique<SampleBatch>("Samples", model)),
+      libraries_(std::make_unique<LibraryBatch>("Libraries", model)) {}
 
 ControlContext::~ControlContext() = default;
 
@@ -38,6 +44,7 @@ void ControlContext::publish(const Options& options, const model::Signal& signal
 }
 
 void ControlContext::finish() {
+  for (const auto& task : tasks_) task();
   for (const Pending& one : pending_) {
     const Options& options = *one.options;
     std::vector<model::Amplitude> inputs;
@@ -56,6 +63,7 @@ void ControlContext::finish() {
     blocks_->connect(one.output, std::move(inputs), one.initial);
   }
   model::Model& model = build_.model;
+  if (libraries_->size() > 0) model.add_load(std::move(libraries_));
   if (samples_->size() > 0) model.add_load(std::move(samples_));
   if (sensors_->size() > 0) model.add_load(std::move(sensors_));
   if (blocks_->size() > 0) model.add_load(std::move(blocks_));
@@ -64,10 +72,14 @@ void ControlContext::finish() {
 void register_signals(SignalRegistry& registry) {
   register_actuator(registry);
   register_external_signal(registry);
+  register_extremes(registry);
   register_integral(registry);
   register_lag(registry);
+  register_library(registry);
   register_pi_controller(registry);
+  register_product(registry);
   register_sensors(registry);
+  register_table(registry);
   register_weighted_sum(registry);
 }
 

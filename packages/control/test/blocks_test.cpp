@@ -1,16 +1,22 @@
 #include <culm/control/actuator.hpp>
 #include <culm/control/block_batch.hpp>
+#include <culm/control/extreme.hpp>
 #include <culm/control/integral.hpp>
 #include <culm/control/lag.hpp>
 #include <culm/control/pi_controller.hpp>
+#include <culm/control/product.hpp>
+#include <culm/control/table.hpp>
 #include <culm/control/weighted_sum.hpp>
 
 #include <culm_kit/batch_laws.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace culm::control {
@@ -26,6 +32,7 @@ struct Subject {
 
 const Limits wide{-10.0, 10.0};
 const Limits narrow{-0.01, 0.02};
+const Limits wider{-20.0, 20.0};
 
 // The block follows a signal of another block that it is followed by in turn, and functions.
 void fill(const Subject& subject, model::Model& model) {
@@ -97,6 +104,33 @@ INSTANTIATE_TEST_SUITE_P(
         Subject{"PiWithSchedule", [] { return make_pi(wide, 0.4); }, 3},
         Subject{"PiWithScheduleAtItsLimit", [] { return make_pi(narrow, 0.4); }, 3},
         Subject{"Integral", [] { return std::make_unique<Integral>(1.8, 3.0); }},
+        Subject{"IntegralAtItsLimit",
+                [] { return std::make_unique<Integral>(1.8, 3.0, narrow, 0.3); }},
+        Subject{"Table",
+                [] {
+                  return std::make_unique<Table>(
+                      load::PiecewiseLinear({-20.0, 0.0, 20.0}, {3.0, 1.0, 5.0}), wider, 0.6);
+                }},
+        Subject{"TableBeyondItsPoints",
+                [] {
+                  return std::make_unique<Table>(load::PiecewiseLinear({40.0, 50.0}, {3.0, 1.0}),
+                                                 Limits{40.0, 50.0}, 0.6);
+                }},
+        Subject{"Product",
+                [] {
+                  return std::make_unique<Product>(0.8, Eigen::Vector3d(2.0, 1.0, -1.0), wider,
+                                                   0.7);
+                },
+                3},
+        Subject{"ProductAtItsLimit",
+                [] {
+                  return std::make_unique<Product>(-90.0, Eigen::Vector3d(0.0, 1.0, -1.0), narrow,
+                                                   0.7);
+                },
+                3},
+        Subject{"Least", [] { return std::make_unique<Extreme>(Extreme::Which::least, 0.7); }, 3},
+        Subject{"Greatest", [] { return std::make_unique<Extreme>(Extreme::Which::greatest, 0.7); },
+                2},
         Subject{"Sum",
                 [] {
                   return std::make_unique<WeightedSum>(0.3, Eigen::Vector3d(1.1, -0.6, 0.9), wide,
@@ -198,6 +232,63 @@ TEST(PiController, GainsFollowASignal) {
   u[2] = -0.6;
   const PiController whole(0.7, 1.2, 0.8, 1.4, Limits(), 1.0);
   EXPECT_EQ(evaluate(scheduled, u).f, evaluate(whole, fixed).f);
+}
+
+Block::Values evaluate(const Block& block, const Block::Inputs& u) {
+  Block::Values values;
+  values.f.setZero(1);
+  values.by_unknown.setZero(1, 1);
+  values.by_input.setZero(1, u.size());
+  block.evaluate(Block::Unknowns::Zero(1), u, values);
+  return values;
+}
+
+Block::Inputs inputs(std::initializer_list<double> values) {
+  Block::Inputs u(static_cast<Eigen::Index>(values.size()));
+  std::ranges::copy(values, u.begin());
+  return u;
+}
+
+TEST(Table, IsLinearBetweenItsPointsAndConstantBeyond) {
+  const Table table(load::PiecewiseLinear({1.0, 2.0, 4.0}, {0.0, 3.0, -1.0}), {1.0, 4.0}, 1.0);
+  for (const auto& [u, value, slope] :
+       {std::tuple{0.0, 0.0, 0.0}, {1.5, 1.5, 3.0}, {3.0, 1.0, -2.0}, {9.0, -1.0, 0.0}}) {
+    const Block::Values found = evaluate(table, inputs({u}));
+    EXPECT_EQ(found.f[0], value) << u;
+    EXPECT_EQ(found.by_input(0, 0), slope) << u;
+  }
+}
+
+// A power over a speed, held where the rotor stands still; a square with both signs.
+TEST(Product, DividesAndKeepsItsLimits) {
+  const Product torque(5.0, inputs({-1.0}), {0.0, 8.0}, 1.0);
+  EXPECT_EQ(evaluate(torque, inputs({2.0})).f[0], 2.5);
+  EXPECT_EQ(evaluate(torque, inputs({2.0})).by_input(0, 0), -1.25);
+  const Block::Values held = evaluate(torque, inputs({0.0}));
+  EXPECT_EQ(held.f[0], 8.0);
+  EXPECT_EQ(held.by_input(0, 0), 0.0);
+  const Product square(2.0, inputs({2.0, 1.0}), {}, 1.0);
+  const Block::Values negative = evaluate(square, inputs({-3.0, 0.0}));
+  EXPECT_EQ(negative.f[0], 0.0);
+  EXPECT_EQ(negative.by_input(0, 0), 0.0);
+  EXPECT_EQ(negative.by_input(0, 1), 18.0);
+}
+
+TEST(Extreme, FollowsOneOfItsInputs) {
+  const Extreme least(Extreme::Which::least, 1.0);
+  const Extreme greatest(Extreme::Which::greatest, 1.0);
+  const Block::Inputs u = inputs({0.5, -2.0, 3.0});
+  EXPECT_EQ(evaluate(least, u).f[0], -2.0);
+  EXPECT_EQ(evaluate(least, u).by_input, Eigen::RowVector3d(0.0, 1.0, 0.0));
+  EXPECT_EQ(evaluate(greatest, u).f[0], 3.0);
+  EXPECT_EQ(evaluate(greatest, u).by_input, Eigen::RowVector3d(0.0, 0.0, 1.0));
+}
+
+// Driven beyond, it stands T g u behind its limit, and comes back by the mid-point rule.
+TEST(Integral, IsHeldByItsLimits) {
+  Response integral(std::make_unique<Integral>(2.0, 1.0, Limits{-1.0, 0.4}, 0.05));
+  for (int step = 0; step < 200; ++step) integral.step(0.01);
+  EXPECT_NEAR(integral.output(), 0.4 + 0.05 * 2.0, 1e-12);
 }
 
 // Without the tracking the integral would be -1000 after as many seconds beyond the limit.

@@ -6,14 +6,17 @@
 #include <culm/control/sample_batch.hpp>
 #include <culm/model/build_context.hpp>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::control {
 
+class LibraryBatch;
 class SensorBatch;
 
 /// Where signals are added to. They may follow each other in any order and in circles, so that all
@@ -33,6 +36,10 @@ class ControlContext {
   SensorBatch& sensors() { return *sensors_; }
   /// Signals that keep a value for a step.
   SampleBatch& samples() { return *samples_; }
+  /// Controllers in shared objects.
+  LibraryBatch& libraries() { return *libraries_; }
+  /// What is to be done once all signals are known, in the order of the calls.
+  void when_complete(std::function<void()> task) { tasks_.push_back(std::move(task)); }
   /// Makes a signal known under the name of its entry.
   void publish(const Options& options, const model::Signal& signal);
   model::BuildContext& build() { return build_; }
@@ -52,6 +59,8 @@ class ControlContext {
   std::unique_ptr<BlockBatch> blocks_;
   std::unique_ptr<SensorBatch> sensors_;
   std::unique_ptr<SampleBatch> samples_;
+  std::unique_ptr<LibraryBatch> libraries_;
+  std::vector<std::function<void()>> tasks_;
   std::vector<Pending> pending_;
 };
 
