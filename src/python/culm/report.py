@@ -4,7 +4,7 @@ import itertools
 import math
 import pathlib
 
-from . import effects_table
+from . import effects_table, statistics
 from .errors import CulmError
 from .history import History, quantity_of
 from .mode_names import name_modes
@@ -20,6 +20,9 @@ def declare(parser):
     parser.add_argument(
         "--output", type=pathlib.Path, help="page to write; report.html in the folder if not given"
     )
+    parser.add_argument(
+        "--window", type=float, nargs=2, metavar=("BEGIN", "END"), help="times of statistics [s]; all of each motion if not given"
+    )
     parser.add_argument("--quiet", action="store_true", help="do not name the page")
 
 
@@ -30,7 +33,7 @@ def main(arguments, program):
         raise CulmError(f"there is no run.h5 in '{arguments.folder}'", 6)
     output = arguments.output or arguments.folder / "report.html"
     try:
-        write_page(Results(path), arguments.folder, output)
+        write_page(Results(path), arguments.folder, output, arguments.window)
     except OSError as error:
         raise CulmError(str(error), 6) from error
     if not arguments.quiet:
@@ -38,7 +41,7 @@ def main(arguments, program):
     return 0
 
 
-def write_page(results, folder, output):
+def write_page(results, folder, output, window=None):
     from . import drawing
 
     page = Page(results.title() or folder.name, f"culm {results.version()}")
@@ -51,7 +54,12 @@ def write_page(results, folder, output):
     for finding in results.findings():
         page.paragraph(str(finding), "broken" if finding.is_broken else "warning")
     _add_model(page, results, drawing)
-    _add_histories(page, results, folder, drawing)
+    path = folder / "history.csv"
+    history = History(path) if path.exists() else None
+    if history is not None and history.names and len(history.levels) > 1:
+        parts = _parts(results, history)
+        _add_histories(page, results, history, parts, drawing)
+        _add_statistics(page, history, parts, window)
     _add_steps(page, results, drawing)
     _add_tables(page, results, drawing)
     _add_effects(page, results, drawing)
@@ -75,13 +83,8 @@ def _add_model(page, results, drawing):
     page.paragraph(f"Grey: reference. Blue: last recorded state, at {time:.6g}, without magnification.")
 
 
-def _add_histories(page, results, folder, drawing):
-    path = folder / "history.csv"
-    history = History(path) if path.exists() else None
-    if history is None or not history.names or len(history.levels) < 2:
-        return
+def _add_histories(page, results, history, parts, drawing):
     page.heading("Histories")
-    parts = _parts(results, history)
     quantities = results.quantities()
 
     def title_and_unit(column):
@@ -99,6 +102,43 @@ def _add_histories(page, results, folder, drawing):
         label = "time [s]" if kind == "Dynamic" else "level" if kind else "time [s] or level"
         figure = drawing.histories(groups, label, is_path=kind == "Path")
         _add_figure(page, drawing, figure, f"histories of the quantities of the deck, {name}")
+
+
+def _add_statistics(page, history, parts, window):
+    """Of all columns of all motions, over a window of time."""
+    begin, end = window or (-math.inf, math.inf)
+    tables = []
+    for name, kind, rows in parts:
+        kept = [row for row in range(*rows.indices(len(history.levels))) if begin <= history.levels[row] <= end]
+        if kind != "Dynamic" or len(kept) < 2:
+            continue
+        times = [history.levels[row] for row in kept]
+        table = []
+        for column in history.names:
+            values = [history.columns[column][row] for row in kept]
+            # an acceleration begins with the first step
+            first = 1 if history.steps[kept[0]] == 0 and not math.isfinite(values[0]) else 0
+            if len(values) - first < 2 or not all(math.isfinite(value) for value in values[first:]):
+                continue  # what does not exist all the time
+            found = statistics.of_column(times[first:], values[first:])
+            numbers = [found.mean, found.least, found.largest, found.deviation, *found.equivalents.values()]
+            table.append([column, *(f"{number:.6g}" for number in numbers)])
+        if table:
+            tables.append((f"{name}, from {times[0]:.6g} to {times[-1]:.6g} s:", table))
+    if not tables:
+        return
+    page.heading("Statistics")
+    columns = ["quantity", "mean", "least", "largest", "standard deviation"]
+    columns += [f"equivalent range, exponent {m}" for m in statistics.EXPONENTS]
+    for text, table in tables:
+        page.paragraph(text)
+        page.table(columns, table[:MOST_ROWS])
+        if len(table) > MOST_ROWS:
+            page.paragraph(f"{len(table) - MOST_ROWS} more columns are in history.csv.")
+    page.paragraph(
+        "Equivalent range: repeated once a second it does the damage of all ranges, counted as rainflow (ASTM E1049), that the "
+        "rule of Palmgren and Miner adds up for a material whose life falls by this power of the range."
+    )
 
 
 def _parts(results, history):
