@@ -151,17 +151,22 @@ void import_openfast(const parallel::Comm& comm, const ImportArguments& argument
   report_path.replace_extension(".report.txt");
   refuse_existing(deck_path);
   refuse_existing(report_path);
-  openfast::Imported imported = openfast::import_file(arguments.file, arguments.turbine);
+  openfast::TurbineOptions turbine = arguments.turbine;
+  turbine.folder = deck_path.parent_path();
+  openfast::Imported imported = openfast::import_file(arguments.file, turbine);
   // What is written is a deck that builds; its masses and modes belong to the report.
   const simulation::Catalogue catalogue;
   simulation::DeckSource source{{{deck_path.string(), imported.deck}}, {}};
+  source.overrides = imported.only_modes;
   const Options deck = simulation::read_deck(catalogue, source);
   simulation::Simulation model(comm, catalogue, deck, source, silent);
   imported.report += "\nthe model\n" + model.summary();
   if (has_modes(deck)) {
     std::vector<Frequencies> found{find_frequencies(comm, "as imported", model)};
     for (const openfast::Variant& variant : imported.variants) {
-      source.overrides = variant.settings;
+      source.overrides = imported.only_modes;
+      source.overrides.insert(source.overrides.end(), variant.settings.begin(),
+                              variant.settings.end());
       const Options changed = simulation::read_deck(catalogue, source);
       simulation::Simulation other(comm, catalogue, changed, source, silent);
       found.push_back(find_frequencies(comm, variant.name, other));

@@ -1,6 +1,7 @@
 // Winds that vary in time, by the columns and formulas of OpenFAST's uniform wind files.
 #include <culm/base/error.hpp>
 #include <culm/base/number_file.hpp>
+#include <culm/base/read_file.hpp>
 #include <culm/base/text.hpp>
 
 #include "reference_wind.hpp"
@@ -9,7 +10,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <span>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace culm::flow {
@@ -63,27 +70,81 @@ class Table final : public Flow {
   std::vector<Row> rows_;
 };
 
-std::vector<Row> read_rows(const Options& options) {
-  std::vector<Row> rows;
-  InputIssues issues;
+// Rows in the order of their times.
+class Rows {
+ public:
+  void add(const Where& where, std::span<const double> numbers) {
+    Row row;
+    std::copy_n(numbers.begin(), columns, row.begin());
+    row[direction] *= degree;
+    if (!rows_.empty() && row[at] < rows_.back()[at])
+      issues_.add(where, fmt::format("times must not fall, got {:g} s after {:g} s", row[at],
+                                     rows_.back()[at]));
+    rows_.push_back(row);
+  }
+  void refuse(const Where& where, const std::string& expected, std::string_view line) {
+    issues_.add(where, "must be " + expected + ", got '" + shortened(std::string(line), 60) + "'");
+  }
+  std::vector<Row> take(const std::string& path) {
+    issues_.throw_if_any();
+    if (rows_.empty()) throw InputError({path, 0, {}}, "a table of wind needs at least one line");
+    return std::move(rows_);
+  }
+
+ private:
+  std::vector<Row> rows_;
+  InputIssues issues_;
+};
+
+std::vector<Row> read_csv(const Options& options) {
+  Rows rows;
   const std::string path = read_number_lines(
       options.text("File Name"), options.where("File Name"), [&](const NumberLine& line) {
-        if (line.numbers.size() != columns) {
-          issues.add(line.where, "must be 8 numbers with commas between, got '" +
-                                     shortened(line.text, 60) + "'");
-          return;
+        if (line.numbers.size() == columns) {
+          rows.add(line.where, line.numbers);
+        } else {
+          rows.refuse(line.where, "8 numbers with commas between", line.text);
         }
-        Row row;
-        std::copy(line.numbers.begin(), line.numbers.end(), row.begin());
-        row[direction] *= degree;
-        if (!rows.empty() && row[at] < rows.back()[at])
-          issues.add(line.where, fmt::format("times must not fall, got {:g} s after {:g} s",
-                                             row[at], rows.back()[at]));
-        rows.push_back(row);
       });
-  issues.throw_if_any();
-  if (rows.empty()) throw InputError({path, 0, {}}, "a table of wind needs at least one line");
-  return rows;
+  return rows.take(path);
+}
+
+// Numbers between blanks; none if there is anything else.
+std::vector<double> numbers_of(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<double> numbers;
+  for (std::string word; stream >> word;) {
+    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
+    const char* last = word.data() + word.size();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error != std::errc() || end != last || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+// What follows ! is a comment. A ninth column, the angle of an upward flow, must be zero.
+std::vector<Row> read_openfast(const Options& options) {
+  const Where& where = options.where("File Name");
+  const std::string path =
+      (std::filesystem::path(where.file).parent_path() / options.text("File Name")).string();
+  std::istringstream file(read_file(path, where));
+  Rows rows;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const std::string text(trim(std::string_view(line).substr(0, line.find('!'))));
+    if (text.empty()) continue;
+    const std::vector<double> numbers = numbers_of(text);
+    const Where here{path, number, {}};
+    if (numbers.size() == columns || (numbers.size() == columns + 1 && numbers.back() == 0.0)) {
+      rows.add(here, numbers);
+    } else {
+      rows.refuse(here, "8 numbers, and none or 0 as the ninth, an upward angle", text);
+    }
+  }
+  return rows.take(path);
 }
 
 }  // namespace
@@ -98,6 +159,11 @@ void register_table(FlowRegistry& registry) {
                     "speed, linear shear across, exponent of the power law, linear shear upwards, "
                     "speed added everywhere'; linear in between, held outside. Of equal times the "
                     "later line holds from then on."))
+          .add(choice(
+                   "File Format", {"CSV", "OpenFAST"},
+                   "Numbers with commas, or a uniform wind file of OpenFAST: numbers with blanks, "
+                   "comments behind !.")
+                   .optional("CSV"))
           .add(
               number("Height", "m", "Height above the origin at which the speeds hold.").positive())
           .add(number("Length", "m",
@@ -106,7 +172,9 @@ void register_table(FlowRegistry& registry) {
                    .positive())
           .add_all(wind_axes_schema()),
       [](const Options& options, model::BuildContext&) -> SharedFlow {
-        return std::make_shared<Table>(options, read_rows(options));
+        return std::make_shared<Table>(options, options.text("File Format") == "CSV"
+                                                    ? read_csv(options)
+                                                    : read_openfast(options));
       });
 }
 

@@ -126,8 +126,10 @@ void DeckWriter::set(const std::string& name, const std::vector<std::string>& va
   set_items(name, values, per_line);
 }
 
-void DeckWriter::variable(const std::string& name, double value, const std::string& comment) {
-  line(fmt::format("<Variable name=\"{}\" value=\"{}\"/>  <!-- {} -->", escape(name), format(value),
+void DeckWriter::variable(const std::string& name, double value, const std::string& comment,
+                          const std::string& unit) {
+  line(fmt::format("<Variable name=\"{}\" value=\"{}\"{}/>  <!-- {} -->", escape(name),
+                   format(value), unit.empty() ? "" : fmt::format(" unit=\"{}\"", unit),
                    safe_comment(comment)));
 }
 

@@ -4,10 +4,12 @@
 #include <culm/openfast/input_file.hpp>
 
 #include "headings.hpp"
+#include "named_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -17,65 +19,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double percent = 0.01;
-
-// A table whose first header line names the columns.
-class NamedTable {
- public:
-  NamedTable(InputFile& file, const std::string& heading, const std::string& count)
-      : file_(file), heading_(heading) {
-    const auto names = file.columns_below(heading);
-    for (std::size_t i = 0; i < names.size(); ++i) columns_[to_lower(names[i])] = i;
-    rows_ = file.numbers_below(heading);
-    if (static_cast<int>(rows_.size()) != file.integer(count) || rows_.size() < 2) {
-      throw InputError(file.where(count),
-                       fmt::format("announces {} lines (at least 2), but below {} there are {}",
-                                   file.integer(count), heading, rows_.size()));
-    }
-  }
-  std::size_t size() const { return rows_.size(); }
-  bool has(const std::string& column) const { return columns_.contains(to_lower(column)); }
-  double at(std::size_t row, const std::string& column) const {
-    const auto found = columns_.find(to_lower(column));
-    if (found == columns_.end()) {
-      throw InputError(file_.where(0, heading_), "has no column '" + column + "'");
-    }
-    const NumberRow& numbers = rows_[row];
-    if (found->second >= numbers.values.size()) {
-      throw InputError(file_.where(numbers.line, column),
-                       fmt::format("is missing: the line has {} numbers", numbers.values.size()));
-    }
-    return numbers.values[found->second];
-  }
-  std::optional<double> find(std::size_t row, const std::string& column) const {
-    return has(column) ? std::optional(at(row, column)) : std::nullopt;
-  }
-  /// Throws InputError unless the column rises from 0 to 1.
-  void check_places(const std::string& column) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-      const double place = at(i, column);
-      const bool ends = (i == 0 && place != 0.0) || (i + 1 == size() && place != 1.0);
-      if (ends || (i > 0 && place <= at(i - 1, column))) {
-        throw InputError(file_.where(rows_[i].line, column),
-                         fmt::format("places must rise from 0 to 1, got {:g}", place));
-      }
-    }
-  }
-  /// Throws InputError unless the value is positive.
-  double positive(std::size_t row, const std::string& column) const {
-    const double value = at(row, column);
-    if (!(value > 0.0)) {
-      throw InputError(file_.where(rows_[row].line, column),
-                       fmt::format("must be positive, got {:g}", value));
-    }
-    return value;
-  }
-
- private:
-  const InputFile& file_;
-  std::string heading_;
-  std::map<std::string, std::size_t> columns_;
-  std::vector<NumberRow> rows_;
-};
 
 FileMode read_mode(InputFile& file, const std::string& name, const std::string& shape,
                    const std::string& damping) {
@@ -332,6 +275,10 @@ void report_left_out(InputFile& file, Report& report) {
 }
 
 }  // namespace
+
+double ElastoDyn::hub_height() const {
+  return tower_top + shaft_height + overhang * std::sin(tilt);
+}
 
 ElastoDyn read_elastodyn(const std::filesystem::path& path, Report& report) {
   InputFile file(path);

@@ -7,24 +7,110 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <system_error>
+#include <utility>
 
 namespace culm::openfast {
 
 namespace {
 
+// A module by its switch.
 struct Module {
   const char* name;
   const char* flag;
-  const char* file;
+  int most;            // largest value of the switch
+  int imported;        // the value that is read, or 0
+  const char* file;    // names its file, where it has one
+  const char* effect;  // what a value that is not read does
 };
-constexpr Module carriers[] = {{"HydroDyn", "CompHydro", "HydroFile"},
-                               {"SubDyn", "CompSub", "SubFile"},
-                               {"mooring", "CompMooring", "MooringFile"},
-                               {"ice", "CompIce", "IceFile"}};
+constexpr Module modules[] = {
+    {"wind", "CompInflow", 2, 1, "InflowFile", "the wind of another program: the air stands still"},
+    {"aerodynamics", "CompAero", 3, 2, "AeroFile",
+     "AeroDisk, AeroDyn 14 or loads of another program: no loads of the air. AeroDyn is 2"},
+    {"control", "CompServo", 1, 1, "ServoFile", ""},
+    {"SeaState", "CompSeaSt", 1, 0, "SeaStFile", "no waves and no current"},
+    {"HydroDyn", "CompHydro", 1, 0, "HydroFile",
+     "no water: its inertia, which lowers frequencies, buoyancy, waves and drag are missing"},
+    {"substructure", "CompSub", 2, 0, "SubFile",
+     "what is below the tower does not bend: frequencies are too high"},
+    {"moorings", "CompMooring", 4, 0, "MooringFile", "nothing moors the platform, which is held"},
+    {"ice", "CompIce", 2, 0, "IceFile", "no loads of ice"},
+    {"soil", "CompSoil", 1, 0, "SoilFile", "the base stands on rock: frequencies are too high"},
+    {"water turbine", "MHK", 2, 0, nullptr, "its medium is air"}};
+// Those that carry the tower, with the names of old.
+constexpr std::pair<const char*, const char*> carriers[] = {{"HydroDyn", "CompHydro"},
+                                                            {"SubDyn", "CompSub"},
+                                                            {"mooring", "CompMooring"},
+                                                            {"ice", "CompIce"}};
 
-bool is_on(InputFile& file, const char* flag) { return file.number(flag, 0.0) != 0.0; }
+int value_of(InputFile& file, const Module& module) {
+  if (!file.has(module.flag)) return 0;
+  const int value = file.integer(module.flag);
+  if (value < 0 || value > module.most) {
+    throw InputError(file.where(module.flag),
+                     fmt::format("must be from 0 to {}, got {}", module.most, value));
+  }
+  return value;
+}
+
+const Module& module_of(const std::string& flag) {
+  return *std::find_if(std::begin(modules), std::end(modules),
+                       [&](const Module& module) { return module.flag == flag; });
+}
+
+// The file of a module whose switch has this value.
+std::optional<std::filesystem::path> file_if(InputFile& file, const char* flag, int value) {
+  const Module& module = module_of(flag);
+  if (value_of(file, module) != value) return {};
+  return file.file(module.file);
+}
+
+void report_modules(InputFile& file, Report& report) {
+  for (const Module& module : modules) {
+    const int value = value_of(file, module);
+    if (value == 0 || value == module.imported) continue;
+    const std::string named =
+        module.file != nullptr && file.has(module.file) ? " (" + file.text(module.file) + ")" : "";
+    report.add(missing, fmt::format("{}: {}, {} = {}{}: {}", to_string(file.where(module.flag)),
+                                    module.name, module.flag, value, named, module.effect));
+  }
+}
+
+// Machines that ElastoDyn's main file does not describe as a whole.
+void refuse(InputFile& file) {
+  if (const double kind = file.number("CompElast", 1.0); kind != 1.0 && kind != 2.0) {
+    throw InputError(file.where("CompElast"),
+                     fmt::format("must be 1, ElastoDyn, or 2, with blades of BeamDyn, got {:g}: "
+                                 "simplified turbines cannot be imported",
+                                 kind));
+  }
+  if (const double rotors = file.number("NRotors", 1.0); rotors != 1.0) {
+    throw InputError(file.where("NRotors"), fmt::format("must be 1, got {:g}", rotors));
+  }
+  if (file.has("MirrorRotor") && file.flag("MirrorRotor")) {
+    throw InputError(file.where("MirrorRotor"),
+                     "rotors that turn the other way cannot be imported");
+  }
+}
+
+void ignore_rest(InputFile& file) {
+  file.ignore({"Echo",        "AbortLevel", "DT",          "ModCoupling", "InterpOrder",
+               "NumCrctn",    "RhoInf",     "ConvTol",     "MaxConvIter", "AutoRelax",
+               "RelaxFactor", "DT_UJac",    "UJacSclFact", "CompLidar",   "LidarFile",
+               "WtrDens",     "KinVisc",    "SpdSound",    "Patm",        "Pvap",
+               "WtrDpth",     "MSL2SWL",    "SumPrint",    "SttsTime",    "ChkptTime",
+               "DT_Out",      "TStart",     "OutFileFmt",  "TabDelim",    "OutFmt",
+               "Linearize",   "CalcSteady", "TrimCase",    "TrimTol",     "TrimGain",
+               "Twr_Kdmp",    "Bld_Kdmp",   "NLinTimes",   "LinTimes",    "LinInputs",
+               "LinOutputs",  "LinOutJac",  "LinOutMod",   "WrVTK",       "VTK_type",
+               "VTK_fields",  "VTK_fps",    "CompElast",   "NRotors",     "MirrorRotor"});
+  for (const Module& module : modules) {
+    if (module.file != nullptr) file.ignore({module.file});
+  }
+  for (int i = 1; i <= 3; ++i) file.ignore({fmt::format("BDBldFile({})", i)});
+}
 
 bool are_same(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;  // one that does not exist is not the same
@@ -33,20 +119,33 @@ bool are_same(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 }  // namespace
 
-GlueFile read_glue_file(const std::filesystem::path& path) {
+GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
   InputFile file(path);
+  refuse(file);
   GlueFile glue;
   glue.path = path;
   glue.elastodyn = file.file("EDFile");
-  if (is_on(file, "CompServo")) glue.servodyn = file.file("ServoFile");
   if (file.number("CompElast", 1.0) == 2.0) glue.beamdyn = file.file("BDBldFile(1)");
+  glue.servodyn = file_if(file, "CompServo", 1);
+  glue.aerodyn = file_if(file, "CompAero", 2);
+  glue.inflow = file_if(file, "CompInflow", 1);
+  glue.seastate = file_if(file, "CompSeaSt", 1);
+  glue.hydrodyn = file_if(file, "CompHydro", 1);
+  glue.subdyn = file_if(file, "CompSub", 1);
+  glue.moordyn = file_if(file, "CompMooring", 3);
   if (file.has("Gravity")) glue.gravity = file.number("Gravity");
-  for (const Module& module : carriers) {
-    if (is_on(file, module.flag)) {
-      glue.substructure.push_back(
-          fmt::format("{} ({})", module.name, file.file(module.file).filename().string()));
-    }
+  if (file.has("AirDens")) glue.air_density = file.number("AirDens");
+  if (file.has("TMax")) glue.end = file.number("TMax");
+  for (const auto& [name, flag] : carriers) {
+    const Module& module = module_of(flag);
+    if (value_of(file, module) == 0) continue;
+    glue.substructure.push_back(
+        fmt::format("{} ({})", name, file.file(module.file).filename().string()));
   }
+  report.add(read, path.string() + ": names of the modules' files");
+  report_modules(file, report);
+  ignore_rest(file);
+  report.add(unknown, file.unread());
   return glue;
 }
 
@@ -67,7 +166,7 @@ std::optional<GlueFile> find_glue_file(const std::filesystem::path& elastodyn, R
                                     found.size(), elastodyn.filename().string(),
                                     found.front().filename().string()));
   }
-  return read_glue_file(found.front());
+  return read_glue_file(found.front(), report);
 }
 
 YawDrive read_yaw_drive(const std::filesystem::path& path, Report& report) {
@@ -84,6 +183,20 @@ YawDrive read_yaw_drive(const std::filesystem::path& path, Report& report) {
              fmt::format("{}: ServoDyn, of it the yaw drive: spring {:g} N m/rad, damper {:g} "
                          "N m s/rad, neutral at {:g} degrees",
                          path.string(), drive.stiffness, drive.damping, drive.neutral / degree));
+  struct Control {
+    const char* flag;
+    const char* effect;
+  };
+  constexpr Control controls[] = {
+      {"PCMode", "pitch control: the blades stay at BlPitch"},
+      {"VSContrl",
+       "control of the torque: the generator turns at the speed that the deck prescribes"},
+      {"HSSBrMode", "the brake of the shaft is not there"}};
+  for (const Control& control : controls) {
+    if (file.number(control.flag, 0.0) == 0.0) continue;
+    report.add(missing, fmt::format("{} = {:g}, {}", to_string(file.where(control.flag)),
+                                    file.number(control.flag), control.effect));
+  }
   if (file.number("YCMode", 0.0) != 0.0) {
     report.add(not_used, fmt::format("{}: yaw control, YCMode = {:g}: the neutral angle stays",
                                      to_string(file.where("YCMode")), file.number("YCMode")));

@@ -9,6 +9,8 @@
 #include "offshore.hpp"
 #include "turbine_deck.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace culm::openfast {
@@ -25,23 +27,52 @@ std::optional<YawDrive> find_yaw_drive(const std::optional<GlueFile>& glue,
   return std::nullopt;
 }
 
+// A file that is named and not there is told to the report.
+bool is_there(const GlueFile& glue, const std::filesystem::path& file, const char* module,
+              const char* effect, Report& report) {
+  if (std::filesystem::is_regular_file(file)) return true;
+  report.add(missing, fmt::format("{}: names {}'s file {}, which is not there: {}",
+                                  glue.path.string(), module, file.string(), effect));
+  return false;
+}
+
+// Loads of the air and the wind, where both are switched on; still air without the wind.
+std::optional<Air> find_air(const GlueFile& glue, const ElastoDyn& turbine, Report& report) {
+  if (!glue.aerodyn || !is_there(glue, *glue.aerodyn, "AeroDyn", "no loads of the air", report)) {
+    return std::nullopt;
+  }
+  constexpr double minute = 60.0;
+  Air air{read_aerodyn(*glue.aerodyn, turbine.blades.size(), glue.air_density, report),
+          {},
+          glue.end.value_or(minute)};
+  air.wind.height = turbine.hub_height();
+  if (!glue.inflow) {
+    report.add(assumed, glue.path.string() +
+                            ": without InflowWind the air stands still; the "
+                            "variable V is the speed at the hub");
+  } else if (is_there(glue, *glue.inflow, "InflowWind", "the air stands still", report)) {
+    air.wind = read_inflow(*glue.inflow, turbine.hub_height(), report);
+  }
+  return air;
+}
+
 // `glue` is what was given, or what was found beside the main file.
 Imported import_turbine(const std::filesystem::path& path, const std::optional<GlueFile>& glue,
                         const TurbineOptions& options, Report& report) {
-  if (glue) report.add(read, glue->path.string() + ": names of the modules' files");
   ElastoDyn turbine = read_elastodyn(path, report);
   turbine.yaw_drive = find_yaw_drive(glue, options, report);
   if (glue) turbine.platform.modules = glue->substructure;
   if (glue && glue->gravity) turbine.gravity = *glue->gravity;
   if (!options.blade.empty()) replace_blades(turbine, read_beamdyn(options.blade, report), report);
   if (options.blade_mass > 0.0) scale_blades(turbine, options.blade_mass, report);
-  Imported imported{{}, {}, variants_of(turbine)};
-  imported.deck = write_deck(std::move(turbine), report);
+  if (glue) turbine.air = find_air(*glue, turbine, report);
+  Imported imported{{}, {}, variants_of(turbine), only_modes_of(turbine)};
+  imported.deck = write_deck(std::move(turbine), options.folder, report);
   return imported;
 }
 
 Imported import_all(const std::filesystem::path& path, TurbineOptions options, Report& report) {
-  const GlueFile glue = read_glue_file(path);
+  const GlueFile glue = read_glue_file(path, report);
   if (glue.beamdyn && options.blade.empty()) options.blade = *glue.beamdyn;
   return import_turbine(glue.elastodyn, glue, options, report);
 }

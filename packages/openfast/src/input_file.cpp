@@ -144,9 +144,28 @@ std::vector<double> InputFile::numbers(const std::string& keyword) {
 }
 
 std::filesystem::path InputFile::file(const std::string& keyword) {
-  std::string name = text(keyword);
+  return relative(text(keyword));
+}
+
+std::filesystem::path InputFile::relative(std::string name) const {
   std::replace(name.begin(), name.end(), '\\', '/');
   return (path_.parent_path() / name).lexically_normal();
+}
+
+std::vector<std::filesystem::path> InputFile::files(const std::string& keyword, int count) {
+  const auto first = static_cast<std::size_t>(get(keyword).line) - 1;
+  std::vector<std::filesystem::path> found;
+  for (std::size_t i = first; found.size() < static_cast<std::size_t>(count); ++i) {
+    const std::vector<Word> words =
+        i < lines_.size() ? split_words(lines_[i]) : std::vector<Word>{};
+    if (words.empty() || !words.front().quoted) {
+      throw InputError(
+          where(static_cast<int>(i) + 1, keyword),
+          fmt::format("must be {} lines with a name in quotes, found {}", count, found.size()));
+    }
+    found.push_back(relative(words.front().text));
+  }
+  return found;
 }
 
 // Rows of one table: headers first, then lines of numbers up to the first line of another kind.
@@ -232,11 +251,35 @@ bool InputFile::has_heading(const std::string& heading) const {
 }
 
 std::vector<std::string> InputFile::columns_below(const std::string& heading) const {
+  return columns_of(find_heading(heading) + 1);
+}
+
+std::vector<std::string> InputFile::columns_after(const std::string& keyword) const {
+  const Entry* entry = find(keyword);
+  return columns_of(entry != nullptr ? static_cast<std::size_t>(entry->line) : lines_.size());
+}
+
+std::vector<std::string> InputFile::columns_of(std::size_t line) const {
   std::vector<std::string> names;
-  const std::size_t line = find_heading(heading) + 1;
   if (line >= lines_.size()) return names;
   for (const Word& word : split_words(lines_[line])) names.push_back(word.text);
   return names;
+}
+
+InputFile InputFile::part(const std::string& heading) const {
+  std::size_t begin = heading.empty() ? 2 : find_heading(heading) + 1;
+  if (begin > lines_.size()) {
+    throw InputError(where(0, heading), "there is no heading with these words");
+  }
+  if (heading.empty() && begin < lines_.size() && is_heading(lines_[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < lines_.size() && !is_heading(lines_[end])) ++end;
+  InputFile one = *this;
+  std::erase_if(one.entries_, [&](const Entry& entry) {
+    const auto line = static_cast<std::size_t>(entry.line) - 1;
+    return line < begin || line >= end;
+  });
+  return one;
 }
 
 void InputFile::ignore(const std::vector<std::string>& keywords) {

@@ -4,6 +4,7 @@
 #include <culm/math/rotation.hpp>
 #include <culm/openfast/deck_writer.hpp>
 
+#include "air_lists.hpp"
 #include "blade_lists.hpp"
 #include "headings.hpp"
 #include "turbine_base.hpp"
@@ -234,6 +235,7 @@ void write_constraints(const ElastoDyn& turbine, const TurbineLayout& layout, De
   open_about(layout.shaft, "generator", "Joint Angle", "nacelle", "generator", deck);
   deck.set("Angle", 0.0);
   deck.close();
+  if (turbine.air) write_rotation(layout, deck);
   if (turbine.shaft_stiffness > 0.0) {
     open_about(layout.shaft, "shaft bearing", "Revolute Joint", "generator", "hub", deck);
     deck.close();
@@ -247,7 +249,8 @@ void write_constraints(const ElastoDyn& turbine, const TurbineLayout& layout, De
   deck.close();
 }
 
-void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
+void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report,
+                 DeckWriter& deck) {
   deck.open("Loads");
   deck.open("weight", "Gravity");
   deck.set("Acceleration", Vec3(0.0, 0.0, -turbine.gravity.value_or(standard_gravity)));
@@ -272,6 +275,23 @@ void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWrit
     deck.set("Damping", turbine.shaft_damping);
     deck.close();
   }
+  if (turbine.air) write_air_loads(turbine, layout, report, deck);
+  deck.close();
+}
+
+void write_analyses(const ElastoDyn& turbine, DeckWriter& deck) {
+  const std::vector<std::string> air =
+      turbine.air ? names_of_air(turbine) : std::vector<std::string>{};
+  deck.open("Analyses");
+  deck.open("weight", "Static");
+  deck.set("Steps", 2);
+  if (turbine.air) deck.set("Inactive", air);
+  deck.close();
+  deck.open("modes", "Modal");
+  deck.set("Modes", 15);
+  if (turbine.air) deck.set("Inactive", air);
+  deck.close();
+  if (turbine.air) write_operation(deck);
   deck.close();
 }
 
@@ -284,6 +304,7 @@ void write_history(const std::string& name, const std::string& type, const std::
 
 void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
   deck.open("Output");
+  if (turbine.air) deck.set("Every", 50);
   deck.open("History");
   write_history("tower top", "Displacement", "tower/last", deck);
   write_history("tower base", "Reaction", turbine.platform.mass > 0.0 ? "platform" : "tower/first",
@@ -294,6 +315,7 @@ void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWri
   }
   open_about(layout.shaft, "rotor", "Joint Angle", "nacelle", "hub", deck);
   deck.close();
+  if (turbine.air) write_air_history(turbine, deck);
   deck.open("energy", "Energy");
   deck.close();
   deck.close();
@@ -429,7 +451,11 @@ std::vector<Variant> variants_of(const ElastoDyn& turbine) {
   return {{"yaw locked", locked}, {"and no twist", both}};
 }
 
-std::string write_deck(ElastoDyn turbine, Report& report) {
+std::vector<std::string> only_modes_of(const ElastoDyn& turbine) {
+  return turbine.air ? std::vector<std::string>{"end=step"} : std::vector<std::string>{};
+}
+
+std::string write_deck(ElastoDyn turbine, const std::filesystem::path& folder, Report& report) {
   report_conventions(report);
   report.add(conventions,
              "turbine: x downwind, z up; azimuth and generator turn about the shaft, "
@@ -442,8 +468,10 @@ std::string write_deck(ElastoDyn turbine, Report& report) {
     report.add(assumed, fmt::format("gravity {:g} m/s^2, which ElastoDyn's files do not have",
                                     standard_gravity));
   }
-  report.add(not_used,
-             fmt::format("RotSpeed, {:.5g} rad/s: the rotor stands still", turbine.rotor_speed));
+  if (!turbine.air) {
+    report.add(not_used,
+               fmt::format("RotSpeed, {:.5g} rad/s: the rotor stands still", turbine.rotor_speed));
+  }
   report_masses(turbine, report);
   report_midpoint_mass(turbine, report);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
@@ -458,19 +486,15 @@ std::string write_deck(ElastoDyn turbine, Report& report) {
   }
   DeckWriter deck(turbine.title, about(turbine));
   deck.variable("torsion", 1.0, "times GJ of the tower");
+  if (turbine.air) write_air_variables(turbine, deck);
   write_sections_list(turbine, report, deck);
+  if (turbine.air) write_air(turbine, folder, report, deck);
   write_structures(turbine, layout, tower_damping, report, deck);
   write_masses(turbine, deck);
   write_constraints(turbine, layout, deck);
-  write_loads(turbine, layout, deck);
-  deck.open("Analyses");
-  deck.open("weight", "Static");
-  deck.set("Steps", 2);
-  deck.close();
-  deck.open("modes", "Modal");
-  deck.set("Modes", 15);
-  deck.close();
-  deck.close();
+  write_loads(turbine, layout, report, deck);
+  if (turbine.air) write_initial_velocities(turbine, layout, deck);
+  write_analyses(turbine, deck);
   write_output(turbine, layout, deck);
   return deck.text();
 }

@@ -5,6 +5,7 @@
 #include <culm/openfast/import.hpp>
 #include <culm/openfast/report.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,12 @@ void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report);
 /// Variants of the deck that show what tower torsion and yaw drive do to its modes.
 std::vector<Variant> variants_of(const ElastoDyn& turbine);
 
-/// A turbine on a clamped tower, generator and pitch locked, under its weight.
-std::string write_deck(ElastoDyn turbine, Report& report);
+/// Settings with which a run of the deck ends at its modes.
+std::vector<std::string> only_modes_of(const ElastoDyn& turbine);
+
+/// A turbine on a clamped tower, generator and pitch locked, under its weight; where there is air,
+/// also in operation at constant speed.
+/// @param folder  of the deck, from which it names files of winds
+std::string write_deck(ElastoDyn turbine, const std::filesystem::path& folder, Report& report);
 
 }  // namespace culm::openfast

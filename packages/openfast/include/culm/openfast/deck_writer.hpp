@@ -33,7 +33,8 @@ class DeckWriter {
   void set_degrees(const std::string& name, const std::vector<double>& radians);
   /// The 21 values of the upper triangle, row below row.
   void set_triangle(const std::string& name, const Mat6& matrix);
-  void variable(const std::string& name, double value, const std::string& comment);
+  void variable(const std::string& name, double value, const std::string& comment,
+                const std::string& unit = {});
   /// Lines of one comment.
   void comment(const std::vector<std::string>& lines);
 

@@ -1,7 +1,9 @@
 /// Input files of ElastoDyn: main, blade and tower file of a turbine.
 #pragma once
 
+#include <culm/openfast/aerodyn.hpp>
 #include <culm/openfast/beamdyn.hpp>
+#include <culm/openfast/inflow.hpp>
 
 #include <optional>
 
@@ -48,6 +50,13 @@ struct YawDrive {
   double stiffness = 0.0;  ///< [N m/rad]
   double damping = 0.0;    ///< [N m s/rad]
   double neutral = 0.0;    ///< angle about z [rad]
+};
+
+/// The air about a turbine.
+struct Air {
+  AeroDyn loads;
+  Wind wind;
+  double end = 0.0;  ///< of the motion [s]
 };
 
 /// The tower.
@@ -101,11 +110,14 @@ struct ElastoDyn {
   int blade_nodes = 0;            ///< in ElastoDyn: midpoints of equal parts
   std::vector<ElastoDynBlade> blades;
   ElastoDynTower tower;
+  std::optional<Air> air;
 
   /// Whether the nacelle turns against a spring; without one it would turn without end.
   bool yaws() const { return yaw_is_free && yaw_drive && yaw_drive->stiffness > 0.0; }
   /// Angle about z at which the nacelle stands [rad].
   double yaw_angle() const { return yaws() ? yaw_drive->neutral : yaw; }
+  /// Height of the apex of a rotor that is not yawed [m].
+  double hub_height() const;
 };
 
 /// Reads a main file and the blade and tower files that it names; tells the report what it found,

@@ -16,12 +16,21 @@ struct GlueFile {
   std::filesystem::path elastodyn;
   std::optional<std::filesystem::path> servodyn;
   std::optional<std::filesystem::path> beamdyn;  ///< blade 1, where BeamDyn computes the blades
-  std::optional<double> gravity;                 ///< [m/s^2]
-  std::vector<std::string> substructure;         ///< modules that carry the tower, with their files
+  std::optional<std::filesystem::path> aerodyn;
+  std::optional<std::filesystem::path> inflow;
+  std::optional<std::filesystem::path> seastate;
+  std::optional<std::filesystem::path> hydrodyn;
+  std::optional<std::filesystem::path> subdyn;
+  std::optional<std::filesystem::path> moordyn;
+  std::optional<double> gravity;          ///< [m/s^2]
+  std::optional<double> air_density;      ///< [kg/m^3]
+  std::optional<double> end;              ///< of the simulation [s]
+  std::vector<std::string> substructure;  ///< modules that carry the tower, with their files
 };
 
+/// Reads the file; tells the report what is switched on and cannot be imported, and what that does.
 /// Throws InputError, FileError.
-GlueFile read_glue_file(const std::filesystem::path& path);
+GlueFile read_glue_file(const std::filesystem::path& path, Report& report);
 
 /// The file beside a main file of ElastoDyn that names it; the first one by name where there are
 /// several, which the report then tells.

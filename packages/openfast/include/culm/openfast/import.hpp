@@ -18,6 +18,8 @@ struct Imported {
   std::string deck;    ///< text of the deck
   std::string report;  ///< what was read, assumed, checked and left out
   std::vector<Variant> variants;
+  /// Settings with which no more of the deck is run than its modes need.
+  std::vector<std::string> only_modes;
 };
 
 /// What the files of a turbine leave open.
@@ -26,6 +28,7 @@ struct TurbineOptions {
       blade;  ///< primary file of BeamDyn in place of ElastoDyn's blades; may be empty
   double blade_mass = 0.0;         ///< to which the mass of each blade is scaled, if positive [kg]
   std::filesystem::path servodyn;  ///< file of ServoDyn with the yaw drive; may be empty
+  std::filesystem::path folder;    ///< of the deck, from which it names files of winds
 };
 
 /// Reads a file of OpenFAST and all that it names: a driver or primary file of BeamDyn, a main file

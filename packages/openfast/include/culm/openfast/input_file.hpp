@@ -54,6 +54,9 @@ class InputFile {
   double number(const std::string& keyword, double otherwise);
   /// A file that the entry names, relative to this one.
   std::filesystem::path file(const std::string& keyword);
+  /// As many files, the first in the line of the entry and each other one in the next line. Throws
+  /// InputError where a line does not begin with a name in quotes.
+  std::vector<std::filesystem::path> files(const std::string& keyword, int count);
 
   /// The next `count` lines below the entry that hold at least `columns` numbers; headers before
   /// the first of them are skipped. Throws InputError naming `what` where there are fewer, or more.
@@ -69,8 +72,13 @@ class InputFile {
   bool has_heading(const std::string& heading) const;
   /// Whether a line begins with a word; capitals do not matter.
   bool has_line(const std::string& word) const;
-  /// Names of the columns of a table: the words of the first header line below an entry or heading.
+  /// Names of the columns of a table: the words of the first line below a heading, or an entry.
   std::vector<std::string> columns_below(const std::string& heading) const;
+  std::vector<std::string> columns_after(const std::string& keyword) const;
+  /// The entries below the first heading that contains `heading`, up to the next one, as a file of
+  /// their own; those above the first heading with an empty one. Throws InputError where there is
+  /// no such heading.
+  InputFile part(const std::string& heading) const;
 
   /// Says that these entries are known and not used.
   void ignore(const std::vector<std::string>& keywords);
@@ -90,6 +98,8 @@ class InputFile {
   const Entry& get(const std::string& keyword);
   std::size_t find_heading(const std::string& heading) const;
   std::vector<TextRow> rows_from(std::size_t line) const;
+  std::vector<std::string> columns_of(std::size_t line) const;
+  std::filesystem::path relative(std::string name) const;
   std::vector<NumberRow> numbers_from(std::size_t line, int count, int columns) const;
 
   std::filesystem::path path_;

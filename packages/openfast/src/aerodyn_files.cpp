@@ -1,0 +1,344 @@
+#include <culm/base/error.hpp>
+#include <culm/base/text.hpp>
+#include <culm/openfast/aerodyn.hpp>
+#include <culm/openfast/input_file.hpp>
+
+#include "headings.hpp"
+#include "named_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace culm::openfast {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+// Keywords have other names in other years.
+std::string name_of(const InputFile& file, const char* now, const char* before) {
+  return file.has(now) || !file.has(before) ? now : before;
+}
+
+bool is_default(InputFile& file, const std::string& keyword) {
+  return to_lower(file.text(keyword)) == "default";
+}
+
+// A switch that may be absent or "default".
+int switch_of(InputFile& file, const std::string& keyword, int otherwise) {
+  return file.has(keyword) && !is_default(file, keyword) ? file.integer(keyword) : otherwise;
+}
+
+bool flag_of(InputFile& file, const std::string& keyword, bool otherwise) {
+  return file.has(keyword) && !is_default(file, keyword) ? file.flag(keyword) : otherwise;
+}
+
+InputError unknown_switch(const InputFile& file, const std::string& keyword, int value, int least,
+                          int most) {
+  return InputError(file.where(keyword),
+                    fmt::format("must be from {} to {}, got {}", least, most, value));
+}
+
+std::string place(const InputFile& file, const std::string& keyword) {
+  return to_string(file.where(keyword));
+}
+
+void read_induction(InputFile& file, AeroDyn& aero, Report& report) {
+  const std::string keyword = name_of(file, "Wake_Mod", "WakeMod");
+  const int wake = file.integer(keyword);
+  if (wake < 0 || wake > 3) throw unknown_switch(file, keyword, wake, 0, 3);
+  aero.induction = wake == 0 ? "None" : wake == 1 ? "Steady" : "Dynamic";
+  if (wake == 2) {
+    report.add(
+        assumed,
+        fmt::format(
+            "{} = 2: dynamic inflow of Oye, whose first time follows the induction{}",
+            place(file, keyword),
+            switch_of(file, "DBEMT_Mod", 2) == 2
+                ? ""
+                : fmt::format("; DBEMT_Mod = {} wants it constant", file.integer("DBEMT_Mod"))));
+  }
+  if (wake == 3) {
+    report.add(
+        missing,
+        fmt::format("{} = 3: the vortex wake of OLAF; the nearest is taken, blade element and "
+                    "momentum with dynamic inflow",
+                    place(file, keyword)));
+  }
+  aero.tip_loss = flag_of(file, "TipLoss", true);
+  aero.hub_loss = flag_of(file, "HubLoss", true);
+  const bool axial = flag_of(file, "AIDrag", false), tangential = flag_of(file, "TIDrag", false);
+  aero.drag_induces = axial;
+  if (axial != tangential) {
+    report.add(assumed, fmt::format("{}: drag counts in both balances of momentum or in none: as "
+                                    "AIDrag says",
+                                    place(file, "AIDrag")));
+  }
+  if (!flag_of(file, "TanInd", true)) {
+    report.add(missing, fmt::format("{} False: induction along the motion is there all the same",
+                                    place(file, "TanInd")));
+  }
+}
+
+void read_yaw(InputFile& file, AeroDyn& aero, Report& report) {
+  if (file.has("SkewMod")) {
+    const int skew = file.integer("SkewMod");
+    aero.yaw = skew == 2 ? "Pitt Peters" : "None";
+    if (skew == 3) {
+      report.add(missing, place(file, "SkewMod") +
+                              " = 3: the coupled model of skewed wakes; none is "
+                              "taken");
+    }
+    return;
+  }
+  const int skew = switch_of(file, "Skew_Mod", 1);
+  const int redistribution = switch_of(file, "SkewRedistr_Mod", 1);
+  aero.yaw = skew == 1 && redistribution == 1 ? "Pitt Peters" : "None";
+  if (flag_of(file, "SkewMomCorr", false)) {
+    report.add(missing, place(file, "SkewMomCorr") +
+                            " True: the balance of momentum in a wind at an "
+                            "angle is that of a wind along the axis");
+  }
+}
+
+void read_lag(InputFile& file, AeroDyn& aero, Report& report) {
+  const std::string keyword = name_of(file, "UA_Mod", "UAMod");
+  const bool steady = file.has("AFAeroMod") && file.integer("AFAeroMod") == 1;
+  const int model = steady ? 0 : file.integer(keyword);
+  if (model < 0 || model > 7) throw unknown_switch(file, keyword, model, 0, 7);
+  aero.lag = model == 0 ? "None" : model == 6 || model == 7 ? "Oye" : "Four States";
+  if (steady) file.ignore({"UA_Mod", "UAMod"});
+  if (model != 0 && model != 4 && model != 6) {
+    report.add(assumed, fmt::format("{} = {}: the nearest model of unsteady airfoils is taken, {}",
+                                    place(file, keyword), model,
+                                    model == 7 ? "Oye (6)" : "four states (4)"));
+  }
+  if (file.has("AoA34") && !flag_of(file, "AoA34", true)) {
+    report.add(assumed, place(file, "AoA34") +
+                            " False: the angle of attack is that of the "
+                            "three-quarter chord all the same");
+  }
+}
+
+// What is switched on and not in the deck.
+void report_missing(InputFile& file, Report& report) {
+  struct Effect {
+    const char* keyword;
+    const char* text;
+  };
+  constexpr Effect switches[] = {
+      {"TwrPotent", "the tower does not turn the wind aside: blades that pass it feel no dip"},
+      {"Buoyancy", "no buoyancy of blades, hub, nacelle and tower"},
+      {"NacelleDrag", "no drag of the nacelle"},
+      {"TFinAero", "no tail fin"},
+      {"CompAA", "no noise"},
+      {"CavitCheck", "no check of cavitation"},
+      {"SectAvg", "no average of the wind over sectors"}};
+  const auto is_on = [&](const char* keyword) {
+    if (!file.has(keyword) || is_default(file, keyword)) return false;
+    const std::string value = to_lower(file.text(keyword));
+    return value != "0" && value != "false" && value != "f";
+  };
+  for (const Effect& effect : switches) {
+    if (is_on(effect.keyword)) {
+      report.add(missing, fmt::format("{} = {}: {}", place(file, effect.keyword),
+                                      file.text(effect.keyword), effect.text));
+    }
+  }
+  if (is_on("TwrShadow")) {
+    report.add(missing, fmt::format("{} = {}: no shadow of the tower", place(file, "TwrShadow"),
+                                    file.text("TwrShadow")));
+  }
+  if (const int tables = switch_of(file, "AFTabMod", 1); tables != 1) {
+    report.add(
+        missing,
+        fmt::format("{} = {}: coefficients do not depend on the Reynolds number or a setting: "
+                    "the first table of each airfoil counts",
+                    place(file, "AFTabMod"), tables));
+  }
+}
+
+std::vector<AeroTowerStation> read_tower(InputFile& file) {
+  if (!flag_of(file, "TwrAero", false) || file.integer("NumTwrNds") == 0) return {};
+  const NamedTable table(file, "NumTwrNds", 3, "tower");
+  std::vector<AeroTowerStation> tower;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    tower.push_back({table.at(i, "TwrElev"), table.positive(i, "TwrDiam"), table.at(i, "TwrCd")});
+    if (i > 0 && tower[i].height <= tower[i - 1].height) {
+      throw InputError(file.where(table.line(i), "TwrElev"),
+                       fmt::format("heights must rise, got {:g} after {:g} m", tower[i].height,
+                                   tower[i - 1].height));
+    }
+  }
+  return tower;
+}
+
+AeroBlade read_blade(const std::filesystem::path& path, std::size_t airfoils, Report& report) {
+  InputFile file(path);
+  const NamedTable table(file, "NumBlNds", 7, "blade");
+  AeroBlade blade{path, {}};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double airfoil = table.at(i, "BlAFID");
+    if (!(airfoil >= 1.0 && airfoil <= static_cast<double>(airfoils)) ||
+        airfoil != static_cast<double>(static_cast<std::size_t>(airfoil))) {
+      throw InputError(
+          file.where(table.line(i), "BlAFID"),
+          fmt::format("must be a whole number from 1 to {}, got {:g}", airfoils, airfoil));
+    }
+    const double span = table.at(i, "BlSpn");
+    const bool rises = i == 0 ? span == 0.0 : span > blade.stations.back().span;
+    if (!rises) {
+      throw InputError(file.where(table.line(i), "BlSpn"),
+                       fmt::format("must rise from 0, got {:g}", span));
+    }
+    blade.stations.push_back({span, table.at(i, "BlCrvAC"), table.at(i, "BlSwpAC"),
+                              degree * table.at(i, "BlTwist"), table.positive(i, "BlChord"),
+                              static_cast<std::size_t>(airfoil) - 1});
+  }
+  report.add(read, fmt::format("{}: AeroDyn blade, {} stations; '{}'", path.string(), table.size(),
+                               file.title()));
+  double area = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+    const AeroStation &low = blade.stations[i], &high = blade.stations[i + 1];
+    const double length = high.span - low.span;
+    area += 0.5 * length * (low.chord + high.chord);
+    // of a chord that is linear in between
+    moment +=
+        length / 6.0 *
+        (low.chord * (2.0 * low.span + high.span) + high.chord * (low.span + 2.0 * high.span));
+  }
+  report.add(checked,
+             fmt::format("air: blade of {:.6g} m, area {:.6g} m^2, its centre {:.6g} m from "
+                         "the root",
+                         blade.stations.back().span, area, moment / area));
+  report.add(unknown, file.unread());
+  return blade;
+}
+
+// Names that stand once.
+void distinguish(std::vector<AirfoilFile>& airfoils) {
+  std::set<std::string> names;
+  for (AirfoilFile& airfoil : airfoils) {
+    const std::string stem = airfoil.name;
+    for (int i = 2; !names.insert(airfoil.name).second; ++i) {
+      airfoil.name = fmt::format("{} {}", stem, i);
+    }
+  }
+}
+
+AirfoilColumns read_columns(InputFile& file) {
+  AirfoilColumns columns{file.integer("InCol_Alfa"), file.integer("InCol_Cl"),
+                         file.integer("InCol_Cd"), file.integer("InCol_Cm")};
+  for (const char* keyword : {"InCol_Alfa", "InCol_Cl", "InCol_Cd", "InCol_Cm"}) {
+    const int least = std::string(keyword) == "InCol_Cm" ? 0 : 1;
+    const int column = file.integer(keyword);
+    if (column < least || column > 100) throw unknown_switch(file, keyword, column, least, 100);
+  }
+  return columns;
+}
+
+void ignore_rest(InputFile& file) {
+  file.ignore({"Echo",
+               "DTAero",
+               "FrozenWake",
+               "AA_InputFile",
+               "KinVisc",
+               "SpdSound",
+               "Patm",
+               "Pvap",
+               "FluidDepth",
+               "BEM_Mod",
+               "Skew_Mod",
+               "SkewRedistr_Mod",
+               "SkewRedistrFactor",
+               "SkewModFactor",
+               "SkewMomCorr",
+               "IndToler",
+               "MaxIter",
+               "SectAvgWeighting",
+               "SectAvgNPoints",
+               "SectAvgPsiBwd",
+               "SectAvgPsiFwd",
+               "DBEMT_Mod",
+               "tau1_const",
+               "OLAFInputFileName",
+               "FLookup",
+               "IntegrationMethod",
+               "UAStartRad",
+               "UAEndRad",
+               "InCol_Cpmin",
+               "VolHub",
+               "HubCenBx",
+               "VolNac",
+               "NacCenB",
+               "NacArea",
+               "NacCd",
+               "NacDragAC",
+               "TFinFile",
+               "NumTwrNds",
+               "SumPrint",
+               "NBlOuts",
+               "BlOutNd",
+               "NTwOuts",
+               "TwOutNd",
+               "BldNd_BladesOut",
+               "BldNd_BlOutNd",
+               "TwrTipLoss",
+               "Buoyancy",
+               "CompAA",
+               "CavitCheck",
+               "NacelleDrag",
+               "TFinAero",
+               "AoA34",
+               "SectAvg"});
+  for (int i = 1; i <= 3; ++i) file.ignore({fmt::format("ADBlFile({})", i)});
+}
+
+}  // namespace
+
+AeroDyn read_aerodyn(const std::filesystem::path& path, std::size_t blades,
+                     std::optional<double> density, Report& report) {
+  InputFile file(path);
+  AeroDyn aero;
+  aero.path = path;
+  report.add(read, fmt::format("{}: AeroDyn; '{}'", path.string(), file.title()));
+  if (!is_default(file, "AirDens")) {
+    aero.density = file.number("AirDens");
+  } else if (density) {
+    aero.density = *density;
+  } else {
+    throw InputError(file.where("AirDens"), "is \"default\", but the .fst file has no AirDens");
+  }
+  if (!(aero.density > 0.0)) {
+    throw InputError(file.where("AirDens"),
+                     fmt::format("must be positive, got {:g}", aero.density));
+  }
+  read_induction(file, aero, report);
+  read_yaw(file, aero, report);
+  read_lag(file, aero, report);
+  report_missing(file, report);
+  const AirfoilColumns columns = read_columns(file);
+  aero.has_moments = columns.moment > 0 && flag_of(file, "UseBlCm", true);
+  const int count = file.integer("NumAFfiles");
+  if (count < 1 || count > 10000) throw unknown_switch(file, "NumAFfiles", count, 1, 10000);
+  for (const auto& airfoil : file.files("AFNames", count)) {
+    aero.airfoils.push_back(read_airfoil(airfoil, columns, report));
+  }
+  distinguish(aero.airfoils);
+  std::map<std::filesystem::path, AeroBlade> known;
+  for (std::size_t i = 1; i <= blades; ++i) {
+    const auto blade = file.file(fmt::format("ADBlFile({})", i));
+    if (!known.contains(blade)) known[blade] = read_blade(blade, aero.airfoils.size(), report);
+    aero.blades.push_back(known[blade]);
+  }
+  aero.tower = read_tower(file);
+  ignore_rest(file);
+  report.add(unknown, file.unread());
+  return aero;
+}
+
+}  // namespace culm::openfast
