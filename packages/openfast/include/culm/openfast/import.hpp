@@ -28,12 +28,11 @@ struct TurbineOptions {
       blade;  ///< primary file of BeamDyn in place of ElastoDyn's blades; may be empty
   double blade_mass = 0.0;         ///< to which the mass of each blade is scaled, if positive [kg]
   std::filesystem::path servodyn;  ///< file of ServoDyn with the yaw drive; may be empty
-  std::filesystem::path folder = {};  ///< of the deck, from which it names files of winds
+  std::filesystem::path folder{};  ///< of the deck, from which it names files of winds
 };
 
 /// Reads a file of OpenFAST and all that it names: a driver or primary file of BeamDyn, a main file
-/// of ElastoDyn, the file that names those of all modules (.fst), or a file of SubDyn, HydroDyn,
-/// SeaState or MoorDyn by itself. Beside a main file of
+/// of ElastoDyn, or the file that names those of all modules (.fst). Beside a main file of
 /// ElastoDyn the latter is looked for, for ServoDyn's file and the modules of the substructure.
 /// Throws InputError with file, line and keyword, FileError, or UsageError for options without a
 /// turbine.
