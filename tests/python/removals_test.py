@@ -96,6 +96,33 @@ class Removals(unittest.TestCase):
         found = removals.find(deck(entry("Structures", {}, beams)))
         self.assertEqual(settings(found, "strain damping"), [["Structures/a/Strain Damping={0, 0, 0, 0, 0, 0}"]])
 
+    def test_air_on_blades_goes_together_by_its_parts(self):
+        strip = {"Type": "Strip", "Chord": "3", "Lag": "Jones", "Apparent Mass": "true"}
+        loads = entry("air 1", {**strip, "Structure": "a"}) + entry("air 2", {**strip, "Structure": "b"})
+        loads += entry("air 3", {**strip, "Structure": "c", "Lag": "Oye", "Apparent Mass": "false"})
+        loads += entry("air 4", {**strip, "Structure": "d", "Lag": "Four States", "Apparent Mass": "false"})
+        found = removals.find(deck(entry("Loads", {}, loads)))
+        self.assertEqual(settings(found, "lag of the circulation"), [["Loads/air 1/Lag=None", "Loads/air 2/Lag=None"]])
+        self.assertEqual(settings(found, "apparent mass"), [["Loads/air 1/Apparent Mass=false", "Loads/air 2/Apparent Mass=false"]])
+        self.assertEqual(settings(found, "dynamic stall"), [["Loads/air 3/Lag=None"]])
+        self.assertEqual(settings(found, "pressure and separation"), [["Loads/air 4/Lag=Airfoil"]])
+
+    def test_rotors_lose_what_they_induce(self):
+        rotor = {"Type": "Rotor", "Induction": "Dynamic", "Losses": "{Tip, Hub}", "Yaw": "Pitt Peters"}
+        plain = {"Type": "Rotor", "Induction": "None", "Losses": "{}", "Yaw": "None"}
+        found = removals.find(deck(entry("Loads", {}, entry("r", rotor) + entry("p", plain))))
+        self.assertEqual(settings(found, "induction"), [["Loads/r/Induction=None"]])
+        self.assertEqual(settings(found, "dynamic inflow"), [["Loads/r/Induction=Steady"]])
+        self.assertEqual(settings(found, "tip losses"), [['Loads/r/Losses={"Hub"}']])
+        self.assertEqual(settings(found, "hub losses"), [['Loads/r/Losses={"Tip"}']])
+        self.assertEqual(settings(found, "skewed wake"), [["Loads/r/Yaw=None"]])
+
+    def test_free_wakes_become_prescribed(self):
+        lattice = entry("a", {"Type": "Vortex Lattice"}, entry("Wake", {"Motion": "Free"}))
+        lattice += entry("b", {"Type": "Vortex Lattice"}, entry("Wake", {"Motion": "Prescribed"}))
+        found = removals.find(deck(entry("Loads", {}, lattice)))
+        self.assertEqual(settings(found, "free wake"), [["Loads/a/Wake/Motion=Prescribed"]])
+
 
 class RemovalsInMedia(unittest.TestCase):
     def test_waves_shrink_and_currents_stop(self):
@@ -116,18 +143,6 @@ class RemovalsInMedia(unittest.TestCase):
         self.assertEqual(settings(found, "drag of the water"), [["Loads/waves/Drags={0.0, 0.0}", "Loads/waves/End Drag=0.0"]])
         self.assertEqual(settings(found, "added mass"), [["Loads/waves/Added Mass=0.0"]])
         self.assertEqual(settings(found, "growth"), [["Loads/waves/Growth=0.0"]])
-
-    def test_rotors_follow_at_once(self):
-        rotor = {"Type": "Rotor", "Induction": "Dynamic", "Losses": "{Tip}", "Yaw": "None"}
-        found = removals.find(deck(entry("Loads", {}, entry("rotor", rotor))))
-        self.assertEqual(settings(found, "dynamic inflow"), [["Loads/rotor/Induction=Steady"]])
-        self.assertEqual(settings(found, "losses of tip and hub"), [["Loads/rotor/Losses={}"]])
-        self.assertEqual(settings(found, "skewed wake"), [])
-
-    def test_blades_lose_their_lag_together(self):
-        strip = {"Type": "Strip", "Lag": "Oye", "Apparent Mass": "false", "Chords": "{1, 2}"}
-        found = removals.find(deck(entry("Loads", {}, entry("a", strip) + entry("b", strip))))
-        self.assertEqual(settings(found, "lag of the air"), [["Loads/a/Lag=None", "Loads/b/Lag=None"]])
 
     def soil(self, curve):
         pile = {**BEAM, "Order": "2"}

@@ -58,7 +58,7 @@ class PageOfARun(unittest.TestCase):
     def table(self, window):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "history.csv"
-            path.write_text("time,tip uz [m],load [N]\n0,0,\n1,4,1\n2,0,1\n3,4,1\n4,8,1\n")
+            path.write_text("time,tip uz [m],load [N],analysis,step\n0,0,,0,1\n1,4,1,0,2\n2,0,1,0,3\n3,4,1,0,4\n4,8,1,0,5\n")
             page = Page("title")
             report._add_statistics(page, History(path), [("weight", "Static", slice(0, 1)), ("motion", "Dynamic", slice(0, 5))], window)
             return "".join(page.parts[1:])

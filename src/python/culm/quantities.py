@@ -95,13 +95,24 @@ class Measure:
         stretches = [_last_stretch(history.levels) for history in histories]
         fewest = min(stretches, key=len)
         self.levels = numpy.array(fewest if norm != "end" else fewest[-1:])
+        self._leave_out_absent(histories)
         self.weights = _weights(self.levels)
         self.scale = {title: 1.0 for title in self.parts}
+
+    def _leave_out_absent(self, histories):
+        """Takes away levels at which something does not exist in one of the runs, as the power of a rotor before its first
+        step."""
+        if not self.columns:
+            return
+        exists = [numpy.isfinite(self.state(history)).all(axis=1) for history in histories]
+        self.levels = self.levels[numpy.logical_and.reduce(exists)]
+        if len(self.levels) == 0:
+            raise CulmError(f"at no level do all runs have {', '.join(self.columns)}")
 
     def state(self, history):
         """What is watched of a run, (levels, columns)."""
         if self.norm == "end":
-            return numpy.array([[history.columns[name][-1] for name in self.columns]])
+            return numpy.array([[history.columns[name][-1] for name in self.columns]])[: len(self.levels)]
         stretch = _last_stretch(history.levels)
         first = len(history.levels) - len(stretch)
         values = numpy.empty((len(stretch), len(self.columns)))

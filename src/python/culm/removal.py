@@ -37,3 +37,12 @@ def words(text):
 
 def array(names):
     return "{" + ", ".join(f'"{name}"' for name in names) + "}"
+
+
+def same(deck, path, kind, but=()):
+    """Entries of a type whose parameters are the same but for some, as lists of names."""
+    groups = {}
+    for name in of_types(deck, path, kind):
+        own = {key: value for key, value in parameters(deck, f"{path}/{name}").items() if key not in but}
+        groups.setdefault(tuple(sorted(own.items())), []).append(name)
+    return groups.values()

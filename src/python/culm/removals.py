@@ -5,7 +5,7 @@ FINDERS.
 """
 
 from . import removals_in_media
-from .removal import LIGHT, Removal, array, inactive, of_types, parameters, words
+from .removal import LIGHT, Removal, array, inactive, of_types, parameters, same, words
 
 
 def find(deck):
@@ -153,10 +153,7 @@ FINDERS = [
 
 def _alike(deck):
     """Beams whose lists differ in their curves only, as lists of names."""
-    groups = {}
-    for name in of_types(deck, "Structures", "Beam"):
-        groups.setdefault(tuple(sorted(parameters(deck, f"Structures/{name}").items())), []).append(name)
-    return groups.values()
+    return same(deck, "Structures", "Beam")
 
 
 def _weighs(section):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .removal import LIGHT, Removal, array, inactive, of_types, parameters, words
+from .removal import LIGHT, Removal, array, inactive, of_types, parameters, same, words
 
 HIGH = 1e6  # factor on a yield stress that is never reached
 
@@ -54,30 +54,42 @@ def members_in_water(deck):
                 yield Removal(effect, name, settings)
 
 
-def airfoils(deck):
-    """Lag and apparent mass of strips; loads that differ in nothing but where they act go together."""
-    groups = {}
-    for name in of_types(deck, "Loads", "Strip"):
-        strip = parameters(deck, f"Loads/{name}")
-        groups.setdefault((strip["Lag"], strip["Apparent Mass"], strip.get("Chords")), []).append(name)
-    for (lag, apparent_mass, _), names in groups.items():
-        where = ", ".join(names)
-        if lag != "None":
-            yield Removal("lag of the air", where, [f"Loads/{name}/Lag=None" for name in names])
-        if apparent_mass == "true":
-            yield Removal("apparent mass", where, [f"Loads/{name}/Apparent Mass=false" for name in names])
+def air_of_sections(deck):
+    """Memory and inertia of the air on sections; strips that differ in where they are only, go together."""
+    ways = {
+        "lag of the circulation": ("Lag", ("Jones", "Airfoil"), "None"),
+        "dynamic stall": ("Lag", ("Oye",), "None"),
+        "pressure and separation": ("Lag", ("Four States",), "Airfoil"),
+        "apparent mass": ("Apparent Mass", ("true",), "false"),
+    }
+    for names in same(deck, "Loads", "Strip", {"Structure", "Node"}):
+        strip = parameters(deck, f"Loads/{names[0]}")
+        for effect, (key, present, off) in ways.items():
+            if strip.get(key) in present:
+                yield Removal(effect, ", ".join(names), [f"Loads/{name}/{key}={off}" for name in names])
 
 
-def rotors(deck):
-    """Lag of the wake, all that it induces, losses at the ends of blades, effects of an angle of the wind."""
+def induction(deck):
+    """What a rotor does to its wind: all of it, its lag, losses at the ends of blades, skewed wakes."""
     for name in of_types(deck, "Loads", "Rotor"):
         rotor = parameters(deck, f"Loads/{name}")
+        if rotor["Induction"] != "None":
+            yield Removal("induction", name, [f"Loads/{name}/Induction=None"])
         if rotor["Induction"] == "Dynamic":
-            yield Removal("dynamic inflow", name, [f"Loads/{name}/Induction=Steady"], "steady")
-        if words(rotor["Losses"]):
-            yield Removal("losses of tip and hub", name, [f"Loads/{name}/Losses={{}}"])
+            yield Removal("dynamic inflow", name, [f"Loads/{name}/Induction=Steady"])
+        losses = words(rotor["Losses"])
+        for loss in losses:
+            rest = [one for one in losses if one != loss]
+            yield Removal(f"{loss.lower()} losses", name, [f"Loads/{name}/Losses={array(rest)}"])
         if rotor["Yaw"] != "None":
             yield Removal("skewed wake", name, [f"Loads/{name}/Yaw=None"])
+
+
+def free_wakes(deck):
+    """The rolling up of wakes."""
+    for name in of_types(deck, "Loads", "Vortex Lattice"):
+        if deck.parameters.get(f"Loads/{name}/Wake/Motion") == "Free":
+            yield Removal("free wake", name, [f"Loads/{name}/Wake/Motion=Prescribed"])
 
 
 def is_ground(deck, name):
@@ -130,7 +142,18 @@ def plasticity(deck):
                 yield Removal("yielding", name, settings, f"yield stress times {HIGH:g}")
 
 
-FINDERS = [waves, shear_of_the_wind, members_in_water, airfoils, rotors, ground, contacts, heat, plasticity]
+FINDERS = [
+    waves,
+    shear_of_the_wind,
+    members_in_water,
+    air_of_sections,
+    induction,
+    free_wakes,
+    ground,
+    contacts,
+    heat,
+    plasticity,
+]
 
 
 def _times(text, factor):

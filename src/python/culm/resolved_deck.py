@@ -4,6 +4,8 @@ import pathlib
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
+INCLUDE = "{http://www.w3.org/2001/XInclude}include"
+
 
 class ResolvedDeck:
     """Parameters by their paths, as --set takes them: 'Analyses/motion/Step'."""
@@ -27,9 +29,12 @@ class ResolvedDeck:
         words = pattern.split("/")
         return [path for path in self.parameters if _matches(path.split("/"), words)]
 
-    def files(self):
-        """Names of the files that it reads, relative to the deck or absolute."""
-        return {value for path, value in self.parameters.items() if path.endswith("/File Name")}
+    def files(self, deck):
+        """Paths of the files that it reads, by their names, which are relative to the deck file or to the include that has
+        them."""
+        names = {value for path, value in self.parameters.items() if path.endswith("/File Name")}
+        folders = sorted(_folders(deck))
+        return {name: folder / name for name in sorted(names) for folder in folders if (folder / name).is_file()}
 
     def names_in(self, path):
         """The lists in a list: names_in('Output/History') are the quantities of the deck."""
@@ -48,6 +53,19 @@ class ResolvedDeck:
                 self._walk(child, path)
             else:
                 self.parameters["/".join(path)] = child.get("value")
+
+
+def _folders(deck):
+    """Of a deck file and of all its includes."""
+    folders, seen, waiting = set(), set(), [deck]
+    while waiting:
+        path = waiting.pop()
+        if path in seen:
+            continue
+        seen.add(path)
+        folders.add(path.parent)
+        waiting += [path.parent / one.get("href") for one in ElementTree.parse(path).iter(INCLUDE)]
+    return folders
 
 
 def _matches(path, pattern):

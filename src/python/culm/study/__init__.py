@@ -169,8 +169,8 @@ def _write_target(judgement, program, arguments, folder):
 def _write_deck(program, deck, settings, path, comment):
     resolved = ResolvedDeck.of(program, deck, settings)
     head, _, body = resolved.text.partition("?>\n")
-    for name in resolved.files():  # which are relative to the deck
-        place = os.path.relpath(deck.parent / name, path.parent)
+    for name, file in resolved.files(deck).items():
+        place = os.path.relpath(file, path.parent)
         body = body.replace(f'value="{name}"', f'value="{place}"')
     path.write_text(f"{head}?>\n<!-- {comment.replace('--', '- -')} -->\n{body}", encoding="utf-8")
 

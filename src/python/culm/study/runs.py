@@ -51,7 +51,7 @@ class StudyRuns:
         program are not taken for its own"""
         self.program = program
         self.deck = deck
-        read = [pathlib.Path(program.path), *(deck.parent / name for name in sorted(resolved.files()))]
+        read = [pathlib.Path(program.path), *resolved.files(deck).values()]
         self.identity = "\n".join([resolved.text, *map(_digest, read)])
         self.folder = folder / "runs"
         self.time_limit = time_limit

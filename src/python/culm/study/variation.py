@@ -34,10 +34,13 @@ SHORT_NAMES = {
     "agreement": ["Coupling/Tolerance"],
     "coupling": ["Coupling/Scheme"],
     "substeps": ["Coupling/Partners/*/Steps"],
+    "stations": ["Loads/*/Stations"],
+    "lag": ["Loads/*/Lag"],
+    "induction": ["Loads/*/Induction"],
 }
 SHRINKING = {"step", "tolerance", "window", "agreement", "Step", "Force Tolerance", "Window", "Tolerance"}  # smaller is finer
-GROWING = {"mesh", "Refinement", "Elements"}  # larger is finer
-REFINED = {"step", "mesh", "window", "Step", "Elements", "Refinement", "Window"}
+GROWING = {"mesh", "Refinement", "Elements", "stations", "Stations"}  # larger is finer
+REFINED = {"step", "mesh", "window", "stations", "Step", "Elements", "Refinement", "Window", "Stations"}
 
 # Values of these are ways to the same solution; all others are models of their own.
 SAME_SOLUTION = {

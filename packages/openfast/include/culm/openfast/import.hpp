@@ -32,8 +32,9 @@ struct TurbineOptions {
 };
 
 /// Reads a file of OpenFAST and all that it names: a driver or primary file of BeamDyn, a main file
-/// of ElastoDyn, or the file that names those of all modules (.fst). Beside a main file of
-/// ElastoDyn the latter is looked for, for ServoDyn's file and the modules of the substructure.
+/// of ElastoDyn, the file that names those of all modules (.fst), or a file of SubDyn, HydroDyn,
+/// SeaState or MoorDyn by itself. Beside a main file of ElastoDyn the latter is looked for, for
+/// ServoDyn's file and the modules of the substructure.
 /// Throws InputError with file, line and keyword, FileError, or UsageError for options without a
 /// turbine.
 Imported import_file(const std::filesystem::path& path, const TurbineOptions& options = {});
