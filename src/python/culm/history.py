@@ -25,10 +25,11 @@ class History:
     def __init__(self, path):
         with open(path, newline="") as file:
             rows = list(csv.reader(file))
-        self.names = rows[0][1:-2]
+        tells_places = rows[0][-2:] == ["analysis", "step"]  # a reference from elsewhere need not
+        self.names = rows[0][1:-2] if tells_places else rows[0][1:]
         self.levels = [float(row[0]) for row in rows[1:]]
-        self.analyses = [int(row[-2]) for row in rows[1:]]
-        self.steps = [int(row[-1]) for row in rows[1:]]
+        self.analyses = [int(row[-2]) if tells_places else 0 for row in rows[1:]]
+        self.steps = [int(row[-1]) if tells_places else number for number, row in enumerate(rows[1:])]
         self.columns = {
             name: [float(row[i + 1] or math.nan) for row in rows[1:]] for i, name in enumerate(self.names)
         }
