@@ -1,5 +1,6 @@
 // Gusts of IEC 61400-1, section 6.3.3 (edition 4; edition 3 has the same formulas).
 #include "reference_wind.hpp"
+#include "tower_influence.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -120,8 +121,8 @@ Site read_site(const Options& options) {
 }  // namespace
 
 void register_gust(FlowRegistry& registry) {
-  registry.add(
-      "Gust",
+  add_wind(
+      registry, "Gust",
       reference_wind_schema("Gust", "A gust of IEC 61400-1 in a wind with power law.")
           .add(number("Exponent", "1", "Exponent of the height.").non_negative().optional(0.2))
           .add(choice("Shape", {"EOG", "EDC", "ECD", "EWS"},

@@ -1,4 +1,5 @@
 #include "reference_wind.hpp"
+#include "tower_influence.hpp"
 
 namespace culm::flow {
 namespace {
@@ -28,17 +29,16 @@ class LogLaw final : public Flow {
 }  // namespace
 
 void register_log_law(FlowRegistry& registry) {
-  registry.add(
-      "Log Law",
-      reference_wind_schema("Log Law", "Speed that grows with the logarithm of the height.")
-          .add(number("Roughness", "m", "Height at which the wind vanishes.").positive())
-          .check([](const Options& options, InputIssues& issues) {
-            if (options.number("Roughness") < options.number("Height")) return;
-            issues.add(options.where("Roughness"), "must be less than 'Height'");
-          }),
-      [](const Options& options, model::BuildContext&) -> SharedFlow {
-        return std::make_shared<LogLaw>(options);
-      });
+  add_wind(registry, "Log Law",
+           reference_wind_schema("Log Law", "Speed that grows with the logarithm of the height.")
+               .add(number("Roughness", "m", "Height at which the wind vanishes.").positive())
+               .check([](const Options& options, InputIssues& issues) {
+                 if (options.number("Roughness") < options.number("Height")) return;
+                 issues.add(options.where("Roughness"), "must be less than 'Height'");
+               }),
+           [](const Options& options, model::BuildContext&) -> SharedFlow {
+             return std::make_shared<LogLaw>(options);
+           });
 }
 
 }  // namespace culm::flow

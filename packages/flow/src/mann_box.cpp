@@ -1,6 +1,7 @@
 #include "box.hpp"
 #include "mann_files.hpp"
 #include "reference_wind.hpp"
+#include "tower_influence.hpp"
 
 #include <fmt/format.h>
 
@@ -77,8 +78,8 @@ SharedFlow make_mann_box(const Options& options, model::BuildContext&) {
 }  // namespace
 
 void register_mann_box(FlowRegistry& registry) {
-  registry.add(
-      "Mann Box",
+  add_wind(
+      registry, "Mann Box",
       box_schema("Mann Box",
                  "Turbulence of three files as HAWC2 and Mann's generator write them, added to a "
                  "wind with power law. The box repeats itself along the wind.")

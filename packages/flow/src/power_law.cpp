@@ -1,4 +1,5 @@
 #include "reference_wind.hpp"
+#include "tower_influence.hpp"
 
 namespace culm::flow {
 namespace {
@@ -26,12 +27,12 @@ class PowerLaw final : public Flow {
 }  // namespace
 
 void register_power_law(FlowRegistry& registry) {
-  registry.add("Power Law",
-               reference_wind_schema("Power Law", "Speed that grows as a power of the height.")
-                   .add(number("Exponent", "1", "Exponent of the height.").non_negative()),
-               [](const Options& options, model::BuildContext&) -> SharedFlow {
-                 return std::make_shared<PowerLaw>(options);
-               });
+  add_wind(registry, "Power Law",
+           reference_wind_schema("Power Law", "Speed that grows as a power of the height.")
+               .add(number("Exponent", "1", "Exponent of the height.").non_negative()),
+           [](const Options& options, model::BuildContext&) -> SharedFlow {
+             return std::make_shared<PowerLaw>(options);
+           });
 }
 
 }  // namespace culm::flow

@@ -5,6 +5,7 @@
 #include <culm/base/text.hpp>
 
 #include "reference_wind.hpp"
+#include "tower_influence.hpp"
 
 #include <fmt/format.h>
 
@@ -150,8 +151,8 @@ std::vector<Row> read_openfast(const Options& options) {
 }  // namespace
 
 void register_table(FlowRegistry& registry) {
-  registry.add(
-      "Table",
+  add_wind(
+      registry, "Table",
       Schema("Table", "Wind that varies in time, as OpenFAST's uniform wind files have it.")
           .add(density_field())
           .add(text("File Name",

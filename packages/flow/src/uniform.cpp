@@ -1,3 +1,4 @@
+#include "tower_influence.hpp"
 #include "types.hpp"
 
 #include <algorithm>
@@ -22,21 +23,21 @@ class Uniform final : public Flow {
 }  // namespace
 
 void register_uniform(FlowRegistry& registry) {
-  registry.add("Uniform",
-               Schema("Uniform", "The same velocity everywhere.")
-                   .add(density_field())
-                   .add(model::vector_field("Velocity", "m/s", "Velocity in space."))
-                   .add(model::function_field("Constant")),
-               [](const Options& options, model::BuildContext& context) -> SharedFlow {
-                 const auto function = model::find_function(options, context);
-                 if (!function) return nullptr;
-                 if (!function->is_function_of_time()) {
-                   context.issues.add(options.where("Function"), "must be a function of time");
-                   return nullptr;
-                 }
-                 return std::make_shared<Uniform>(options.number("Density"),
-                                                  model::vector(options, "Velocity"), *function);
-               });
+  add_wind(registry, "Uniform",
+           Schema("Uniform", "The same velocity everywhere.")
+               .add(density_field())
+               .add(model::vector_field("Velocity", "m/s", "Velocity in space."))
+               .add(model::function_field("Constant")),
+           [](const Options& options, model::BuildContext& context) -> SharedFlow {
+             const auto function = model::find_function(options, context);
+             if (!function) return nullptr;
+             if (!function->is_function_of_time()) {
+               context.issues.add(options.where("Function"), "must be a function of time");
+               return nullptr;
+             }
+             return std::make_shared<Uniform>(options.number("Density"),
+                                              model::vector(options, "Velocity"), *function);
+           });
 }
 
 }  // namespace culm::flow

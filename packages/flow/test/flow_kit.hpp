@@ -23,7 +23,9 @@ class FlowTest : public testing::Test {
     return kit::mistakes_in(schema(type), kit::deck_list(schema(type), values, "wind"));
   }
   SharedFlow make(const std::string& type, const kit::GivenValues& values) {
-    const Options options = kit::deck_list(schema(type), values, "wind");
+    return make(type, kit::deck_list(schema(type), values, "wind"));
+  }
+  SharedFlow make(const std::string& type, const Options& options) {
     EXPECT_THAT(kit::mistakes_in(schema(type), options), testing::ElementsAre());
     model::BuildContext context{model_, functions_, issues_};
     return registry_.make(type, options, context);
