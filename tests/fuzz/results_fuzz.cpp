@@ -32,7 +32,7 @@ SoundRun record_run() {
                             {{"energy", "J"}, {"drift", ""}});
   for (int i = 0; i < 2; ++i) {
     recorder.record(output::sample_frame(meshes, i));
-    recorder.add_history(0.5 * i, std::array{1.0 + i, 2.0});
+    recorder.add_history({0.5 * i, std::array{1.0 + i, 2.0}, 0, i});
   }
   SoundRun run;
   run.mark = recorder.commit();
