@@ -69,16 +69,16 @@ void read_induction(InputFile& file, AeroDyn& aero, Report& report) {
                     "momentum with dynamic inflow",
                     place(file, keyword)));
   }
-  aero.tip_loss = flag_of(file, "TipLoss", true);
-  aero.hub_loss = flag_of(file, "HubLoss", true);
-  const bool axial = flag_of(file, "AIDrag", false), tangential = flag_of(file, "TIDrag", false);
+  aero.tip_loss = file.flag("TipLoss");
+  aero.hub_loss = file.flag("HubLoss");
+  const bool axial = file.flag("AIDrag"), tangential = file.flag("TIDrag");
   aero.drag_induces = axial;
   if (axial != tangential) {
     report.add(assumed, fmt::format("{}: drag counts in both balances of momentum or in none: as "
                                     "AIDrag says",
                                     place(file, "AIDrag")));
   }
-  if (!flag_of(file, "TanInd", true)) {
+  if (!file.flag("TanInd")) {
     report.add(missing, fmt::format("{} False: induction along the motion is there all the same",
                                     place(file, "TanInd")));
   }
@@ -163,7 +163,7 @@ void report_missing(InputFile& file, Report& report) {
 }
 
 std::vector<AeroTowerStation> read_tower(InputFile& file) {
-  if (!flag_of(file, "TwrAero", false) || file.integer("NumTwrNds") == 0) return {};
+  if (!file.flag("TwrAero") || file.integer("NumTwrNds") == 0) return {};
   const NamedTable table(file, "NumTwrNds", 3, "tower");
   std::vector<AeroTowerStation> tower;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -322,7 +322,7 @@ AeroDyn read_aerodyn(const std::filesystem::path& path, std::size_t blades,
   read_lag(file, aero, report);
   report_missing(file, report);
   const AirfoilColumns columns = read_columns(file);
-  aero.has_moments = columns.moment > 0 && flag_of(file, "UseBlCm", true);
+  aero.has_moments = file.flag("UseBlCm") && columns.moment > 0;
   const int count = file.integer("NumAFfiles");
   if (count < 1 || count > 10000) throw unknown_switch(file, "NumAFfiles", count, 1, 10000);
   for (const auto& airfoil : file.files("AFNames", count)) {

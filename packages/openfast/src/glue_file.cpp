@@ -23,22 +23,26 @@ struct Module {
   int most;            // largest value of the switch
   int imported;        // the value that is read, or 0
   const char* file;    // names its file, where it has one
+  bool always;         // in files of all years: without it something would be lost
   const char* effect;  // what a value that is not read does
 };
 constexpr Module modules[] = {
-    {"wind", "CompInflow", 2, 1, "InflowFile", "the wind of another program: the air stands still"},
-    {"aerodynamics", "CompAero", 3, 2, "AeroFile",
+    {"wind", "CompInflow", 2, 1, "InflowFile", true,
+     "the wind of another program: the air stands still"},
+    {"aerodynamics", "CompAero", 3, 2, "AeroFile", true,
      "AeroDisk, AeroDyn 14 or loads of another program: no loads of the air. AeroDyn is 2"},
-    {"control", "CompServo", 1, 1, "ServoFile", ""},
-    {"SeaState", "CompSeaSt", 1, 0, "SeaStFile", "no waves and no current"},
-    {"HydroDyn", "CompHydro", 1, 0, "HydroFile",
+    {"control", "CompServo", 1, 1, "ServoFile", true, ""},
+    {"SeaState", "CompSeaSt", 1, 0, "SeaStFile", false, "no waves and no current"},
+    {"HydroDyn", "CompHydro", 1, 0, "HydroFile", true,
      "no water: its inertia, which lowers frequencies, buoyancy, waves and drag are missing"},
-    {"substructure", "CompSub", 2, 0, "SubFile",
+    {"substructure", "CompSub", 2, 0, "SubFile", true,
      "what is below the tower does not bend: frequencies are too high"},
-    {"moorings", "CompMooring", 4, 0, "MooringFile", "nothing moors the platform, which is held"},
-    {"ice", "CompIce", 2, 0, "IceFile", "no loads of ice"},
-    {"soil", "CompSoil", 1, 0, "SoilFile", "the base stands on rock: frequencies are too high"},
-    {"water turbine", "MHK", 2, 0, nullptr, "its medium is air"}};
+    {"moorings", "CompMooring", 4, 0, "MooringFile", true,
+     "nothing moors the platform, which is held"},
+    {"ice", "CompIce", 2, 0, "IceFile", true, "no loads of ice"},
+    {"soil", "CompSoil", 1, 0, "SoilFile", false,
+     "the base stands on rock: frequencies are too high"},
+    {"water turbine", "MHK", 2, 0, nullptr, false, "its medium is air"}};
 // Those that carry the tower, with the names of old.
 constexpr std::pair<const char*, const char*> carriers[] = {{"HydroDyn", "CompHydro"},
                                                             {"SubDyn", "CompSub"},
@@ -46,7 +50,7 @@ constexpr std::pair<const char*, const char*> carriers[] = {{"HydroDyn", "CompHy
                                                             {"ice", "CompIce"}};
 
 int value_of(InputFile& file, const Module& module) {
-  if (!file.has(module.flag)) return 0;
+  if (!module.always && !file.has(module.flag)) return 0;
   const int value = file.integer(module.flag);
   if (value < 0 || value > module.most) {
     throw InputError(file.where(module.flag),
@@ -80,7 +84,7 @@ void report_modules(InputFile& file, Report& report) {
 
 // Machines that ElastoDyn's main file does not describe as a whole.
 void refuse(InputFile& file) {
-  if (const double kind = file.number("CompElast", 1.0); kind != 1.0 && kind != 2.0) {
+  if (const double kind = file.number("CompElast"); kind != 1.0 && kind != 2.0) {
     throw InputError(file.where("CompElast"),
                      fmt::format("must be 1, ElastoDyn, or 2, with blades of BeamDyn, got {:g}: "
                                  "simplified turbines cannot be imported",
@@ -125,7 +129,7 @@ GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
   GlueFile glue;
   glue.path = path;
   glue.elastodyn = file.file("EDFile");
-  if (file.number("CompElast", 1.0) == 2.0) glue.beamdyn = file.file("BDBldFile(1)");
+  if (file.number("CompElast") == 2.0) glue.beamdyn = file.file("BDBldFile(1)");
   glue.servodyn = file_if(file, "CompServo", 1);
   glue.aerodyn = file_if(file, "CompAero", 2);
   glue.inflow = file_if(file, "CompInflow", 1);

@@ -4,7 +4,7 @@
 #include <culm/openfast/inflow.hpp>
 
 #include "sample_files.hpp"
-#include "sample_turbine.hpp"
+#include "sample_scene.hpp"
 
 #include <gmock/gmock.h>
 
@@ -19,149 +19,12 @@ using testing::Not;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-constexpr const char* scene = R"~(--- OpenFAST ---
-Our scene
---- SIMULATION CONTROL ---
-12    TMax       - Total run time (s)
---- FEATURE SWITCHES AND FLAGS ---
-1     CompElast  - (switch)
-1     CompInflow - (switch)
-2     CompAero   - (switch)
-0     CompServo  - (switch)
---- ENVIRONMENTAL CONDITIONS ---
-9.81  Gravity    - (m/s^2)
-1.2   AirDens    - (kg/m^3)
---- INPUT FILES ---
-"turbine.dat" EDFile     - (quoted string)
-"wind.dat"    InflowFile - (quoted string)
-"aero.dat"    AeroFile   - (quoted string)
-)~";
-
-// Names of keywords of one year; older ones are put in their place.
-constexpr const char* aero = R"~(------- AERODYN -------
-Our air
-======  General Options  ======
-"default"  DTAero    - (s)
-2          Wake_Mod  - Type of wake
-0          TwrPotent - (switch)
-False      TwrShadow - (flag)
-True       TwrAero   - (flag)
-======  Environmental Conditions  ======
-"default"  AirDens   - (kg/m^3)
-======  Blade-Element/Momentum Theory Options  ======
---- Skew correction
-1          Skew_Mod  - (switch)
-default    SkewRedistr_Mod - (switch)
-True       TipLoss   - (flag)
-False      HubLoss   - (flag)
-True       TanInd    - (flag)
-False      AIDrag    - (flag)
-False      TIDrag    - (flag)
-======  Unsteady Airfoil Aerodynamics Options  ======
-4          UA_Mod    - (switch)
-======  Airfoil Information ======
-1          AFTabMod   - (-)
-1          InCol_Alfa - (-)
-3          InCol_Cl   - (-)
-2          InCol_Cd   - (-)
-4          InCol_Cm   - (-)
-2          NumAFfiles - (-)
-"foils\round.dat" AFNames - Airfoil file names
-"foils/wing.dat"
-======  Rotor/Blade Properties  ======
-True       UseBlCm    - (flag)
-"aero_blade.dat" ADBlFile(1) - (-)
-"aero_blade.dat" ADBlFile(2) - (-)
-======  Tower Influence and Aerodynamics ======
-3          NumTwrNds  - (-)
-TwrElev TwrDiam TwrCd TwrTI (used only with TwrShadow=2)
-(m) (m) (-) (-)
-0   2.0 0.5 0.1
-10  1.5 0.5 0.1
-25  1.0 0.7 0.1
-======  Outputs  ======
-          OutList - The next line(s)
-"RtSpeed"
-END of input file
-)~";
-
-// A quarter chord that lies 0.1 chords in front of the axis at the tip, in the turned section.
-constexpr const char* aero_blade = R"~(------- AERODYN BLADE -------
-Our blade
-======  Blade Properties ======
-3   NumBlNds - Number of blade nodes
- BlSpn BlCrvAC   BlSwpAC BlCrvAng BlTwist BlChord BlAFID
- (m)   (m)       (m)     (deg)    (deg)   (m)     (-)
- 0     0         0       0        10      2       1
- 4     0         0       0        7       1.5     2
-
-! a line of the user
- 10    0         0       0        0       1       2
-)~";
-
-constexpr const char* airfoil = R"~(! ------------ AirfoilInfo v1.01.x Input File ------
-! a wing
-"DEFAULT"   InterpOrd  ! Interpolation order
-@"wing_coords.txt" NumCoords ! The number of coordinates
-2           NumTabs    ! Number of airfoil tables in this file.
-! data for table 1
-0.75        Re         ! Reynolds number in millions
-True        InclUAdata ! Is unsteady aerodynamics data included
--4          alpha0     ! 0-lift angle
-0.2         A1         ! Constant
-5           NumAlf     ! Number of data lines
-!    Alpha  Cd  Cl  Cm
-  -180  0.1   0.0  0
-  -90   1.2   0.0  0.1   ! a comment
-  ! between rows
-  0     0.01  0.4  -0.05
-  90    1.2   0.1  -0.3
-  180   0.1   0.0  0
-! data for table 2
-3           Re         ! Reynolds number in millions
-2           NumAlf     ! Number of data lines
-  -180  0.1  0.0  0
-  180   0.1  0.0  0
-)~";
-
-constexpr const char* wind = R"~(------- InflowWind INPUT FILE -------
-Our wind
--------------------------------------
-1   WindType       - switch for wind file type
-90  PropagationDir - Direction of wind propagation
-0   NWindVel       - Number of points
-====== Parameters for Steady Wind Conditions [used only for WindType = 1] ======
-8   HWindSpeed - (m/s)
-20  RefHt      - (m)
-0.2 PLexp      - (-)
-====== Parameters for Uniform wind file   [used only for WindType = 2] ======
-"gust.wnd" Filename - (-)
-22  RefHt      - (m)
-20  RefLength  - (-)
-====== Parameters for Binary TurbSim Full-Field files   [used only for WindType = 3] ======
-"box.bts" Filename - (.bts)
-====== Parameters for HAWC-format binary files  [Only used with WindType = 5] ======
-25  RefHt      - (m)
-  -------------   Mean wind profile parameters (added to HAWC-format files)   ------
-13  URef        - (m/s)
-2   WindProfile - (0=constant;1=logarithmic,2=power law)
-0.1 PLExp       - (-)
-====== OUTPUT ======
-)~";
-
 class AeroDynFiles : public SampleFiles {
  protected:
   AeroDynFiles() {
-    write("turbine.dat", turbine);
-    write("blade.dat", blade);
-    write("tower.dat", tower);
-    write("aero_blade.dat", change(aero_blade, "\n\n! a line of the user", ""));
-    write("wind.dat", wind);
-    write("foils/wing.dat", airfoil);
-    write("foils/round.dat",
-          change(change(airfoil, "0.0  0.1   ! a comment", "0 0.1"), "\"wing_", "\"round_"));
-    aero_ = write("aero.dat", aero);
-    scene_ = write("scene.fst", scene);
+    for (const auto& [name, text] : scene_files()) write(name, text);
+    aero_ = path_of("aero.dat");
+    scene_ = path_of("scene.fst");
   }
   AeroDyn read() { return read_aerodyn(aero_, 2, 1.2, report_); }
   std::string told() const { return report_.text("air"); }
@@ -263,13 +126,13 @@ TEST_F(AeroDynFiles, MistakesHaveTheirPlaces) {
   EXPECT_THAT(
       message("foils/wing.dat", airfoil, "  180   0.1   0.0  0\n! data", "  170 0 0 0\n! data"),
       HasSubstr("must reach from -180 to 180 degrees in at least three rows, got -180 to 170"));
-  const std::string plain = change(aero_blade, "\n\n! a line of the user", "");
-  EXPECT_THAT(message("aero_blade.dat", plain.c_str(), "1.5     2", "1.5     3"),
+  EXPECT_THAT(message("aero_blade.dat", aero_blade, "1.5     2", "1.5     3"),
               HasSubstr("aero_blade.dat:8: BlAFID: must be a whole number from 1 to 2, got 3"));
-  EXPECT_THAT(message("aero_blade.dat", plain.c_str(), " 4     0 ", " 14    0 "),
+  EXPECT_THAT(message("aero_blade.dat", aero_blade, " 4     0 ", " 14    0 "),
               HasSubstr("aero_blade.dat:9: BlSpn: must rise from 0, got 10"));
-  EXPECT_THAT(message("aero_blade.dat", aero_blade, "Our blade", "Our blade"),
-              HasSubstr("blade must be 3 lines of 7 numbers, found 2"));
+  EXPECT_THAT(
+      message("aero_blade.dat", aero_blade, " 10    0 ", "\n! a line of the user\n 10    0 "),
+      HasSubstr("blade must be 3 lines of 7 numbers, found 2"));
 }
 
 TEST_F(AeroDynFiles, AreaAndItsCentreAreIntegrals) {
@@ -349,7 +212,7 @@ TEST_F(AeroDynFiles, SceneBecomesFlowStripsAndRotor) {
 // An offset of the quarter chord along the turned chord is a place of the axis, one across it is
 // told.
 TEST_F(AeroDynFiles, QuarterChordsHaveTheirPlaces) {
-  std::string text = change(aero_blade, "\n\n! a line of the user", "");
+  const std::string text = aero_blade;
   const double s = std::sin(7.0 * degree), c = std::cos(7.0 * degree);
   char line[200];
   std::snprintf(line, sizeof line, " 4     %.15g %.15g 0        7       1.5     2", -0.15 * s,
@@ -369,15 +232,13 @@ TEST_F(AeroDynFiles, QuarterChordsHaveTheirPlaces) {
 }
 
 TEST_F(AeroDynFiles, ModulesThatAreNotImportedAreNamed) {
-  write("scene.fst",
-        change(scene, "0     CompServo  - (switch)",
-               "0 CompServo - (switch)\n1 CompHydro - (switch)\n2 CompIce - (switch)"));
+  const std::string wet = change(scene, "0     CompHydro", "1     CompHydro");
+  write("scene.fst", wet);
   EXPECT_THAT(message_of([&] { (void)import_file(scene_); }), HasSubstr("HydroFile: is missing"));
-  write("scene.fst",
-        change(scene, "0     CompServo  - (switch)",
-               "0 CompServo - (switch)\n1 CompHydro - (switch)\n\"sea.dat\" HydroFile - (quoted)"));
+  write("scene.fst", wet + "\"sea.dat\" HydroFile - (quoted string)\n1 CompSoil - (switch)\n");
   const Imported made = import_file(scene_);
-  EXPECT_THAT(made.report, HasSubstr("CompHydro: HydroDyn, CompHydro = 1 (sea.dat): no water"));
+  EXPECT_THAT(made.report, HasSubstr("HydroDyn, CompHydro = 1 (sea.dat): no water"));
+  EXPECT_THAT(made.report, HasSubstr("soil, CompSoil = 1: the base stands on rock"));
 }
 
 TEST_F(AeroDynFiles, ScenesThatCannotBeAreRefused) {
@@ -403,8 +264,9 @@ TEST_F(AeroDynFiles, WithoutItsFilesThereIsNoAirAndNoSilence) {
 
 TEST_F(AeroDynFiles, SwitchesThatAreMisspeltAreTold) {
   write("scene.fst", change(scene, "CompAero ", "CompAxro "));
-  const Imported made = import_file(scene_);
-  EXPECT_THAT(made.report, HasSubstr("CompAxro: unknown entry, left out: '2'"));
+  EXPECT_THAT(message_of([&] { (void)import_file(scene_); }), HasSubstr("CompAero: is missing"));
+  write("scene.fst", change(scene, "Gravity ", "Gravety "));
+  EXPECT_THAT(import_file(scene_).report, HasSubstr("Gravety: unknown entry, left out: '9.81'"));
 }
 
 }  // namespace

@@ -162,10 +162,13 @@ constexpr const char* glue = R"~(--- OpenFAST ---
 Our scene
 --- FEATURES ---
 1         CompElast   - {1=ElastoDyn}
+0         CompInflow  - {0=still air; 1=InflowWind}
+0         CompAero    - {0=None; 2=AeroDyn}
 1         CompServo   - {0=None; 1=ServoDyn}
 1         CompHydro   - {0=None; 1=HydroDyn}
 1         CompSub     - {0=None; 1=SubDyn}
 0         CompMooring - {0=None; 1=MAP++}
+0         CompIce     - {0=None; 1=IceFloe}
 9.7       Gravity     - (m/s^2)
 --- INPUT FILES ---
 "turbine.dat"  EDFile      - Name of file

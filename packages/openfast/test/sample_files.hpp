@@ -26,6 +26,8 @@ class SampleFiles : public testing::Test {
     return folder_ / name;
   }
 
+  std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
+
   /// The text with the one place where `old` stands replaced.
   static std::string change(std::string text, const std::string& old, const std::string& by) {
     const std::size_t at = text.find(old);
