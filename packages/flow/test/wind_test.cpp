@@ -24,10 +24,11 @@ class Winds : public FlowTest {
     return make("Gust", values);
   }
 
-  SharedFlow table(const std::string& lines) {
+  SharedFlow table(const std::string& lines, const std::string& format = "CSV") {
     std::ofstream(folder_ / "wind.csv") << lines;
     return make("Table", {{"Density", 1.225},
                           {"File Name", (folder_ / "wind.csv").string()},
+                          {"File Format", format},
                           {"Height", 90.0},
                           {"Length", 126.0}});
   }
@@ -98,10 +99,16 @@ TEST_F(Winds, TablesShearWithHeight) {
               Vec3(10.0 * 153.0 / 90.0 + 1.0, 0.0, 0.0));
 }
 
+TEST_F(Winds, FilesOfOpenFastAreTheSameTables) {
+  const SharedFlow wind =
+      table("! a comment\n 0 +6 0 0\t0 0 0 0 ! at rest\n\n4 8.0E+00 0 0 0 0 0 1 0\n", "OpenFAST");
+  EXPECT_EQ(wind->velocity(hub, 2.0), Vec3(7.5, 0.0, 0.0));
+}
+
 TEST_F(Winds, BadTablesNameFileAndLine) {
-  const auto objection = [&](const std::string& lines) {
+  const auto objection = [&](const std::string& lines, const std::string& format = "CSV") {
     try {
-      table(lines);
+      table(lines, format);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -110,6 +117,8 @@ TEST_F(Winds, BadTablesNameFileAndLine) {
   EXPECT_THAT(objection("0, 6, 0\n"), HasSubstr("wind.csv:1: must be 8 numbers"));
   EXPECT_THAT(objection("1,6,0,0,0,0,0,0\n0,6,0,0,0,0,0,0\n"), HasSubstr("wind.csv:2: times must"));
   EXPECT_THAT(objection("# nothing\n"), HasSubstr("at least one line"));
+  EXPECT_THAT(objection("0 6 0\n", "OpenFAST"), HasSubstr("wind.csv:1: must be 8 numbers"));
+  EXPECT_THAT(objection("0 6 0 0 0 0 0 0 5\n", "OpenFAST"), HasSubstr("an upward angle"));
 }
 
 // Class 1A, 11.4 m/s, hub 90 m, diameter 126 m: sigma = 0.16 (0.75 11.4 + 5.6) = 2.264 m/s, and
