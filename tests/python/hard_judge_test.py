@@ -12,6 +12,7 @@ DIAGNOSED = "No equilibrium.\nLikely cause: a limit point. At level 0.5\nTry: a 
 class History:
     def __init__(self, **columns):
         self.columns = columns
+        self.is_finite = all(math.isfinite(value) for values in columns.values() for value in values)
 
     def column(self, name):
         return self.columns[name]

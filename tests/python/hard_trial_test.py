@@ -41,7 +41,7 @@ class Program:
             cpu=0.5,
             folder=folder,
             results=results if value <= self.begins else None,
-            history=types.SimpleNamespace(columns={"y": [0.0, value]}),
+            history=types.SimpleNamespace(is_finite=True, columns={"y": [0.0, value]}),
         )
 
     def resume(self, folder, walltime, time_limit):

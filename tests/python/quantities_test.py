@@ -38,6 +38,13 @@ class Measures(unittest.TestCase):
                 self.change(a, b, norm)
 
 
+class Histories(unittest.TestCase):
+    def test_what_is_absent_is_not_infinite(self):
+        self.assertTrue(history([(0, ""), (1, 10)]).is_finite)
+        for bad in ("nan", "inf"):
+            self.assertFalse(history([(0, ""), (1, bad)]).is_finite)
+
+
 class Files(unittest.TestCase):
     def test_files_of_includes_are_found_beside_them(self):
         with tempfile.TemporaryDirectory() as name:

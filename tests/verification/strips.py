@@ -1,8 +1,11 @@
 #!/usr/bin/python3
-"""Strips: flutter of the typical section and of Goland's wing in time. Page: doc/verification/strips.md."""
+"""Strips: flutter of the typical section and of Goland's wing in time, stall flutter. Page: doc/verification/strips.md."""
+
+import math
 
 import numpy as np
-from verify import figure, main, poles, save
+from scipy.integrate import solve_ivp
+from verify import INPUTS, figure, main, poles, save
 
 # eigenvalues of the same models with Jones' states
 SECTION = (25.379599, 16.695289)  # m/s, rad/s
@@ -39,7 +42,36 @@ def goland(culm, step):
                    column="tip uz [m]")
 
 
+def stall_flutter(speed, end):
+    """Displacements of the section of the deck whose separation follows at once, by an integrator of its own, in the last third."""
+    table = np.loadtxt(INPUTS / "turbine/nrel5mw/include/airfoils/naca64_a17.csv", delimiter=",", comments="#")
+    angle, mass, stiffness = math.radians(23.5), 20.0, 80.0
+
+    def rates(t, y):
+        across, along = speed * math.sin(angle) - y[1], speed * math.cos(angle)
+        square = across**2 + along**2
+        lift, drag = (np.interp(math.degrees(math.atan2(across, along)), table[:, 0], table[:, k]) for k in (1, 2))
+        force = 0.5 * 1.225 * math.sqrt(square) * (lift * along + drag * across)
+        return [y[1], (force - stiffness * y[0]) / mass]
+
+    times = np.linspace(2 * end / 3, end, 2001)
+    return solve_ivp(rates, (0.0, end), [0.0, 0.1], t_eval=times, rtol=1e-8, atol=1e-10, max_step=0.05).y[0]
+
+
+def verify_stall_flutter(culm, report):
+    report.title("Stall flutter: half of the range of the limit cycle [m], step 0.02 s: 157 in a period")
+    late = {}
+    for lag in ("None", "Oye"):
+        history = culm.history("air/stall_flutter.xml", [f"Loads/air on the section/Lag={lag}"])
+        late[lag] = np.array(history.column("section uy [m]"))[np.array(history.levels) > 40.0]
+    wanted = stall_flutter(20.0, 60.0)
+    report.relative("separation at once", np.ptp(late["None"]) / 2, np.ptp(wanted) / 2, 2e-3)
+    report.relative("its mean", late["None"].mean(), wanted.mean(), 2e-3)
+    report.note(f"separation that follows late (Oye): {np.ptp(late['Oye']) / 2:.4f}")
+
+
 def verify(culm, report):
+    verify_stall_flutter(culm, report)
     report.title("Typical section, step 0.01 s: 38 in a period")
     speed, omega = section(culm, 0.01)
     report.relative("speed of flutter [m/s]", speed, SECTION[0], 1e-3)

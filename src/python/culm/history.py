@@ -20,7 +20,7 @@ def quantity_of(column, quantities):
 class History:
     """Columns of history.csv by name, such as 'tip ux [m]', and of its rows the levels, the numbers of analyses in the deck
     and their steps, from 1; 0 is the start of an analysis. Where a cell is empty, because the quantity does not exist there, stands
-    nan."""
+    nan; whether all numbers that were written are finite says is_finite."""
 
     def __init__(self, path):
         with open(path, newline="") as file:
@@ -30,6 +30,7 @@ class History:
         self.levels = [float(row[0]) for row in rows[1:]]
         self.analyses = [int(row[-2]) if tells_places else 0 for row in rows[1:]]
         self.steps = [int(row[-1]) if tells_places else number for number, row in enumerate(rows[1:])]
+        self.is_finite = all(math.isfinite(float(cell)) for row in rows[1:] for cell in row if cell)
         self.columns = {
             name: [float(row[i + 1] or math.nan) for row in rows[1:]] for i, name in enumerate(self.names)
         }

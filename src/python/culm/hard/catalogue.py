@@ -558,6 +558,42 @@ CASES = [
         [uncut(), energy(), momenta(1e-11), constraints()],
         limit=20, whole=True,
     ),
+    # air
+    Case(
+        "stall flutter, strong wind", "LR HF", "air/stall_flutter.xml",
+        "wind [m/s]", 20,
+        lambda x: [f"V={x!r}"],
+        [uncut(), energy()],
+        limit=1e6, growth=4,
+    ),
+    Case(
+        "stall flutter, large steps", "HF", "air/stall_flutter.xml",
+        "step [s]", 0.02,
+        lambda x: [f"h={x!r}", f"end={100 * x!r}"],
+        [uncut(), energy()],
+        limit=1e4, growth=2,
+    ),
+    Case(
+        "rotor in wind from behind", "LR", "turbine/nrel5mw/rotor.xml",
+        "wind from behind [m/s]", 8,
+        lambda x: [f"V={-x!r}", "turn=pi/9"],
+        [uncut(), energy(), constraints()],
+        limit=1e4, growth=4,
+    ),
+    Case(
+        "parked rotor", "NS", "turbine/nrel5mw/rotor.xml",
+        "wind over the speed of the tips", 12,
+        lambda x: [f"W={8 / (63 * x) * 30 / math.pi!r}", "turn=pi/9"],
+        [uncut(), energy(), constraints(), as_recommended("rotor thrust [N]", 0.02)],
+        limit=1e9, growth=100, resolution=ROUNDING,
+    ),
+    Case(
+        "rotor in faint wind", "NS", "turbine/nrel5mw/rotor.xml",
+        "speed of the tips over the wind", 7.5,
+        lambda x: [f"V={60.4 / x!r}", "turn=pi/9"],
+        [uncut(), energy(), constraints()],
+        limit=1e9, growth=100, resolution=ROUNDING,
+    ),
     # materials
     Case(
         "crushed Neo-Hooke sheet", "LR", "hard/crushed_sheet.xml",

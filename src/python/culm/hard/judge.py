@@ -85,7 +85,7 @@ def find_faults(run):
     if run.exit not in (*DONE, 3, 4, 5, 9):
         return [run.outcome]
     faults = []
-    if run.history is not None and not _is_finite(run.history.columns.values()):
+    if run.history is not None and not run.history.is_finite:
         faults.append("a number in history.csv is not finite")
     if run.exit == 3 and not run.errors.strip():
         faults.append("no message")
