@@ -14,7 +14,7 @@ find_package(muparser REQUIRED)
 find_package(ZLIB REQUIRED)
 set(HDF5_PREFER_PARALLEL ON)
 find_package(HDF5 REQUIRED COMPONENTS C)
-find_package(Trilinos REQUIRED COMPONENTS Teuchos Kokkos Tpetra NOX Amesos2 Anasazi)
+find_package(Trilinos REQUIRED COMPONENTS Teuchos Kokkos Tpetra NOX Amesos2 Anasazi Belos)
 
 # METIS and MUMPS bring no CMake files.
 find_path(CULM_METIS_INCLUDE_DIR metis.h REQUIRED)
@@ -60,3 +60,4 @@ culm_external(Tpetra LINK culm_external::Teuchos trilinos_tpetra MPI::MPI_CXX)
 culm_external(Amesos2 LINK culm_external::Tpetra trilinos_amesos2)
 culm_external(NOX LINK culm_external::Tpetra trilinos_nox)
 culm_external(Anasazi LINK culm_external::Tpetra trilinos_anasazitpetra trilinos_anasazi)
+culm_external(Belos LINK culm_external::Tpetra trilinos_belostpetra trilinos_belos)

@@ -82,6 +82,13 @@ void PathFollowing::do_begin() {
   const auto [tangent, determinant] = find_tangent();
   known_.here = {state.time, condition_.watched_displacement(state.next), tangent, determinant};
   known_.is_examined = true;
+  if (determinant.sign == 0) {
+    context().findings.warn(
+        "no determinants",
+        "bifurcations of the path are not looked for, because the linear solver '" +
+            context().linear.name() + "' knows no determinant; take 'Linear Solver' = MUMPS",
+        state.time);
+  }
   size_ = settings_.first_increment;
   if (settings_.control != PathControl::displacement) size_ = std::abs(size_ / tangent.level);
   first_size_ = size_;

@@ -206,6 +206,7 @@ Verdict System::evaluate_delayed(const model::State& state, const Stencil& stenc
 
 Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
   model::Target target = want == Want::residual ? this->target() : target_with_matrix();
+  if (watches_tangents_ && want != Want::residual) tangent_point_ = state.next;
   Verdict verdict = Verdict::ok;
   std::optional<Ledger::Scope> scope;
   for (std::size_t b = 0; b < batches_.size(); ++b) {

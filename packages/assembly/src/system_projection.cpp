@@ -74,6 +74,38 @@ void System::each_moving_node(Action action) const {
   }
 }
 
+NodeMotions System::node_motions() const {
+  const model::Coordinates& q =
+      tangent_point_.empty() ? model_.nodes().reference() : tangent_point_;
+  NodeMotions motions;
+  motions.rigid.setZero(static_cast<Eigen::Index>(layout_.row_map()->getNodeNumElements()), 6);
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    if (!local.owned) continue;
+    const model::Block& block = model_.unknowns().block(local.block);
+    if (block.shape.active == 0) continue;
+    motions.widths.push_back(block.shape.active);
+    if (block.kind != model::BlockKind::node) continue;
+    const model::NodeSlots slots = model::NodeTable::slots(q, block.owner);
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 axis = Vec3::Unit(k % 3);
+      model::NodeSlots rate = model::NodeSlots::Zero();
+      if (k < 3) {
+        rate.col(0) = axis;
+      } else {
+        for (int s = 0; s < rate.cols(); ++s) rate.col(s) = axis.cross(slots.col(s));
+      }
+      const Vec6 unknowns = model_.nodes().unknown_motion(block.owner, rate, q);
+      const bool is_full = model_.unknowns().form() == model::Form::multipliers;
+      for (int i = 0; i < block.shape.width; ++i) {
+        const int place = block.shape.position[index(i)];
+        if (place < 0) continue;
+        motions.rigid(local.first_column + place, k) = is_full ? rate(i % 3, i / 3) : unknowns[i];
+      }
+    }
+  }
+  return motions;
+}
+
 System::Motions System::motions(const model::State& state) const {
   Motions motions(index(model_.nodes().size()), Vec6::Zero());
   each_moving_node([&](int node, const model::BlockShape&) {

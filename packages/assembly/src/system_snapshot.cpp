@@ -139,10 +139,15 @@ void System::save_matrix(Snapshot& snapshot) const {
   } else {
     snapshot.set("matrix/values", comm_.gather(mine));
   }
+  if (tangent_point_.empty()) return;
+  model::Coordinates point = tangent_point_;
+  if (!snapshot.is_for_memory()) complete(point);
+  snapshot.set("matrix/point", point);
 }
 
 bool System::restore_matrix(const Snapshot& snapshot) {
   if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
+  if (snapshot.has("matrix/point")) tangent_point_ = snapshot.numbers("matrix/point");
   const auto values = matrix_->getLocalMatrixHost().values;
   if (snapshot.is_for_memory()) {
     std::ranges::copy(snapshot.numbers("matrix/values", values.extent(0)), values.data());

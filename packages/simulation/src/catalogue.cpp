@@ -78,12 +78,13 @@ Schema solver_schema() {
                   "Six unknowns per node, or the twelve director coordinates with all constraints "
                   "as equations: the reference to compare with.")
                .optional("Null Space"))
-      .add(choice("Linear Solver", solver::linear_solver_names(),
-                  "Direct solver of the linear systems: Block LU is best for beams, MUMPS for "
-                  "shells, KLU2 "
-                  "needs no blocks; "
-                  "'Automatic' decides by the predicted fill of the factors and says so.")
-               .optional(solver::linear_solver_names().front()));
+      .add(
+          choice("Linear Solver", solver::linear_solver_names(),
+                 "Solver of the linear systems: Block LU is best for beams, MUMPS for shells, KLU2 "
+                 "needs no blocks; Iterative (multigrid) is for shells whose factors do not fit "
+                 "into the memory. 'Automatic' decides by the predicted fill of the factors and "
+                 "says so.")
+              .optional(solver::linear_solver_names().front()));
 }
 
 Schema node_sets_schema() {

@@ -121,6 +121,7 @@ constexpr double noticeable_share = 0.1;
 }  // namespace
 
 double factors_by_graph(const Phase& phase, const parallel::Comm& comm) {
+  if (phase.linear.is_iterative) return phase.linear.bytes;
   return sizeof(double) * solver::predict_fill(*phase.system->matrix(), comm).entries;
 }
 
@@ -240,8 +241,11 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
       sample(phase.samples, phase.watched, *phase.system, state);
     });
   }
-  phase.linear = solver::choose_linear_solver(deck_.list("Solver").text("Linear Solver"),
-                                              phase.system->matrix(), comm);
+  assembly::System& system = *phase.system;
+  phase.linear = solver::choose_linear_solver(
+      deck_.list("Solver").text("Linear Solver"), system.matrix(), comm,
+      {[&system] { return system.node_motions(); }, memory_ - phase.need.elements});
+  if (phase.linear.is_iterative) system.watch_tangents();
   // the order in which a solver eliminates is found a second time, so only where it may matter
   if (phase.need.total() > noticeable_share * memory_) {
     phase.need.factors = factors_by_graph(phase, comm);

@@ -24,47 +24,71 @@ class NothingToSolve final : public LinearSolver {
   double weakest_direction(Vector&) override { return 0.0; }
 };
 
+// Measured on plates and cylinders [B per entry of the matrix]: the grids, the factors of the
+// coarsest, the vectors of an iteration.
+constexpr double iterative_need = 12.0;
+
+ChosenSolver choose_iterative(const std::string& why,
+                              const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                              const parallel::Comm& comm, const ModelBehind& model) {
+  return {make_iterative(matrix, model, comm),
+          "Iterative, " + why + "; it knows no determinants, so bifurcations are not looked for",
+          true, iterative_need * static_cast<double>(matrix->getGlobalNumEntries())};
+}
+
 using MakeSolver = std::unique_ptr<LinearSolver>(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
 
 // @param make_slender for what Block LU is made for
 ChosenSolver choose(const std::string& name, const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                    const parallel::Comm& comm, MakeSolver* make_slender) {
+                    const parallel::Comm& comm, const ModelBehind& model,
+                    MakeSolver* make_slender) {
   if (matrix->getGlobalNumRows() == 0) {
     return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
   }
   if (name == "Block LU") return {make_slender(matrix, comm), "Block LU, as the deck says"};
   if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
   if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
+  if (name == "Iterative" && model.motions) {
+    return choose_iterative("as the deck says", matrix, comm, model);
+  }
   Ordering ordering = order_rows(*matrix, comm);
   const Fill fill = ordering.fill;
+  const double bytes = sizeof(double) * fill.entries;
+  if (bytes > model.memory * comm.size() && model.motions) {
+    return choose_iterative(
+        fmt::format("automatic: factors of {:.2g} GB predicted, {:.2g} GB allowed", 1e-9 * bytes,
+                    1e-9 * model.memory * comm.size()),
+        matrix, comm, model);
+  }
   const bool is_wide = fill.front() > widest_slender_front;
   ChosenSolver chosen;
   chosen.solver =
       is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
   chosen.reason = fmt::format(
       "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
-      chosen.solver->name(), fill.front(), widest_slender_front, 8e-6 * fill.entries);
+      chosen.solver->name(), fill.front(), widest_slender_front, 1e-6 * bytes);
   return chosen;
 }
 
 }  // namespace
 
 const std::vector<std::string>& linear_solver_names() {
-  static const std::vector<std::string> names = {"Automatic", "Block LU", "KLU2", "MUMPS"};
+  static const std::vector<std::string> names = {"Automatic", "Block LU", "KLU2", "MUMPS",
+                                                 "Iterative"};
   return names;
 }
 
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                                  const parallel::Comm& comm) {
-  return choose(name, matrix, comm, make_rooted_block_lu);
+                                  const parallel::Comm& comm, const ModelBehind& model) {
+  return choose(name, matrix, comm, model, make_rooted_block_lu);
 }
 
 ChosenSolver choose_for_one_factorisation(const std::string& name,
                                           const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
                                           const parallel::Comm& comm) {
-  return choose(name, matrix, comm, make_rooted_klu2);
+  return choose(name, matrix, comm, {}, make_rooted_klu2);
 }
 
 }  // namespace culm::solver

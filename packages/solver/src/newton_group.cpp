@@ -14,6 +14,18 @@ double relative_residual(const assembly::Evaluation& e) {
   return std::max(force, e.constraint_violation);
 }
 
+// How far a linear system is solved where that is iterative: after the first iteration as far as
+// Newton's method will come by itself, so that it still squares the ratio of two residuals, and no
+// further than needed. @source S. C. Eisenstat, H. F. Walker, Choosing the forcing terms in an
+// inexact Newton method, 1996
+double forcing_term(double residual, double before, double tolerance) {
+  constexpr double roughest = 1e-2;
+  constexpr double enough = 1e-3;  // of the tolerance; what lasts is judged by a hundredth of it
+  const double fall = before > 0.0 ? residual / before : 1.0;
+  const double needed = residual > 0.0 ? enough * tolerance / residual : 1.0;
+  return std::min(roughest, std::max(0.5 * fall * fall, needed));
+}
+
 }  // namespace
 
 using assembly::values_of;
@@ -166,7 +178,9 @@ bool NewtonGroup::solve_linear() {
     if (is_start && p.stencil.inertia == 0.0) p.first_determinant = p.linear.determinant();
   }
   const Ledger::Scope scope(p.ledger, p.solve_effect);
-  const LinearResidual residual = p.linear.solve(f_.get(), newton_.get());
+  const double goal =
+      forcing_term(relative_residual(evaluation_), p.last_residual, p.settings.force_tolerance);
+  const LinearResidual residual = p.linear.solve_roughly(f_.get(), newton_.get(), goal);
   p.not_finite = !std::isfinite(residual.size);
   // old factors solve another system; Newton's own residual tells whether they serve
   p.singular = has_tangent_ && !residual.is_sound();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/assembly/layout.hpp>
+#include <culm/assembly/node_motions.hpp>
 #include <culm/base/ledger.hpp>
 #include <culm/base/snapshot.hpp>
 #include <culm/model/model.hpp>
@@ -117,6 +118,12 @@ class System {
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
 
+  /// From now on remembers where it takes each tangent, for node_motions.
+  void watch_tangents() { watches_tangents_ = true; }
+  /// How rigid motions move the unknowns of this rank where the last tangent was taken; at the
+  /// reference before the first one.
+  NodeMotions node_motions() const;
+
   /// Motions of the six unknowns of nodes, or their rates: of those that this rank needs, by node,
   /// and zero for others and for eliminated ones.
   using Motions = std::vector<Vec6>;
@@ -220,6 +227,8 @@ class System {
   std::optional<std::vector<double>> carried_;  ///< impulses by owned row [N s, N m s]
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
+  bool watches_tangents_ = false;
+  model::Coordinates tangent_point_;  ///< where the last tangent was taken; empty if none was
 };
 
 }  // namespace culm::assembly

@@ -1,8 +1,11 @@
-/// Direct solution of the linear systems of a Newton iteration.
+/// Solution of the linear systems of a Newton iteration.
 #pragma once
 
+#include <culm/assembly/node_motions.hpp>
 #include <culm/assembly/tpetra.hpp>
 
+#include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,10 +27,11 @@ struct Determinant {
 
 /// What is left of a linear system that was solved.
 struct LinearResidual {
-  /// |b - A x| over the largest sum of terms of a row, in the maximum norm; the same on all ranks
+  /// |b - A x| in the maximum norm over the largest sum of terms of a row; of an iteration that
+  /// stopped early the Euclidean norm over that of b. The same on all ranks.
   double size = 0.0;
-  /// Whether the factors were of any use.
-  bool is_sound() const { return size <= 1e-8; }
+  double allowed = 1e-8;  ///< what is more makes the solution worthless
+  bool is_sound() const { return size <= allowed; }
 };
 
 /// Solves with one matrix whose pattern never changes and whose values do.
@@ -39,6 +43,11 @@ class LinearSolver {
   virtual bool factor() = 0;
   /// x = A^-1 b with the last factors.
   virtual LinearResidual solve(const Vector& b, Vector& x) = 0;
+  /// The same with |b - A x| <= reduction |b| only, where that costs less.
+  virtual LinearResidual solve_roughly(const Vector& b, Vector& x, double reduction) {
+    static_cast<void>(reduction);
+    return solve(b, x);
+  }
   /// Of the matrix that was factored last, from its pivots; the same on all ranks.
   virtual Determinant determinant() = 0;
   /// Approximates the direction in which A is weakest by inverse iteration on a slightly shifted
@@ -81,10 +90,28 @@ std::unique_ptr<LinearSolver> make_rooted_block_lu(
 std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
                                          const parallel::Comm& comm);
 
+/// What an iterative solver wants to know of the model behind the matrix.
+struct ModelBehind {
+  /// At the point where the matrix was taken; none: there is no iterative solver. Collective.
+  std::function<assembly::NodeMotions()> motions = {};
+  /// What factors may need at most on this machine [B].
+  double memory = std::numeric_limits<double>::infinity();
+};
+
+/// Conjugate gradients, or GMRES where the matrix is not symmetric or not definite, by Belos, with
+/// multigrid on the nodes of the model: smoothed aggregation whose near null space are the rigid
+/// motions. The grids serve until remember_pivots or restore_pivots is called, or iterations become
+/// many. Each solution is checked; where the iteration does not converge, MUMPS takes over until
+/// then, or NumericalError is thrown if its factors do not fit into the memory.
+std::unique_ptr<LinearSolver> make_iterative(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                             ModelBehind model, const parallel::Comm& comm);
+
 /// A solver, and a sentence for reports: its name and why it was taken.
 struct ChosenSolver {
   std::unique_ptr<LinearSolver> solver;
   std::string reason;
+  bool is_iterative = false;  ///< it asks for the motions of the model behind
+  double bytes = 0.0;         ///< predicted need of an iterative solver, on all ranks together [B]
 };
 
 /// What decks may write, the default first.
@@ -92,9 +119,10 @@ const std::vector<std::string>& linear_solver_names();
 
 /// The solver of that name. `Automatic` takes Block LU for graphs like beams and MUMPS for graphs
 /// like shells, whose factors are so dense that MUMPS gains by its dense kernels; it decides by
-/// predict_fill. Collective.
+/// predict_fill. Where the factors would not fit into the memory, it takes the iterative solver.
+/// Collective.
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                                  const parallel::Comm& comm);
+                                  const parallel::Comm& comm, const ModelBehind& model = {});
 
 }  // namespace culm::solver

@@ -1,0 +1,19 @@
+/// What multigrid wants to know of the unknowns behind a matrix.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace culm::assembly {
+
+/// The unknowns of a rank by blocks, and how a rigid motion of the whole model moves them: the
+/// directions in which a structure that nothing holds has no stiffness.
+struct NodeMotions {
+  /// A row for each unknown; three translations and three rotations about the origin.
+  using Rigid = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+  std::vector<int> widths;  ///< unknowns of each block, in the order of the rows
+  Rigid rigid;              ///< zero in unknowns that are no motions
+};
+
+}  // namespace culm::assembly

@@ -1,0 +1,60 @@
+#include "grid_level.hpp"
+
+#include "exchange.hpp"
+
+#include <utility>
+
+namespace culm::solver {
+
+using assembly::values_of;
+using assembly::Vector;
+
+namespace {
+
+std::vector<int> sum_up(const std::vector<int>& widths) {
+  std::vector<int> first{0};
+  for (int width : widths) first.push_back(first.back() + width);
+  return first;
+}
+
+}  // namespace
+
+GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::vector<int>& widths,
+                     NearNullSpace rigid, const parallel::Comm& comm)
+    : matrix_(std::move(matrix)),
+      rows_(*matrix_, sum_up(widths)),
+      rigid_(std::move(rigid)),
+      first_column_(rows_.first_row()),
+      begin_(count_by_rank(nodes(), comm)) {
+  for (int node = 0; node < nodes(); ++node)
+    node_of_.resize(node_of_.size() + static_cast<std::size_t>(width(node)), node);
+  const auto importer = matrix_->getGraph()->getImporter();
+  if (importer.is_null()) return;
+  columns_ = Teuchos::rcp(new Vector(matrix_->getColMap()));
+  Vector number(matrix_->getRowMap());
+  const auto here = values_of(number);
+  const auto rank = static_cast<std::size_t>(comm.rank());
+  for (std::size_t row = 0; row < here.size(); ++row) {
+    here[row] = static_cast<double>(begin_[rank] + node_of_[row]);  // exact below 2^53
+  }
+  columns_->doImport(number, *importer, Tpetra::INSERT);
+  const auto all = values_of(std::as_const(*columns_));
+  for (std::size_t column = here.size(); column < all.size(); ++column) {
+    const auto node = static_cast<long long>(all[column]);
+    if (beside_.empty() || beside_.back() != node) {
+      beside_.push_back(node);
+      first_column_.push_back(first_column_.back());
+    }
+    ++first_column_.back();
+    node_of_.push_back(all_nodes() - 1);
+  }
+}
+
+void GridLevel::multiply(const Vector& x, Vector& y) const {
+  if (!columns_.is_null())
+    columns_->doImport(x, *matrix_->getGraph()->getImporter(), Tpetra::INSERT);
+  const Vector& all = columns_.is_null() ? x : *columns_;
+  rows_.multiply(values_of(all), values_of(y));
+}
+
+}  // namespace culm::solver

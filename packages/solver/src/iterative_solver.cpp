@@ -1,0 +1,253 @@
+#include <culm/base/error.hpp>
+#include <culm/solver/linear_solver.hpp>
+
+#include "krylov.hpp"
+#include "matrix_checks.hpp"
+#include "multigrid.hpp"
+#include "mumps_solver.hpp"
+#include "symmetry_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace culm::solver {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::values_of;
+
+// More iterations per digit than with new grids, by this factor and not just a few: they are made
+// anew.
+constexpr double slower = 1.5;
+constexpr int some_iterations = 10;
+constexpr int most_iterations = 300;
+// Grids of another matrix: its diagonal sums up to something else.
+constexpr double other_matrix = 0.1;
+// What one run of an iteration can bring down before its recursion and the residual part.
+constexpr double reduction_of_a_run = 1e-8;
+// What counts as all digits, over |b| or over the largest terms of a row.
+constexpr double all_digits = 1e-12;
+constexpr double rounding = 1e-14;
+constexpr double largest_asymmetry = 1e-12;
+
+constexpr LinearResidual useless{1.0};
+
+class IterativeSolver final : public LinearSolver {
+ public:
+  IterativeSolver(const Teuchos::RCP<const CrsMatrix>& matrix, ModelBehind model,
+                  const parallel::Comm& comm)
+      : matrix_(matrix),
+        model_(std::move(model)),
+        comm_(comm),
+        symmetry_(matrix),
+        columns_(matrix->getColMap()),
+        rest_(matrix->getRowMap()),
+        correction_(matrix->getRowMap()) {}
+
+  std::string name() const override { return "Iterative"; }
+
+  bool factor() override {
+    if (!std::isfinite(comm_.max(largest_entry(*matrix_)))) return false;
+    is_symmetric_ = comm_.max(symmetry_.asymmetry()) <= largest_asymmetry;
+    if (direct_) return direct_->factor();
+    const double sum = sum_of_diagonal();
+    const bool is_other = std::abs(sum - built_sum_) > other_matrix * std::abs(built_sum_);
+    if (!multigrid_ || is_stale_ || is_other) return build(sum);
+    multigrid_->refresh();
+    is_new_ = false;
+    return true;
+  }
+
+  LinearResidual solve(const Vector& b, Vector& x) override {
+    return solve_roughly(b, x, all_digits);
+  }
+
+  LinearResidual solve_roughly(const Vector& b, Vector& x, double reduction) override {
+    x.putScalar(0.0);
+    if (!direct_ && is_stale_ && !build(sum_of_diagonal())) return useless;
+    if (direct_) return direct_->solve(b, x);
+    const double size = b.norm2();
+    if (!std::isfinite(size)) return {size};
+    if (size == 0.0) return {};
+    std::optional<LinearResidual> reached = iterate(b, x, reduction);
+    if (!reached && !is_new_) {
+      if (!build(sum_of_diagonal())) return useless;
+      reached = iterate(b, x, reduction);
+    }
+    return reached ? *reached : solve_directly(b, x);
+  }
+
+  Determinant determinant() override { return direct_ ? direct_->determinant() : Determinant{}; }
+
+  double weakest_direction(Vector& v) override {
+    v.putScalar(0.0);
+    const double size = comm_.max(largest_entry(*matrix_));
+    if (!std::isfinite(size) || size == 0.0) return 0.0;
+    build(sum_of_diagonal());
+    multigrid_->weakest_direction(v);
+    const double largest = v.normInf();
+    if (!(largest > 0.0)) return 0.0;
+    v.scale(1.0 / largest);
+    matrix_->apply(v, rest_);
+    return rest_.normInf() / size;
+  }
+
+  // What depends on earlier matrices ends with the step, so that it does not matter where a run was
+  // stopped, or how often a step was tried.
+  void remember_pivots() override { begin_anew(); }
+  void restore_pivots() override { begin_anew(); }
+
+  std::string remark() const override {
+    if (solutions_ == 0) return {};
+    std::string text = fmt::format("{:.1f} iterations per solution, at most {}; grids of",
+                                   static_cast<double>(iterations_) / solutions_, most_);
+    for (long long unknowns : sizes_) text += fmt::format(" {}", unknowns);
+    text += fmt::format(" unknowns, made {} times", built_);
+    if (failed_ > 0) {
+      text += fmt::format("; {} of {} solutions by MUMPS, where the iteration did not converge",
+                          failed_, solutions_);
+    }
+    return text;
+  }
+
+ private:
+  void begin_anew() {
+    direct_.reset();
+    is_stale_ = true;
+  }
+
+  double sum_of_diagonal() const {
+    const auto local = matrix_->getLocalMatrixHost();
+    double sum = 0.0;
+    for (int row = 0; row < local.numRows(); ++row) {
+      const int diagonal =
+          matrix_->getColMap()->getLocalElement(matrix_->getRowMap()->getGlobalElement(row));
+      const auto at = static_cast<std::size_t>(row);
+      for (auto k = local.graph.row_map(at); k < local.graph.row_map(at + 1); ++k) {
+        if (local.graph.entries(k) == diagonal) sum += std::abs(local.values(k));
+      }
+    }
+    return comm_.sum(sum);
+  }
+
+  bool build(double sum) {
+    multigrid_.reset();  // before new ones take memory
+    multigrid_ = std::make_unique<Multigrid>(matrix_, model_.motions(), comm_);
+    sizes_ = multigrid_->sizes();
+    built_sum_ = sum;
+    is_stale_ = false;
+    is_new_ = true;
+    usual_ = 0.0;
+    ++built_;
+    return multigrid_->is_regular();
+  }
+
+  // Runs until the residual is small enough or as small as rounding leaves it. Starts from x = 0.
+  // @return none if it does not get there
+  std::optional<LinearResidual> iterate(const Vector& b, Vector& x, double reduction) {
+    const double size = b.norm2();
+    double rest = size;
+    double relative = 1.0;
+    int spent = 0;
+    bool is_definite = is_symmetric_ && multigrid_->may_be_definite();
+    const auto is_reached = [&] { return rest <= reduction * size || relative <= rounding; };
+    x.putScalar(0.0);
+    rest_.assign(b);
+    while (spent < most_iterations && !is_reached()) {
+      KrylovGoal run;
+      run.reduction = std::max(0.5 * reduction * size / rest, reduction_of_a_run);
+      run.most_iterations = most_iterations - spent;
+      correction_.putScalar(0.0);
+      const KrylovEnd end = is_definite ? conjugate_gradients(*multigrid_, rest_, correction_, run)
+                                        : minimise_residual(*multigrid_, rest_, correction_, run);
+      spent += std::max(1, end.iterations);
+      const double before = rest;
+      if (std::isfinite(correction_.norm2())) {
+        x.update(1.0, correction_, 1.0);
+        relative = check(b, x);
+        rest = rest_.norm2();
+      }
+      if (rest > before) {
+        x.update(-1.0, correction_, 1.0);
+        relative = check(b, x);
+        rest = rest_.norm2();
+      }
+      if (is_reached()) break;
+      const bool helps = end.converged && rest < 0.5 * before;
+      if (!helps && !is_definite) break;
+      is_definite = is_definite && helps;
+    }
+    note(spent, std::log10(size / rest));
+    if (!is_reached()) return {};
+    if (rest <= reduction * size) return LinearResidual{rest / size, reduction};
+    return LinearResidual{relative};
+  }
+
+  void note(int spent, double digits) {
+    ++solutions_;
+    iterations_ += spent;
+    most_ = std::max(most_, spent);
+    const double per_digit = spent / std::max(1.0, digits);
+    if (is_new_ && usual_ == 0.0) usual_ = per_digit;
+    if (!is_new_ && spent > some_iterations && per_digit > slower * usual_) is_stale_ = true;
+  }
+
+  LinearResidual solve_directly(const Vector& b, Vector& x) {
+    Ordering ordering = order_rows(*matrix_, comm_);
+    const double need = 8.0 * ordering.fill.entries * (is_symmetric_ ? 0.5 : 1.0);
+    if (need > model_.memory) {
+      throw NumericalError(fmt::format(
+          "The iterative solver did not converge in {} iterations, and the factors of MUMPS would "
+          "need {:.2g} GB,\nmore than the {:.2g} GB that are allowed.\n"
+          "Try: smaller steps, thicker or fewer elements, or more memory.",
+          most_iterations, 1e-9 * need, 1e-9 * model_.memory));
+    }
+    ++failed_;
+    multigrid_.reset();
+    is_stale_ = true;
+    direct_ = make_mumps(matrix_, std::move(ordering), comm_);
+    if (!direct_->factor()) return useless;
+    return direct_->solve(b, x);
+  }
+
+  // Relative residual; leaves b - A x in rest_.
+  double check(const Vector& b, const Vector& x) {
+    const auto importer = matrix_->getGraph()->getImporter();
+    if (!importer.is_null()) columns_.doImport(x, *importer, Tpetra::INSERT);
+    const Vector& all = importer.is_null() ? x : columns_;
+    const Residual mine = residual(*matrix_, values_of(all), values_of(b), values_of(rest_));
+    std::array<double, 2> joint = {mine.largest, mine.size};
+    comm_.max(joint);
+    return Residual{joint[0], joint[1]}.relative();
+  }
+
+  Teuchos::RCP<const CrsMatrix> matrix_;
+  ModelBehind model_;
+  parallel::Comm comm_;
+  SymmetryCheck symmetry_;
+  Vector columns_, rest_, correction_;
+  std::unique_ptr<Multigrid> multigrid_;
+  std::unique_ptr<LinearSolver> direct_;  // where the iteration did not converge in this step
+  std::vector<long long> sizes_;          // of the grids
+  bool is_symmetric_ = false;
+  bool is_stale_ = true;  // the grids are to be made anew
+  bool is_new_ = false;   // they belong to the present values
+  double built_sum_ = 0.0;
+  double usual_ = 0.0;  // iterations per digit with new grids
+  long iterations_ = 0;
+  int solutions_ = 0, most_ = 0, built_ = 0, failed_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_iterative(const Teuchos::RCP<const CrsMatrix>& matrix,
+                                             ModelBehind model, const parallel::Comm& comm) {
+  return std::make_unique<IterativeSolver>(matrix, std::move(model), comm);
+}
+
+}  // namespace culm::solver

@@ -1,0 +1,172 @@
+#include "multigrid.hpp"
+
+#include "coarse_matrix.hpp"
+#include "prolongation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace culm::solver {
+namespace {
+
+using assembly::values_of;
+using assembly::Vector;
+
+// The coarsest grid is factored; below this size that costs less than cycles over more grids.
+constexpr long long largest_coarsest = 150000;
+// A grid that is not much coarser than the one before is not worth its cost.
+constexpr double least_coarsening = 0.7;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// What neither a smoother nor rigid motions can stand for.
+std::vector<bool> find_special(const GridLevel& grid, const BlockSmoother& smoother) {
+  std::vector<bool> special(index(grid.nodes()));
+  for (int node = 0; node < grid.nodes(); ++node) {
+    const auto rigid = grid.rigid().middleRows(grid.first_column(node), grid.width(node));
+    special[index(node)] = smoother.leaves(node) || rigid.isZero(0.0);
+  }
+  return special;
+}
+
+// That with its neighbours.
+std::vector<bool> with_neighbours(const std::vector<bool>& special, const GridLevel& grid) {
+  // neighbours on other ranks are told by a vector
+  const auto& matrix = *grid.matrix();
+  Vector mark(matrix.getRowMap());
+  const auto marks = values_of(mark);
+  for (int node = 0; node < grid.nodes(); ++node) {
+    for (int i = 0; i < grid.width(node); ++i) {
+      marks[index(grid.first_column(node) + i)] = special[index(node)] ? 1.0 : 0.0;
+    }
+  }
+  const auto importer = matrix.getGraph()->getImporter();
+  Vector all(matrix.getColMap());
+  if (importer.is_null()) {
+    all.assign(mark);
+  } else {
+    all.doImport(mark, *importer, Tpetra::INSERT);
+  }
+  const auto is_special = values_of(std::as_const(all));
+  std::vector<bool> carried = special;
+  for (int node = 0; node < grid.nodes(); ++node) {
+    for (int column : grid.rows().columns(node)) {
+      if (is_special[index(column)] != 0.0) carried[index(node)] = true;
+    }
+  }
+  return carried;
+}
+
+}  // namespace
+
+struct Multigrid::Level {
+  Level(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::vector<int>& widths,
+        NearNullSpace rigid, const parallel::Comm& comm)
+      : grid(std::move(matrix), widths, std::move(rigid), comm),
+        smoother(grid),
+        rest(grid.matrix()->getRowMap()),
+        correction(grid.matrix()->getRowMap()) {}
+
+  GridLevel grid;
+  BlockSmoother smoother;
+  GroupedMatrix prolongation;  // to this grid, over the columns of the next matrix
+  Teuchos::RCP<const assembly::CrsMatrix> next;
+  Vector rest, correction;
+  Teuchos::RCP<Vector> coarse_rhs, coarse_solution, coarse_columns;
+};
+
+Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                     assembly::NodeMotions nodes, const parallel::Comm& comm) {
+  coarsest_matrix_ = matrix;
+  while (levels_.empty() ||
+         static_cast<long long>(coarsest_matrix_->getGlobalNumRows()) > largest_coarsest) {
+    auto level = std::make_unique<Level>(coarsest_matrix_, nodes.widths, nodes.rigid, comm);
+    const std::vector<bool> special = find_special(level->grid, level->smoother);
+    const bool all_move = std::ranges::find(special, true) == special.end();
+    may_be_definite_ = may_be_definite_ && comm.max(all_move ? 0 : 1) == 0;
+    const std::vector<bool> carried = with_neighbours(special, level->grid);
+    Prolongation coarse = join_rigidly(level->grid, aggregate(level->grid, carried), carried, comm);
+    const auto rows = static_cast<double>(coarsest_matrix_->getGlobalNumRows());
+    const bool pays = static_cast<double>(coarse.begin.back()) < least_coarsening * rows;
+    if (!levels_.empty() && !pays) break;
+    const NodeBlocks smoothed = smooth(coarse.rows, level->grid, level->smoother, comm);
+    coarsest_matrix_ = make_coarse_matrix(level->grid, smoothed, coarse.widths, coarse.begin, comm);
+    level->next = coarsest_matrix_;
+    level->prolongation = over_columns(smoothed, *coarsest_matrix_->getColMap());
+    level->coarse_rhs = Teuchos::rcp(new Vector(coarsest_matrix_->getRowMap()));
+    level->coarse_solution = Teuchos::rcp(new Vector(coarsest_matrix_->getRowMap()));
+    level->coarse_columns = Teuchos::rcp(new Vector(coarsest_matrix_->getColMap()));
+    levels_.push_back(std::move(level));
+    nodes = {std::move(coarse.widths), std::move(coarse.rigid)};
+  }
+  coarsest_ = choose_linear_solver("Automatic", coarsest_matrix_, comm).solver;
+  is_regular_ = coarsest_->factor();
+}
+
+Multigrid::~Multigrid() = default;
+
+void Multigrid::refresh() { levels_.front()->smoother.refresh(); }
+
+void Multigrid::multiply(const Vector& x, Vector& y) const { levels_.front()->grid.multiply(x, y); }
+
+void Multigrid::prolong(std::size_t level, const Vector& coarse, Vector& x) const {
+  const Level& l = *levels_[level];
+  const auto importer = l.next->getGraph()->getImporter();
+  if (importer.is_null()) {
+    l.coarse_columns->assign(coarse);
+  } else {
+    l.coarse_columns->doImport(coarse, *importer, Tpetra::INSERT);
+  }
+  l.prolongation.multiply(values_of(std::as_const(*l.coarse_columns)), values_of(x));
+}
+
+void Multigrid::cycle(std::size_t level, const Vector& b, Vector& x) {
+  if (level == levels_.size()) {
+    coarsest_->solve(b, x);
+    return;
+  }
+  Level& l = *levels_[level];
+  l.smoother.smooth(b, x);
+  l.grid.multiply(x, l.rest);
+  l.rest.update(1.0, b, -1.0);
+  l.coarse_columns->putScalar(0.0);
+  l.prolongation.add_transposed(values_of(std::as_const(l.rest)), values_of(*l.coarse_columns));
+  const auto importer = l.next->getGraph()->getImporter();
+  if (importer.is_null()) {
+    l.coarse_rhs->assign(*l.coarse_columns);
+  } else {
+    l.coarse_rhs->putScalar(0.0);
+    l.coarse_rhs->doExport(*l.coarse_columns, *importer, Tpetra::ADD);
+  }
+  cycle(level + 1, *l.coarse_rhs, *l.coarse_solution);
+  prolong(level, *l.coarse_solution, l.correction);
+  x.update(1.0, l.correction, 1.0);
+  l.grid.multiply(x, l.rest);
+  l.rest.update(1.0, b, -1.0);
+  l.smoother.smooth(l.rest, l.correction);
+  x.update(1.0, l.correction, 1.0);
+}
+
+void Multigrid::apply(const Vector& b, Vector& x) { cycle(0, b, x); }
+
+void Multigrid::weakest_direction(Vector& v) {
+  Vector coarse(coarsest_matrix_->getRowMap());
+  coarsest_->weakest_direction(coarse);
+  for (std::size_t level = levels_.size(); level-- > 0;) {
+    Vector fine(levels_[level]->grid.matrix()->getRowMap());
+    prolong(level, coarse, fine);
+    coarse = fine;
+  }
+  v.assign(coarse);
+}
+
+std::vector<long long> Multigrid::sizes() const {
+  std::vector<long long> sizes;
+  for (const auto& level : levels_) {
+    sizes.push_back(static_cast<long long>(level->grid.matrix()->getGlobalNumRows()));
+  }
+  sizes.push_back(static_cast<long long>(coarsest_matrix_->getGlobalNumRows()));
+  return sizes;
+}
+
+}  // namespace culm::solver
