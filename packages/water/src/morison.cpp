@@ -1,9 +1,10 @@
-#include <culm/base/nearest.hpp>
 #include <culm/joint/triad_nodes.hpp>
 #include <culm/water/morison_load.hpp>
 #include <culm/water/register_water.hpp>
 
 #include "distribution.hpp"
+#include "find_sea.hpp"
+#include "potential_flow.hpp"
 
 #include <fmt/format.h>
 
@@ -335,23 +336,6 @@ bool is_sound(const std::vector<Segment>& segments, const Sea& sea, const Option
   return false;
 }
 
-std::shared_ptr<const Sea> find_sea(const Options& options, flow::FluidContext& context) {
-  const flow::SharedFlow found = flow::find_flow(options, context);
-  if (found == nullptr) return nullptr;
-  auto sea = std::dynamic_pointer_cast<const Sea>(found);
-  if (sea != nullptr) return sea;
-  std::vector<std::string> names;
-  for (const auto& [name, flow] : context.flows) {
-    if (std::dynamic_pointer_cast<const Sea>(flow) != nullptr) names.push_back(name);
-  }
-  const std::string& name = options.text("Flow");
-  context.build.issues.add(options.where("Flow"),
-                           "'" + name +
-                               "' has no surface: it must be a sea, such as 'Still Water'" +
-                               did_you_mean(name, names));
-  return nullptr;
-}
-
 void make(const Options& options, flow::FluidContext& context) {
   model::BuildContext& build = context.build;
   const auto sea = find_sea(options, context);
@@ -373,6 +357,7 @@ void make(const Options& options, flow::FluidContext& context) {
 
 void register_water_loads(flow::FluidLoadRegistry& registry) {
   registry.add("Morison", morison_schema(), make);
+  register_potential_flow(registry);
 }
 
 }  // namespace culm::water

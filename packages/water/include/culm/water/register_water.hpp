@@ -8,7 +8,7 @@ namespace culm::water {
 /// Types of the deck's list "Flows": Still Water, Regular Waves, Irregular Waves, Wave Components.
 void register_seas(flow::FlowRegistry& registry);
 
-/// Types of the deck's list "Loads": Morison.
+/// Types of the deck's list "Loads": Morison, Potential Flow.
 void register_water_loads(flow::FluidLoadRegistry& registry);
 
 }  // namespace culm::water

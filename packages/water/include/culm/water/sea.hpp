@@ -58,12 +58,13 @@ class Sea final : public flow::Flow {
   /// Length of the highest wave; infinite where there are none [m].
   double main_length() const;
   double shown() const { return shown_; }
+  /// Share of their height that the waves have [1].
+  double growth(double time) const;
   WaterMotion motion(const Vec3& place, double time) const;
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override;
 
  private:
-  double growth(double time) const;
   double profile_height(const Vec3& place, double time) const;
 
   Site site_;

@@ -1,0 +1,223 @@
+#include <culm/load/slot_kernel.hpp>
+#include <culm/water/potential_load.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace culm::water {
+namespace {
+
+using Motion = model::ItemMotion<1>;
+using Complex = std::complex<double>;
+
+constexpr double small_turn = 0.1;  // [rad]; sines and their linear parts differ by 0.2 %
+
+Mat3 cross(const Vec3& a) {
+  Mat3 matrix;
+  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return matrix;
+}
+
+Vec<12> slots_of(const model::Coordinates& q, int node) {
+  const Mat<3, 4> slots = model::NodeTable::slots(q, node);
+  return Eigen::Map<const Vec<12>>(slots.data());
+}
+
+}  // namespace
+
+PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes,
+                             model::Amplitude amplitude, std::shared_ptr<const Sea> sea, int node,
+                             FloatingBody body)
+    : MemorylessBatch(std::move(effect)),
+      nodes_(nodes),
+      amplitude_(std::move(amplitude)),
+      sea_(std::move(sea)),
+      node_(node),
+      body_(std::move(body)),
+      accepted_(body_.radiation.terms.size(), Eigen::Matrix<Complex, 6, 1>::Zero()),
+      trial_(accepted_) {
+  const Mat<3, 4> slots = model::NodeTable::slots(nodes.reference(), node);
+  map_.block<3, 3>(0, 0) = Mat3::Identity();
+  for (int i = 1; i < 4; ++i) map_.block<3, 3>(3, 3 * i) = 0.5 * cross(slots.col(i));
+  reference_ = map_ * Eigen::Map<const Vec<12>>(slots.data());
+  for (const Wave& wave : sea_->waves()) {
+    const double heading = std::atan2(wave.direction.y(), wave.direction.x());
+    const auto forces = excitation_of(body_.flow, wave.frequency, heading);
+    // the wave at the node: cos(omega t - lag)
+    const double lag = wave.phase + wave.number * wave.direction.dot(Vec3(slots.col(0)));
+    WaveForce one;
+    one.frequency = wave.frequency;
+    for (int i = 0; i < 6; ++i) {
+      one.force[i] = wave.amplitude * std::polar(1.0, -lag) * forces[i];
+    }
+    waves_.push_back(one);
+  }
+}
+
+std::vector<int> PotentialLoad::blocks(int, const model::UnknownTable& unknowns) const {
+  return blocks_of({node_}, unknowns);
+}
+
+Vec6 PotentialLoad::motion_of(const model::Coordinates& q) const {
+  return map_ * slots_of(q, node_) - reference_;
+}
+
+Vec6 PotentialLoad::rates_of(const model::Coordinates& q) const {
+  return map_ * slots_of(q, node_);
+}
+
+Vec6 PotentialLoad::waves(double time) const {
+  Vec6 sum = Vec6::Zero();
+  for (const WaveForce& wave : waves_) {
+    const Complex turn = std::polar(1.0, wave.frequency * time);
+    for (int i = 0; i < 6; ++i) sum[i] += std::real(wave.force[i] * turn);
+  }
+  return sea_->growth(time) * sum;
+}
+
+// z_1 (1 - h p / 2) = z_0 (1 + h p / 2) + Dx, the force is that of the mean of both
+PotentialLoad::Evaluation PotentialLoad::evaluate(const model::State& state, const Stencil& stencil,
+                                                  Want want, States& trial) const {
+  Evaluation result;
+  if (want == Want::mass) {
+    result.derivative = -body_.flow.infinite_mass;
+    return result;
+  }
+  const bool moves = stencil.step > 0.0 && stencil.inertia > 0.0;
+  const Vec6 prev = motion_of(state.prev), next = motion_of(state.next);
+  const double theta = stencil.theta;
+  result.force = body_.rest - body_.flow.hydrostatics * ((1.0 - theta) * prev + theta * next) +
+                 waves(moves ? load::time_of(state, stencil) : 0.0);
+  result.derivative = -theta * body_.flow.hydrostatics;
+  if (moves) {
+    const Vec6 acceleration = stencil.inertia * (next - prev) + rates_of(state.acceleration_offset);
+    result.force -= body_.flow.infinite_mass * acceleration;
+    result.derivative -= stencil.inertia * body_.flow.infinite_mass;
+    const double h = stencil.step;
+    result.force -= body_.radiation.extra * (next - prev) / h;
+    result.derivative -= body_.radiation.extra / h;
+    for (std::size_t k = 0; k < trial.size(); ++k) {
+      const auto& [pole, residue] = body_.radiation.terms[k];
+      const Complex denominator = 1.0 - 0.5 * h * pole;
+      trial[k] = (accepted_[k] * (1.0 + 0.5 * h * pole) + (next - prev)) / denominator;
+      result.force -= (residue * (accepted_[k] + trial[k])).real();
+      result.derivative -= (residue / denominator).real();
+    }
+  }
+  const double factor = amplitude_.in_step(state, stencil);
+  result.force *= factor;
+  result.derivative *= factor;
+  return result;
+}
+
+// F on the place, half of M x D_i on director i: their work is F . Du + M . Dtheta
+Mat<3, 4> PotentialLoad::slot_forces(const Vec6& force) const {
+  const Vec<12> flat = map_.transpose() * force;
+  return Eigen::Map<const Mat<3, 4>>(flat.data());
+}
+
+Verdict PotentialLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
+                                model::Target& target) {
+  return assemble_items([&](auto space, std::size_t i) {
+    return assemble_item<decltype(space)>(i, state, stencil, want, target);
+  });
+}
+
+template <class Space>
+Verdict PotentialLoad::assemble_item(std::size_t i, const model::State& state,
+                                     const Stencil& stencil, Want want, model::Target& target) {
+  const bool mass = want == Want::mass;
+  const double theta = mass ? 1.0 : stencil.theta;
+  const Evaluation found = evaluate(state, stencil, want, trial_);
+  const Motion motion(nodes_, {node_}, state, theta);
+  Motion::Slots r = -slot_forces(found.force);
+  if (mass) {
+    r.setZero();
+  } else {
+    trial_force_.force = found.force.head<3>();
+    trial_force_.moment =
+        Vec3(found.force.tail<3>()) + Vec3(motion.mid.col(0)).cross(trial_force_.force);
+    const Verdict verdict =
+        load::add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
+    if (verdict != Verdict::ok) return verdict;
+  }
+  if (want == Want::residual) return Verdict::ok;
+  const Mat<12, 12> K = -map_.transpose() * found.derivative * map_;
+  load::add_dense_derivative<Space>(
+      placement(), i, r, motion, theta, [&K](int, int) { return K; }, target);
+  return Verdict::ok;
+}
+
+void PotentialLoad::accept(model::State& state) {
+  accepted_ = trial_;
+  accepted_force_ = trial_force_;
+  largest_turn_ = std::max(largest_turn_, motion_of(state.next).tail<3>().norm());
+  has_stepped_ = true;
+}
+
+std::optional<flow::FluidForce::Resultant> PotentialLoad::resultant() const {
+  if (!has_stepped_) return {};
+  if (placement().items.empty() || !placement().owned[0]) return Resultant{};
+  return accepted_force_;
+}
+
+double PotentialLoad::range_used() const {
+  return placement().items.empty() ? 0.0 : largest_turn_ / small_turn;
+}
+
+std::string PotentialLoad::range_warning(double used) const {
+  return fmt::format(
+      "{}: the body turns by {:.3g} rad, but linear potential flow is that of small "
+      "motions; it is good up to {:g} rad",
+      effect().quoted(), used * small_turn, small_turn);
+}
+
+std::string PotentialLoad::left_out_of_modes() const {
+  if (body_.radiation.terms.empty()) return {};
+  return effect().quoted() +
+         ": modes have the added mass at infinite frequency, and no waves that the body makes";
+}
+
+void PotentialLoad::save(model::Items items, std::span<double> numbers) const {
+  if (placement().items.empty()) return;
+  if (items == model::Items::owned && !placement().owned[0]) return;
+  numbers[0] = has_stepped_ ? 1.0 : 0.0;
+  numbers[1] = largest_turn_;
+  std::ranges::copy(accepted_force_.force, numbers.begin() + 2);
+  std::ranges::copy(accepted_force_.moment, numbers.begin() + 5);
+  for (std::size_t k = 0; k < accepted_.size(); ++k) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      numbers[8 + 12 * k + 2 * i] = accepted_[k][static_cast<int>(i)].real();
+      numbers[9 + 12 * k + 2 * i] = accepted_[k][static_cast<int>(i)].imag();
+    }
+  }
+}
+
+void PotentialLoad::restore(std::span<const double> numbers) {
+  has_stepped_ = numbers[0] != 0.0;
+  largest_turn_ = numbers[1];
+  accepted_force_ = {Vec3(numbers.data() + 2), Vec3(numbers.data() + 5)};
+  trial_force_ = accepted_force_;
+  for (std::size_t k = 0; k < accepted_.size(); ++k) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      accepted_[k][static_cast<int>(i)] = {numbers[8 + 12 * k + 2 * i],
+                                           numbers[9 + 12 * k + 2 * i]};
+    }
+  }
+  trial_ = accepted_;
+}
+
+model::StepWork PotentialLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  model::StepWork work;
+  if (placement().items.empty() || !placement().owned[0]) return work;
+  States trial = accepted_;
+  const Vec6 force = evaluate(state, stencil, Want::residual, trial).force;
+  const Motion motion(nodes_, {node_}, state, stencil.theta);
+  load::add_item_work(slot_forces(force), motion, {node_}, state, true, work);
+  return work;
+}
+
+}  // namespace culm::water
