@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 #include <set>
@@ -130,14 +131,12 @@ void report_missing(InputFile& file, Report& report) {
     const char* keyword;
     const char* text;
   };
-  constexpr Effect switches[] = {
-      {"TwrPotent", "the tower does not turn the wind aside: blades that pass it feel no dip"},
-      {"Buoyancy", "no buoyancy of blades, hub, nacelle and tower"},
-      {"NacelleDrag", "no drag of the nacelle"},
-      {"TFinAero", "no tail fin"},
-      {"CompAA", "no noise"},
-      {"CavitCheck", "no check of cavitation"},
-      {"SectAvg", "no average of the wind over sectors"}};
+  constexpr Effect switches[] = {{"Buoyancy", "no buoyancy of blades, hub, nacelle and tower"},
+                                 {"NacelleDrag", "no drag of the nacelle"},
+                                 {"TFinAero", "no tail fin"},
+                                 {"CompAA", "no noise"},
+                                 {"CavitCheck", "no check of cavitation"},
+                                 {"SectAvg", "no average of the wind over sectors"}};
   const auto is_on = [&](const char* keyword) {
     if (!file.has(keyword) || is_default(file, keyword)) return false;
     const std::string value = to_lower(file.text(keyword));
@@ -149,10 +148,6 @@ void report_missing(InputFile& file, Report& report) {
                                       file.text(effect.keyword), effect.text));
     }
   }
-  if (is_on("TwrShadow")) {
-    report.add(missing, fmt::format("{} = {}: no shadow of the tower", place(file, "TwrShadow"),
-                                    file.text("TwrShadow")));
-  }
   if (const int tables = switch_of(file, "AFTabMod", 1); tables != 1) {
     report.add(
         missing,
@@ -162,12 +157,22 @@ void report_missing(InputFile& file, Report& report) {
   }
 }
 
+// Older files have a flag where newer ones have a number.
+int switch_or_flag(InputFile& file, const char* keyword) {
+  if (!file.has(keyword) || is_default(file, keyword)) return 0;
+  const std::string value = to_lower(file.text(keyword));
+  if (value == "true" || value == "t") return 1;
+  if (value == "false" || value == "f") return 0;
+  return file.integer(keyword);
+}
+
 std::vector<AeroTowerStation> read_tower(InputFile& file) {
-  if (!file.flag("TwrAero") || file.integer("NumTwrNds") == 0) return {};
+  if (file.integer("NumTwrNds") == 0) return {};
   const NamedTable table(file, "NumTwrNds", 3, "tower");
   std::vector<AeroTowerStation> tower;
   for (std::size_t i = 0; i < table.size(); ++i) {
-    tower.push_back({table.at(i, "TwrElev"), table.positive(i, "TwrDiam"), table.at(i, "TwrCd")});
+    tower.push_back({table.at(i, "TwrElev"), table.positive(i, "TwrDiam"), table.at(i, "TwrCd"),
+                     table.find(i, "TwrTI").value_or(0.1)});
     if (i > 0 && tower[i].height <= tower[i - 1].height) {
       throw InputError(file.where(table.line(i), "TwrElev"),
                        fmt::format("heights must rise, got {:g} after {:g} m", tower[i].height,
@@ -175,6 +180,23 @@ std::vector<AeroTowerStation> read_tower(InputFile& file) {
     }
   }
   return tower;
+}
+
+std::optional<AeroTowerInfluence> read_influence(InputFile& file,
+                                                 const std::vector<AeroTowerStation>& shape) {
+  const int upstream = switch_or_flag(file, "TwrPotent");
+  const int downstream = switch_or_flag(file, "TwrShadow");
+  if (upstream < 0 || upstream > 2) throw unknown_switch(file, "TwrPotent", upstream, 0, 2);
+  if (downstream < 0 || downstream > 2) throw unknown_switch(file, "TwrShadow", downstream, 0, 2);
+  if (upstream + downstream == 0) return {};
+  if (shape.empty()) {
+    throw InputError(file.where("NumTwrNds"),
+                     "the influence of the tower is on, so its shape must be there");
+  }
+  constexpr std::array upstreams = {"None", "Potential", "Bak"};
+  constexpr std::array downstreams = {"None", "Powles", "Eames"};
+  return AeroTowerInfluence{upstreams[static_cast<std::size_t>(upstream)],
+                            downstreams[static_cast<std::size_t>(downstream)], shape};
 }
 
 AeroBlade read_blade(const std::filesystem::path& path, std::size_t airfoils, Report& report) {
@@ -335,7 +357,9 @@ AeroDyn read_aerodyn(const std::filesystem::path& path, std::size_t blades,
     if (!known.contains(blade)) known[blade] = read_blade(blade, aero.airfoils.size(), report);
     aero.blades.push_back(known[blade]);
   }
-  aero.tower = read_tower(file);
+  const std::vector<AeroTowerStation> tower = read_tower(file);
+  if (file.flag("TwrAero")) aero.tower = tower;
+  aero.tower_influence = read_influence(file, tower);
   ignore_rest(file);
   report.add(unknown, file.unread());
   return aero;

@@ -36,8 +36,48 @@ std::string name_from(const std::filesystem::path& folder, const std::filesystem
   return std::filesystem::absolute(file).lexically_proximate(base.lexically_normal()).string();
 }
 
-void write_flow(const Air& air, double hub_height, const std::filesystem::path& folder,
+double linear(const std::vector<double>& places, const std::vector<double>& values, double at) {
+  const auto above = std::upper_bound(places.begin() + 1, places.end() - 1, at);
+  const auto i = static_cast<std::size_t>(above - places.begin());
+  const double share = std::clamp((at - places[i - 1]) / (places[i] - places[i - 1]), 0.0, 1.0);
+  return (1.0 - share) * values[i - 1] + share * values[i];
+}
+
+// Of values along the tower.
+double mean(const std::vector<AeroTowerStation>& shape, double AeroTowerStation::*value) {
+  double sum = 0.0;
+  for (const AeroTowerStation& station : shape) sum += station.*value;
+  return sum / static_cast<double>(shape.size());
+}
+
+void write_tower_influence(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
+  const AeroTowerInfluence& influence = *turbine.air->loads.tower_influence;
+  std::vector<double> heights, diameters;
+  for (const AeroTowerStation& station : influence.shape) {
+    heights.push_back(station.height);
+    diameters.push_back(station.diameter);
+  }
+  const double drag = mean(influence.shape, &AeroTowerStation::drag);
+  const double turbulence = mean(influence.shape, &AeroTowerStation::turbulence);
+  deck.open("Tower Influence");
+  deck.set("Structure", "tower");
+  deck.set("Diameters", std::vector<double>{linear(heights, diameters, turbine.tower_base),
+                                            linear(heights, diameters, turbine.tower_top)});
+  deck.set("Upstream", influence.upstream);
+  deck.set("Downstream", influence.downstream);
+  deck.set("Drag", drag);
+  deck.set("Turbulence", turbulence);
+  deck.close();
+  report.add(
+      assumed,
+      fmt::format("influence of the tower: diameters linear between foot and top, the mean drag "
+                  "{:g} and turbulence {:g} of the file, about the tower in its reference",
+                  drag, turbulence));
+}
+
+void write_flow(const ElastoDyn& turbine, const std::filesystem::path& folder, Report& report,
                 DeckWriter& deck) {
+  const Air& air = *turbine.air;
   const Wind& wind = air.wind;
   using Kind = Wind::Kind;
   deck.open("Flows");
@@ -58,12 +98,13 @@ void write_flow(const Air& air, double hub_height, const std::filesystem::path& 
     deck.set("Length", wind.length);
   }
   if (wind.kind == Kind::box) {
-    deck.set("Centre", Vec3(0.0, 0.0, hub_height));
+    deck.set("Centre", Vec3(0.0, 0.0, turbine.hub_height()));
     deck.set("Outside", "Hold");
   }
   deck.set("Direction",
            Vec3(std::cos(wind.upflow) * std::cos(wind.direction),
                 -std::cos(wind.upflow) * std::sin(wind.direction), std::sin(wind.upflow)));
+  if (air.loads.tower_influence) write_tower_influence(turbine, report, deck);
   deck.close();
   deck.close();
 }
@@ -120,13 +161,6 @@ double fraction_at(const Spline& curve, double height) {
     (curve.position(middle * curve.length()).z() < height ? low : high) = middle;
   }
   return 0.5 * (low + high);
-}
-
-double linear(const std::vector<double>& places, const std::vector<double>& values, double at) {
-  const auto above = std::upper_bound(places.begin() + 1, places.end() - 1, at);
-  const auto i = static_cast<std::size_t>(above - places.begin());
-  const double share = std::clamp((at - places[i - 1]) / (places[i] - places[i - 1]), 0.0, 1.0);
-  return (1.0 - share) * values[i - 1] + share * values[i];
 }
 
 // The columns of a Strip.
@@ -278,7 +312,7 @@ void write_air_variables(const ElastoDyn& turbine, DeckWriter& deck) {
 void write_air(const ElastoDyn& turbine, const std::filesystem::path& folder, Report& report,
                DeckWriter& deck) {
   const Air& air = *turbine.air;
-  write_flow(air, turbine.hub_height(), folder, deck);
+  write_flow(turbine, folder, report, deck);
   if (air.wind.kind == Wind::Kind::box) {
     report.add(assumed,
                "wind: the middle of the box passes the hub; it is known half its width upwind from "

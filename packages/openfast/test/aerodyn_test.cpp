@@ -88,17 +88,30 @@ TEST_F(AeroDynFiles, TablesOfAirfoilsHaveTheirColumns) {
   EXPECT_THAT(told(), HasSubstr("A1 = 0.2; lags and stall have constants of their own"));
 }
 
+TEST_F(AeroDynFiles, TheTowerChangesTheWind) {
+  EXPECT_FALSE(read().tower_influence);
+  std::string text = change(aero, "0          TwrPotent", "2          TwrPotent");
+  write("aero.dat", change(text, "False      TwrShadow", "True       TwrShadow"));
+  const std::optional<AeroTowerInfluence> influence = read().tower_influence;
+  ASSERT_TRUE(influence);
+  EXPECT_EQ(influence->upstream, "Bak");
+  EXPECT_EQ(influence->downstream, "Powles");
+  ASSERT_EQ(influence->shape.size(), 3U);
+  EXPECT_EQ(influence->shape[1].diameter, 1.5);
+  EXPECT_EQ(influence->shape[1].turbulence, 0.1);
+  write("aero.dat", change(text, "False      TwrShadow", "3          TwrShadow"));
+  EXPECT_THAT(message_of([&] { (void)read(); }),
+              HasSubstr("TwrShadow: must be from 0 to 2, got 3"));
+}
+
 TEST_F(AeroDynFiles, WhatIsOnAndNotThereIsNamed) {
-  std::string text = change(aero, "0          TwrPotent", "1          TwrPotent");
-  text = change(text, "False      TwrShadow", "True       TwrShadow");
-  text = change(text, "2          Wake_Mod", "3          Wake_Mod");
+  std::string text = change(aero, "2          Wake_Mod", "3          Wake_Mod");
   text = change(text, "True       TanInd", "False      TanInd");
   text = change(text, "1          AFTabMod", "2          AFTabMod");
   write("aero.dat", change(text, "4          UA_Mod", "3          UA_Mod"));
   (void)read();
   for (const char* part :
-       {"TwrPotent = 1: the tower does not turn the wind aside", "TwrShadow = True: no shadow",
-        "Wake_Mod = 3: the vortex wake of OLAF",
+       {"Wake_Mod = 3: the vortex wake of OLAF",
         "TanInd False: ", "AFTabMod = 2: coefficients do not",
         "UA_Mod = 3: the nearest model of unsteady airfoils is taken, four states (4)"}) {
     EXPECT_THAT(told(), HasSubstr(part));

@@ -52,6 +52,14 @@ struct AeroTowerStation {
   double height = 0.0;    ///< above ground or mean sea level [m]
   double diameter = 0.0;  ///< [m]
   double drag = 0.0;
+  double turbulence = 0.1;  ///< intensity of the wind there, for a wake of Eames
+};
+
+/// What the tower does to the wind about it, in the words of culm's list `Tower Influence`.
+struct AeroTowerInfluence {
+  std::string upstream = "None";    ///< Potential, Bak
+  std::string downstream = "None";  ///< Powles, Eames
+  std::vector<AeroTowerStation> shape;
 };
 
 /// What AeroDyn's files say, in the words of culm's loads `Rotor` and `Strip`.
@@ -67,7 +75,8 @@ struct AeroDyn {
   bool has_moments = true;
   std::vector<AirfoilFile> airfoils;
   std::vector<AeroBlade> blades;
-  std::vector<AeroTowerStation> tower;  ///< empty where it has no drag
+  std::vector<AeroTowerStation> tower;                ///< empty where it has no drag
+  std::optional<AeroTowerInfluence> tower_influence;  ///< none where it is off
 };
 
 /// Reads a primary file and the files of blades and airfoils that it names; tells the report what
