@@ -106,6 +106,9 @@ double InputFile::number(const std::string& keyword) {
   if (!value) {
     throw InputError(where(keyword), "must be a number, got '" + entry.values.front() + "'");
   }
+  if (entry.values.size() > 1) {
+    throw InputError(where(keyword), "must be one number, got '" + join(entry.values, " ") + "'");
+  }
   return *value;
 }
 

@@ -87,8 +87,11 @@ TEST_F(InputFileTest, ErrorsNameFileLineAndKeyword) {
   InputFile file(write("a.dat", sample));
   EXPECT_THAT(message_of([&] { file.number("refine"); }),
               EndsWith("a.dat:7: refine: must be a number, got 'DEFAULT'"));
-  EXPECT_THAT(message_of([&] { file.integer("zeta"); }),
-              EndsWith("a.dat:9: zeta: must be a whole number, got '0.1'"));
+  EXPECT_THAT(message_of([&] { file.number("zeta"); }),
+              EndsWith("a.dat:9: zeta: must be one number, got '0.1 0.2 0.3'"));
+  InputFile half(write("half.dat", "--- A ---\ntitle\n0.1 NumBl - blades\n"));
+  EXPECT_THAT(message_of([&] { half.integer("NumBl"); }),
+              EndsWith("half.dat:3: NumBl: must be a whole number, got '0.1'"));
   EXPECT_THAT(message_of([&] { file.flag("Level"); }),
               EndsWith("a.dat:6: Level: must be True or False, got '-2'"));
   EXPECT_THAT(message_of([&] { file.number("Mass(2)"); }), EndsWith("a.dat: Mass(2): is missing"));
