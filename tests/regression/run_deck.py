@@ -52,6 +52,18 @@ def is_path(history):
     return any(b < a for a, b in zip(history.levels, history.levels[1:]))
 
 
+def row_like(one, other, j):
+    """The row of one history that ends at the level of a row of another one, in the same analysis and both or none of them
+    its start; None if there is none."""
+    level = other.levels[j]
+    for i, found in enumerate(one.levels):
+        if abs(found - level) > 1e-9 * max(1.0, abs(level)):
+            continue
+        if one.analyses[i] == other.analyses[j] and (one.steps[i] == 0) == (other.steps[j] == 0):
+            return i
+    return None
+
+
 def compare(one, other, scale, tolerance, what):
     """Complaints about differences between two histories at the levels they share; on a path, whose
     level goes up and down, between all rows."""
@@ -60,9 +72,8 @@ def compare(one, other, scale, tolerance, what):
     if is_path(one) and len(one.levels) != len(other.levels):
         return [f"{what}: {len(one.levels)} and {len(other.levels)} rows"]
     for j, level in enumerate(other.levels):
-        try:
-            i = j if is_path(one) else one.row(level)
-        except KeyError:
+        i = j if is_path(one) else row_like(one, other, j)
+        if i is None:
             continue
         shared += j > 0
         if is_path(one):

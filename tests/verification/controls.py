@@ -144,7 +144,8 @@ def verify_actuator(culm, report):
         angle = np.array(run.history.column("angle [rad]"))
         report.holds(f"joint angle against the actuator, step {step}", np.abs(angle - pitch).max(), 1e-12)
         report.holds("energy less work of the drive", run.drift("energy balance"), 1e-11)
-        rates = np.abs(np.diff(pitch)) / np.diff(times)
+        passed = np.diff(times)
+        rates = np.abs(np.diff(pitch))[passed > 0.0] / passed[passed > 0.0]
         report.holds("rate beyond its limit of 0.6 rad/s", max(rates) - 0.6, 1e-9)
         errors.append(np.abs(pitch - actuator_at(times)).max())
     report.note(f"largest error of the angle at 0.01, 0.005 s: {errors}")

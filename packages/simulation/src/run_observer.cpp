@@ -87,11 +87,11 @@ void RunObserver::start_run(model::State& state) {
   if (has_started_) return;
   has_started_ = is_recorded_ = true;
   record(state.time, 0, state);
-  add_history(state.time, 0, state);
 }
 
 void RunObserver::start(model::State& state) {
-  if (!has_started_) return start_run(state);
+  start_run(state);
+  has_history_ = true;
   // nothing has been solved yet, so there are no reactions, in whatever form they are computed
   model::State unsolved = state;
   std::fill(unsolved.multipliers.begin(), unsolved.multipliers.end(), 0.0);
@@ -239,7 +239,7 @@ void RunObserver::go_back(const Snapshot& kept) {
 }
 
 void RunObserver::restore(const Snapshot& snapshot) {
-  has_started_ = true;
+  has_started_ = has_history_ = true;
   const std::vector<double>& counts = snapshot.numbers("run/counts", 9);
   accepted_ = static_cast<int>(counts[0]);
   rejected_ = static_cast<int>(counts[1]);
@@ -306,7 +306,9 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
   report_turns(state.time);
   ranges_.report(state.time, findings_);
-  start_run(state);  // also where a run fails before its first step
+  // also where a run fails before its first step, or makes none
+  start_run(state);
+  if (!has_history_) start(state);
   // a run that fails leaves its last accepted state
   if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state);
   const Ledger::Scope scope(ledger_, states_effect_);

@@ -39,7 +39,7 @@ class RunObserver final : public analysis::Observer {
               const Imperfections& imperfections, const analysis::ElementTurn& reference_turn,
               Progress progress);
 
-  /// Records the state in which the first analysis begins, whatever it does.
+  /// Records the state in which the first analysis begins, whatever it does; no row of the history.
   void start_run(model::State& state);
   /// Adds the state from which an analysis makes steps to the history, and records the first one.
   void start(model::State& state) override;
@@ -109,6 +109,7 @@ class RunObserver final : public analysis::Observer {
   bool has_stepped_ = false;  // the analysis has something to save
   bool is_recorded_ = false;  // the last accepted state is on disk, or none to keep
   bool has_started_ = false;  // the state at the start is on disk
+  bool has_history_ = false;  // the history has a row
   LoadWatch loads_;
   RangeWatch ranges_;
   Balance balance_;
