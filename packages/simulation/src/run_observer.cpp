@@ -83,14 +83,15 @@ void RunObserver::resume(const Snapshot& snapshot) {
   balance_.row = snapshot.text("run/balance row");
 }
 
-void RunObserver::start_run(model::State& state) {
+void RunObserver::start_run(model::State& state, bool steps_follow) {
   if (has_started_) return;
   has_started_ = is_recorded_ = true;
   record(state.time, 0, state);
+  if (!steps_follow) start(state);
 }
 
 void RunObserver::start(model::State& state) {
-  start_run(state);
+  start_run(state, true);
   has_history_ = true;
   // nothing has been solved yet, so there are no reactions, in whatever form they are computed
   model::State unsolved = state;
@@ -306,9 +307,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
   report_turns(state.time);
   ranges_.report(state.time, findings_);
-  // also where a run fails before its first step, or makes none
-  start_run(state);
-  if (!has_history_) start(state);
+  if (!has_history_) start(state);  // also where a run fails before its first step
   // a run that fails leaves its last accepted state
   if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state);
   const Ledger::Scope scope(ledger_, states_effect_);

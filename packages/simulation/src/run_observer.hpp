@@ -39,8 +39,9 @@ class RunObserver final : public analysis::Observer {
               const Imperfections& imperfections, const analysis::ElementTurn& reference_turn,
               Progress progress);
 
-  /// Records the state in which the first analysis begins, whatever it does; no row of the history.
-  void start_run(model::State& state);
+  /// Records the state in which the first analysis begins, whatever it does; in the history only
+  /// where no analysis of the deck makes steps.
+  void start_run(model::State& state, bool steps_follow);
   /// Adds the state from which an analysis makes steps to the history, and records the first one.
   void start(model::State& state) override;
   /// Goes on from a checkpoint instead.

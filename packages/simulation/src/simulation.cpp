@@ -21,6 +21,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <typeinfo>
 #include <utility>
 
@@ -235,7 +236,11 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   const std::string& type = entry.text("Type");
   if (known.inspections.contains(type)) {
     const auto inspection = known.inspections.make(type, entry);
-    observer.start_run(state);
+    const auto& entries = parts_->deck.list("Analyses").entries();
+    const bool steps_follow = std::any_of(entries.begin(), entries.end(), [&](const Options& one) {
+      return !known.inspections.contains(one.text("Type"));
+    });
+    observer.start_run(state, steps_follow);
     inspection->begin(context, state);
     const analysis::AnalysisReport report = inspection->inspect(context, state);
     observer.finish_analysis(report, state);

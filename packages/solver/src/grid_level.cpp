@@ -30,15 +30,15 @@ GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::
     node_of_.resize(node_of_.size() + static_cast<std::size_t>(width(node)), node);
   const auto importer = matrix_->getGraph()->getImporter();
   if (importer.is_null()) return;
-  columns_ = Teuchos::rcp(new Vector(matrix_->getColMap()));
+  Vector columns(matrix_->getColMap());
   Vector number(matrix_->getRowMap());
   const auto here = values_of(number);
   const auto rank = static_cast<std::size_t>(comm.rank());
   for (std::size_t row = 0; row < here.size(); ++row) {
     here[row] = static_cast<double>(begin_[rank] + node_of_[row]);  // exact below 2^53
   }
-  columns_->doImport(number, *importer, Tpetra::INSERT);
-  const auto all = values_of(std::as_const(*columns_));
+  columns.doImport(number, *importer, Tpetra::INSERT);
+  const auto all = values_of(std::as_const(columns));
   for (std::size_t column = here.size(); column < all.size(); ++column) {
     const auto node = static_cast<long long>(all[column]);
     if (beside_.empty() || beside_.back() != node) {
@@ -50,11 +50,6 @@ GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::
   }
 }
 
-void GridLevel::multiply(const Vector& x, Vector& y) const {
-  if (!columns_.is_null())
-    columns_->doImport(x, *matrix_->getGraph()->getImporter(), Tpetra::INSERT);
-  const Vector& all = columns_.is_null() ? x : *columns_;
-  rows_.multiply(values_of(all), values_of(y));
-}
+void GridLevel::multiply(const Vector& x, Vector& y) const { matrix_->apply(x, y); }
 
 }  // namespace culm::solver

@@ -49,7 +49,6 @@ class GridLevel {
   std::vector<int> node_of_;
   std::vector<long long> beside_;
   std::vector<long long> begin_;
-  Teuchos::RCP<assembly::Vector> columns_;  // values of all local columns; none on one rank
 };
 
 }  // namespace culm::solver

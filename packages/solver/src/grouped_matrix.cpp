@@ -1,7 +1,5 @@
 #include "grouped_matrix.hpp"
 
-#include <culm/math/vector_units.hpp>
-
 #include <Eigen/Core>
 
 #include <utility>
@@ -58,36 +56,18 @@ const double* GroupedMatrix::values(int group) const {
   return all + first_value_[index(group)];
 }
 
-namespace {
-
-// Sums of so many rows side by side, because one sum waits for itself.
-template <int rows>
-inline void multiply_rows(const double* values, const double* x, std::size_t width, double* y) {
-  double sums[rows] = {};
-  for (std::size_t k = 0; k < width; ++k) {
-    for (int i = 0; i < rows; ++i) sums[i] += values[index(i) * width + k] * x[k];
-  }
-  for (int i = 0; i < rows; ++i) y[i] = sums[i];
-}
-
-CULM_FOR_EACH_VECTOR_UNIT void multiply_group(const double* values, const double* x,
-                                              std::size_t width, int height, double* y) {
-  int row = 0;
-  for (; row + 6 <= height; row += 6)
-    multiply_rows<6>(values + index(row) * width, x, width, y + row);
-  for (; row < height; ++row) multiply_rows<1>(values + index(row) * width, x, width, y + row);
-}
-
-}  // namespace
-
 void GroupedMatrix::multiply(std::span<const double> x, std::span<double> y) const {
-  std::vector<double> gathered;
+  Eigen::VectorXd gathered;
   for (int g = 0; g < groups(); ++g) {
     const auto list = columns(g);
-    if (gathered.size() < list.size()) gathered.resize(list.size());
-    for (std::size_t k = 0; k < list.size(); ++k) gathered[k] = x[index(list[k])];
-    multiply_group(values(g), gathered.data(), list.size(), height(g),
-                   y.data() + first_row_[index(g)]);
+    const auto width = static_cast<Eigen::Index>(list.size());
+    if (gathered.size() < width) gathered.resize(width);
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      gathered[static_cast<Eigen::Index>(k)] = x[index(list[k])];
+    }
+    const Eigen::Map<const RowMajor> block(values(g), height(g), width);
+    Eigen::Map<Eigen::VectorXd>(y.data() + first_row_[index(g)], height(g)).noalias() =
+        block * gathered.head(width);
   }
 }
 

@@ -8,8 +8,7 @@
 
 namespace culm::solver {
 
-/// Dense groups of rows over lists of columns, row by row. The list is read once per group, so a
-/// product takes two thirds of the memory traffic of one with a list per row.
+/// Dense groups of rows over lists of columns, row by row.
 class GroupedMatrix {
  public:
   GroupedMatrix() = default;

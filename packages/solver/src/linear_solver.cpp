@@ -24,8 +24,8 @@ class NothingToSolve final : public LinearSolver {
   double weakest_direction(Vector&) override { return 0.0; }
 };
 
-// Measured on plates and cylinders [B per entry of the matrix]: the grids, the factors of the
-// coarsest, the vectors of an iteration.
+// An estimate [B per entry of the matrix] of the grids, the factors of the coarsest and the vectors
+// of conjugate gradients; plates of 100 x 100 and 400 x 400 elements took 19 and 8.
 constexpr double iterative_need = 12.0;
 
 ChosenSolver choose_iterative(const std::string& why,
