@@ -677,7 +677,7 @@ CASES = [
         results="out",
         last_level=1.0,
         check=lambda folder, _: has_levels(folder / "out", "0", "0.25", "0.5", "0.75", "1")
-        or ("" if "\n0,3,0,0\n" in (folder / "out/history.csv").read_text() else "L is not 3"),
+        or ("" if "\n0,3,0,0,0,0\n" in (folder / "out/history.csv").read_text() else "L is not 3"),
     ),
     Case(
         "results go to results/<name of the deck>",
