@@ -14,15 +14,16 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PACKAGES = ROOT / "packages"
 
-TPETRA = {"assembly", "solver", "analysis", "simulation"}
+TPETRA = {"assembly", "solver"}
 TEUCHOS = TPETRA | {"deck"}
-MPI = TPETRA | {"parallel", "output"}
+MPI = TPETRA | {"parallel", "output", "analysis", "simulation"}
 
 # (what is included, who may, in public headers as well?)
 EXTERNAL = [
     (r"mpi\.h$", MPI, True),
     (r"Teuchos_.*", TEUCHOS, False),
-    (r"(Tpetra|Kokkos|Thyra|Xpetra).*", TPETRA, False),
+    (r"Tpetra_Core\.hpp$", TPETRA | {"simulation"}, False),
+    (r"(Tpetra_(?!Core)|Kokkos|Thyra|Xpetra).*", TPETRA, False),
     (r"(NOX|LOCA|Amesos2|Anasazi|Belos|Ifpack2|MueLu|Stratimikos)[_.A-Z].*", {"solver"}, False),
     (r"Spectra/.*", {"solver"}, False),
     (r"[sdcz]mumps_c\.h$", {"solver"}, False),
@@ -31,8 +32,9 @@ EXTERNAL = [
     (r"libxml/.*", {"deck"}, False),
     (r"muParser.*", {"base"}, False),
 ]
-# Packages whose public headers may show Trilinos types.
-SHOWS_TRILINOS = {"assembly"}
+# The one public header that shows Trilinos types, and who may include it, in sources only.
+SHOWS_TRILINOS = "culm/assembly/tpetra.hpp"
+TRILINOS_TYPE = re.compile(r"\b(Teuchos|Tpetra|Kokkos)::")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
@@ -75,12 +77,17 @@ def close(direct):
 
 def check_file(path, package, visible):
     in_public_header = path.relative_to(PACKAGES / package).parts[0] == "include"
+    shows_trilinos = str(path).endswith("include/" + SHOWS_TRILINOS)
     for number, line in enumerate(path.read_text().splitlines(), 1):
+        place = f"{path.relative_to(ROOT)}:{number}"
+        if in_public_header and not shows_trilinos and TRILINOS_TYPE.search(line):
+            yield f"{place}: a public header names a type of Trilinos"
         match = INCLUDE.match(line)
         if not match:
             continue
         header = match.group(1)
-        place = f"{path.relative_to(ROOT)}:{number}"
+        if header == SHOWS_TRILINOS and (package not in TPETRA or in_public_header):
+            yield f"{place}: {header} is for sources of {' and '.join(sorted(TPETRA))}"
         own = re.match(r"culm/([^/]+)/", header)
         if own:
             if own.group(1) != package and own.group(1) not in visible:
@@ -91,7 +98,7 @@ def check_file(path, package, visible):
                 continue
             if package not in allowed:
                 yield f"{place}: package {package} must not see {header}"
-            elif in_public_header and not public and package not in SHOWS_TRILINOS:
+            elif in_public_header and not public and not shows_trilinos:
                 yield f"{place}: {header} belongs into src/, not into a public header"
 
 

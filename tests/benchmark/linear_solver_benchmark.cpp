@@ -4,6 +4,7 @@
 // Counters: front, the figure by which 'Automatic' decides, and MB, the memory that the factors
 // hold. Under mpiexec all ranks take part.
 
+#include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 #include <culm/solver/fill.hpp>
 #include <culm/solver/linear_solver.hpp>
@@ -43,7 +44,8 @@ parallel::Graph sheet(int width, int length) {
 }
 
 // Unsymmetric values, with a diagonal that keeps the condition moderate.
-Teuchos::RCP<CrsMatrix> fill_matrix(const parallel::Graph& graph, const parallel::Comm& comm) {
+std::shared_ptr<const assembly::Matrix> fill_matrix(const parallel::Graph& graph,
+                                                    const parallel::Comm& comm) {
   const std::vector<int> owner = parallel::partition(graph, comm.size());
   std::vector<GlobalIndex> rows;
   for (int v = 0; v < graph.size(); ++v) {
@@ -75,7 +77,7 @@ Teuchos::RCP<CrsMatrix> fill_matrix(const parallel::Graph& graph, const parallel
                                Teuchos::arrayViewFromVector(values));
   }
   matrix->fillComplete();
-  return matrix;
+  return assembly::matrix_of(matrix);
 }
 
 double held_megabytes(const parallel::Comm& comm) {
@@ -111,9 +113,9 @@ void Solve_Sheet(benchmark::State& run, const char* name) {
   const auto n = static_cast<int>(run.range(0));
   const auto matrix = fill_matrix(sheet(n, n), comm);
   const auto solver = solver::choose_linear_solver(name, matrix, comm).solver;
-  assembly::Vector x(matrix->getRowMap());
-  assembly::Vector b(matrix->getRowMap());
-  b.putScalar(1.0);
+  assembly::Vector x(matrix->rows());
+  assembly::Vector b(matrix->rows());
+  b.fill(1.0);
   if (!solver->factor()) run.SkipWithError("singular");
   for (auto _ : run) benchmark::DoNotOptimize(run.counters["residual"] = solver->solve(b, x).size);
 }
@@ -123,9 +125,9 @@ void FactoriseAndSolve_Chain(benchmark::State& run, const char* name) {
   const auto nodes = static_cast<int>(run.range(0));
   const auto matrix = fill_matrix(sheet(1, nodes), comm);
   const auto solver = solver::choose_linear_solver(name, matrix, comm).solver;
-  assembly::Vector x(matrix->getRowMap());
-  assembly::Vector b(matrix->getRowMap());
-  b.putScalar(1.0);
+  assembly::Vector x(matrix->rows());
+  assembly::Vector b(matrix->rows());
+  b.fill(1.0);
   if (!solver->factor()) run.SkipWithError("singular");
   for (auto _ : run) {
     benchmark::DoNotOptimize(solver->factor());

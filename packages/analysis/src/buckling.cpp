@@ -12,7 +12,7 @@
 namespace culm::analysis {
 namespace {
 
-using assembly::CrsMatrix;
+using assembly::Matrix;
 using assembly::Vector;
 
 // Loads that follow the structure leave a tenth and more; a small difference of large tangents has
@@ -36,13 +36,13 @@ Vector linear_step(Context& context, model::State at, double level) {
   at.time = at.time_prev = level;
   system.prepare(at, stencil);
   system.evaluate(at, stencil, Want::residual);
-  Vector load(system.residual(), Teuchos::Copy);
+  Vector load = system.residual();
   at.time = at.time_prev = present;
   system.prepare(at, stencil);
   const assembly::Evaluation found = system.evaluate(at, stencil, Want::residual_and_tangent);
   load.update(1.0, system.residual(), -1.0);
-  const double size = system.comm().max(load.normInf());
-  Vector step(load.getMap());
+  const double size = load.largest();
+  Vector step(load.rows());
   if (size <= 1e-12 * found.force_scale || size == 0.0) return step;
   if (!context.linear.factor() || !context.linear.solve(load, step).is_sound()) {
     throw NumericalError(
@@ -55,8 +55,8 @@ Vector linear_step(Context& context, model::State at, double level) {
 
 // What the linear step adds to the tangent, all of it linear in the step: stresses where the
 // structure is, multipliers, loads.
-Teuchos::RCP<const CrsMatrix> stress_stiffness(Context& context, model::State at, double level,
-                                               const Vector& step, const CrsMatrix& tangent) {
+std::shared_ptr<const Matrix> stress_stiffness(Context& context, model::State at, double level,
+                                               const Vector& step, const Matrix& tangent) {
   assembly::System& system = context.system;
   const Stencil stencil = Stencil::statics();
   const model::Coordinates q = at.next;
@@ -66,18 +66,18 @@ Teuchos::RCP<const CrsMatrix> stress_stiffness(Context& context, model::State at
   system.move(at, step, 1.0);
   at.next = q;
   system.evaluate(at, stencil, Want::residual_and_tangent);
-  const auto change = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
-  const auto values = change->getLocalMatrixHost().values;
-  const auto before = tangent.getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= before(k);
+  const auto change = std::make_shared<Matrix>(*system.matrix());
+  const auto values = change->values();
+  const auto before = tangent.values();
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] -= before[k];
   return change;
 }
 
 // A load moves the structure, or it stresses it where it is.
-void require_load(const Vector& step, const CrsMatrix& change, const CrsMatrix& tangent,
-                  double level, double present) {
-  if (step.normInf() > 0.0) return;
-  if (change.getFrobeniusNorm() > 1e-12 * tangent.getFrobeniusNorm()) return;
+void require_load(const Vector& step, const Matrix& change, const Matrix& tangent, double level,
+                  double present) {
+  if (step.largest() > 0.0) return;
+  if (change.norm() > 1e-12 * tangent.norm()) return;
   throw NumericalError(
       fmt::format("There is no reference load: loads at level {:g} are those at level {:g}.\n"
                   "Try: a 'Reference Level' at which the functions of the loads differ.",

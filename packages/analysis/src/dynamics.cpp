@@ -175,7 +175,7 @@ void Dynamics::measure_hidden_constraints() {
   const assembly::VelocityFit fit = system().project_velocity(
       copy, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = linear.factor() && linear.solve(b, x).is_sound();
-        if (!sound) x.putScalar(0.0);
+        if (!sound) x.fill(0.0);
       });
   if (sound) certificate_.finish(fit.change, system().comm().max(largest(copy.velocity)));
 }

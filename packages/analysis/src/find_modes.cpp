@@ -118,7 +118,7 @@ class Finder {
     const bool counts = settings_.damping || rotor_;  // a rotor keeps gyroscopic forces alone
     rates_ = counts ? linear_.damping : rates_of_signals(context_.system, linear_.damping);
     relaxes_ = settings_.damping && !linear_.branches.empty();
-    set_.is_complex = linear_.asymmetry > largest_asymmetry || !rates_.is_null() || relaxes_;
+    set_.is_complex = linear_.asymmetry > largest_asymmetry || rates_ || relaxes_;
     if (!counts && damps_motions(context_.system, linear_.damping)) {
       context_.log.info(
           "note: modes are those without damping and gyroscopic forces; 'Damping' = true counts "
@@ -141,9 +141,8 @@ class Finder {
  private:
   void refuse_massless() const {
     double largest = 0.0;
-    const auto values = linear_.mass->getLocalMatrixHost().values;
-    for (std::size_t k = 0; k < values.extent(0); ++k) {
-      largest = std::max(largest, std::abs(values(k)));
+    for (const double value : linear_.mass->values()) {
+      largest = std::max(largest, std::abs(value));
     }
     if (context_.system.comm().max(largest) > 0.0) return;
     throw NumericalError(
@@ -186,11 +185,10 @@ class Finder {
   }
 
   void find_complex() {
-    Teuchos::RCP<const assembly::CrsMatrix> damping = rates_;
-    if (damping.is_null()) {
-      const auto none = Teuchos::rcp(new assembly::CrsMatrix(*linear_.mass, Teuchos::Copy));
-      const auto values = none->getLocalMatrixHost().values;
-      for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = 0.0;
+    std::shared_ptr<const assembly::Matrix> damping = rates_;
+    if (!damping) {
+      const auto none = std::make_shared<assembly::Matrix>(*linear_.mass);
+      std::ranges::fill(none->values(), 0.0);
       damping = none;
     }
     solver_.shift =
@@ -220,13 +218,13 @@ class Finder {
     return std::norm(pairs.values[i]) <= quadratic_zero_bound * pairs.rounding[i];
   }
 
-  RelaxingPencil relaxing_pencil(const assembly::CrsMatrix& damping) const {
+  RelaxingPencil relaxing_pencil(const assembly::Matrix& damping) const {
     const parallel::Comm& comm = context_.system.comm();
     RelaxingPencil pencil{
         whole(*linear_.stiffness, comm), whole(damping, comm), whole(*linear_.mass, comm), {}};
     for (const LinearBranches& branch : linear_.branches) {
       add_terms(whole(*branch.stiffness, comm), branch.time, false, pencil);
-      if (branch.damping.is_null()) continue;
+      if (!branch.damping) continue;
       add_terms(whole(*branch.damping, comm), branch.time, true, pencil);
     }
     return pencil;
@@ -246,7 +244,7 @@ class Finder {
   }
 
   // From the modes of the lasting stiffness to those with branches, by their size again.
-  void follow_branches(const assembly::CrsMatrix& damping, solver::ComplexPairs& pairs) {
+  void follow_branches(const assembly::Matrix& damping, solver::ComplexPairs& pairs) {
     const RelaxingPencil pencil = relaxing_pencil(damping);
     std::vector<ComplexMode> modes;
     for (std::size_t i = 0; i < pairs.values.size(); ++i) {
@@ -361,7 +359,7 @@ class Finder {
   const ModalSettings& settings_;
   Linearisation linear_;
   std::optional<TurningRotor> rotor_;
-  Teuchos::RCP<const assembly::CrsMatrix> rates_;  // what counts of the damping
+  std::shared_ptr<const assembly::Matrix> rates_;  // what counts of the damping
   solver::EigenSettings solver_;
   bool relaxes_ = false;  // whether branches count
   ModeSet set_;

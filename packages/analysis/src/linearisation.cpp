@@ -13,7 +13,7 @@
 namespace culm::analysis {
 namespace {
 
-using assembly::CrsMatrix;
+using assembly::Matrix;
 
 // Which unknowns of the system a matrix keeps.
 enum class Keep {
@@ -44,28 +44,25 @@ std::vector<bool> kept_columns(const assembly::System& system, Keep keep) {
 }
 
 template <class Wanted>
-void erase_unless(CrsMatrix& matrix, const Wanted& wanted) {
-  const auto local = matrix.getLocalMatrixHost();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(local.numRows()); ++row) {
-    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
-      if (!wanted(row, static_cast<std::size_t>(local.graph.entries(k)))) local.values(k) = 0.0;
+void erase_unless(Matrix& matrix, const Wanted& wanted) {
+  const auto begin = matrix.row_begin();
+  for (std::size_t row = 0; row + 1 < begin.size(); ++row) {
+    for (std::size_t k = begin[row]; k < begin[row + 1]; ++k) {
+      if (!wanted(row, static_cast<std::size_t>(matrix.column_of()[k]))) matrix.values()[k] = 0.0;
     }
   }
 }
 
 // Constraints border the matrices of inertia and damping, and have no part in them.
-void remove_border(const assembly::System& system, Keep keep, CrsMatrix& matrix) {
+void remove_border(const assembly::System& system, Keep keep, Matrix& matrix) {
   const std::vector<bool> kept = kept_columns(system, keep);
   erase_unless(matrix,
                [&](std::size_t row, std::size_t column) { return kept[row] && kept[column]; });
 }
 
-double largest_entry(const assembly::System& system, const CrsMatrix& matrix) {
-  const auto values = matrix.getLocalMatrixHost().values;
+double largest_entry(const assembly::System& system, const Matrix& matrix) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < values.extent(0); ++k) {
-    largest = std::max(largest, std::abs(values(k)));
-  }
+  for (const double value : matrix.values()) largest = std::max(largest, std::abs(value));
   return system.comm().max(largest);
 }
 
@@ -75,7 +72,7 @@ std::vector<LinearBranches> find_branches(assembly::System& system, const model:
     if (system.evaluate_branches(state, time) != Verdict::ok) {
       throw NonFiniteError("The stiffness of branches of 'Relaxation' is not finite.");
     }
-    all.push_back({time, Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy))});
+    all.push_back({time, std::make_shared<Matrix>(*system.matrix())});
   }
   return all;
 }
@@ -86,12 +83,12 @@ void add_delayed(assembly::System& system, const model::State& state, Linearisat
   const Stencil moving{1.0, 1.0, 1.0, 0.0};
   for (double delay : system.delays(state)) {
     Verdict verdict = system.evaluate_delayed(state, steady, delay);
-    const auto stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+    const auto stiffness = std::make_shared<Matrix>(*system.matrix());
     verdict = worse(verdict, system.evaluate_delayed(state, moving, delay));
-    const auto damping = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
-    const auto values = damping->getLocalMatrixHost().values;
-    const auto without = stiffness->getLocalMatrixHost().values;
-    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= without(k);
+    const auto damping = std::make_shared<Matrix>(*system.matrix());
+    const auto values = damping->values();
+    const auto without = stiffness->values();
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] -= without[k];
     if (verdict != Verdict::ok) throw NonFiniteError("Forces with a delay are not finite.");
     linear.branches.push_back({delay, stiffness, damping});
   }
@@ -99,70 +96,70 @@ void add_delayed(assembly::System& system, const model::State& state, Linearisat
 
 // Takes away what branches gain from one step to another, but for rounding.
 void remove_branches(const assembly::System& system, const std::vector<LinearBranches>& branches,
-                     double before, double after, CrsMatrix& matrix) {
+                     double before, double after, Matrix& matrix) {
   if (branches.empty()) return;
   const double negligible = 1e-13 * largest_entry(system, *system.matrix());
-  const auto values = matrix.getLocalMatrixHost().values;
+  const auto values = matrix.values();
   for (const LinearBranches& branch : branches) {
     const auto weight = [&](double step) {
       return model::branch_weight(MaxwellStep::of(step, branch.time), 1.0);
     };
     const double gained = weight(after) - weight(before);
-    const auto stiffness = branch.stiffness->getLocalMatrixHost().values;
-    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) -= gained * stiffness(k);
+    const auto stiffness = branch.stiffness->values();
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] -= gained * stiffness[k];
   }
-  for (std::size_t k = 0; k < values.extent(0); ++k) {
-    if (std::abs(values(k)) <= negligible) values(k) = 0.0;
+  for (double& value : values) {
+    if (std::abs(value) <= negligible) value = 0.0;
   }
 }
 
 // Velocities are differences of coordinates over the step, so the damping is what of the tangent
 // falls as 1 / step. Everything else is the same to the last bit, but for branches, which are
 // known.
-Teuchos::RCP<CrsMatrix> find_damping(assembly::System& system, const model::State& state,
+std::shared_ptr<Matrix> find_damping(assembly::System& system, const model::State& state,
                                      const std::vector<LinearBranches>& branches) {
   constexpr double long_step = 1.0;
   constexpr double short_step = 0.5;
-  Teuchos::RCP<CrsMatrix> damping;
+  std::shared_ptr<Matrix> damping;
   for (const double step : {long_step, short_step}) {
     const Stencil stencil{step, 1.0, 1.0, 0.0};
     system.prepare(state, stencil);
     system.evaluate(state, stencil, Want::residual_and_tangent);
-    const auto tangent = system.matrix()->getLocalMatrixHost().values;
-    if (damping.is_null()) {
-      damping = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+    const auto tangent = system.matrix()->values();
+    if (!damping) {
+      damping = std::make_shared<Matrix>(*system.matrix());
       continue;
     }
-    const auto values = damping->getLocalMatrixHost().values;
-    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = tangent(k) - values(k);
+    const auto values = damping->values();
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = tangent[k] - values[k];
   }
   remove_branches(system, branches, long_step, short_step, *damping);
   remove_border(system, Keep::states, *damping);
-  if (largest_entry(system, *damping) == 0.0) return Teuchos::null;
+  if (largest_entry(system, *damping) == 0.0) return nullptr;
   return damping;
 }
 
 }  // namespace
 
-bool damps_motions(const assembly::System& system, const Teuchos::RCP<const CrsMatrix>& damping) {
-  if (damping.is_null()) return false;
+bool damps_motions(const assembly::System& system, const std::shared_ptr<const Matrix>& damping) {
+  if (!damping) return false;
   const std::vector<bool> is_motion = kept_columns(system, Keep::motions);
-  CrsMatrix between(*damping, Teuchos::Copy);
+  Matrix between = *damping;
   erase_unless(between, [&](std::size_t row, std::size_t column) {
     return is_motion[row] && is_motion[column];
   });
   return largest_entry(system, between) > 0.0;
 }
 
-Teuchos::RCP<const CrsMatrix> rates_of_signals(const assembly::System& system,
-                                               const Teuchos::RCP<const CrsMatrix>& damping) {
-  if (damping.is_null() || system.model().unknowns().num_signals() == 0) return Teuchos::null;
+std::shared_ptr<const Matrix> rates_of_signals(const assembly::System& system,
+                                               const std::shared_ptr<const Matrix>& damping) {
+  if (!damping || system.model().unknowns().num_signals() == 0) return nullptr;
   const std::vector<bool> is_motion = kept_columns(system, Keep::motions);
-  const auto rates = Teuchos::rcp(new CrsMatrix(*damping, Teuchos::Copy));
+  const auto rates = std::make_shared<Matrix>(*damping);
   erase_unless(*rates, [&](std::size_t row, std::size_t column) {
     return !is_motion[row] || !is_motion[column];
   });
-  if (largest_entry(system, *rates) == 0.0) return Teuchos::null;
+  if (largest_entry(system, *rates) == 0.0) return nullptr;
   return rates;
 }
 
@@ -180,13 +177,13 @@ Linearisation linearise(Context& context, const model::State& state, const Stenc
       assembly::check_rounding(system, {state.prev, state.next, state.multipliers, state.own},
                                balanced, found.force_scale)
               .share < 1e3;
-  linear.stiffness = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+  linear.stiffness = std::make_shared<Matrix>(*system.matrix());
   linear.branches = find_branches(system, state);
   linear.damping = find_damping(system, state, linear.branches);
   add_delayed(system, state, linear);
   system.prepare(state, stencil);
   const assembly::Evaluation inertia = system.evaluate(state, stencil, Want::mass);
-  const auto mass = Teuchos::rcp(new CrsMatrix(*system.matrix(), Teuchos::Copy));
+  const auto mass = std::make_shared<Matrix>(*system.matrix());
   remove_border(system, Keep::motions, *mass);
   linear.mass = mass;
   if (worse(found.verdict, inertia.verdict) != Verdict::ok) {
@@ -212,12 +209,8 @@ Linearisation linearise(Context& context, const model::State& state, const Stenc
 }
 
 double typical_eigenvalue(const Linearisation& linear, const assembly::System& system) {
-  assembly::Vector stiffness(linear.stiffness->getRowMap());
-  assembly::Vector mass(linear.stiffness->getRowMap());
-  linear.stiffness->getLocalDiagCopy(stiffness);
-  linear.mass->getLocalDiagCopy(mass);
-  const auto k = assembly::values_of(stiffness);
-  const auto m = assembly::values_of(mass);
+  const std::vector<double> k = linear.stiffness->diagonal();
+  const std::vector<double> m = linear.mass->diagonal();
   double sums[2] = {0.0, 0.0};  // of logarithms, and their number
   for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
     const model::Block& block = system.model().unknowns().block(local.block);

@@ -9,12 +9,12 @@
 namespace culm::analysis {
 namespace {
 
-using assembly::CrsMatrix;
+using assembly::Matrix;
 
 // The entries that are not zero, of all ranks, on rank 0.
-ReportMatrix gather(const std::string& name, const CrsMatrix& matrix, const parallel::Comm& comm) {
+ReportMatrix gather(const std::string& name, const Matrix& matrix, const parallel::Comm& comm) {
   const Entries mine = entries_of(matrix);
-  const auto size = static_cast<int>(matrix.getGlobalNumRows());
+  const auto size = static_cast<int>(matrix.rows().total());
   return {name,
           size,
           size,
@@ -112,18 +112,18 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   system.synchronise(state);
   const std::vector<int> numbers = split_unknowns(system.model());
   AnalysisReport report;
-  const auto add = [&](const std::string& name, const CrsMatrix& matrix) {
+  const auto add = [&](const std::string& name, const Matrix& matrix) {
     const ReportMatrix all = gather(name, matrix, system.comm());
     report.matrices.push_back(part(name, all, numbers, false, 1.0));
     return all;
   };
   const ReportMatrix stiffness = add("stiffness", *linear.stiffness);
   add("mass", *linear.mass);
-  if (!linear.damping.is_null()) add("damping", *linear.damping);
+  if (linear.damping) add("damping", *linear.damping);
   for (std::size_t k = 0; k < linear.branches.size(); ++k) {
     const std::string name = fmt::format("relaxation_{}", k + 1);
     add(name, *linear.branches[k].stiffness);
-    if (!linear.branches[k].damping.is_null()) add(name + "_damping", *linear.branches[k].damping);
+    if (!linear.branches[k].damping) add(name + "_damping", *linear.branches[k].damping);
     report.text += fmt::format("{}: relaxation time {} s\n", name, linear.branches[k].time);
   }
   if (system.model().unknowns().num_forces() > 0) {

@@ -148,7 +148,7 @@ void PathCondition::set_tangent() {
   direction_ = rate * flexibility_;
 }
 
-void PathCondition::find_tangent(const model::State& state, const Vector& flexibility) {
+void PathCondition::compute_tangent(const model::State& state, const Vector& flexibility) {
   read_slots(system_.linear_motion(state, flexibility, 1.0), flexibility_);
   set_tangent();
 }

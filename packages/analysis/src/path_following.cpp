@@ -51,7 +51,7 @@ std::optional<WatchedMotion> find_watched(const PathSettings& settings, const mo
   return WatchedMotion{nodes.front(), watch.direction};
 }
 
-double find_level_difference(const PathSettings& settings) {
+double compute_level_difference(const PathSettings& settings) {
   const bool is_level = settings.control != PathControl::displacement;
   return level_difference * (is_level ? settings.first_increment : 1.0);
 }
@@ -62,7 +62,7 @@ PathFollowing::PathFollowing(PathSettings settings, Context& context, model::Sta
     : Stepper(context, state),
       settings_(std::move(settings)),
       condition_(context.system, settings_.control, find_watched(settings_, context.system.model()),
-                 find_level_difference(settings_)) {}
+                 compute_level_difference(settings_)) {}
 
 std::unique_ptr<Stepper> PathFollowing::make(const Options& options, Context& context,
                                              model::State& state) {
@@ -79,7 +79,7 @@ void PathFollowing::do_begin() {
   make_post_mortem(state, stencil, state.time + 1e3 * condition_.level_difference());
   balance_start();
   condition_.begin(settings_.first_increment);
-  const auto [tangent, determinant] = find_tangent();
+  const auto [tangent, determinant] = compute_tangent();
   known_.here = {state.time, condition_.watched_displacement(state.next), tangent, determinant};
   known_.is_examined = true;
   if (determinant.sign == 0) {
@@ -112,19 +112,19 @@ void PathFollowing::balance_start() {
   }
 }
 
-std::pair<PathTangent, solver::Determinant> PathFollowing::find_tangent() {
+std::pair<PathTangent, solver::Determinant> PathFollowing::compute_tangent() {
   const Stencil stencil = Stencil::statics();
   model::State& state = this->state();
   solver::LinearSolver& linear = context().linear;
   system().prepare(state, stencil);
   system().evaluate(state, stencil, Want::residual_and_tangent);
-  Vector gradient(system().layout().row_map());
-  Vector flexibility(system().layout().row_map());
+  Vector gradient(system().layout().rows());
+  Vector flexibility(system().layout().rows());
   system().level_gradient(state, stencil, condition_.level_difference(), gradient);
   if (!linear.factor()) return {};
   linear.solve(gradient, flexibility);
   flexibility.scale(-1.0);
-  condition_.find_tangent(state, flexibility);
+  condition_.compute_tangent(state, flexibility);
   refuse_idle_level();
   return {*condition_.tangent(), linear.determinant()};
 }
@@ -277,15 +277,15 @@ void PathFollowing::tell_events() {
 void PathFollowing::explain_failure() {
   const Stencil stencil = Stencil::statics();
   model::State& state = this->state();
-  Vector above(system().layout().row_map());
-  Vector below(above.getMap());
+  Vector above(system().layout().rows());
+  Vector below(above.rows());
   const double step = 10.0 * condition_.level_difference();
   system().prepare(state, stencil);
   system().level_gradient(state, stencil, step, above);
   system().level_gradient(state, stencil, -step, below);
-  const double size = std::max(above.normInf(), below.normInf());
+  const double size = std::max(above.largest(), below.largest());
   above.update(-1.0, below, 1.0);
-  if (above.normInf() < 0.5 * size) return;
+  if (above.largest() < 0.5 * size) return;
   throw NumericalError(
       fmt::format("The path ends at level {:.6g}: the growth of loads or prescribed motions with "
                   "the level changes abruptly there.\n"
@@ -329,7 +329,7 @@ std::optional<solver::StepOutcome> PathFollowing::branch_off() {
   known_.has_branched = true;
   system().prepare(state, stencil);
   system().evaluate(state, stencil, Want::residual_and_tangent);
-  Vector motion(system().layout().row_map());
+  Vector motion(system().layout().rows());
   context().linear.weakest_direction(motion);
   double amplitude = settings_.branch_amplitude.value_or(last_length_);
   constexpr int most_attempts = 8;
@@ -349,7 +349,7 @@ std::optional<solver::StepOutcome> PathFollowing::branch_off() {
 
 AnalysisReport PathFollowing::do_finish() {
   // reactions, too, are those of this state afterwards
-  const auto [tangent, determinant] = find_tangent();
+  const auto [tangent, determinant] = compute_tangent();
   if (!known_.is_examined) {
     before_ = known_;
     examine(tangent, determinant);

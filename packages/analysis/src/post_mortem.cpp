@@ -13,7 +13,6 @@
 namespace culm::analysis {
 namespace {
 
-using assembly::values_of;
 using assembly::Vector;
 
 constexpr std::size_t kept_attempts = 8;
@@ -49,10 +48,9 @@ CoarseMesh judge_mesh(const assembly::System& system, const model::State& state,
 
 // entries without any symmetry, the same for any number of ranks
 void fill_irregular(Vector& v) {
-  const auto map = v.getMap();
-  const auto values = values_of(v);
+  const auto values = v.values();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto global = static_cast<double>(map->getGlobalElement(static_cast<int>(i)));
+    const auto global = static_cast<double>(v.rows().global(i));
     values[i] = std::fmod(0.6180339887498949 * (global + 1.0), 1.0) - 0.4;
   }
 }
@@ -98,35 +96,38 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
   state.time = level + level_step;
   system.prepare(state, stencil);
   system.evaluate(state, stencil, Want::residual);
-  Vector load(system.residual(), Teuchos::Copy);
+  Vector load = system.residual();
   state.time = level;
   system.prepare(state, stencil);
   system.evaluate(state, stencil, Want::residual_and_tangent);
   load.update(1.0 / level_step, system.residual(), -1.0 / level_step);
   is_factored_ = context_.linear.factor();
   if (!is_factored_) return infinite;
-  Vector response(load.getMap());
+  Vector response(load.rows());
   if (!context_.linear.solve(load, response).is_sound()) return infinite;
   return load.dot(response);
 }
 
 void PostMortem::refuse_singular(const model::State& state) {
   assembly::System& system = context_.system;
-  if (system.matrix()->getGlobalNumRows() == 0) return;  // held or rigid altogether
-  Vector probe(system.layout().row_map());
-  Vector response(system.layout().row_map());
+  if (system.layout().rows().total() == 0) return;  // held or rigid altogether
+  Vector probe(system.layout().rows());
+  Vector response(system.layout().rows());
   fill_irregular(probe);
-  const double size = system.matrix()->getFrobeniusNorm();
+  const double size = system.matrix()->norm();
   if (!std::isfinite(size)) {
     throw NonFiniteError(
         fmt::format("The stiffness is not finite at {} {:.6g}, before the first step.\n{}",
                     time_word(), state.time, beyond_range));
   }
   const bool solves = is_factored_ && context_.linear.solve(probe, response).is_sound();
-  if (solves && response.normInf() * size < 1e13 * probe.normInf()) return;
-  Vector direction(system.layout().row_map());
+  if (solves && response.largest() * size < 1e13 * probe.largest()) return;
+  Vector direction(system.layout().rows());
   const double ratio = context_.linear.weakest_direction(direction);
-  if (size == 0.0) direction.update(1.0 / probe.normInf(), probe, 0.0);  // no motion is resisted
+  if (size == 0.0) {  // no motion is resisted
+    direction = probe;
+    direction.scale(1.0 / probe.largest());
+  }
   // without useful factors no step can be solved, whatever the ratio
   if (solves && ratio > singular_ratio) return;
   throw NumericalError(system.comm().broadcast(fmt::format(
@@ -135,7 +136,7 @@ void PostMortem::refuse_singular(const model::State& state) {
 }
 
 void PostMortem::refuse_massless(Context& context, const model::State& state) {
-  Vector direction(context.system.layout().row_map());
+  Vector direction(context.system.layout().rows());
   context.linear.weakest_direction(direction);
   throw NumericalError(
       context.system.comm().broadcast(WeakDirection(context.system, state).massless(direction)));
@@ -170,7 +171,7 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
   if (!std::isfinite(attempts_.back().final_time)) return path_cause(state, stencil);
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;
-  Vector direction(context_.system.layout().row_map());
+  Vector direction(context_.system.layout().rows());
   const double ratio = context_.linear.weakest_direction(direction);
   const WeakDirection weak(context_.system, state);
   if (std::isfinite(first_flexibility_) && first_flexibility_ > 0.0 && remaining < 0.15) {
@@ -216,7 +217,7 @@ std::string PostMortem::path_cause(model::State& state, const Stencil& stencil) 
       "another path, or ends where loads or prescribed motions do.\n";
   const double flexibility = load_flexibility(state, stencil, level_step_);
   if (is_factored_ && std::isfinite(flexibility)) {
-    Vector direction(context_.system.layout().row_map());
+    Vector direction(context_.system.layout().rows());
     context_.linear.weakest_direction(direction);
     text += "Here the structure is weakest against this motion, in which it may buckle:\n" +
             WeakDirection(context_.system, state).largest_motions(direction);

@@ -72,8 +72,8 @@ constexpr double notable_motion = 1e-3;  // of the largest: less is the rest of 
 // stands still while others move.
 // @param states_at(source, cell)
 template <class StatesAt>
-void find_share(const model::Model& model, const Coordinates& from, const Coordinates& q,
-                const StatesAt& states_at, double& share, std::string& most) {
+void compute_share(const model::Model& model, const Coordinates& from, const Coordinates& q,
+                   const StatesAt& states_at, double& share, std::string& most) {
   Energy sum;
   double largest = 0.0;
   double furthest = 0.0;
@@ -122,7 +122,7 @@ void warn_of_shear(Context& context, model::State& state) {
   context.system.synchronise(state);
   double share = 0.0;
   std::string structure;
-  find_share(
+  compute_share(
       model, model.nodes().reference(), state.next,
       [&](const model::LayerSource& source, int cell) { return source.states(cell, state.next); },
       share, structure);
@@ -163,7 +163,7 @@ void warn_of_shear(Context& context, const model::State& state, const ModeSet& s
     };
     double share = 0.0;
     std::string structure;
-    find_share(model, state.next, forward, slopes, share, structure);
+    compute_share(model, state.next, forward, slopes, share, structure);
     if (share < notable_error) continue;
     context.findings.warn(
         "thick wall",

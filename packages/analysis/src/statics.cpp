@@ -150,7 +150,7 @@ void Statics::do_restore(const Snapshot& snapshot) {
 // A pivot that is nothing but rounding has any sign, as where a structure may be turned freely.
 bool Statics::is_singular() {
   constexpr double rounding = 1e-13;
-  assembly::Vector motion(system().layout().row_map());
+  assembly::Vector motion(system().layout().rows());
   return context().linear.weakest_direction(motion) < rounding;
 }
 

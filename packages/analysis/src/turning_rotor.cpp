@@ -277,7 +277,7 @@ Linearisation TurningRotor::transform(const Linearisation& linear, bool damping)
   const SparseMatrix K = whole(*linear.stiffness, comm);
   const SparseMatrix M = whole(*linear.mass, comm);
   SparseMatrix C(K.rows(), K.cols());
-  if (!linear.damping.is_null()) {
+  if (linear.damping) {
     C = whole(*linear.damping, comm);
     // dampers are symmetric, gyroscopic forces skew
     if (!damping) C = SparseMatrix(0.5 * (C - SparseMatrix(C.transpose())));
@@ -301,13 +301,13 @@ Linearisation TurningRotor::transform(const Linearisation& linear, bool damping)
   // all with the entries of any of them, because combinations need one graph
   const SparseMatrix none = 0.0 * (SparseMatrix(stiffness + rates) + mass_);
   const auto spread = [&](const SparseMatrix& matrix) {
-    return distribute(matrix + none, linear.stiffness->getRowMap());
+    return std::make_shared<const assembly::Matrix>(linear.stiffness->rows(), matrix + none);
   };
   Linearisation result = linear;
   result.stiffness = spread(stiffness);
   result.mass = spread(mass_);
   result.damping = rates.coeffs().size() == 0 || rates.coeffs().abs().maxCoeff() == 0.0
-                       ? Teuchos::null
+                       ? nullptr
                        : spread(rates);
   result.asymmetry = solver::asymmetry(result.stiffness, comm);
   return result;

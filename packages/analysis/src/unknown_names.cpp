@@ -9,7 +9,6 @@
 namespace culm::analysis {
 namespace {
 
-using assembly::values_of;
 using assembly::Vector;
 
 const char* coordinate_name(int i) {
@@ -59,7 +58,7 @@ std::string UnknownNames::name_of(int unknown) const {
 
 std::vector<UnknownNames::Entry> UnknownNames::largest_entries(const Vector& vector,
                                                                std::size_t count) const {
-  const auto values = values_of(vector);
+  const auto values = vector.values();
   std::vector<std::size_t> order(values.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const std::size_t kept = std::min(count, order.size());
@@ -71,7 +70,7 @@ std::vector<UnknownNames::Entry> UnknownNames::largest_entries(const Vector& vec
   std::vector<long long> mine;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < kept; ++i) {
-    mine.push_back(vector.getMap()->getGlobalElement(static_cast<int>(order[i])));
+    mine.push_back(vector.rows().global(order[i]));
     sizes.push_back(values[order[i]]);
   }
   const auto& comm = system_.comm();
@@ -92,12 +91,12 @@ std::vector<UnknownNames::Entry> UnknownNames::largest_entries(const Vector& vec
 
 std::map<int, double> UnknownNames::entries(const Vector& v, double least) const {
   const parallel::Comm& comm = system_.comm();
-  const auto values = values_of(v);
+  const auto values = v.values();
   std::vector<long long> mine;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::abs(values[i]) < least) continue;
-    mine.push_back(v.getMap()->getGlobalElement(static_cast<int>(i)));
+    mine.push_back(v.rows().global(i));
     sizes.push_back(values[i]);
   }
   const auto unknowns = comm.gather(std::span<const long long>(mine));

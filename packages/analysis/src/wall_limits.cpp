@@ -63,7 +63,7 @@ class ProbedWall {
             });
       }
     }
-    find_points();
+    compute_points();
   }
 
   // Stiffness and geometric matrices for the waves of a normal in the plane, in u and v ζ / t.
@@ -125,7 +125,7 @@ class ProbedWall {
   }
 
   // Bent to a unit curvature a layer is strained by its height; Simpson's rule for each.
-  void find_points() {
+  void compute_points() {
     const Vec3 first = corners_.axes.col(0);
     const States bent = probe([&](const Vec3& x, const Vec3&) {
       return Mat<3, 2>((Mat<3, 2>() << Vec3::Zero(), first.dot(x) * first).finished());

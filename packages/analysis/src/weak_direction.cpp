@@ -13,7 +13,6 @@
 namespace culm::analysis {
 namespace {
 
-using assembly::values_of;
 using assembly::Vector;
 
 constexpr double notable = 0.05;          // share in a direction of unit maximum norm
@@ -51,40 +50,38 @@ std::string rigid_motion_name(const Vec3& x0, const Vec3& v0, const Vec3& turn) 
 }  // namespace
 
 bool WeakDirection::is_multiplier(const Vector& vector, std::size_t i) const {
-  const auto unknown = vector.getMap()->getGlobalElement(static_cast<int>(i));
+  const auto unknown = vector.rows().global(i);
   return names_.place_of(static_cast<int>(unknown)).block.kind != model::BlockKind::node;
 }
 
 double WeakDirection::resistance(const Vector& motion) const {
-  using assembly::CrsMatrix;
-  CrsMatrix absolute(*system_.matrix(), Teuchos::Copy);
-  Vector image(motion.getMap());
-  absolute.apply(motion, image);
+  assembly::Matrix absolute = *system_.matrix();
+  Vector image(motion.rows());
+  absolute.multiply(motion, image);
   const double work = motion.dot(image);
-  const auto values = absolute.getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) = std::abs(values(k));
-  Vector size(motion.getMap());
-  size.abs(motion);
-  absolute.apply(size, image);
+  for (double& value : absolute.values()) value = std::abs(value);
+  Vector size = motion;
+  for (double& value : size.values()) value = std::abs(value);
+  absolute.multiply(size, image);
   return std::abs(work) / (std::numeric_limits<double>::epsilon() * size.dot(image));
 }
 
 // In a sound model K u + H^T lambda = 0 and H u = 0 hold with H^T lambda = 0 as well, because K has
 // no negative direction: redundant equations and a mechanism may come together, each for itself.
 std::string WeakDirection::singular_cause(const Vector& direction) const {
-  Vector multipliers(direction, Teuchos::Copy);
-  Vector motion(direction, Teuchos::Copy);
-  const auto lambda = values_of(multipliers);
-  const auto u = values_of(motion);
+  Vector multipliers = direction;
+  Vector motion = direction;
+  const auto lambda = multipliers.values();
+  const auto u = motion.values();
   for (std::size_t i = 0; i < u.size(); ++i) {
     (is_multiplier(direction, i) ? u : lambda)[i] = 0.0;
   }
-  Vector image(direction.getMap());
-  system_.matrix()->apply(multipliers, image);
-  const double share = multipliers.normInf();
+  Vector image(direction.rows());
+  system_.matrix()->multiply(multipliers, image);
+  const double share = multipliers.largest();
   const bool redundant =
-      share >= notable && image.normInf() <= 1e-9 * share * system_.matrix()->getFrobeniusNorm();
-  const bool moves = motion.normInf() >= notable;
+      share >= notable && image.largest() <= 1e-9 * share * system_.matrix()->norm();
+  const bool moves = motion.largest() >= notable;
   if (!redundant && !moves) {
     return "Likely cause: stiffnesses or lengths that differ too much in size for double "
            "precision.\nTry: check units.";
@@ -269,8 +266,8 @@ std::string WeakDirection::mechanism(const Vector& motion) const {
 }
 
 std::string WeakDirection::massless(const Vector& direction) const {
-  Vector motion(direction, Teuchos::Copy);
-  const auto u = values_of(motion);
+  Vector motion = direction;
+  const auto u = motion.values();
   for (std::size_t i = 0; i < u.size(); ++i) {
     if (is_multiplier(motion, i)) u[i] = 0.0;  // they have no nodes
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <culm/analysis/multi_blade.hpp>
-#include <culm/assembly/tpetra.hpp>
+#include <culm/assembly/matrix.hpp>
 #include <culm/parallel/comm.hpp>
 
 #include <vector>
@@ -16,13 +16,9 @@ struct Entries {
 };
 
 /// Those of this rank that are not zero.
-Entries entries_of(const assembly::CrsMatrix& matrix);
+Entries entries_of(const assembly::Matrix& matrix);
 
 /// The matrix on every rank. Collective.
-SparseMatrix whole(const assembly::CrsMatrix& matrix, const parallel::Comm& comm);
-
-/// The rows of a map of a matrix that is whole on every rank. Collective.
-Teuchos::RCP<const assembly::CrsMatrix> distribute(const SparseMatrix& matrix,
-                                                   const Teuchos::RCP<const assembly::Map>& rows);
+SparseMatrix whole(const assembly::Matrix& matrix, const parallel::Comm& comm);
 
 }  // namespace culm::analysis

@@ -1,8 +1,6 @@
 #include <culm/assembly/layout.hpp>
 #include <culm/parallel/partition.hpp>
 
-#include <Teuchos_DefaultMpiComm.hpp>
-
 #include <algorithm>
 
 namespace culm::assembly {
@@ -17,7 +15,7 @@ Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   const Neighbours neighbours = couple_blocks(model);
   choose_owners(unknowns, neighbours);
   number_locally(unknowns, neighbours);
-  build_graph(unknowns, neighbours);
+  build_pattern(unknowns, neighbours);
   for (model::Batch* batch : model.batches()) {
     batch->place(place(*batch, unknowns), unknowns.form());
   }
@@ -80,9 +78,9 @@ void Layout::number_locally(const model::UnknownTable& unknowns, const Neighbour
   }
 }
 
-void Layout::build_graph(const model::UnknownTable& unknowns, const Neighbours& neighbours) {
-  std::vector<GlobalIndex> rows;
-  std::vector<GlobalIndex> columns;
+void Layout::build_pattern(const model::UnknownTable& unknowns, const Neighbours& neighbours) {
+  std::vector<long long> rows;
+  std::vector<long long> columns;
   for (const LocalBlock& local : local_blocks_) {
     const model::Block& block = unknowns.block(local.block);
     for (int i = 0; i < block.shape.active; ++i) {
@@ -90,20 +88,11 @@ void Layout::build_graph(const model::UnknownTable& unknowns, const Neighbours& 
       columns.push_back(block.first + i);
     }
   }
-  const auto comm = Teuchos::rcp(new Teuchos::MpiComm<int>(comm_.handle()));
-  const auto total = static_cast<Tpetra::global_size_t>(unknowns.num_unknowns());
-  if (comm_.size() == 1) {
-    row_map_ = Teuchos::rcp(new Map(total, 0, comm));  // contiguous: what KLU2 wants
-    column_map_ = row_map_;
-  } else {
-    const auto any = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-    row_map_ = Teuchos::rcp(new Map(total, Teuchos::arrayViewFromVector(rows), 0, comm));
-    column_map_ = Teuchos::rcp(new Map(any, Teuchos::arrayViewFromVector(columns), 0, comm));
-  }
+  rows_.emplace(rows, comm_);
+  columns_ = comm_.size() == 1 ? *rows_ : Rows(columns, comm_);
 
-  Teuchos::ArrayRCP<std::size_t> begin(rows.size() + 1, 0);
-  std::vector<int> entries;
-  std::size_t row = 0;
+  std::vector<std::size_t> begin = {0};
+  std::vector<int> column_of;
   runs_.resize(neighbours.size());
   for (const LocalBlock& local : local_blocks_) {
     if (!local.owned) continue;
@@ -117,16 +106,11 @@ void Layout::build_graph(const model::UnknownTable& unknowns, const Neighbours& 
       for (int j = 0; j < active; ++j) pattern.push_back(local_column_[index(other)] + j);
     }
     for (int i = 0; i < unknowns.block(local.block).shape.active; ++i) {
-      entries.insert(entries.end(), pattern.begin(), pattern.end());
-      begin[static_cast<Teuchos::ArrayRCP<std::size_t>::size_type>(++row)] = entries.size();
+      column_of.insert(column_of.end(), pattern.begin(), pattern.end());
+      begin.push_back(column_of.size());
     }
   }
-  const auto size = static_cast<Teuchos::ArrayRCP<int>::size_type>(entries.size());
-  Teuchos::ArrayRCP<int> indices(size);
-  std::copy(entries.begin(), entries.end(), indices.begin());
-  const auto graph = Teuchos::rcp(new CrsGraph(row_map_, column_map_, begin, indices));
-  graph->expertStaticFillComplete(row_map_, row_map_);
-  graph_ = graph;
+  pattern_.emplace(*rows_, *columns_, begin, column_of);
 }
 
 int Layout::offset_in_row(int row_block, int column_block) const {

@@ -26,7 +26,7 @@ Vec3 position_size(const model::BlockShape& shape, const Vec3& prev, const Vec3&
 // Sizes of the unknowns of the local columns, in proportion to which they are rounded.
 std::vector<double> unknown_sizes(const System& system, const EvaluatedPoint& point) {
   // directors are of unit length
-  std::vector<double> sizes(system.layout().column_map()->getNodeNumElements(), 1.0);
+  std::vector<double> sizes(system.layout().columns().size(), 1.0);
   for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
     const model::Block& block = system.model().unknowns().block(local.block);
     const bool is_node = block.kind == model::BlockKind::node;
@@ -59,8 +59,11 @@ std::vector<double> unknown_sizes(const System& system, const EvaluatedPoint& po
 RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
                              double force_scale) {
   const std::vector<double> sizes = unknown_sizes(system, point);
-  const auto residual = values_of(system.residual());
-  const auto matrix = system.matrix()->getLocalMatrixHost();
+  const auto residual = system.residual().values();
+  const Matrix& matrix = *system.matrix();
+  const auto values = matrix.values();
+  const auto row_begin = matrix.row_begin();
+  const auto column_of = matrix.column_of();
   double share = 0.0;
   double largest = 0.0;
   int largest_row = 0;
@@ -68,10 +71,10 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
     const double found = std::abs(residual[index(row)]);
     if (found <= limit || share > hopeless) return;
     double sum = 0.0;
-    const auto first = matrix.graph.row_map(row);
-    const auto last = matrix.graph.row_map(row + 1);
+    const std::size_t first = row_begin[index(row)];
+    const std::size_t last = row_begin[index(row) + 1];
     for (auto k = first; k < last; ++k) {
-      sum += std::abs(matrix.values(k)) * sizes[index(matrix.graph.entries(k))];
+      sum += std::abs(values[k]) * sizes[index(column_of[k])];
     }
     // as many forces meet in a row as it has entries, or fewer
     const double terms = static_cast<double>(last - first) * force_scale;
@@ -91,7 +94,7 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   double worst[2] = {share, largest};
   comm.max(worst);
   const bool is_here = largest > 0.0 && largest == worst[1];
-  const auto global = system.layout().row_map()->getGlobalElement(largest_row);
+  const auto global = system.layout().rows().global(index(largest_row));
   return {worst[0], comm.max(is_here ? static_cast<int>(global) : -1)};
 }
 

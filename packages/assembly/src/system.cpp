@@ -2,6 +2,7 @@
 #include <culm/model/delayed.hpp>
 
 #include "block_values.hpp"
+#include "column_import.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,10 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
       ledger_(ledger),
       layout_(model, comm),
       batches_(model.batches()),
-      update_effect_(ledger.add("Update of the state")) {
+      update_effect_(ledger.add("Update of the state")),
+      matrix_(std::make_shared<Matrix>(layout_.pattern())),
+      matrix_view_(matrix_),
+      residual_(layout_.rows()) {
   const model::UnknownTable& unknowns = model.unknowns();
   for (const model::Batch* batch : batches_) {
     Ledger::Entry entry;
@@ -60,33 +64,28 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
       owned_nodes_.push_back(node);
     }
   }
-  matrix_ = Teuchos::rcp(new CrsMatrix(layout_.graph()));
-  matrix_->fillComplete(layout_.row_map(), layout_.row_map());
-  matrix_view_ = matrix_;
-  residual_ = Teuchos::rcp(new Vector(layout_.row_map()));
   if (comm_.size() > 1) {
-    imported_ = Teuchos::rcp(new Vector(layout_.column_map()));
-    importer_ = Teuchos::rcp(new Import(layout_.row_map(), layout_.column_map()));
+    column_import_ = std::make_unique<ColumnImport>(layout_.rows(), layout_.columns());
   }
-  const auto graph = matrix_->getLocalMatrixHost().graph;
-  row_begin_.assign(graph.row_map.data(), graph.row_map.data() + graph.row_map.extent(0));
+  const auto row_begin = matrix_->row_begin();
+  const auto column_of = matrix_->column_of();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     if (!local.owned) continue;
     const model::Block& block = unknowns.block(local.block);
     for (int i = 0; i < block.shape.active; ++i) {
       const auto row = index(local.first_column + i);  // owned columns are numbered as rows
       is_force_row_.push_back(block.kind == model::BlockKind::node);
-      const auto first = graph.entries.data() + row_begin_[row];
-      const auto last = graph.entries.data() + row_begin_[row + 1];
-      diagonal_.push_back(static_cast<int>(
-          row_begin_[row] +
-          static_cast<std::size_t>(std::find(first, last, static_cast<int>(row)) - first)));
+      const auto of_row = column_of.subspan(row_begin[row], row_begin[row + 1] - row_begin[row]);
+      const auto found = std::ranges::find(of_row, static_cast<int>(row)) - of_row.begin();
+      diagonal_.push_back(static_cast<int>(row_begin[row]) + static_cast<int>(found));
     }
   }
   for (const model::Batch* batch : batches_) needs_all_nodes_ |= batch->needs_all_nodes();
   reactions_.assign(index(unknowns.num_reactions()), 0.0);
   linear_increment_.assign(model.nodes().reference().size(), 0.0);
 }
+
+System::~System() = default;
 
 void System::prepare(const model::State& state, const Stencil& stencil) {
   for (model::Batch* batch : batches_) batch->prepare(state, stencil);
@@ -120,10 +119,10 @@ void System::change_level(const model::State& state, const Stencil& stencil) {
 void System::level_gradient(model::State& state, const Stencil& stencil, double step,
                             Vector& gradient) {
   model::Target target;
-  target.row_begin = row_begin_;
+  target.row_begin = matrix_->row_begin();
   target.multiplier_scale = multiplier_scale_;
-  target.residual = values_of(gradient);
-  gradient.putScalar(0.0);
+  target.residual = gradient.values();
+  gradient.fill(0.0);
   const double level = state.time;
   for (const double end : {level, level + step}) {
     state.time = end;
@@ -141,9 +140,9 @@ void System::level_gradient(model::State& state, const Stencil& stencil, double 
 // Residual and reactions, set to zero.
 model::Target System::target() {
   model::Target target;
-  target.residual = values_of(*residual_);
+  target.residual = residual_.values();
   target.reactions = reactions_;
-  target.row_begin = row_begin_;
+  target.row_begin = matrix_->row_begin();
   target.multiplier_scale = multiplier_scale_;
   std::fill(target.residual.begin(), target.residual.end(), 0.0);
   std::fill(reactions_.begin(), reactions_.end(), 0.0);
@@ -152,8 +151,7 @@ model::Target System::target() {
 
 model::Target System::target_with_matrix() {
   model::Target with_matrix = target();
-  const auto values = matrix_->getLocalMatrixHost().values;
-  with_matrix.values = {values.data(), values.extent(0)};
+  with_matrix.values = matrix_->values();
   std::fill(with_matrix.values.begin(), with_matrix.values.end(), 0.0);
   return with_matrix;
 }
@@ -238,7 +236,7 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
 }
 
 void System::carry_residual(double time) {
-  const auto residual = values_of(static_cast<const Vector&>(*residual_));
+  const auto residual = std::as_const(residual_).values();
   carried_.emplace(residual.size(), 0.0);
   for (std::size_t row = 0; row < residual.size(); ++row) {
     if (is_force_row_[row]) (*carried_)[row] = time * residual[row];
@@ -246,23 +244,22 @@ void System::carry_residual(double time) {
 }
 
 double System::largest_diagonal() const {
-  const auto values = matrix_->getLocalMatrixHost().values;
+  const auto values = std::as_const(*matrix_).values();
   double largest = 0.0;
   for (std::size_t row = 0; row < diagonal_.size(); ++row) {
-    if (is_force_row_[row]) largest = std::max(largest, std::abs(values(index(diagonal_[row]))));
+    if (is_force_row_[row]) largest = std::max(largest, std::abs(values[index(diagonal_[row])]));
   }
   return largest;
 }
 
-const Vector& System::import(const Vector& increment) {
-  if (comm_.size() == 1) return increment;
-  imported_->doImport(increment, *importer_, Tpetra::INSERT);
-  return *imported_;
+// Of this rank's columns; valid until the next call.
+std::span<const double> System::column_values(const Vector& increment) {
+  return column_import_ ? (*column_import_)(increment) : increment.values();
 }
 
 void System::move(model::State& state, const Vector& increment, double factor) {
   const Ledger::Scope scope(ledger_, update_effect_);
-  const std::span<const double> dx = values_of(import(increment));
+  const std::span<const double> dx = column_values(increment);
   const model::UnknownTable& unknowns = model_.unknowns();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);
@@ -291,7 +288,7 @@ void System::move(model::State& state, const Vector& increment, double factor) {
 
 const model::Coordinates& System::linear_motion(const model::State& state, const Vector& increment,
                                                 double factor) {
-  const std::span<const double> dx = values_of(import(increment));
+  const std::span<const double> dx = column_values(increment);
   const model::UnknownTable& unknowns = model_.unknowns();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);

@@ -70,13 +70,13 @@ void System::assemble_alone(model::Batch& load, const model::State& state,
   model::Target target;
   target.residual = residual;
   target.reactions = taken;
-  target.row_begin = row_begin_;
+  target.row_begin = matrix_->row_begin();
   load.assemble(state, Stencil::statics(), Want::residual, target);
 }
 
 LoadShare System::share_of(model::Batch& load, const model::State& state) const {
-  Vector forces(layout_.row_map());
-  const auto residual = values_of(forces);
+  Vector forces(layout_.rows());
+  const auto residual = forces.values();
   std::vector<double> taken(reactions_.size(), 0.0);
   assemble_alone(load, state, residual, taken);
   LoadShare share;
@@ -102,8 +102,8 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
 }
 
 std::vector<Vec6> System::forces_of(model::Batch& load, const model::State& state) const {
-  Vector forces(layout_.row_map());
-  const auto residual = values_of(forces);
+  Vector forces(layout_.rows());
+  const auto residual = forces.values();
   std::vector<double> taken(reactions_.size(), 0.0);
   assemble_alone(load, state, residual, taken);
   std::vector<double> all(12 * index(model_.nodes().size()), 0.0);  // unknowns of nodes

@@ -36,17 +36,17 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
     if (iteration == most_iterations || !std::isfinite(found.constraint_violation)) {
       return std::numeric_limits<double>::infinity();
     }
-    Vector rhs(*residual_, Teuchos::Copy);
+    Vector rhs = residual_;
     evaluate(state, stencil, Want::mass);
-    const auto b = values_of(rhs);
+    const auto b = rhs.values();
     for (std::size_t row = 0; row < b.size(); ++row) b[row] = is_force_row_[row] ? 0.0 : -b[row];
-    Vector change(layout_.row_map());
+    Vector change(layout_.rows());
     solve_mass(rhs, change);
-    const auto u = values_of(change);
+    const auto u = change.values();
     for (std::size_t row = 0; row < u.size(); ++row) {
       if (!is_force_row_[row]) u[row] = 0.0;  // its multipliers are no forces
     }
-    const bool stalls = comm_.max(change.normInf()) < 1e-15 * size;
+    const bool stalls = change.largest() < 1e-15 * size;
     move(state, change, 1.0);
     if (stalls) break;  // at round-off
   }
@@ -78,7 +78,7 @@ NodeMotions System::node_motions() const {
   const model::Coordinates& q =
       tangent_point_.empty() ? model_.nodes().reference() : tangent_point_;
   NodeMotions motions;
-  motions.rigid.setZero(static_cast<Eigen::Index>(layout_.row_map()->getNodeNumElements()), 6);
+  motions.rigid.setZero(static_cast<Eigen::Index>(layout_.rows().size()), 6);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     if (!local.owned) continue;
     const model::Block& block = model_.unknowns().block(local.block);
@@ -165,7 +165,7 @@ std::vector<double> System::drive_speed(model::State& state, double probe) {
     state.time = time + fraction * probe;
     prepare(state, Stencil::statics());
     evaluate(state, Stencil::statics(), Want::residual);
-    const auto h = values_of(static_cast<const Vector&>(*residual_));
+    const auto h = std::as_const(residual_).values();
     for (std::size_t row = 0; row < speed.size(); ++row) speed[row] += weight / probe * h[row];
   }
   return speed;
@@ -203,8 +203,8 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   internal_check(found.verdict == Verdict::ok, "a mass matrix is not finite");
   const model::UnknownTable& unknowns = model_.unknowns();
   const bool null_space = unknowns.form() == model::Form::null_space;
-  Vector velocity(layout_.row_map());
-  const auto u = values_of(velocity);
+  Vector velocity(layout_.rows());
+  const auto u = velocity.values();
   const auto each_unknown = [&](auto action) {
     for (const Layout::LocalBlock& local : layout_.local_blocks()) {
       const model::Block& block = unknowns.block(local.block);
@@ -222,17 +222,17 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
     }
   });
   // only the constraint rows are out of balance: H v = dg/dt
-  Vector rhs(layout_.row_map());
-  matrix_->apply(velocity, rhs);
-  const auto b = values_of(rhs);
+  Vector rhs(layout_.rows());
+  matrix_->multiply(velocity, rhs);
+  const auto b = rhs.values();
   for (std::size_t row = 0; row < b.size(); ++row)
     b[row] = is_force_row_[row] ? 0.0 : speed[row] - b[row];
-  Vector change(layout_.row_map());
+  Vector change(layout_.rows());
   solve_mass(rhs, change);
-  velocity.update(1.0, change, 1.0);
+  velocity.update(1.0, change);
 
   const model::Coordinates before = state.velocity;
-  const std::span<const double> all = values_of(import(velocity));
+  const std::span<const double> all = column_values(velocity);
   std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
     const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);

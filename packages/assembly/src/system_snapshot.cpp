@@ -7,13 +7,6 @@
 #include <utility>
 
 namespace culm::assembly {
-namespace {
-
-std::size_t global_index(const Map& map, std::size_t row) {
-  return static_cast<std::size_t>(map.getGlobalElement(static_cast<int>(row)));
-}
-
-}  // namespace
 
 void System::complete(model::Coordinates& values) const {
   if (comm_.size() == 1 || values.empty()) return;
@@ -113,9 +106,9 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
 // By global row, so that it does not depend on the number of ranks.
 std::vector<double> System::gather_carried() const {
   if (!carried_) return {};
-  std::vector<double> all(layout_.row_map()->getGlobalNumElements(), nothing);
+  std::vector<double> all(layout_.rows().total(), nothing);
   for (std::size_t row = 0; row < carried_->size(); ++row) {
-    all[global_index(*layout_.row_map(), row)] = (*carried_)[row];
+    all[static_cast<std::size_t>(layout_.rows().global(row))] = (*carried_)[row];
   }
   comm_.sum(all);
   return all;
@@ -126,13 +119,12 @@ void System::restore_carried(const std::vector<double>& all) {
   if (all.empty()) return;
   carried_.emplace(is_force_row_.size());
   for (std::size_t row = 0; row < carried_->size(); ++row) {
-    (*carried_)[row] = all[global_index(*layout_.row_map(), row)];
+    (*carried_)[row] = all[static_cast<std::size_t>(layout_.rows().global(row))];
   }
 }
 
 void System::save_matrix(Snapshot& snapshot) const {
-  const auto values = matrix_->getLocalMatrixHost().values;
-  const std::span<const double> mine(values.data(), values.extent(0));
+  const auto mine = std::as_const(*matrix_).values();
   snapshot.set("matrix/ranks", comm_.size());
   if (snapshot.is_for_memory()) {
     snapshot.set("matrix/values", {mine.begin(), mine.end()});
@@ -148,21 +140,20 @@ void System::save_matrix(Snapshot& snapshot) const {
 bool System::restore_matrix(const Snapshot& snapshot) {
   if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
   if (snapshot.has("matrix/point")) tangent_point_ = snapshot.numbers("matrix/point");
-  const auto values = matrix_->getLocalMatrixHost().values;
+  const auto values = matrix_->values();
   if (snapshot.is_for_memory()) {
-    std::ranges::copy(snapshot.numbers("matrix/values", values.extent(0)), values.data());
+    std::ranges::copy(snapshot.numbers("matrix/values", values.size()), values.data());
     return true;
   }
-  const std::vector<double>& all =
-      snapshot.numbers("matrix/values", static_cast<std::size_t>(matrix_->getGlobalNumEntries()));
+  const std::vector<double>& all = snapshot.numbers("matrix/values", matrix_->total_entries());
   // pieces are in the order of the ranks
   std::vector<double> ends(index(comm_.size()), 0.0);
   for (int rank = comm_.rank(); rank < comm_.size(); ++rank) {
-    ends[index(rank)] = static_cast<double>(values.extent(0));
+    ends[index(rank)] = static_cast<double>(values.size());
   }
   comm_.sum(ends);
-  const auto begin = index(static_cast<int>(ends[index(comm_.rank())])) - values.extent(0);
-  std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(begin), values.extent(0), values.data());
+  const auto begin = index(static_cast<int>(ends[index(comm_.rank())])) - values.size();
+  std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(begin), values.size(), values.data());
   return true;
 }
 

@@ -44,19 +44,19 @@ TEST_P(SystemTest, DistributedSystemEqualsDenseAssembly) {
   const Evaluation found = system.evaluate(state, stencil, Want::residual_and_tangent);
   EXPECT_EQ(found.verdict, Verdict::ok);
 
-  const auto matrix = system.matrix()->getLocalMatrixHost();
-  const auto values = values_of(system.residual());
+  const Matrix& matrix = *system.matrix();
+  const auto values = system.residual().values();
   const double size = tangent.cwiseAbs().maxCoeff();
-  for (int row = 0; row < matrix.numRows(); ++row) {
-    const auto global = system.matrix()->getRowMap()->getGlobalElement(row);
+  Eigen::MatrixXd sparse = Eigen::MatrixXd::Zero(static_cast<int>(values.size()), tangent.cols());
+  matrix.each_entry([&](std::size_t row, long long column, double value) {
+    sparse(static_cast<Eigen::Index>(row), column) = value;
+  });
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    const auto global = matrix.rows().global(row);
     // only the order of additions may differ
-    EXPECT_NEAR(values[static_cast<std::size_t>(row)], residual[global], 1e-13 * size);
-    Eigen::RowVectorXd sparse = Eigen::RowVectorXd::Zero(tangent.cols());
-    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
-      sparse[system.matrix()->getColMap()->getGlobalElement(matrix.graph.entries(k))] =
-          matrix.values(k);
-    }
-    EXPECT_LT((sparse - tangent.row(global)).cwiseAbs().maxCoeff(), 1e-13 * size);
+    EXPECT_NEAR(values[row], residual[global], 1e-13 * size);
+    const auto at = static_cast<Eigen::Index>(row);
+    EXPECT_LT((sparse.row(at) - tangent.row(global)).cwiseAbs().maxCoeff(), 1e-13 * size);
   }
 }
 
@@ -68,10 +68,10 @@ TEST_P(SystemTest, MoveAndSynchroniseGiveTheSameStateOnAllRanks) {
   model::State state = model.initial_state();
   Eigen::VectorXd whole(model.unknowns().num_unknowns());
   for (int i = 0; i < whole.size(); ++i) whole[i] = 0.01 * std::sin(1.0 + i);
-  Vector increment(system.layout().row_map());
-  const auto values = values_of(increment);
+  Vector increment(system.layout().rows());
+  const auto values = increment.values();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = whole[system.layout().row_map()->getGlobalElement(static_cast<int>(i))];
+    values[i] = whole[increment.rows().global(i)];
   }
   system.move(state, increment, 1.0);
   system.synchronise(state);

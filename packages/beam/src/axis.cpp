@@ -50,11 +50,12 @@ Axis place_nodes(const std::vector<Segment>& segments, int intervals,
   return axis;
 }
 
-double find_parallel(const std::vector<Segment>& segments, int intervals, const Vec3& up) {
-  double found = -1.0;
+std::optional<double> find_parallel(const std::vector<Segment>& segments, int intervals,
+                                    const Vec3& up) {
+  std::optional<double> found;
   for_each_node(segments, intervals, [&](const Segment& segment, int, double s, double span) {
     const double sine = segment.curve.tangent(s).cross(up).norm() / up.norm();
-    if (found < 0.0 && !(sine > 1e-3)) found = span;
+    if (!found && !(sine > 1e-3)) found = span;
   });
   return found;
 }

@@ -68,7 +68,7 @@ std::function<double(double)> read_twist(const Options& options) {
   if (!options.has("Pre-Twist")) return {};
   return [angles = options.numbers("Pre-Twist"),
           positions = options.numbers("Pre-Twist Positions")](double span) {
-    const TablePlace at = find_place(positions, span);
+    const TablePlace at = table_place(positions, span);
     return (1.0 - at.t) * angles[at.first] + at.t * angles[at.second];
   };
 }
@@ -76,10 +76,10 @@ std::function<double(double)> read_twist(const Options& options) {
 Axis place(const std::vector<Segment>& segments, const Vec3& normal, const Options& options,
            const Density& density) {
   const Vec3 up = options.has("Up") ? vector(options, "Up") : normal;
-  if (const double span = find_parallel(segments, density.intervals(), up); span >= 0.0) {
+  if (const auto span = find_parallel(segments, density.intervals(), up)) {
     throw InputError(
         options.where("Up"),
-        fmt::format("must not be parallel to the axis, but is at {:.4g} of its length", span));
+        fmt::format("must not be parallel to the axis, but is at {:.4g} of its length", *span));
   }
   return place_nodes(segments, density.intervals(), {up, read_twist(options)});
 }

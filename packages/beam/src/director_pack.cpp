@@ -39,8 +39,8 @@ struct Frame {
 
 // Γ_i = d_i . x' ,  K_i = 1/2 (d_j' . d_k - d_k' . d_j), less those of the reference
 template <int Order>
-CULM_INLINE void find_strain(const typename DirectorPack<Order>::Point& p,
-                             const Frame<Order>& frame, Pack* e) {
+CULM_INLINE void compute_strain(const typename DirectorPack<Order>::Point& p,
+                                const Frame<Order>& frame, Pack* e) {
   for (int i = 0; i < 3; ++i) {
     const int j = after(i);
     const int k = after(j);
@@ -107,8 +107,8 @@ CULM_INLINE void add_curvature(const typename DirectorPack<Order>::Point& p, con
 
 // Derivatives of the strains by dx and dθ of the nodes, a strain per row; dx bends nothing.
 template <int Order>
-CULM_INLINE void find_rows(const typename DirectorPack<Order>::Point& p, const Frame<Order>& frame,
-                           const Pack* q, Pack* R) {
+CULM_INLINE void compute_rows(const typename DirectorPack<Order>::Point& p,
+                              const Frame<Order>& frame, const Pack* q, Pack* R) {
   constexpr std::size_t row = 6 * (Order + 1);
   constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
   for (std::size_t a = 0; a <= Order; ++a) {
@@ -252,7 +252,7 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     const Frame<Order> next_frame(p, motion.next.data());
     const Frame<Order> mid_frame(p, mid);
     Pack e[6], stress[6];
-    find_strain<Order>(p, next_frame, e);
+    compute_strain<Order>(p, next_frame, e);
     for (std::size_t i = 0; i < 6; ++i) e[i] = weight * e[i] + (1.0 - weight) * prev[6 * g + i];
     for (std::size_t i = 0; i < 6; ++i) {
       stress[i] = p.stiffness[6 * i] * e[0];
@@ -267,8 +267,8 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     }
     add_curvature<Order>(p, S, theta, A);
     Pack R_next[6 * W], R_mid[6 * W];
-    find_rows<Order>(p, next_frame, motion.next.data(), R_next);
-    find_rows<Order>(p, mid_frame, mid, R_mid);
+    compute_rows<Order>(p, next_frame, motion.next.data(), R_next);
+    compute_rows<Order>(p, mid_frame, mid, R_mid);
     add_product<Order>(p.stiffness.data(), weight, R_mid, R_next, sum.tangent.data());
   }
   if (with_tangent && predicted == nullptr) {

@@ -17,7 +17,7 @@ SectionTable::SectionTable(std::vector<material::Section> sections, std::vector<
       rotary_inertia_(rotary_inertia) {}
 
 material::Section SectionTable::at(double span) const {
-  const TablePlace place = find_place(positions_, span);
+  const TablePlace place = table_place(positions_, span);
   material::Section section =
       material::interpolate(sections_[place.first], sections_[place.second], place.t);
   if (rotary_inertia_ != 1.0) {

@@ -6,7 +6,7 @@
 
 namespace culm::beam {
 
-TablePlace find_place(const std::vector<double>& positions, double span) {
+TablePlace table_place(const std::vector<double>& positions, double span) {
   const auto after = std::upper_bound(positions.begin(), positions.end(), span);
   const std::size_t last = positions.size() - 1;
   if (after == positions.begin()) return {0, 0, 0.0};

@@ -18,9 +18,9 @@ double stiffness_at(const SectionTable& table, double span) {
 
 TEST(FindPlace, IsConstantBeyondTheEnds) {
   const std::vector<double> positions{0.2, 0.6};
-  EXPECT_EQ(find_place(positions, 0.1).second, 0U);
-  EXPECT_EQ(find_place(positions, 0.7).first, 1U);
-  EXPECT_NEAR(find_place(positions, 0.3).t, 0.25, 1e-15);
+  EXPECT_EQ(table_place(positions, 0.1).second, 0U);
+  EXPECT_EQ(table_place(positions, 0.7).first, 1U);
+  EXPECT_NEAR(table_place(positions, 0.3).t, 0.25, 1e-15);
 }
 
 TEST(SectionTable, IsLinearBetweenItsSections) {

@@ -64,7 +64,7 @@ LatticeLoad::LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
       accepted_(lattice_.initial_state()),
       accepted_forces_(lattice_.bound().num_points()) {
   add_items(surfaces);
-  find_apparent_masses();
+  compute_apparent_masses();
 }
 
 void LatticeLoad::add_items(const std::vector<SurfaceGrid>& surfaces) {
@@ -88,7 +88,7 @@ void LatticeLoad::add_items(const std::vector<SurfaceGrid>& surfaces) {
 
 // Half of pi rho b^2 per span, spread along the chord as sqrt(1 - xi^2): a point of the grid takes
 // what lies nearer to it than to its neighbours.
-void LatticeLoad::find_apparent_masses() {
+void LatticeLoad::compute_apparent_masses() {
   const Points reference = grid(nodes_.reference());
   apparent_mass_.assign(reference.size(), 0.0);
   for (const Panelling& s : lattice_.bound().surfaces()) {

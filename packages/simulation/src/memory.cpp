@@ -37,7 +37,7 @@ double machine_memory() {
   return std::min({physical, soft_limit(RLIMIT_AS), soft_limit(RLIMIT_DATA), group_limit()});
 }
 
-double find_memory(const std::string& text) {
+double read_memory(const std::string& text) {
   if (text.empty()) return machine_memory();
   static const std::map<std::string, double, std::less<>> units = {
       {"kb", 1e3}, {"mb", 1e6}, {"gb", 1e9}, {"tb", 1e12}};

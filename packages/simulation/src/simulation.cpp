@@ -376,7 +376,7 @@ std::string Simulation::summary() const {
   model::MemoryNeed need = phase.need;
   need.factors = factors_by_graph(phase, parts_->comm);
   const model::Model& model = *phase.model;
-  const auto entries = phase.system->matrix()->getGlobalNumEntries();
+  const auto entries = phase.system->matrix()->total_entries();
   std::string text = report_masses(model) + '\n';
   if (const std::string constraints = report_constraints(model); !constraints.empty()) {
     text += constraints + '\n';

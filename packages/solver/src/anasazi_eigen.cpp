@@ -1,3 +1,4 @@
+#include <culm/assembly/tpetra.hpp>
 #include <culm/base/error.hpp>
 
 #include "eigen_methods.hpp"
@@ -26,15 +27,16 @@ constexpr int block_size = 2;  // copies of a value that one search finds whatev
 class ShiftedOp final : public LinearOp {
  public:
   explicit ShiftedOp(const ShiftedPencil& op)
-      : op_(op), map_(op.pencil.B->getRowMap()), product_(map_) {}
+      : op_(op), map_(assembly::tpetra(op.pencil.B->rows())), product_(op.pencil.B->rows()) {}
   RCP<const Map> getDomainMap() const override { return map_; }
   RCP<const Map> getRangeMap() const override { return map_; }
   // Anasazi asks for nothing but the plain product.
   void apply(const MultiVector& X, MultiVector& Y, Teuchos::ETransp, double,
              double) const override {
     for (std::size_t i = 0; i < X.getNumVectors(); ++i) {
-      op_.pencil.B->apply(*X.getVector(i), product_);
-      op_.inverse.solve(product_, *Y.getVectorNonConst(i));
+      op_.pencil.B->multiply(assembly::view_of(*X.getVector(i)), product_);
+      Vector result = assembly::view_of(*Y.getVectorNonConst(i));
+      op_.inverse.solve(product_, result);
     }
   }
 
@@ -72,7 +74,8 @@ RCP<MultiVector> distribute(const Eigen::MatrixXd& columns, const RCP<const Map>
                             const WholeVector& whole) {
   const auto pieces = rcp(new MultiVector(map, static_cast<std::size_t>(columns.cols())));
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    whole.take(columns.col(i), *pieces->getVectorNonConst(static_cast<std::size_t>(i)));
+    const auto piece = pieces->getVectorNonConst(static_cast<std::size_t>(i));
+    whole.take(columns.col(i), assembly::values_of(*piece));
   }
   return pieces;
 }
@@ -80,7 +83,8 @@ RCP<MultiVector> distribute(const Eigen::MatrixXd& columns, const RCP<const Map>
 Eigen::MatrixXd collect(const MultiVector& pieces, const WholeVector& whole) {
   Eigen::MatrixXd columns(whole.size(), static_cast<Eigen::Index>(pieces.getNumVectors()));
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    whole.join(*pieces.getVector(static_cast<std::size_t>(i)), columns.col(i));
+    const auto piece = pieces.getVector(static_cast<std::size_t>(i));
+    whole.join(assembly::values_of(*piece), columns.col(i));
   }
   return columns;
 }
@@ -108,7 +112,7 @@ InvertedPairs solve_krylov_schur(const ShiftedPencil& op, int count, const Eigen
   const RCP<const Map> map = shifted->getDomainMap();
   const WholeVector& whole = op.inverse.whole();
   const RCP<const LinearOp> inverse = shifted;
-  const RCP<const LinearOp> B = op.pencil.B;
+  const RCP<const LinearOp> B = assembly::tpetra(*op.pencil.B);
   using Problem = Anasazi::BasicEigenproblem<double, MultiVector, LinearOp>;
   const auto problem = rcp(new Problem(inverse, B, make_start(*shifted)));
   problem->setHermitian(true);

@@ -7,9 +7,9 @@
 
 namespace culm::solver {
 
-double asymmetry(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+double asymmetry(const std::shared_ptr<const assembly::Matrix>& matrix,
                  const parallel::Comm& comm) {
-  RootedMatrix rooted(matrix, comm);
+  RootedMatrix rooted(assembly::tpetra(*matrix), comm);
   rooted.gather_values();
   double worst = 0.0;
   if (comm.is_root()) {

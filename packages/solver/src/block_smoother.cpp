@@ -7,7 +7,6 @@
 
 namespace culm::solver {
 
-using assembly::values_of;
 using assembly::Vector;
 
 namespace {
@@ -23,9 +22,9 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 // Entries without any symmetry, the same on any number of ranks.
 void fill_irregular(Vector& v) {
-  const auto values = values_of(v);
+  const auto values = v.values();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto global = static_cast<double>(v.getMap()->getGlobalElement(static_cast<int>(i)));
+    const auto global = static_cast<double>(v.rows().global(i));
     values[i] = std::fmod(0.6180339887498949 * (global + 1.0), 1.0) - 0.5;
   }
 }
@@ -34,9 +33,9 @@ void fill_irregular(Vector& v) {
 
 BlockSmoother::BlockSmoother(const GridLevel& grid)
     : grid_(grid),
-      rest_(grid.matrix()->getRowMap()),
-      step_(grid.matrix()->getRowMap()),
-      product_(grid.matrix()->getRowMap()) {
+      rest_(assembly::rows_of(grid.matrix()->getRowMap())),
+      step_(rest_.rows()),
+      product_(rest_.rows()) {
   std::size_t at = 0;
   for (int node = 0; node < grid.nodes(); ++node) {
     first_.push_back(at);
@@ -83,19 +82,19 @@ void BlockSmoother::divide(std::span<const double> r, std::span<double> z) const
 
 // Lanczos' method for D^-1 A in the inner product of D, in the form of conjugate gradients.
 void BlockSmoother::find_largest() {
-  Vector z(rest_.getMap()), direction(rest_.getMap());
+  Vector z(rest_.rows()), direction(rest_.rows());
   fill_irregular(rest_);
   std::vector<double> alpha, beta;
-  divide(values_of(std::as_const(rest_)), values_of(z));
+  divide(rest_.values(), z.values());
   double size = rest_.dot(z);
-  direction.assign(z);
+  direction = z;
   while (size > 0.0 && alpha.size() < lanczos_steps) {
     grid_.multiply(direction, product_);
     const double energy = direction.dot(product_);
     if (!(energy > 0.0)) break;
     alpha.push_back(size / energy);
-    rest_.update(-alpha.back(), product_, 1.0);
-    divide(values_of(std::as_const(rest_)), values_of(z));
+    rest_.update(-alpha.back(), product_);
+    divide(rest_.values(), z.values());
     const double before = size;
     size = rest_.dot(z);
     beta.push_back(size / before);
@@ -124,17 +123,17 @@ void BlockSmoother::smooth(const Vector& b, Vector& x) {
   const double radius = 0.5 * (upper - lower);
   const double sigma = centre / radius;
   double rho = 1.0 / sigma;
-  rest_.assign(b);
-  divide(values_of(std::as_const(rest_)), values_of(step_));
+  rest_ = b;
+  divide(rest_.values(), step_.values());
   step_.scale(1.0 / centre);
-  x.assign(step_);
+  x = step_;
   for (int k = 1; k < degree; ++k) {
     grid_.multiply(step_, product_);
-    rest_.update(-1.0, product_, 1.0);
-    divide(values_of(std::as_const(rest_)), values_of(product_));
+    rest_.update(-1.0, product_);
+    divide(rest_.values(), product_.values());
     const double next = 1.0 / (2.0 * sigma - rho);
     step_.update(2.0 * next / radius, product_, next * rho);
-    x.update(1.0, step_, 1.0);
+    x.update(1.0, step_);
     rho = next;
   }
 }

@@ -6,7 +6,7 @@
 
 namespace culm::solver {
 
-using assembly::values_of;
+using assembly::tpetra;
 using assembly::Vector;
 
 namespace {
@@ -30,15 +30,15 @@ GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::
     node_of_.resize(node_of_.size() + static_cast<std::size_t>(width(node)), node);
   const auto importer = matrix_->getGraph()->getImporter();
   if (importer.is_null()) return;
-  Vector columns(matrix_->getColMap());
-  Vector number(matrix_->getRowMap());
-  const auto here = values_of(number);
+  Vector columns(assembly::rows_of(matrix_->getColMap()));
+  Vector number(assembly::rows_of(matrix_->getRowMap()));
+  const auto here = number.values();
   const auto rank = static_cast<std::size_t>(comm.rank());
   for (std::size_t row = 0; row < here.size(); ++row) {
     here[row] = static_cast<double>(begin_[rank] + node_of_[row]);  // exact below 2^53
   }
-  columns.doImport(number, *importer, Tpetra::INSERT);
-  const auto all = values_of(std::as_const(columns));
+  tpetra(columns).doImport(tpetra(number), *importer, Tpetra::INSERT);
+  const auto all = std::as_const(columns).values();
   for (std::size_t column = here.size(); column < all.size(); ++column) {
     const auto node = static_cast<long long>(all[column]);
     if (beside_.empty() || beside_.back() != node) {
@@ -50,6 +50,6 @@ GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::
   }
 }
 
-void GridLevel::multiply(const Vector& x, Vector& y) const { matrix_->apply(x, y); }
+void GridLevel::multiply(const Vector& x, Vector& y) const { matrix_->apply(tpetra(x), tpetra(y)); }
 
 }  // namespace culm::solver

@@ -19,7 +19,7 @@ namespace culm::solver {
 namespace {
 
 using assembly::CrsMatrix;
-using assembly::values_of;
+using assembly::tpetra;
 
 // More iterations per digit than with new grids, by this factor and not just a few: they are made
 // anew.
@@ -45,9 +45,9 @@ class IterativeSolver final : public LinearSolver {
         model_(std::move(model)),
         comm_(comm),
         symmetry_(matrix),
-        columns_(matrix->getColMap()),
-        rest_(matrix->getRowMap()),
-        correction_(matrix->getRowMap()) {}
+        columns_(assembly::rows_of(matrix->getColMap())),
+        rest_(assembly::rows_of(matrix->getRowMap())),
+        correction_(rest_.rows()) {}
 
   std::string name() const override { return "Iterative"; }
 
@@ -68,10 +68,10 @@ class IterativeSolver final : public LinearSolver {
   }
 
   LinearResidual solve_roughly(const Vector& b, Vector& x, double reduction) override {
-    x.putScalar(0.0);
+    x.fill(0.0);
     if (!direct_ && is_stale_ && !build(sum_of_diagonal())) return useless;
     if (direct_) return direct_->solve(b, x);
-    const double size = b.norm2();
+    const double size = b.norm();
     if (!std::isfinite(size)) return {size};
     if (size == 0.0) return {};
     std::optional<LinearResidual> reached = iterate(b, x, reduction);
@@ -85,16 +85,16 @@ class IterativeSolver final : public LinearSolver {
   Determinant determinant() override { return direct_ ? direct_->determinant() : Determinant{}; }
 
   double weakest_direction(Vector& v) override {
-    v.putScalar(0.0);
+    v.fill(0.0);
     const double size = comm_.max(largest_entry(*matrix_));
     if (!std::isfinite(size) || size == 0.0) return 0.0;
     build(sum_of_diagonal());
     multigrid_->weakest_direction(v);
-    const double largest = v.normInf();
+    const double largest = v.largest();
     if (!(largest > 0.0)) return 0.0;
     v.scale(1.0 / largest);
-    matrix_->apply(v, rest_);
-    return rest_.normInf() / size;
+    matrix_->apply(tpetra(v), tpetra(rest_));
+    return rest_.largest() / size;
   }
 
   // What depends on earlier matrices ends with the step, so that it does not matter where a run was
@@ -150,32 +150,35 @@ class IterativeSolver final : public LinearSolver {
   // Runs until the residual is small enough or as small as rounding leaves it. Starts from x = 0.
   // @return none if it does not get there
   std::optional<LinearResidual> iterate(const Vector& b, Vector& x, double reduction) {
-    const double size = b.norm2();
+    const double size = b.norm();
     double rest = size;
     double relative = 1.0;
     int spent = 0;
     bool is_definite = is_symmetric_ && multigrid_->may_be_definite();
     const auto is_reached = [&] { return rest <= reduction * size || relative <= rounding; };
-    x.putScalar(0.0);
-    rest_.assign(b);
-    while (spent < most_iterations && !is_reached()) {
+    // old grids are replaced before they cost much
+    const double usual = -std::log10(reduction) * slower * usual_ + some_iterations;
+    const int most = is_new_ ? most_iterations : std::min(most_iterations, static_cast<int>(usual));
+    x.fill(0.0);
+    rest_ = b;
+    while (spent < most && !is_reached()) {
       KrylovGoal run;
       run.reduction = std::max(0.5 * reduction * size / rest, reduction_of_a_run);
-      run.most_iterations = most_iterations - spent;
-      correction_.putScalar(0.0);
+      run.most_iterations = most - spent;
+      correction_.fill(0.0);
       const KrylovEnd end = is_definite ? conjugate_gradients(*multigrid_, rest_, correction_, run)
                                         : minimise_residual(*multigrid_, rest_, correction_, run);
       spent += std::max(1, end.iterations);
       const double before = rest;
-      if (std::isfinite(correction_.norm2())) {
-        x.update(1.0, correction_, 1.0);
+      if (std::isfinite(correction_.norm())) {
+        x.update(1.0, correction_);
         relative = check(b, x);
-        rest = rest_.norm2();
+        rest = rest_.norm();
       }
       if (rest > before) {
-        x.update(-1.0, correction_, 1.0);
+        x.update(-1.0, correction_);
         relative = check(b, x);
-        rest = rest_.norm2();
+        rest = rest_.norm();
       }
       if (is_reached()) break;
       const bool helps = end.converged && rest < 0.5 * before;
@@ -218,9 +221,9 @@ class IterativeSolver final : public LinearSolver {
   // Relative residual; leaves b - A x in rest_.
   double check(const Vector& b, const Vector& x) {
     const auto importer = matrix_->getGraph()->getImporter();
-    if (!importer.is_null()) columns_.doImport(x, *importer, Tpetra::INSERT);
+    if (!importer.is_null()) tpetra(columns_).doImport(tpetra(x), *importer, Tpetra::INSERT);
     const Vector& all = importer.is_null() ? x : columns_;
-    const Residual mine = residual(*matrix_, values_of(all), values_of(b), values_of(rest_));
+    const Residual mine = residual(*matrix_, all.values(), b.values(), rest_.values());
     std::array<double, 2> joint = {mine.largest, mine.size};
     comm_.max(joint);
     return Residual{joint[0], joint[1]}.relative();
@@ -245,9 +248,9 @@ class IterativeSolver final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_iterative(const Teuchos::RCP<const CrsMatrix>& matrix,
+std::unique_ptr<LinearSolver> make_iterative(const std::shared_ptr<const assembly::Matrix>& matrix,
                                              ModelBehind model, const parallel::Comm& comm) {
-  return std::make_unique<IterativeSolver>(matrix, std::move(model), comm);
+  return std::make_unique<IterativeSolver>(tpetra(*matrix), std::move(model), comm);
 }
 
 }  // namespace culm::solver

@@ -2,6 +2,7 @@
 /// that it has.
 #pragma once
 
+#include <culm/assembly/tpetra.hpp>
 #include <culm/solver/linear_solver.hpp>
 
 #include <memory>

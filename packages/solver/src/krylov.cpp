@@ -33,12 +33,13 @@ class Applied final : public Operator {
     const auto x = X.getVector(0);
     const auto y = Y.getVectorNonConst(0);
     if (alpha == 1.0 && beta == 0.0) {
-      product_(*x, *y);
+      Vector result = assembly::view_of(*y);
+      product_(assembly::view_of(*x), result);
       return;
     }
-    Vector product(map_);
-    product_(*x, product);
-    y->update(alpha, product, beta);
+    Vector product(assembly::rows_of(map_));
+    product_(assembly::view_of(*x), product);
+    y->update(alpha, assembly::tpetra(product), beta);
   }
 
  private:
@@ -48,7 +49,7 @@ class Applied final : public Operator {
 
 template <class Product>
 Teuchos::RCP<Operator> as_operator(const Vector& like, Product product) {
-  return Teuchos::rcp(new Applied<Product>(like.getMap(), std::move(product)));
+  return Teuchos::rcp(new Applied<Product>(assembly::tpetra(like.rows()), std::move(product)));
 }
 
 using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
@@ -58,8 +59,9 @@ Teuchos::RCP<Problem> set_up(Multigrid& multigrid, const Vector& b, Vector& x, b
       as_operator(b, [&multigrid](const Vector& in, Vector& out) { multigrid.multiply(in, out); });
   const auto inverse =
       as_operator(b, [&multigrid](const Vector& in, Vector& out) { multigrid.apply(in, out); });
-  const auto problem = Teuchos::rcp(new Problem(matrix, Teuchos::rcpFromRef<MultiVector>(x),
-                                                Teuchos::rcpFromRef<const MultiVector>(b)));
+  const auto problem =
+      Teuchos::rcp(new Problem(matrix, Teuchos::rcpFromRef<MultiVector>(assembly::tpetra(x)),
+                               Teuchos::rcpFromRef<const MultiVector>(assembly::tpetra(b))));
   if (right) {
     problem->setRightPrec(inverse);
   } else {

@@ -35,7 +35,7 @@ LateSearch::LateSearch(std::shared_ptr<NewtonProblem> problem)
     : problem_(std::move(problem)), weights_(weights_of(problem_->system)) {}
 
 double LateSearch::size(const NOX::Abstract::Vector& residual) const {
-  const auto values = assembly::values_of(NewtonVector::cast(residual).get());
+  const auto values = NewtonVector::cast(residual).get().values();
   double sum = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) sum += std::pow(weights_[i] * values[i], 2);
   return std::sqrt(problem_->system.comm().sum(sum));

@@ -29,21 +29,21 @@ class NothingToSolve final : public LinearSolver {
 constexpr double iterative_need = 12.0;
 
 ChosenSolver choose_iterative(const std::string& why,
-                              const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                              const std::shared_ptr<const assembly::Matrix>& matrix,
                               const parallel::Comm& comm, const ModelBehind& model) {
   return {make_iterative(matrix, model, comm),
           "Iterative, " + why + "; it knows no determinants, so bifurcations are not looked for",
-          true, iterative_need * static_cast<double>(matrix->getGlobalNumEntries())};
+          true, iterative_need * static_cast<double>(matrix->total_entries())};
 }
 
 using MakeSolver = std::unique_ptr<LinearSolver>(
-    const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+    const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm);
 
 // @param make_slender for what Block LU is made for
-ChosenSolver choose(const std::string& name, const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+ChosenSolver choose(const std::string& name, const std::shared_ptr<const assembly::Matrix>& matrix,
                     const parallel::Comm& comm, const ModelBehind& model,
                     MakeSolver* make_slender) {
-  if (matrix->getGlobalNumRows() == 0) {
+  if (matrix->rows().total() == 0) {
     return {std::make_unique<NothingToSolve>(), "none, for there are no unknowns"};
   }
   if (name == "Block LU") return {make_slender(matrix, comm), "Block LU, as the deck says"};
@@ -52,7 +52,7 @@ ChosenSolver choose(const std::string& name, const Teuchos::RCP<const assembly::
   if (name == "Iterative" && model.motions) {
     return choose_iterative("as the deck says", matrix, comm, model);
   }
-  Ordering ordering = order_rows(*matrix, comm);
+  Ordering ordering = order_rows(*assembly::tpetra(*matrix), comm);
   const Fill fill = ordering.fill;
   const double bytes = sizeof(double) * fill.entries;
   if (bytes > model.memory * comm.size() && model.motions) {
@@ -63,8 +63,8 @@ ChosenSolver choose(const std::string& name, const Teuchos::RCP<const assembly::
   }
   const bool is_wide = fill.front() > widest_slender_front;
   ChosenSolver chosen;
-  chosen.solver =
-      is_wide ? make_mumps(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
+  chosen.solver = is_wide ? make_mumps(assembly::tpetra(*matrix), std::move(ordering), comm)
+                          : make_slender(matrix, comm);
   chosen.reason = fmt::format(
       "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
       chosen.solver->name(), fill.front(), widest_slender_front, 1e-6 * bytes);
@@ -80,13 +80,13 @@ const std::vector<std::string>& linear_solver_names() {
 }
 
 ChosenSolver choose_linear_solver(const std::string& name,
-                                  const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                  const std::shared_ptr<const assembly::Matrix>& matrix,
                                   const parallel::Comm& comm, const ModelBehind& model) {
   return choose(name, matrix, comm, model, make_rooted_block_lu);
 }
 
 ChosenSolver choose_for_one_factorisation(const std::string& name,
-                                          const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                          const std::shared_ptr<const assembly::Matrix>& matrix,
                                           const parallel::Comm& comm) {
   return choose(name, matrix, comm, {}, make_rooted_klu2);
 }

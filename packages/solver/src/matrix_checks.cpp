@@ -7,8 +7,6 @@
 namespace culm::solver {
 
 using assembly::CrsMatrix;
-using assembly::GlobalIndex;
-using assembly::values_of;
 using assembly::Vector;
 
 namespace {
@@ -62,22 +60,21 @@ Teuchos::RCP<CrsMatrix> shifted_copy(const CrsMatrix& A, double shift) {
 }
 
 double inverse_iteration(const CrsMatrix& A, const Solve& solve, Vector& v) {
-  Vector b(v.getMap());
-  const auto start = values_of(b);
-  const auto rows = static_cast<GlobalIndex>(b.getGlobalLength());
+  Vector b(v.rows());
+  const auto start = b.values();
+  const auto rows = static_cast<long long>(b.rows().total());
   double seed = 0.5;
-  for (GlobalIndex row = 0; row < rows; ++row) {
+  for (long long row = 0; row < rows; ++row) {
     seed = std::fmod(997.0 * seed + 0.1234567, 1.0);
-    const int here = b.getMap()->getLocalElement(row);
-    if (here >= 0) start[static_cast<std::size_t>(here)] = seed - 0.5;
+    if (const auto here = b.rows().local(row)) start[*here] = seed - 0.5;
   }
   for (int i = 0; i < 4; ++i) {
     solve(b, v);
-    v.scale(1.0 / std::max(v.normInf(), 1e-300));
-    b.assign(v);
+    v.scale(1.0 / std::max(v.largest(), 1e-300));
+    b = v;
   }
-  A.apply(v, b);
-  return b.normInf();
+  A.apply(tpetra(v), tpetra(b));
+  return b.largest();
 }
 
 }  // namespace culm::solver

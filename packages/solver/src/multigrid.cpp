@@ -4,12 +4,13 @@
 #include "prolongation.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace culm::solver {
 namespace {
 
-using assembly::values_of;
+using assembly::tpetra;
 using assembly::Vector;
 
 // The coarsest grid is factored; below this size that costs less than cycles over more grids.
@@ -33,21 +34,21 @@ std::vector<bool> find_special(const GridLevel& grid, const BlockSmoother& smoot
 std::vector<bool> with_neighbours(const std::vector<bool>& special, const GridLevel& grid) {
   // neighbours on other ranks are told by a vector
   const auto& matrix = *grid.matrix();
-  Vector mark(matrix.getRowMap());
-  const auto marks = values_of(mark);
+  Vector mark(assembly::rows_of(matrix.getRowMap()));
+  const auto marks = mark.values();
   for (int node = 0; node < grid.nodes(); ++node) {
     for (int i = 0; i < grid.width(node); ++i) {
       marks[index(grid.first_column(node) + i)] = special[index(node)] ? 1.0 : 0.0;
     }
   }
   const auto importer = matrix.getGraph()->getImporter();
-  Vector all(matrix.getColMap());
+  Vector all(assembly::rows_of(matrix.getColMap()));
   if (importer.is_null()) {
-    all.assign(mark);
+    all = mark;
   } else {
-    all.doImport(mark, *importer, Tpetra::INSERT);
+    tpetra(all).doImport(tpetra(mark), *importer, Tpetra::INSERT);
   }
-  const auto is_special = values_of(std::as_const(all));
+  const auto is_special = std::as_const(all).values();
   std::vector<bool> carried = special;
   for (int node = 0; node < grid.nodes(); ++node) {
     for (int column : grid.rows().columns(node)) {
@@ -64,15 +65,15 @@ struct Multigrid::Level {
         NearNullSpace rigid, const parallel::Comm& comm)
       : grid(std::move(matrix), widths, std::move(rigid), comm),
         smoother(grid),
-        rest(grid.matrix()->getRowMap()),
-        correction(grid.matrix()->getRowMap()) {}
+        rest(assembly::rows_of(grid.matrix()->getRowMap())),
+        correction(rest.rows()) {}
 
   GridLevel grid;
   BlockSmoother smoother;
   GroupedMatrix prolongation;  // to this grid, over the columns of the next matrix
   Teuchos::RCP<const assembly::CrsMatrix> next;
   Vector rest, correction;
-  Teuchos::RCP<Vector> coarse_rhs, coarse_solution, coarse_columns;
+  std::optional<Vector> coarse_rhs, coarse_solution, coarse_columns;
 };
 
 Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
@@ -93,13 +94,13 @@ Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
     coarsest_matrix_ = make_coarse_matrix(level->grid, smoothed, coarse.widths, coarse.begin, comm);
     level->next = coarsest_matrix_;
     level->prolongation = over_columns(smoothed, *coarsest_matrix_->getColMap());
-    level->coarse_rhs = Teuchos::rcp(new Vector(coarsest_matrix_->getRowMap()));
-    level->coarse_solution = Teuchos::rcp(new Vector(coarsest_matrix_->getRowMap()));
-    level->coarse_columns = Teuchos::rcp(new Vector(coarsest_matrix_->getColMap()));
+    level->coarse_rhs.emplace(assembly::rows_of(coarsest_matrix_->getRowMap()));
+    level->coarse_solution.emplace(level->coarse_rhs->rows());
+    level->coarse_columns.emplace(assembly::rows_of(coarsest_matrix_->getColMap()));
     levels_.push_back(std::move(level));
     nodes = {std::move(coarse.widths), std::move(coarse.rigid)};
   }
-  coarsest_ = choose_linear_solver("Automatic", coarsest_matrix_, comm).solver;
+  coarsest_ = choose_linear_solver("Automatic", assembly::matrix_of(coarsest_matrix_), comm).solver;
   is_regular_ = coarsest_->factor();
 }
 
@@ -110,14 +111,14 @@ void Multigrid::refresh() { levels_.front()->smoother.refresh(); }
 void Multigrid::multiply(const Vector& x, Vector& y) const { levels_.front()->grid.multiply(x, y); }
 
 void Multigrid::prolong(std::size_t level, const Vector& coarse, Vector& x) const {
-  const Level& l = *levels_[level];
+  Level& l = *levels_[level];
   const auto importer = l.next->getGraph()->getImporter();
   if (importer.is_null()) {
-    l.coarse_columns->assign(coarse);
+    *l.coarse_columns = coarse;
   } else {
-    l.coarse_columns->doImport(coarse, *importer, Tpetra::INSERT);
+    tpetra(*l.coarse_columns).doImport(tpetra(coarse), *importer, Tpetra::INSERT);
   }
-  l.prolongation.multiply(values_of(std::as_const(*l.coarse_columns)), values_of(x));
+  l.prolongation.multiply(l.coarse_columns->values(), x.values());
 }
 
 void Multigrid::cycle(std::size_t level, const Vector& b, Vector& x) {
@@ -129,35 +130,35 @@ void Multigrid::cycle(std::size_t level, const Vector& b, Vector& x) {
   l.smoother.smooth(b, x);
   l.grid.multiply(x, l.rest);
   l.rest.update(1.0, b, -1.0);
-  l.coarse_columns->putScalar(0.0);
-  l.prolongation.add_transposed(values_of(std::as_const(l.rest)), values_of(*l.coarse_columns));
+  l.coarse_columns->fill(0.0);
+  l.prolongation.add_transposed(l.rest.values(), l.coarse_columns->values());
   const auto importer = l.next->getGraph()->getImporter();
   if (importer.is_null()) {
-    l.coarse_rhs->assign(*l.coarse_columns);
+    l.coarse_rhs = l.coarse_columns;
   } else {
-    l.coarse_rhs->putScalar(0.0);
-    l.coarse_rhs->doExport(*l.coarse_columns, *importer, Tpetra::ADD);
+    l.coarse_rhs->fill(0.0);
+    tpetra(*l.coarse_rhs).doExport(tpetra(*l.coarse_columns), *importer, Tpetra::ADD);
   }
   cycle(level + 1, *l.coarse_rhs, *l.coarse_solution);
   prolong(level, *l.coarse_solution, l.correction);
-  x.update(1.0, l.correction, 1.0);
+  x.update(1.0, l.correction);
   l.grid.multiply(x, l.rest);
   l.rest.update(1.0, b, -1.0);
   l.smoother.smooth(l.rest, l.correction);
-  x.update(1.0, l.correction, 1.0);
+  x.update(1.0, l.correction);
 }
 
 void Multigrid::apply(const Vector& b, Vector& x) { cycle(0, b, x); }
 
 void Multigrid::weakest_direction(Vector& v) {
-  Vector coarse(coarsest_matrix_->getRowMap());
+  Vector coarse(assembly::rows_of(coarsest_matrix_->getRowMap()));
   coarsest_->weakest_direction(coarse);
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    Vector fine(levels_[level]->grid.matrix()->getRowMap());
+    Vector fine(levels_[level]->rest.rows());
     prolong(level, coarse, fine);
-    coarse = fine;
+    coarse = std::move(fine);
   }
-  v.assign(coarse);
+  v = coarse;
 }
 
 std::vector<long long> Multigrid::sizes() const {

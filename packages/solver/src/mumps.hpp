@@ -1,6 +1,7 @@
 /// One instance of MUMPS, through its C interface.
 #pragma once
 
+#include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 #include <culm/solver/linear_solver.hpp>
 

@@ -15,7 +15,7 @@ namespace culm::solver {
 namespace {
 
 using assembly::CrsMatrix;
-using assembly::values_of;
+using assembly::tpetra;
 
 class MumpsSolver final : public LinearSolver {
  public:
@@ -25,11 +25,11 @@ class MumpsSolver final : public LinearSolver {
         comm_(comm),
         place_(std::move(ordering.place)),
         symmetry_(matrix),
-        rooted_(*matrix->getRowMap(), comm),
+        rooted_(assembly::rows_of(matrix->getRowMap()), comm),
         whole_(comm.is_root() ? matrix->getGlobalNumRows() : 0),
-        columns_(matrix->getColMap()),
-        rest_(matrix->getRowMap()),
-        correction_(matrix->getRowMap()) {}
+        columns_(assembly::rows_of(matrix->getColMap())),
+        rest_(assembly::rows_of(matrix->getRowMap())),
+        correction_(rest_.rows()) {}
 
   std::string name() const override { return "MUMPS"; }
 
@@ -50,18 +50,17 @@ class MumpsSolver final : public LinearSolver {
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
     const auto correct = [&] {
       apply_inverse(*mumps_, rest_, correction_);
-      x.update(1.0, correction_, 1.0);
+      x.update(1.0, correction_);
     };
     const double achieved = refine(
-        check(b, x), correct, [&] { return check(b, x); },
-        [&] { x.update(-1.0, correction_, 1.0); });
+        check(b, x), correct, [&] { return check(b, x); }, [&] { x.update(-1.0, correction_); });
     return {achieved};
   }
 
   Determinant determinant() override { return mumps_ ? mumps_->determinant() : Determinant{}; }
 
   double weakest_direction(Vector& v) override {
-    v.putScalar(0.0);
+    v.fill(0.0);
     const double largest = size();
     if (!std::isfinite(largest) || largest == 0.0) return 0.0;
     const auto shifted = shifted_copy(*matrix_, relative_shift * largest);
@@ -83,17 +82,17 @@ class MumpsSolver final : public LinearSolver {
   }
 
   void apply_inverse(Mumps& mumps, const Vector& b, Vector& x) {
-    rooted_.gather(b, whole_);
+    rooted_.gather(b.values(), whole_);
     mumps.solve(whole_);
-    rooted_.scatter(whole_, x);
+    rooted_.scatter(whole_, x.values());
   }
 
   // Relative residual; leaves b - A x in rest_.
   double check(const Vector& b, const Vector& x) {
     const auto importer = matrix_->getGraph()->getImporter();
-    if (!importer.is_null()) columns_.doImport(x, *importer, Tpetra::INSERT);
+    if (!importer.is_null()) tpetra(columns_).doImport(tpetra(x), *importer, Tpetra::INSERT);
     const Vector& all = importer.is_null() ? x : columns_;
-    const Residual mine = residual(*matrix_, values_of(all), values_of(b), values_of(rest_));
+    const Residual mine = residual(*matrix_, all.values(), b.values(), rest_.values());
     std::array<double, 2> joint = {mine.largest, mine.size};
     comm_.max(joint);
     return Residual{joint[0], joint[1]}.relative();
@@ -118,9 +117,9 @@ std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const CrsMatrix>& ma
   return std::make_unique<MumpsSolver>(matrix, std::move(ordering), comm);
 }
 
-std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const CrsMatrix>& matrix,
+std::unique_ptr<LinearSolver> make_mumps(const std::shared_ptr<const assembly::Matrix>& matrix,
                                          const parallel::Comm& comm) {
-  return make_mumps(matrix, order_rows(*matrix, comm), comm);
+  return make_mumps(tpetra(*matrix), order_rows(*tpetra(*matrix), comm), comm);
 }
 
 }  // namespace culm::solver

@@ -14,28 +14,26 @@ double relative_residual(const assembly::Evaluation& e) {
   return std::max(force, e.constraint_violation);
 }
 
-// How far a linear system is solved where that is iterative: after the first iteration as far as
-// Newton's method will come by itself, so that it still squares the ratio of two residuals, and no
-// further than needed. @source S. C. Eisenstat, H. F. Walker, Choosing the forcing terms in an
-// inexact Newton method, 1996
-double forcing_term(double residual, double before, double tolerance) {
+// How far a linear system is solved where that is iterative: so far that Newton's method hardly
+// notices, and no further than it needs. First solutions of 1e-2 save iterations, but lead thin
+// plates astray, whose soft directions are the last to converge.
+double forcing_term(double residual, double tolerance) {
+  constexpr double finest = 1e-6;
   constexpr double roughest = 1e-2;
   constexpr double enough = 1e-3;  // of the tolerance; what lasts is judged by a hundredth of it
-  const double fall = before > 0.0 ? residual / before : 1.0;
-  const double needed = residual > 0.0 ? enough * tolerance / residual : 1.0;
-  return std::min(roughest, std::max(0.5 * fall * fall, needed));
+  const double needed = residual > 0.0 ? enough * tolerance / residual : roughest;
+  return std::clamp(needed, finest, roughest);
 }
 
 }  // namespace
 
-using assembly::values_of;
 using assembly::Vector;
 
 NewtonGroup::NewtonGroup(std::shared_ptr<NewtonProblem> problem)
     : problem_(std::move(problem)),
-      x_(problem_->system.layout().row_map()),
-      f_(problem_->system.layout().row_map()),
-      newton_(problem_->system.layout().row_map()) {}
+      x_(problem_->system.layout().rows()),
+      f_(problem_->system.layout().rows()),
+      newton_(problem_->system.layout().rows()) {}
 
 NewtonGroup::NewtonGroup(const NewtonGroup& other, NOX::CopyType type)
     : problem_(other.problem_),
@@ -143,7 +141,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
         std::max(evaluation_.constraint_violation, p.condition->violation(*p.state));
   }
   swap_with_state();
-  f_.get().assign(p.system.residual());
+  f_.get() = p.system.residual();
   has_residual_ = evaluation_.verdict == Verdict::ok;
   has_tangent_ = has_residual_ && !without_tangent;
   return has_residual_ ? Ok : Failed;
@@ -178,8 +176,7 @@ bool NewtonGroup::solve_linear() {
     if (is_start && p.stencil.inertia == 0.0) p.first_determinant = p.linear.determinant();
   }
   const Ledger::Scope scope(p.ledger, p.solve_effect);
-  const double goal =
-      forcing_term(relative_residual(evaluation_), p.last_residual, p.settings.force_tolerance);
+  const double goal = forcing_term(relative_residual(evaluation_), p.settings.force_tolerance);
   const LinearResidual residual = p.linear.solve_roughly(f_.get(), newton_.get(), goal);
   p.not_finite = !std::isfinite(residual.size);
   // old factors solve another system; Newton's own residual tells whether they serve
@@ -201,7 +198,7 @@ bool NewtonGroup::solve_level() {
   level_increment_ = p.condition->level_increment(*p.state, newton_.get(), flexibility);
   swap_with_state();
   if (!std::isfinite(level_increment_)) return false;
-  newton_.get().update(level_increment_, flexibility, 1.0);
+  newton_.get().update(level_increment_, flexibility);
   return true;
 }
 
@@ -213,7 +210,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeNewton(Teuchos::ParameterLi
   ++p.iterations;
   newton_.get().scale(-1.0);
   if (p.condition != nullptr && !solve_level()) return Failed;
-  p.largest_increment = newton_.get().normInf();
+  p.largest_increment = newton_.get().largest();
   has_newton_ = std::isfinite(p.largest_increment);
   p.not_finite = !has_newton_;
   return has_newton_ ? Ok : Failed;

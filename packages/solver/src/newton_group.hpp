@@ -10,6 +10,7 @@
 #include <NOX_Abstract_Group.H>
 
 #include <memory>
+#include <optional>
 
 namespace culm::solver {
 
@@ -24,10 +25,10 @@ struct NewtonProblem {
   Ledger::Id solve_effect;
   model::State* state = nullptr;
   Stencil stencil;
-  LevelCondition* condition = nullptr;                    ///< none: the level is given
-  Teuchos::RCP<assembly::Vector> level_gradient = {};     ///< dR/dlevel; made with a condition
-  Teuchos::RCP<assembly::Vector> level_flexibility = {};  ///< likewise
-  Determinant first_determinant = {};                     ///< of the first tangent of a static step
+  LevelCondition* condition = nullptr;                     ///< none: the level is given
+  std::optional<assembly::Vector> level_gradient = {};     ///< dR/dlevel; made with a condition
+  std::optional<assembly::Vector> level_flexibility = {};  ///< likewise
+  Determinant first_determinant = {};  ///< of the first tangent of a static step
   bool has_factors = false;       ///< the linear solver holds factors of a tangent of this analysis
   double factored_inertia = 0.0;  ///< Stencil::inertia of that tangent
   long factorisations = 0;        ///< so far

@@ -197,7 +197,7 @@ NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
       NewtonProblem{system, linear, settings, ledger, factor_effect, solve_effect, nullptr, {}});
   nox_->group = Teuchos::rcp(new NewtonGroup(nox_->problem));
   nox_->balance = Teuchos::rcp(new BalanceTest(*nox_->problem));
-  nox_->origin = Teuchos::rcp(new NewtonVector(system.layout().row_map()));
+  nox_->origin = Teuchos::rcp(new NewtonVector(system.layout().rows()));
   nox_->tests = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
   nox_->tests->addStatusTest(nox_->balance);
   nox_->tests->addStatusTest(Teuchos::rcp(new NOX::StatusTest::MaxIters(settings.max_iterations)));
@@ -212,9 +212,10 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   nox.problem->state = &state;
   nox.problem->stencil = stencil;
   nox.problem->condition = condition;
-  if (condition != nullptr && nox.problem->level_gradient.is_null()) {
-    nox.problem->level_gradient = Teuchos::rcp(new assembly::Vector(nox.origin->get().getMap()));
-    nox.problem->level_flexibility = Teuchos::rcp(new assembly::Vector(nox.origin->get().getMap()));
+  const assembly::Rows& system_rows = nox.origin->get().rows();
+  if (condition != nullptr && !nox.problem->level_gradient) {
+    nox.problem->level_gradient.emplace(system_rows);
+    nox.problem->level_flexibility.emplace(system_rows);
   }
   nox.problem->first_determinant = {};
   nox.problem->singular = nox.problem->not_finite = false;

@@ -7,27 +7,25 @@
 
 namespace culm::solver {
 
-/// Wraps a Tpetra vector. Norms are over all ranks.
+/// Norms are over all ranks.
 class NewtonVector final : public NOX::Abstract::Vector {
  public:
-  explicit NewtonVector(const Teuchos::RCP<const assembly::Map>& map)
-      : vector_(Teuchos::rcp(new assembly::Vector(map))) {}
-  NewtonVector(const NewtonVector& other, NOX::CopyType type)
-      : vector_(Teuchos::rcp(new assembly::Vector(other.vector_->getMap()))) {
-    if (type == NOX::DeepCopy) vector_->assign(*other.vector_);
+  explicit NewtonVector(const assembly::Rows& rows) : vector_(rows) {}
+  NewtonVector(const NewtonVector& other, NOX::CopyType type) : vector_(other.vector_.rows()) {
+    if (type == NOX::DeepCopy) vector_ = other.vector_;
   }
   NewtonVector(const NewtonVector&) = delete;
   // the implicit operator would call the pure virtual one of the base
   NewtonVector& operator=(const NewtonVector& other) {
-    vector_->assign(*other.vector_);
+    vector_ = other.vector_;
     return *this;
   }
   NOX::Abstract::Vector& operator=(const NOX::Abstract::Vector& other) override {
     return *this = cast(other);
   }
 
-  assembly::Vector& get() { return *vector_; }
-  const assembly::Vector& get() const { return *vector_; }
+  assembly::Vector& get() { return vector_; }
+  const assembly::Vector& get() const { return vector_; }
   static const NewtonVector& cast(const NOX::Abstract::Vector& v) {
     return dynamic_cast<const NewtonVector&>(v);
   }
@@ -49,7 +47,11 @@ class NewtonVector final : public NOX::Abstract::Vector {
   NOX::size_type length() const override;
 
  private:
-  Teuchos::RCP<assembly::Vector> vector_;
+  assembly::TpetraVector& own() { return assembly::tpetra(vector_); }
+  const assembly::TpetraVector& own() const { return assembly::tpetra(vector_); }
+  static const assembly::TpetraVector& own(const NOX::Abstract::Vector& v) { return cast(v).own(); }
+
+  assembly::Vector vector_;
 };
 
 }  // namespace culm::solver

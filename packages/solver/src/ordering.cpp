@@ -51,8 +51,8 @@ Ordering order_rows(const assembly::CrsMatrix& matrix, const parallel::Comm& com
   return ordering;
 }
 
-Fill predict_fill(const assembly::CrsMatrix& matrix, const parallel::Comm& comm) {
-  return matrix.getGlobalNumRows() == 0 ? Fill{} : order_rows(matrix, comm).fill;
+Fill predict_fill(const assembly::Matrix& matrix, const parallel::Comm& comm) {
+  return matrix.rows().total() == 0 ? Fill{} : order_rows(*assembly::tpetra(matrix), comm).fill;
 }
 
 }  // namespace culm::solver

@@ -17,12 +17,9 @@ constexpr double no_inertia = 1e-12;
 // Share of the largest stiffness below which nothing resists a motion.
 constexpr double unresisted = 1e-9;
 
-double largest_entry(const assembly::CrsMatrix& matrix, const parallel::Comm& comm) {
-  const auto values = matrix.getLocalMatrixHost().values;
+double largest_entry(const assembly::Matrix& matrix, const parallel::Comm& comm) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < values.extent(0); ++k) {
-    largest = std::max(largest, std::abs(values(k)));
-  }
+  for (const double value : matrix.values()) largest = std::max(largest, std::abs(value));
   return comm.max(largest);
 }
 
@@ -31,7 +28,7 @@ double largest_entry(const assembly::CrsMatrix& matrix, const parallel::Comm& co
 constexpr double useless = 1e-6;
 
 // y = A x of a real matrix.
-Eigen::VectorXcd product(const ShiftInvert& inverse, const assembly::CrsMatrix& A,
+Eigen::VectorXcd product(const ShiftInvert& inverse, const assembly::Matrix& A,
                          const Eigen::VectorXcd& x) {
   Eigen::VectorXd real(x.size()), imaginary(x.size());
   inverse.multiply(A, Eigen::VectorXd(x.real()), real);

@@ -10,16 +10,17 @@ namespace culm::solver {
 using assembly::CrsGraph;
 using assembly::CrsMatrix;
 using assembly::Map;
-using assembly::values_of;
 using assembly::Vector;
 
 RootedMatrix::RootedMatrix(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
-    : distributed_(std::move(matrix)), comm_(comm), rows_(*distributed_->getRowMap(), comm) {
+    : distributed_(std::move(matrix)),
+      comm_(comm),
+      rows_(assembly::rows_of(distributed_->getRowMap()), comm) {
   if (comm_.size() == 1) {
     // only read, but Amesos2 and the shifted copy want a common type
     serial_ = Teuchos::rcp_const_cast<CrsMatrix>(distributed_);
-    rhs_ = Teuchos::rcp(new Vector(serial_->getRowMap()));
-    solution_ = Teuchos::rcp(new Vector(serial_->getRowMap()));
+    rhs_.emplace(assembly::rows_of(serial_->getRowMap()));
+    solution_.emplace(rhs_->rows());
     return;
   }
   plan_gather();
@@ -73,8 +74,8 @@ void RootedMatrix::build_serial(const std::vector<int>& counts,
   graph->expertStaticFillComplete(map, map);
   serial_ = Teuchos::rcp(new CrsMatrix(graph));
   serial_->fillComplete(map, map);
-  rhs_ = Teuchos::rcp(new Vector(map));
-  solution_ = Teuchos::rcp(new Vector(map));
+  rhs_.emplace(assembly::rows_of(map));
+  solution_.emplace(rhs_->rows());
   gathered_values_.resize(columns.size());
 }
 
@@ -90,11 +91,11 @@ void RootedMatrix::gather_values() {
 }
 
 void RootedMatrix::gather_rhs(const Vector& b) {
-  rows_.gather(b, comm_.is_root() ? values_of(*rhs_) : std::span<double>());
+  rows_.gather(b.values(), comm_.is_root() ? rhs_->values() : std::span<double>());
 }
 
 void RootedMatrix::scatter_solution(Vector& x) {
-  rows_.scatter(comm_.is_root() ? values_of(*solution_) : std::span<double>(), x);
+  rows_.scatter(comm_.is_root() ? solution_->values() : std::span<double>(), x.values());
 }
 
 }  // namespace culm::solver

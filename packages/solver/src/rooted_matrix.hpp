@@ -6,6 +6,7 @@
 
 #include "rooted_vector.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace culm::solver {
@@ -33,8 +34,8 @@ class RootedMatrix {
   Teuchos::RCP<const assembly::CrsMatrix> distributed_;
   parallel::Comm comm_;
   Teuchos::RCP<assembly::CrsMatrix> serial_;
-  Teuchos::RCP<assembly::Vector> rhs_;
-  Teuchos::RCP<assembly::Vector> solution_;
+  std::optional<assembly::Vector> rhs_;
+  std::optional<assembly::Vector> solution_;
   parallel::Funnel value_funnel_;
   RootedVector rows_;
   std::vector<std::size_t> value_place_;  ///< gathered value -> value of the serial matrix

@@ -19,7 +19,6 @@ namespace culm::solver {
 namespace {
 
 using assembly::CrsMatrix;
-using assembly::values_of;
 
 // Above it pivots that were not chosen for this matrix are not to be trusted; those that were leave
 // little more than rounding.
@@ -100,8 +99,8 @@ class RootedSolver final : public LinearSolver {
 
  private:
   double solve_on_root() {
-    const auto x = values_of(rooted_.solution());
-    const auto b = values_of(rooted_.rhs());
+    const auto x = rooted_.solution().values();
+    const auto b = std::as_const(rooted_.rhs()).values();
     std::copy(b.begin(), b.end(), x.begin());
     factors_->solve(x);
     const auto check = [&](std::span<double> rest) {
@@ -125,15 +124,15 @@ class RootedSolver final : public LinearSolver {
   double iterate_at_root() {
     const Teuchos::RCP<CrsMatrix>& A = rooted_.matrix();
     Vector& v = rooted_.solution();
-    v.putScalar(0.0);
+    v.fill(0.0);
     const double size = largest_entry(*A);
     if (!std::isfinite(size) || size == 0.0) return 0.0;
     const auto shifted = shifted_copy(*A, relative_shift * size);
     Klu2 klu(*shifted);
     if (!klu.factor()) return 0.0;
     const auto solve = [&](const Vector& b, Vector& x) {
-      x.assign(b);
-      klu.solve(values_of(x));
+      x = b;
+      klu.solve(x.values());
     };
     return inverse_iteration(*A, solve, v) / size;
   }
@@ -148,14 +147,15 @@ class RootedSolver final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_rooted_klu2(const Teuchos::RCP<const CrsMatrix>& matrix,
-                                               const parallel::Comm& comm) {
-  return std::make_unique<RootedSolver<Klu2>>("KLU2", matrix, comm);
+std::unique_ptr<LinearSolver> make_rooted_klu2(
+    const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm) {
+  return std::make_unique<RootedSolver<Klu2>>("KLU2", assembly::tpetra(*matrix), comm);
 }
 
-std::unique_ptr<LinearSolver> make_rooted_block_lu(const Teuchos::RCP<const CrsMatrix>& matrix,
-                                                   const parallel::Comm& comm) {
-  return std::make_unique<RootedSolver<GuardedBlockLu>>("Block LU", matrix, comm);
+std::unique_ptr<LinearSolver> make_rooted_block_lu(
+    const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm) {
+  return std::make_unique<RootedSolver<GuardedBlockLu>>("Block LU", assembly::tpetra(*matrix),
+                                                        comm);
 }
 
 }  // namespace culm::solver

@@ -5,10 +5,11 @@
 #include "one_factorisation.hpp"
 
 #include <cmath>
+#include <vector>
 
 namespace culm::solver {
 
-using assembly::CrsMatrix;
+using assembly::Matrix;
 
 namespace {
 
@@ -22,33 +23,33 @@ namespace {
 
 }  // namespace
 
-Teuchos::RCP<CrsMatrix> combine(
-    const std::vector<std::pair<double, Teuchos::RCP<const CrsMatrix>>>& terms) {
-  const auto sum = Teuchos::rcp(new CrsMatrix(*terms.front().second, Teuchos::Copy));
-  const auto values = sum->getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) *= terms.front().first;
+std::shared_ptr<Matrix> combine(
+    const std::vector<std::pair<double, std::shared_ptr<const Matrix>>>& terms) {
+  const auto sum = std::make_shared<Matrix>(*terms.front().second);
+  const auto values = sum->values();
+  for (double& value : values) value *= terms.front().first;
   for (std::size_t i = 1; i < terms.size(); ++i) {
-    const auto more = terms[i].second->getLocalMatrixHost().values;
-    for (std::size_t k = 0; k < values.extent(0); ++k) values(k) += terms[i].first * more(k);
+    const auto more = terms[i].second->values();
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += terms[i].first * more[k];
   }
   return sum;
 }
 
-ShiftInvert::ShiftInvert(const Teuchos::RCP<CrsMatrix>& factored, const std::string& linear_solver,
+ShiftInvert::ShiftInvert(const std::shared_ptr<Matrix>& factored, const std::string& linear_solver,
                          const parallel::Comm& comm)
     : comm_(comm),
-      whole_(*factored->getRowMap(), comm),
+      whole_(factored->rows(), comm),
       factored_(factored),
       linear_(choose_for_one_factorisation(linear_solver, factored_, comm).solver),
-      in_(factored->getRowMap()),
-      out_(factored->getRowMap()) {
+      in_(factored->rows()),
+      out_(factored->rows()) {
   if (!linear_->factor()) refuse();
 }
 
-void ShiftInvert::multiply(const CrsMatrix& matrix, const ConstColumn& x, Column y) const {
-  whole_.take(x, in_);
-  matrix.apply(in_, out_);
-  whole_.join(out_, y);
+void ShiftInvert::multiply(const Matrix& matrix, const ConstColumn& x, Column y) const {
+  whole_.take(x, in_.values());
+  matrix.multiply(in_, out_);
+  whole_.join(out_.values(), y);
 }
 
 void ShiftInvert::solve(const Vector& x, Vector& y) {
@@ -56,51 +57,39 @@ void ShiftInvert::solve(const Vector& x, Vector& y) {
 }
 
 void ShiftInvert::solve(const ConstColumn& x, Column y) {
-  whole_.take(x, in_);
+  whole_.take(x, in_.values());
   solve(in_, out_);
-  whole_.join(out_, y);
+  whole_.join(out_.values(), y);
 }
 
-Eigen::VectorXd ShiftInvert::absolute(const CrsMatrix& matrix, const Eigen::VectorXd& x) const {
-  const auto local = matrix.getLocalMatrixHost();
-  const auto& columns = *matrix.getColMap();
-  const auto out = assembly::values_of(out_);
-  for (std::size_t row = 0; row < out.size(); ++row) {
-    double sum = 0.0;
-    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
-      sum += std::abs(local.values(k) * x[columns.getGlobalElement(local.graph.entries(k))]);
-    }
-    out[row] = sum;
-  }
+Eigen::VectorXd ShiftInvert::absolute(const Matrix& matrix, const Eigen::VectorXd& x) const {
+  out_.fill(0.0);
+  const auto out = out_.values();
+  matrix.each_entry([&](std::size_t row, long long column, double value) {
+    out[row] += std::abs(value * x[column]);
+  });
   Eigen::VectorXd all(size());
-  whole_.join(out_, all);
+  whole_.join(out, all);
   return all;
 }
 
-double ShiftInvert::quotient(const CrsMatrix& matrix, const Eigen::VectorXd& x) const {
-  const auto local = matrix.getLocalMatrixHost();
-  const auto& columns = *matrix.getColMap();
+double ShiftInvert::quotient(const Matrix& matrix, const Eigen::VectorXd& x) const {
+  std::vector<long double> products(whole_.rows().size(), 0.0L);
+  matrix.each_entry([&](std::size_t row, long long column, double value) {
+    products[row] += static_cast<long double>(value) * x[column];
+  });
   double total = 0.0;
-  for (std::size_t row = 0; row < whole_.rows().size(); ++row) {
-    long double sum = 0.0;
-    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
-      sum += static_cast<long double>(local.values(k)) *
-             x[columns.getGlobalElement(local.graph.entries(k))];
-    }
-    total += x[whole_.rows()[row]] * static_cast<double>(sum);
+  for (std::size_t row = 0; row < products.size(); ++row) {
+    total += x[whole_.rows()[row]] * static_cast<double>(products[row]);
   }
   return comm_.sum(total);
 }
 
-Eigen::MatrixXd ShiftInvert::dense(const CrsMatrix& matrix) const {
+Eigen::MatrixXd ShiftInvert::dense(const Matrix& matrix) const {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size(), size());
-  const auto local = matrix.getLocalMatrixHost();
-  for (std::size_t row = 0; row < whole_.rows().size(); ++row) {
-    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
-      all(whole_.rows()[row], matrix.getColMap()->getGlobalElement(local.graph.entries(k))) =
-          local.values(k);
-    }
-  }
+  matrix.each_entry([&](std::size_t row, long long column, double value) {
+    all(whole_.rows()[row], column) = value;
+  });
   comm_.sum({all.data(), static_cast<std::size_t>(all.size())});
   return all;
 }

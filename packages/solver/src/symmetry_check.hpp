@@ -21,12 +21,12 @@ class SymmetryCheck {
   void multiply();
 
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
-  std::vector<int> diagonal_;    ///< local column of the diagonal entry of each row
-  std::vector<double> weights_;  ///< x, of the local columns
-  std::vector<double> product_;  ///< A x
-  std::vector<double> size_;     ///< |A| |x|
-  assembly::Vector shares_;      ///< what the rows of this rank add to A^T x
-  assembly::Vector transposed_;  ///< A^T x
+  std::vector<int> diagonal_;          ///< local column of the diagonal entry of each row
+  std::vector<double> weights_;        ///< x, of the local columns
+  std::vector<double> product_;        ///< A x
+  std::vector<double> size_;           ///< |A| |x|
+  assembly::TpetraVector shares_;      ///< what the rows of this rank add to A^T x
+  assembly::TpetraVector transposed_;  ///< A^T x
 };
 
 }  // namespace culm::solver

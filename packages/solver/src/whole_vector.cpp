@@ -2,25 +2,21 @@
 
 namespace culm::solver {
 
-using assembly::values_of;
-
-WholeVector::WholeVector(const assembly::Map& map, const parallel::Comm& comm)
-    : comm_(comm), size_(static_cast<int>(map.getGlobalNumElements())) {
-  for (std::size_t row = 0; row < map.getNodeNumElements(); ++row) {
-    rows_.push_back(static_cast<int>(map.getGlobalElement(static_cast<int>(row))));
+WholeVector::WholeVector(const assembly::Rows& rows, const parallel::Comm& comm)
+    : comm_(comm), size_(static_cast<int>(rows.total())) {
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    rows_.push_back(static_cast<int>(rows.global(row)));
   }
 }
 
 void WholeVector::take(const Eigen::Ref<const Eigen::VectorXd>& whole,
-                       assembly::Vector& piece) const {
-  const auto values = values_of(piece);
-  for (std::size_t row = 0; row < rows_.size(); ++row) values[row] = whole[rows_[row]];
+                       std::span<double> piece) const {
+  for (std::size_t row = 0; row < rows_.size(); ++row) piece[row] = whole[rows_[row]];
 }
 
-void WholeVector::join(const assembly::Vector& piece, Eigen::Ref<Eigen::VectorXd> whole) const {
-  const auto values = values_of(piece);
+void WholeVector::join(std::span<const double> piece, Eigen::Ref<Eigen::VectorXd> whole) const {
   if (comm_.size() > 1) whole.setZero();
-  for (std::size_t row = 0; row < rows_.size(); ++row) whole[rows_[row]] = values[row];
+  for (std::size_t row = 0; row < rows_.size(); ++row) whole[rows_[row]] = piece[row];
   if (comm_.size() > 1) comm_.sum({whole.data(), static_cast<std::size_t>(size_)});
 }
 

@@ -2,7 +2,6 @@
 #include <culm/solver/eigen_solver.hpp>
 
 #include <Eigen/Dense>
-#include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,9 +10,7 @@
 namespace culm::solver {
 namespace {
 
-using assembly::CrsMatrix;
-using assembly::GlobalIndex;
-using assembly::Map;
+using assembly::Matrix;
 
 // Chains of unit masses and springs side by side, all alike, so that every value is multiple. One
 // end is held: by nothing, or by a constraint with a multiplier, which is the last unknown of a
@@ -52,12 +49,10 @@ struct Chains {
 class Pencil {
  public:
   explicit Pencil(const Chains& chains) : chains_(chains) {
-    std::vector<GlobalIndex> rows;
-    for (int i = comm_.rank(); i < chains.size(); i += comm_.size()) rows.push_back(i);
-    const auto mpi = Teuchos::rcp(new Teuchos::MpiComm<int>(comm_.handle()));
-    const auto map =
-        Teuchos::rcp(new Map(chains.size(), Teuchos::arrayViewFromVector(rows), 0, mpi));
-    pencil_ = {fill(map, chains.stiffness()), fill(map, chains.mass())};
+    std::vector<long long> mine;
+    for (int i = comm_.rank(); i < chains.size(); i += comm_.size()) mine.push_back(i);
+    const assembly::Rows rows(mine, comm_);
+    pencil_ = {fill(rows, chains.stiffness()), fill(rows, chains.mass())};
   }
 
   EigenPairs solve(EigenSettings settings) const {
@@ -82,24 +77,18 @@ class Pencil {
 
  private:
   // all entries that either matrix has, so that both have one graph
-  Teuchos::RCP<const CrsMatrix> fill(const Teuchos::RCP<const Map>& map,
+  std::shared_ptr<const Matrix> fill(const assembly::Rows& rows,
                                      const Eigen::MatrixXd& dense) const {
     const Eigen::MatrixXd K = chains_.stiffness();
-    const auto matrix = Teuchos::rcp(new CrsMatrix(map, static_cast<std::size_t>(chains_.size())));
-    for (std::size_t row = 0; row < map->getNodeNumElements(); ++row) {
-      const GlobalIndex i = map->getGlobalElement(static_cast<int>(row));
-      std::vector<GlobalIndex> columns;
-      std::vector<double> values;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < chains_.size(); ++i) {
       for (int j = 0; j < chains_.size(); ++j) {
-        if (K(i, j) == 0.0 && i != j) continue;
-        columns.push_back(j);
-        values.push_back(dense(i, j));
+        if (K(i, j) != 0.0 || i == j) entries.emplace_back(i, j, dense(i, j));
       }
-      matrix->insertGlobalValues(i, Teuchos::arrayViewFromVector(columns),
-                                 Teuchos::arrayViewFromVector(values));
     }
-    matrix->fillComplete();
-    return matrix;
+    Eigen::SparseMatrix<double> whole(chains_.size(), chains_.size());
+    whole.setFromTriplets(entries.begin(), entries.end());
+    return std::make_shared<const Matrix>(rows, whole);
   }
 
   Chains chains_;
@@ -107,12 +96,19 @@ class Pencil {
   SymmetricPencil pencil_;
 };
 
-// Copies of matrices keep their graph; Tpetra scales only while it is being filled.
-Teuchos::RCP<CrsMatrix> scaled(const CrsMatrix& matrix, double factor) {
-  const auto copy = Teuchos::rcp(new CrsMatrix(matrix, Teuchos::Copy));
-  const auto values = copy->getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < values.extent(0); ++k) values(k) *= factor;
+std::shared_ptr<Matrix> scaled(const Matrix& matrix, double factor) {
+  const auto copy = std::make_shared<Matrix>(matrix);
+  for (double& value : copy->values()) value *= factor;
   return copy;
+}
+
+// Global row and column of each entry of this rank.
+std::vector<std::pair<long long, long long>> places_of(const Matrix& matrix) {
+  std::vector<std::pair<long long, long long>> places;
+  matrix.each_entry([&](std::size_t row, long long column, double) {
+    places.emplace_back(matrix.rows().global(row), column);
+  });
+  return places;
 }
 
 class EachEigenSolver : public testing::TestWithParam<std::string> {
@@ -231,18 +227,13 @@ TEST_P(EachEigenSolver, FindsBucklingFactorsOfBothSignsWithCopies) {
 TEST(EigenSolver, WidensTheSpaceForFactorsThatLieTogether) {
   const Chains chains{1, 300, true};
   const Pencil pencil(chains);
-  const auto K = Teuchos::rcp(new CrsMatrix(*pencil.matrices().B, Teuchos::Copy));
+  const auto K = scaled(*pencil.matrices().B, 1.0);
   const auto D = scaled(*pencil.matrices().A, -1.0);
-  const auto of_K = K->getLocalMatrixHost();
-  const auto of_D = D->getLocalMatrixHost();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(of_K.numRows()); ++row) {
-    for (auto k = of_K.graph.row_map(row); k < of_K.graph.row_map(row + 1); ++k) {
-      const GlobalIndex i = K->getRowMap()->getGlobalElement(static_cast<int>(row));
-      const GlobalIndex j = K->getColMap()->getGlobalElement(of_K.graph.entries(k));
-      if (i != 300 && j != 300) continue;
-      of_K.values(k) = -of_D.values(k);  // the constraint
-      of_D.values(k) = 0.0;
-    }
+  const auto places = places_of(*K);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (places[k].first != 300 && places[k].second != 300) continue;
+    K->values()[k] = -D->values()[k];  // the constraint
+    D->values()[k] = 0.0;
   }
   const EigenPairs pairs = solve_buckling({K, D, true}, {"Spectra", "KLU2", 3, 0.0}, pencil.comm());
   ASSERT_EQ(pairs.values.size(), 3U);
@@ -269,16 +260,10 @@ TEST_P(EachEigenSolver, FindsDampedAndGyroscopicValues) {
   const Pencil pencil(chains);
   const double a = 0.01, b = 0.3;
   const auto C = scaled(*pencil.matrices().B, a);
-  const auto values = C->getLocalMatrixHost().values;
-  const auto K = pencil.matrices().A->getLocalMatrixHost();
-  const auto& columns = *pencil.matrices().A->getColMap();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(K.numRows()); ++row) {
-    for (auto k = K.graph.row_map(row); k < K.graph.row_map(row + 1); ++k) {
-      const bool border =
-          columns.getGlobalElement(K.graph.entries(k)) == 40 ||
-          pencil.matrices().A->getRowMap()->getGlobalElement(static_cast<int>(row)) == 40;
-      if (!border) values(k) += b * K.values(k);
-    }
+  const auto places = places_of(*C);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const bool border = places[k].first == 40 || places[k].second == 40;
+    if (!border) C->values()[k] += b * pencil.matrices().A->values()[k];
   }
   const ComplexPairs pairs = solve_quadratic({pencil.matrices().A, C, pencil.matrices().B},
                                              settings(4, 1e-3), pencil.comm());
@@ -308,13 +293,10 @@ TEST(EigenSolver, GivesAsManyComplexPairsAsThereAre) {
 TEST(EigenSolver, MeasuresAsymmetry) {
   const Pencil pencil({1, 10, true});
   EXPECT_EQ(asymmetry(pencil.matrices().A, pencil.comm()), 0.0);
-  const auto skew = Teuchos::rcp(new CrsMatrix(*pencil.matrices().A, Teuchos::Copy));
-  const auto local = skew->getLocalMatrixHost();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(local.numRows()); ++row) {
-    if (skew->getRowMap()->getGlobalElement(static_cast<int>(row)) != 3) continue;
-    for (auto k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
-      if (skew->getColMap()->getGlobalElement(local.graph.entries(k)) == 4) local.values(k) += 1e-4;
-    }
+  const auto skew = scaled(*pencil.matrices().A, 1.0);
+  const auto places = places_of(*skew);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (places[k] == std::pair(3LL, 4LL)) skew->values()[k] += 1e-4;
   }
   EXPECT_NEAR(asymmetry(skew, pencil.comm()), 0.5e-4, 1e-8);  // the largest entry of a row is 2
 }

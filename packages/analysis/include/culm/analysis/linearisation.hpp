@@ -10,19 +10,19 @@ namespace culm::analysis {
 /// All viscoelastic branches of one relaxation time, or all forces that follow with one delay.
 struct LinearBranches {
   double time = 0.0;                                     ///< [s]
-  Teuchos::RCP<const assembly::CrsMatrix> stiffness;     ///< if their springs follow at once
-  Teuchos::RCP<const assembly::CrsMatrix> damping = {};  ///< the same by velocities, or null
+  std::shared_ptr<const assembly::Matrix> stiffness;     ///< if their springs follow at once
+  std::shared_ptr<const assembly::Matrix> damping = {};  ///< the same by velocities, or null
 };
 
 /// Tangent and mass about a state, in the unknowns of the system; rows and columns of constraints
 /// border the tangent and are zero in the mass. Those of signals are zero there, too, and in units
 /// of their scales.
 struct Linearisation {
-  Teuchos::RCP<const assembly::CrsMatrix> stiffness;
-  Teuchos::RCP<const assembly::CrsMatrix> mass;
+  std::shared_ptr<const assembly::Matrix> stiffness;
+  std::shared_ptr<const assembly::Matrix> mass;
   /// Of dampers, viscous materials and rotating frames, and of what follows signals or has a rate;
   /// null where there is none.
-  Teuchos::RCP<const assembly::CrsMatrix> damping;
+  std::shared_ptr<const assembly::Matrix> damping;
   /// Viscoelastic ones, then delayed forces, by rising times; relaxed where it is linearised.
   std::vector<LinearBranches> branches;
   double asymmetry = 0.0;      ///< of the stiffness, as solver::asymmetry
@@ -42,13 +42,13 @@ Linearisation linearise(Context& context, const model::State& state,
 
 /// What of the damping belongs to the unknowns of signals, without which they have no motion; null
 /// where there is none. Collective.
-Teuchos::RCP<const assembly::CrsMatrix> rates_of_signals(
-    const assembly::System& system, const Teuchos::RCP<const assembly::CrsMatrix>& damping);
+std::shared_ptr<const assembly::Matrix> rates_of_signals(
+    const assembly::System& system, const std::shared_ptr<const assembly::Matrix>& damping);
 
 /// Whether damping acts between motions, and not only on what follows signals or has a rate.
 /// Collective.
 bool damps_motions(const assembly::System& system,
-                   const Teuchos::RCP<const assembly::CrsMatrix>& damping);
+                   const std::shared_ptr<const assembly::Matrix>& damping);
 
 /// Typical squared frequency of the displacement of single nodes, the geometric mean of K_ii / M_ii
 /// [1/s^2]: orders of magnitude above the first of a structure.

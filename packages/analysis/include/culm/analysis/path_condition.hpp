@@ -67,7 +67,7 @@ class PathCondition final : public solver::LevelCondition {
   /// The tangent at the start of the last attempt; nothing if it had none.
   const std::optional<PathTangent>& tangent() const { return tangent_; }
   /// Finds the tangent from d_f at an equilibrium.
-  void find_tangent(const model::State& state, const assembly::Vector& flexibility);
+  void compute_tangent(const model::State& state, const assembly::Vector& flexibility);
   /// The watched displacement from the reference [m]; 0 without one.
   double watched_displacement(const model::Coordinates& q) const;
 

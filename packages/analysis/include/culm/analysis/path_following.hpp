@@ -55,7 +55,7 @@ class PathFollowing final : public Stepper {
 
   void balance_start();
   /// Tangent of the path and determinant of the stiffness at state.next.
-  std::pair<PathTangent, solver::Determinant> find_tangent();
+  std::pair<PathTangent, solver::Determinant> compute_tangent();
   /// Throws NumericalError if nothing changes with the level, or not what is to be prescribed.
   void refuse_idle_level() const;
   bool is_on_target() const;

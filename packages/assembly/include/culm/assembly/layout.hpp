@@ -1,9 +1,13 @@
-/// Who owns which unknown, the matrix graph, and the places of all items: found once.
+/// Who owns which unknown, the pattern of the matrix, and the places of all items: found once.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
+#include <culm/assembly/matrix.hpp>
 #include <culm/model/model.hpp>
 #include <culm/parallel/comm.hpp>
+
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace culm::assembly {
 
@@ -11,7 +15,7 @@ namespace culm::assembly {
 /// evaluated by every rank that owns one of its rows, so matrices are never communicated.
 class Layout {
  public:
-  /// Builds maps and graph and gives every batch of the model its placement.
+  /// Builds rows and pattern and gives every batch of the model its placement.
   Layout(model::Model& model, const parallel::Comm& comm);
 
   /// A block this rank needs: owned or beside an owned one.
@@ -21,9 +25,11 @@ class Layout {
     bool owned = false;
   };
 
-  const Teuchos::RCP<const Map>& row_map() const { return row_map_; }
-  const Teuchos::RCP<const Map>& column_map() const { return column_map_; }
-  const Teuchos::RCP<const CrsGraph>& graph() const { return graph_; }
+  /// Of the unknowns that this rank owns.
+  const Rows& rows() const { return *rows_; }
+  /// Of the unknowns that its rows depend on: its own with the same numbers, then others.
+  const Rows& columns() const { return *columns_; }
+  const Pattern& pattern() const { return *pattern_; }
   const std::vector<LocalBlock>& local_blocks() const { return local_blocks_; }
   /// Owner of each block of the UnknownTable.
   const std::vector<int>& owners() const { return owners_; }
@@ -34,7 +40,7 @@ class Layout {
   Neighbours couple_blocks(const model::Model& model) const;
   void choose_owners(const model::UnknownTable& unknowns, const Neighbours& neighbours);
   void number_locally(const model::UnknownTable& unknowns, const Neighbours& neighbours);
-  void build_graph(const model::UnknownTable& unknowns, const Neighbours& neighbours);
+  void build_pattern(const model::UnknownTable& unknowns, const Neighbours& neighbours);
   model::Placement place(const model::Batch& batch, const model::UnknownTable& unknowns) const;
   int offset_in_row(int row_block, int column_block) const;
 
@@ -45,9 +51,9 @@ class Layout {
   std::vector<int> local_column_;  ///< first local column of a block, -1 when not here
   /// For owned blocks: the coupled blocks in the order of their columns, and where each run begins.
   std::vector<std::vector<std::pair<int, int>>> runs_;
-  Teuchos::RCP<const Map> row_map_;
-  Teuchos::RCP<const Map> column_map_;
-  Teuchos::RCP<const CrsGraph> graph_;
+  std::optional<Rows> rows_;
+  std::optional<Rows> columns_;
+  std::optional<Pattern> pattern_;
 };
 
 }  // namespace culm::assembly

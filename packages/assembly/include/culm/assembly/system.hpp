@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -45,10 +46,13 @@ struct VelocityFit {
   int equation = -1;    ///< of the model, the one that was violated most; -1 if none was
 };
 
+class ColumnImport;
+
 /// Owns residual and matrix; the model is borrowed.
 class System {
  public:
   System(model::Model& model, const parallel::Comm& comm, Ledger& ledger);
+  ~System();
 
   /// Before each attempt of a step, with the accepted state in state.prev.
   void prepare(const model::State& state, const Stencil& stencil);
@@ -175,8 +179,9 @@ class System {
   /// @return largest change of a coordinate [m, 1]; infinite if they cannot be made to hold
   double project_position(model::State& state, const Solve& solve_mass);
 
-  const Vector& residual() const { return *residual_; }
-  const Teuchos::RCP<const CrsMatrix>& matrix() const { return matrix_view_; }
+  const Vector& residual() const { return residual_; }
+  /// The tangent, or what was asked for in its place, of the last evaluation.
+  const std::shared_ptr<const Matrix>& matrix() const { return matrix_view_; }
   const Layout& layout() const { return layout_; }
   /// Whose blocks this rank owns, eliminated ones with their masters' included; rising.
   const std::vector<int>& owned_nodes() const { return owned_nodes_; }
@@ -199,7 +204,7 @@ class System {
   std::vector<double> drive_speed(model::State& state, double probe);
   template <class Action>
   void each_moving_node(Action action) const;
-  const Vector& import(const Vector& increment);
+  std::span<const double> column_values(const Vector& increment);
 
   model::Model& model_;
   parallel::Comm comm_;
@@ -214,12 +219,10 @@ class System {
   std::vector<int> owned_nodes_;
   std::vector<double> reactions_;           ///< owned ones
   std::vector<double> gathered_reactions_;  ///< all
-  Teuchos::RCP<CrsMatrix> matrix_;
-  Teuchos::RCP<const CrsMatrix> matrix_view_;
-  Teuchos::RCP<Vector> residual_;
-  Teuchos::RCP<Vector> imported_;
-  Teuchos::RCP<const Import> importer_;
-  std::vector<std::size_t> row_begin_;
+  std::shared_ptr<Matrix> matrix_;
+  std::shared_ptr<const Matrix> matrix_view_;
+  Vector residual_;
+  std::unique_ptr<ColumnImport> column_import_;
   std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
   Sampler sampler_;

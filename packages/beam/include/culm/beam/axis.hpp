@@ -5,6 +5,7 @@
 #include <culm/math/types.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,8 @@ struct Orientation {
 Axis place_nodes(const std::vector<Segment>& segments, int intervals,
                  const Orientation& orientation);
 
-/// Span of the first node whose tangent is within a milliradian of `up`; negative if there is none.
-double find_parallel(const std::vector<Segment>& segments, int intervals, const Vec3& up);
+/// Span of the first node whose tangent is within a milliradian of `up`; none if there is none.
+std::optional<double> find_parallel(const std::vector<Segment>& segments, int intervals,
+                                    const Vec3& up);
 
 }  // namespace culm::beam

@@ -20,7 +20,7 @@ struct TablePlace {
 /// Place of `span` among positions that do not descend; constant beyond the ends. Where two
 /// positions are equal the value jumps, and the later one counts.
 /// @pre positions is not empty
-TablePlace find_place(const std::vector<double>& positions, double span);
+TablePlace table_place(const std::vector<double>& positions, double span);
 
 /// Checks positions of a table with `count` values: as many, not descending. Entries outside
 /// [0, 1] are for the schema to refuse.

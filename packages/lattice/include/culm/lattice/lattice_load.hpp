@@ -70,7 +70,7 @@ class LatticeLoad final : public model::MemorylessBatch,
   };
 
   void add_items(const std::vector<SurfaceGrid>& surfaces);
-  void find_apparent_masses();
+  void compute_apparent_masses();
   /// Whether this rank counts what belongs to all items: the one that owns the first.
   bool counts() const;
   static Resultant resultant_of(const Points& forces, const Points& places);

@@ -10,7 +10,7 @@ double machine_memory();
 
 /// Reads --max-memory: a number with kB, MB, GB or TB; machine_memory() if the text is empty.
 /// Throws UsageError.
-double find_memory(const std::string& text);
+double read_memory(const std::string& text);
 
 /// Lets what would take more memory fail in this process with std::bad_alloc, before the system
 /// begins to end processes; the limit is 1 GB at least. @param bytes  [B]

@@ -1,12 +1,13 @@
 /// Eigenvalues near a shift, of large sparse pencils.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
+#include <culm/assembly/matrix.hpp>
 #include <culm/parallel/comm.hpp>
 
 #include <Eigen/Core>
 
 #include <complex>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ namespace culm::solver {
 /// [[K, H^T], [H, 0]]; B is symmetric positive semidefinite and zero in the rows and columns of
 /// constraints, which therefore belong to infinite eigenvalues. @source formulation 5.4 (b)
 struct SymmetricPencil {
-  Teuchos::RCP<const assembly::CrsMatrix> A;
-  Teuchos::RCP<const assembly::CrsMatrix> B;
+  std::shared_ptr<const assembly::Matrix> A;
+  std::shared_ptr<const assembly::Matrix> B;
 };
 
 /// Which eigenvalues, and how.
@@ -60,8 +61,8 @@ EigenPairs solve_eigenproblem(const SymmetricPencil& pencil, const EigenSettings
 /// (K + mu D) x = 0: loads that grow until a structure has no stiffness left against x. Matrices of
 /// one graph; both may be bordered by constraints. @source formulation 5.5
 struct BucklingPencil {
-  Teuchos::RCP<const assembly::CrsMatrix> K;
-  Teuchos::RCP<const assembly::CrsMatrix> D;
+  std::shared_ptr<const assembly::Matrix> K;
+  std::shared_ptr<const assembly::Matrix> D;
   bool is_symmetric = true;  ///< then copies of multiple values are found, too
 };
 
@@ -74,9 +75,9 @@ EigenPairs solve_buckling(const BucklingPencil& pencil, const EigenSettings& set
 
 /// (lambda^2 M + lambda C + K) x = 0 with any real K and C, bordered as in SymmetricPencil.
 struct QuadraticPencil {
-  Teuchos::RCP<const assembly::CrsMatrix> K;
-  Teuchos::RCP<const assembly::CrsMatrix> C;
-  Teuchos::RCP<const assembly::CrsMatrix> M;
+  std::shared_ptr<const assembly::Matrix> K;
+  std::shared_ptr<const assembly::Matrix> C;
+  std::shared_ptr<const assembly::Matrix> M;
 };
 
 /// Finite eigenvalues with their vectors, by their size; of conjugate pairs the one above the real
@@ -98,6 +99,6 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
 
 /// Largest |A_ij - A_ji| over the root of the product of the largest entries of rows i and j: what
 /// is left of symmetry. Collective.
-double asymmetry(const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+double asymmetry(const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm);
 
 }  // namespace culm::solver

@@ -1,7 +1,7 @@
 /// What a sparse factorisation will cost, from the graph alone.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
+#include <culm/assembly/matrix.hpp>
 #include <culm/parallel/comm.hpp>
 #include <culm/parallel/partition.hpp>
 
@@ -23,6 +23,6 @@ struct Fill {
 /// @source J. W. H. Liu, The role of elimination trees in sparse factorization, 1990
 Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place);
 /// The same of a matrix in the order that MUMPS takes, nested dissection. Collective.
-Fill predict_fill(const assembly::CrsMatrix& matrix, const parallel::Comm& comm);
+Fill predict_fill(const assembly::Matrix& matrix, const parallel::Comm& comm);
 
 }  // namespace culm::solver

@@ -1,8 +1,8 @@
 /// Solution of the linear systems of a Newton iteration.
 #pragma once
 
+#include <culm/assembly/matrix.hpp>
 #include <culm/assembly/node_motions.hpp>
-#include <culm/assembly/tpetra.hpp>
 
 #include <functional>
 #include <limits>
@@ -73,7 +73,7 @@ class LinearSolver {
 /// which chooses pivots each time and returns wrong solutions on several ranks (Trilinos 13.2 as
 /// packaged by Debian, pull request 12232).
 std::unique_ptr<LinearSolver> make_rooted_klu2(
-    const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+    const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm);
 
 /// LU of dense blocks on rank 0, for graphs like chains and trees: the unknowns of a node are
 /// eliminated whole, with the multipliers of a joint, and pivots are chosen among them. Where that
@@ -81,13 +81,13 @@ std::unique_ptr<LinearSolver> make_rooted_klu2(
 /// over, so that the same matrices are singular as with it. The solution is the same for any number
 /// of ranks.
 std::unique_ptr<LinearSolver> make_rooted_block_lu(
-    const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& comm);
+    const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm);
 
 /// MUMPS on all ranks, with rows where they are. Its ordering, nested dissection of the graph of
 /// nodes, and its analysis are made once. Solutions are refined where the residual is above 1e-14.
 /// On several ranks sums come together in an order that may change from run to run, and with it
 /// the rounding.
-std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+std::unique_ptr<LinearSolver> make_mumps(const std::shared_ptr<const assembly::Matrix>& matrix,
                                          const parallel::Comm& comm);
 
 /// What an iterative solver wants to know of the model behind the matrix.
@@ -103,7 +103,7 @@ struct ModelBehind {
 /// motions. The grids serve until remember_pivots or restore_pivots is called, or iterations become
 /// many. Each solution is checked; where the iteration does not converge, MUMPS takes over until
 /// then, or NumericalError is thrown if its factors do not fit into the memory.
-std::unique_ptr<LinearSolver> make_iterative(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+std::unique_ptr<LinearSolver> make_iterative(const std::shared_ptr<const assembly::Matrix>& matrix,
                                              ModelBehind model, const parallel::Comm& comm);
 
 /// A solver, and a sentence for reports: its name and why it was taken.
@@ -122,7 +122,7 @@ const std::vector<std::string>& linear_solver_names();
 /// predict_fill. Where the factors would not fit into the memory, it takes the iterative solver.
 /// Collective.
 ChosenSolver choose_linear_solver(const std::string& name,
-                                  const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
+                                  const std::shared_ptr<const assembly::Matrix>& matrix,
                                   const parallel::Comm& comm, const ModelBehind& model = {});
 
 }  // namespace culm::solver
