@@ -66,7 +66,7 @@ class Plate {
     for (int j = 0; j <= n; ++j) {
       model.add_constraint(clamp(j * (n + 1)));
       load->add_force(model::marker_at(j * (n + 1) + n), Vec3(0.0, 0.0, 0.3 / (n + 1)),
-                      load::Frame::space);
+                      load::Axes::space);
     }
     model.add_load(std::move(load));
     model.freeze(model::Form::null_space);

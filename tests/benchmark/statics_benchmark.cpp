@@ -48,7 +48,7 @@ class Cantilever {
     }
     model.add_constraint(clamp());
     auto load = std::make_unique<load::SlotLoad>("Force", model.nodes(), model::Amplitude::ramp());
-    load->add_force(model::marker_at(elements), Vec3(0.0, 100.0, 20.0), load::Frame::space);
+    load->add_force(model::marker_at(elements), Vec3(0.0, 100.0, 20.0), load::Axes::space);
     model.add_load(std::move(load));
     model.freeze(form);
     system = std::make_unique<assembly::System>(model, comm, ledger);

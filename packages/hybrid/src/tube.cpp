@@ -92,20 +92,20 @@ Moduli isotropic_moduli(const material::Material& material, const Options& optio
 
 material::Section tube_section(const Options& options, const material::Material& material) {
   const Moduli moduli = isotropic_moduli(material, options);
-  const material::Shape shape = material::TubeSection::shape(
+  const material::Profile profile = material::TubeSection::profile(
       options.number("Outer Radius"), options.number("Wall Thickness"), moduli.poisson);
   const double G = moduli.young / (2.0 * (1.0 + moduli.poisson));
   const double rho = material.density;
   material::Section section;
-  section.stiffness = material::stiffness_matrix({.EA = moduli.young * shape.area,
-                                                  .GA1 = shape.k1 * G * shape.area,
-                                                  .GA2 = shape.k2 * G * shape.area,
-                                                  .EI1 = moduli.young * shape.I1,
-                                                  .EI2 = moduli.young * shape.I2,
-                                                  .GIp = G * shape.torsion});
+  section.stiffness = material::stiffness_matrix({.EA = moduli.young * profile.area,
+                                                  .GA1 = profile.k1 * G * profile.area,
+                                                  .GA2 = profile.k2 * G * profile.area,
+                                                  .EI1 = moduli.young * profile.I1,
+                                                  .EI2 = moduli.young * profile.I2,
+                                                  .GIp = G * profile.torsion});
   section.mass = material::mass_matrix(
-      {.rhoA = rho * shape.area, .rhoI1 = rho * shape.I1, .rhoI2 = rho * shape.I2});
-  section.outline = shape.outline;
+      {.rhoA = rho * profile.area, .rhoI1 = rho * profile.I1, .rhoI2 = rho * profile.I2});
+  section.outline = profile.outline;
   section.expansion = material.expansion[0];
   return section;
 }

@@ -5,14 +5,14 @@
 namespace culm::load {
 namespace {
 
-void add_type(model::BuilderRegistry& registry, const std::string& type, Schema schema, Frame frame,
+void add_type(model::BuilderRegistry& registry, const std::string& type, Schema schema, Axes axes,
               MakeLoad make) {
   registry.add(type, std::move(schema), [=](const Options& options, model::BuildContext& context) {
     auto function = model::find_function(options, context, "Function", model::Follows::signals);
     if (!function) return;
-    const bool turns = frame == Frame::directors && options.flag("Turning");
+    const bool turns = axes == Axes::directors && options.flag("Turning");
     auto load =
-        make({options, context, effect_of(type, options), *std::move(function), frame, turns});
+        make({options, context, effect_of(type, options), *std::move(function), axes, turns});
     if (load) context.model.add_load(std::move(load));
   });
 }
@@ -20,7 +20,7 @@ void add_type(model::BuilderRegistry& registry, const std::string& type, Schema 
 }  // namespace
 
 Vec3 LoadRequest::components(const Vec3& vector, const model::Marker& point) const {
-  if (turns || frame == Frame::space) return vector;
+  if (turns || axes == Axes::space) return vector;
   Mat3 directors = Mat3::Zero();
   for (std::size_t a = 0; a < point.nodes.size(); ++a) {
     directors += point.weights[a] *
@@ -41,7 +41,7 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
   };
   add_type(registry, type.name,
            schema(type.name, ", fixed in space.", "Components in space at function value 1."),
-           Frame::space, make);
+           Axes::space, make);
   const std::string follower = "Follower " + type.name;
   add_type(registry, follower,
            schema(follower, ", turning with the directors.",
@@ -50,7 +50,7 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
                          "Whether it turns; if not, it keeps the direction that the directors of "
                          "the reference give it.")
                         .optional(true)),
-           Frame::directors, make);
+           Axes::directors, make);
 }
 
 void check_components(const std::string& parameter, const std::vector<int>& nodes,
@@ -71,7 +71,7 @@ void check_components(const Vec3& vector, const Where& where, const std::vector<
 }
 
 void refuse_following_moment(const LoadRequest& request, const std::vector<int>& nodes) {
-  if (request.frame == Frame::space) return;
+  if (request.axes == Axes::space) return;
   for (int node : nodes) {
     if (request.nodes().kind(node) != NodeKind::node6) continue;
     request.context.issues.add(request.options.where(),

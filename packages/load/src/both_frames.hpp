@@ -1,7 +1,7 @@
 /// Loads that come in two types, fixed in space and following the directors.
 #pragma once
 
-#include <culm/load/frame.hpp>
+#include <culm/load/axes.hpp>
 #include <culm/model/build_context.hpp>
 
 #include <memory>
@@ -16,13 +16,13 @@ struct LoadRequest {
   model::BuildContext& context;
   model::Effect effect;
   model::Amplitude function;
-  Frame frame;         ///< of the components in the deck
+  Axes axes;           ///< of the components in the deck
   bool turns = false;  ///< with the directors; if not, it keeps the direction of the reference
 
   Vec3 vector(const std::string& parameter) const { return model::vector(options, parameter); }
-  /// Frame in which the load keeps its components.
-  Frame kept_in() const { return turns ? Frame::directors : Frame::space; }
-  /// Components in that frame, at a point, of a vector of the deck.
+  /// Axes in which the load keeps its components.
+  Axes kept_in() const { return turns ? Axes::directors : Axes::space; }
+  /// Components in those axes, at a point, of a vector of the deck.
   Vec3 components(const Vec3& vector, const model::Marker& point) const;
   Vec3 components(const std::string& parameter, const model::Marker& point) const {
     return components(vector(parameter), point);

@@ -41,7 +41,7 @@ void build(const Options& options, model::BuildContext& context) {
   const model::NodeTable& table = context.model.nodes();
   auto forces = std::make_unique<SlotLoad>(effect, table, always);
   auto moments =
-      std::make_unique<MomentLoad>(effect.of_part("moments"), table, always, Frame::space);
+      std::make_unique<MomentLoad>(effect.of_part("moments"), table, always, Axes::space);
   context.model.add_input(options.name(),
                           std::make_unique<ExternalLoad>(std::move(nodes), *forces, *moments));
   context.model.add_load(std::move(forces));

@@ -10,7 +10,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
   const auto nodes = model::select_loaded_nodes(request.options, "Node", request.context);
   check_components("Offset", nodes, request.options, request.context);
-  if (request.frame == Frame::directors)
+  if (request.axes == Axes::directors)
     check_components("Force", nodes, request.options, request.context);
   for (int node : nodes) {
     model::Marker point = model::marker_at(node);

@@ -13,7 +13,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
   const auto& nodes = points.front().marker.nodes;
   check_components("Offset", nodes, request.options, request.context);
-  if (request.frame == Frame::directors)
+  if (request.axes == Axes::directors)
     check_components("Force", nodes, request.options, request.context);
   for (model::LinePoint point : points) {
     point.marker.offset += request.vector("Offset");

@@ -27,7 +27,7 @@ struct LoadedLine {
 std::unique_ptr<model::Batch> make_forces(const LoadRequest& request, const LoadedLine& line) {
   const std::vector<int>& nodes = line.points.front().marker.nodes;
   check_components("Offset", nodes, request.options, request.context);
-  if (request.frame == Frame::directors) {
+  if (request.axes == Axes::directors) {
     const Where& where = request.options.where(source_of("Forces", request.options));
     check_components(line.largest().head<3>(), where, nodes, request.context);
   }

@@ -156,8 +156,8 @@ void register_spring_and_damper(model::BuilderRegistry& registry, const LinkType
 namespace {
 
 // A direction can turn with a triad only.
-void check_frame(const std::vector<int>& nodes, const std::string& parameter,
-                 const Options& options, model::BuildContext& context) {
+void check_picture(const std::vector<int>& nodes, const std::string& parameter,
+                   const Options& options, model::BuildContext& context) {
   const auto is_frame = [](const auto& field) { return field.name == "Frame"; };
   const auto& all = options.parameters();
   if (std::any_of(all.begin(), all.end(), is_frame) && follows(options)) {
@@ -185,7 +185,7 @@ std::vector<LinkPoint> select_points(const Options& options, model::BuildContext
   if (!nodes) return {};
   check_components("First Offset", {(*nodes)[0]}, options, context);
   check_components("Second Offset", {(*nodes)[1]}, options, context);
-  check_frame({(*nodes)[0]}, "First", options, context);
+  check_picture({(*nodes)[0]}, "First", options, context);
   return {{(*nodes)[0], model::vector(options, "First Offset")},
           {(*nodes)[1], model::vector(options, "Second Offset")}};
 }
@@ -196,7 +196,7 @@ std::vector<LinkPoint> select_ground_points(const Options& options, model::Build
   std::vector<LinkPoint> points;
   const auto nodes = model::select_loaded_nodes(options, "Node", context);
   check_components("Offset", nodes, options, context);
-  check_frame(nodes, "Node", options, context);
+  check_picture(nodes, "Node", options, context);
   for (int node : nodes) {
     points.push_back({node, model::vector(options, "Offset")});
   }

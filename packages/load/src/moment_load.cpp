@@ -21,7 +21,7 @@ NodeMotion::Slots on_slots(const Mat3& forces) {
 }  // namespace
 
 bool MomentLoad::has_tangent() const {
-  return amplitude_.signal() != nullptr || frame_ == Frame::directors ||
+  return amplitude_.signal() != nullptr || axes_ == Axes::directors ||
          form() == model::Form::multipliers ||
          std::any_of(items_.begin(), items_.end(),
                      [this](const Item& item) { return on_shell(item); });
@@ -77,7 +77,7 @@ Verdict MomentLoad::assemble_reduced(std::size_t i, const Motion& motion, double
     derivative << Vec3::Zero(), -motion.unit;
     model::add_signal_column(placement().scatter, i, 0, 1, *signal, theta, derivative, target);
   }
-  if (frame_ == Frame::space) return Verdict::ok;
+  if (axes_ == Axes::space) return Verdict::ok;
   RowMat<6, 6> block = RowMat<6, 6>::Zero();
   block.bottomRightCorner<3, 3>() = theta * skew(motion.next * motion.components);
   placement().scatter.add_tangent(i, 0, 0, block, target);

@@ -56,10 +56,10 @@ SlotLoad::Item& SlotLoad::item_on(const std::vector<int>& nodes) {
   return items_.back();
 }
 
-void SlotLoad::add_force(const model::Marker& point, const Vec3& components, Frame frame) {
+void SlotLoad::add_force(const model::Marker& point, const Vec3& components, Axes axes) {
   Item& item = item_on(point.nodes);
   const Eigen::VectorXd T = point_factors(point);
-  if (frame == Frame::space) {
+  if (axes == Axes::space) {
     item.constant += components * T.transpose();
   } else {
     item.linear += T * follower_factors(point, components).transpose();

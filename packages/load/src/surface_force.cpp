@@ -30,7 +30,7 @@ void build(const Options& options, model::BuildContext& context) {
       const model::Marker marker{{face.nodes.begin(), face.nodes.end()},
                                  {point.N.begin(), point.N.end()},
                                  face.zeta * Vec3::UnitX()};
-      load->add_force(marker, normal.norm() * force, Frame::space);
+      load->add_force(marker, normal.norm() * force, Axes::space);
     }
   }
   context.model.add_load(std::move(load));

@@ -14,7 +14,7 @@ const char* const effect = "Moment";
 void fill(model::Model& model, bool with_slave) {
   model.nodes().add(kit::random_shell_node(10), NodeKind::node6);
   auto load = std::make_unique<MomentLoad>(effect, model.nodes(), model::Amplitude::constant(),
-                                           Frame::space);
+                                           Axes::space);
   load->add_moment(0, moment);
   model.add_load(std::move(load));
   if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));

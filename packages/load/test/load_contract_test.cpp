@@ -29,10 +29,10 @@ model::Marker point_on(int num_nodes) {
   return point;
 }
 
-template <int Nodes, Frame F>
+template <int Nodes, Axes F>
 struct ForceCase {
   static constexpr int num_nodes = Nodes;
-  static constexpr bool follows = F == Frame::directors;
+  static constexpr bool follows = F == Axes::directors;
 
   static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
                                             const model::Amplitude& amplitude) {
@@ -62,7 +62,7 @@ struct CentralForceCase {
   static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
                                             const model::Amplitude& amplitude) {
     auto load = std::make_unique<SlotLoad>("Force", nodes, amplitude);
-    load->add_force(model::marker_at(0), components, Frame::space);
+    load->add_force(model::marker_at(0), components, Axes::space);
     return load;
   }
   static Resultant resultant(const Coordinates& q) {
@@ -77,21 +77,21 @@ struct TwoForcesCase {
   static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
                                             const model::Amplitude& amplitude) {
     auto load = std::make_unique<SlotLoad>("Force", nodes, amplitude);
-    load->add_force(point_on(2), components, Frame::directors);
-    load->add_force(point_on(1), 2.0 * components, Frame::directors);
+    load->add_force(point_on(2), components, Axes::directors);
+    load->add_force(point_on(1), 2.0 * components, Axes::directors);
     return load;
   }
   static Resultant resultant(const Coordinates& q) {
-    const Resultant a = ForceCase<2, Frame::directors>::resultant(q);
-    const Resultant b = ForceCase<1, Frame::directors>::resultant(q);
+    const Resultant a = ForceCase<2, Axes::directors>::resultant(q);
+    const Resultant b = ForceCase<1, Axes::directors>::resultant(q);
     return {a.force + 2.0 * b.force, a.moment + 2.0 * b.moment};
   }
 };
 
-template <Frame F>
+template <Axes F>
 struct MomentCase {
   static constexpr int num_nodes = 1;
-  static constexpr bool follows = F == Frame::directors;
+  static constexpr bool follows = F == Axes::directors;
   static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
                                             const model::Amplitude& amplitude) {
     auto load = std::make_unique<MomentLoad>("Moment", nodes, amplitude, F);
@@ -146,11 +146,11 @@ struct PressureCase {
 };
 
 /// Forces at a point above shell nodes.
-template <Frame F>
+template <Axes F>
 struct ShellForceCase {
   static constexpr NodeKind node_kind(int) { return NodeKind::node6; }
   static constexpr int num_nodes = 4;
-  static constexpr bool follows = F == Frame::directors;
+  static constexpr bool follows = F == Axes::directors;
   static model::Marker point() { return {{0, 1, 2, 3}, {0.1, 0.2, 0.3, 0.4}, 0.3 * Vec3::UnitX()}; }
   static std::unique_ptr<model::Batch> make(const NodeTable& nodes,
                                             const model::Amplitude& amplitude) {
@@ -172,11 +172,11 @@ struct ShellForceCase {
 };
 
 using Cases =
-    testing::Types<CentralForceCase, ForceCase<1, Frame::space>, ForceCase<2, Frame::space>,
-                   ForceCase<4, Frame::space>, ForceCase<1, Frame::directors>,
-                   ForceCase<2, Frame::directors>, ForceCase<4, Frame::directors>, TwoForcesCase,
-                   MomentCase<Frame::space>, MomentCase<Frame::directors>, PressureCase,
-                   ShellForceCase<Frame::space>, ShellForceCase<Frame::directors>>;
+    testing::Types<CentralForceCase, ForceCase<1, Axes::space>, ForceCase<2, Axes::space>,
+                   ForceCase<4, Axes::space>, ForceCase<1, Axes::directors>,
+                   ForceCase<2, Axes::directors>, ForceCase<4, Axes::directors>, TwoForcesCase,
+                   MomentCase<Axes::space>, MomentCase<Axes::directors>, PressureCase,
+                   ShellForceCase<Axes::space>, ShellForceCase<Axes::directors>>;
 
 }  // namespace
 }  // namespace culm::load

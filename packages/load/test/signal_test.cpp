@@ -25,19 +25,19 @@ struct Follower {
   NodeKind kind = NodeKind::node12;
 };
 
-Make force(Frame frame) {
+Make force(Axes axes) {
   return [=](const model::NodeTable& nodes, const model::Amplitude& amplitude) {
     auto load = std::make_unique<SlotLoad>(effect, nodes, amplitude);
     model::Marker point = model::marker_at(0);
     if (nodes.kind(0) == NodeKind::node12) point.offset = Vec3(0.3, 0.1, -0.2);
-    load->add_force(point, components, frame);
+    load->add_force(point, components, axes);
     return load;
   };
 }
 
-Make moment(Frame frame) {
+Make moment(Axes axes) {
   return [=](const model::NodeTable& nodes, const model::Amplitude& amplitude) {
-    auto load = std::make_unique<MomentLoad>(effect, nodes, amplitude, frame);
+    auto load = std::make_unique<MomentLoad>(effect, nodes, amplitude, axes);
     load->add_moment(0, components);
     return load;
   };
@@ -76,12 +76,12 @@ TEST_P(SignalFollowers, TangentIsDerivativeOfResidual) {
 
 INSTANTIATE_TEST_SUITE_P(
     Loads, SignalFollowers,
-    testing::Values(Follower{"DeadForce", force(Frame::space)},
-                    Follower{"FollowerForce", force(Frame::directors)},
-                    Follower{"ShellForce", force(Frame::space), NodeKind::node6},
-                    Follower{"DeadMoment", moment(Frame::space)},
-                    Follower{"FollowerMoment", moment(Frame::directors)},
-                    Follower{"ShellMoment", moment(Frame::space), NodeKind::node6},
+    testing::Values(Follower{"DeadForce", force(Axes::space)},
+                    Follower{"FollowerForce", force(Axes::directors)},
+                    Follower{"ShellForce", force(Axes::space), NodeKind::node6},
+                    Follower{"DeadMoment", moment(Axes::space)},
+                    Follower{"FollowerMoment", moment(Axes::directors)},
+                    Follower{"ShellMoment", moment(Axes::space), NodeKind::node6},
                     Follower{"Drive", drive}),
     [](const auto& tested) { return tested.param.name; });
 

@@ -50,7 +50,7 @@ TEST(Work, OfADeadForceIsForceTimesTheMotionOfItsPoint) {
     auto load = std::make_unique<SlotLoad>("Force", nodes, model::Amplitude::constant());
     model::Marker point = model::marker_at(0);
     point.offset = offset;
-    load->add_force(point, components, Frame::space);
+    load->add_force(point, components, Axes::space);
     return load;
   });
   EXPECT_NEAR(step.work, components.dot(step.next_point - step.prev_point), round_off);
@@ -60,7 +60,7 @@ TEST(Work, OfADeadForceIsForceTimesTheMotionOfItsPoint) {
 TEST(Work, OfAMomentIsMomentTimesCayleyVectorOfTheStep) {
   const Step step = step_with([](const model::NodeTable& nodes) {
     auto load =
-        std::make_unique<MomentLoad>("Moment", nodes, model::Amplitude::constant(), Frame::space);
+        std::make_unique<MomentLoad>("Moment", nodes, model::Amplitude::constant(), Axes::space);
     load->add_moment(0, components);
     return load;
   });

@@ -38,7 +38,7 @@ double shear_factor(double b, double t1, double h, double t, double nu) {
 }  // namespace
 
 // Bredt: torsion = 4 Am^2 / (closed integral of ds / t), Am the area within the midline
-Shape BoxSection::shape(const Walls& w, double nu) {
+Profile BoxSection::profile(const Walls& w, double nu) {
   const double inner_width = w.width - 2.0 * w.web;
   const double inner_height = w.height - 2.0 * w.flange;
   const double outer = w.width * w.height;
@@ -56,7 +56,7 @@ Shape BoxSection::shape(const Walls& w, double nu) {
 
 Schema BoxSection::schema() {
   Schema schema =
-      shape_schema("Box", "Thin-walled rectangular hollow section of one isotropic material.");
+      profile_schema("Box", "Thin-walled rectangular hollow section of one isotropic material.");
   schema.add(number("Width", "m", "Outer side along d1.").positive())
       .add(number("Height", "m", "Outer side along d2.").positive())
       .add(number("Flange Thickness", "m", "Thickness of the walls parallel to d1.").positive())
@@ -80,7 +80,7 @@ Section BoxSection::make(const Options& options) {
                     .height = options.number("Height"),
                     .flange = options.number("Flange Thickness"),
                     .web = options.number("Web Thickness")};
-  Shape box = shape(walls, poisson_ratio(options));
+  Profile box = profile(walls, poisson_ratio(options));
   if (yields(options)) box.fibres = wall_fibres(walls, cells_of(options, {8, 8}));
   return make_section(box, options);
 }

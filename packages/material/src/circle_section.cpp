@@ -5,7 +5,7 @@
 namespace culm::material {
 
 // A = pi r^2 ,  I = pi r^4 / 4 ,  torsion 2 I ,  k = 6 (1 + nu) / (7 + 6 nu)
-Shape CircleSection::shape(double radius, double nu) {
+Profile CircleSection::profile(double radius, double nu) {
   const double r2 = radius * radius;
   const double I = 0.25 * std::numbers::pi * r2 * r2;
   const double k = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu);
@@ -19,14 +19,14 @@ Shape CircleSection::shape(double radius, double nu) {
 }
 
 Schema CircleSection::schema() {
-  Schema schema = shape_schema("Circle", "Solid circular section of one isotropic material.");
+  Schema schema = profile_schema("Circle", "Solid circular section of one isotropic material.");
   schema.add(number("Radius", "m", "Radius of the circle.").positive()).check(check_cells_around);
   return schema;
 }
 
 Section CircleSection::make(const Options& options) {
   const double radius = options.number("Radius");
-  Shape circle = shape(radius, poisson_ratio(options));
+  Profile circle = profile(radius, poisson_ratio(options));
   if (yields(options)) circle.fibres = ring_fibres(0.0, radius, cells_of(options, {24, 6}));
   return make_section(circle, options);
 }

@@ -27,7 +27,7 @@ double rectangle_torsion(double width, double height) {
 }  // namespace
 
 // k = 10 (1 + nu) / (12 + 11 nu) in both directions
-Shape RectangleSection::shape(double width, double height, double nu) {
+Profile RectangleSection::profile(double width, double height, double nu) {
   const double area = width * height;
   const double k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
   return {.area = area,
@@ -40,7 +40,8 @@ Shape RectangleSection::shape(double width, double height, double nu) {
 }
 
 Schema RectangleSection::schema() {
-  Schema schema = shape_schema("Rectangle", "Solid rectangular section of one isotropic material.");
+  Schema schema =
+      profile_schema("Rectangle", "Solid rectangular section of one isotropic material.");
   schema.add(number("Width", "m", "Side along d1.").positive())
       .add(number("Height", "m", "Side along d2.").positive());
   return schema;
@@ -49,7 +50,7 @@ Schema RectangleSection::schema() {
 Section RectangleSection::make(const Options& options) {
   const double width = options.number("Width");
   const double height = options.number("Height");
-  Shape rectangle = shape(width, height, poisson_ratio(options));
+  Profile rectangle = profile(width, height, poisson_ratio(options));
   if (yields(options)) {
     const Vec<2> corner(0.5 * width, 0.5 * height);
     rectangle.fibres = rectangle_fibres(-corner, corner, cells_of(options, {8, 8}));

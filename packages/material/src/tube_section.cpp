@@ -8,7 +8,7 @@ namespace culm::material {
 
 // A = pi (r^2 - q^2) ,  I = pi (r^4 - q^4) / 4 ,  torsion 2 I ,  m = q / r:
 // k = 6 (1 + nu) (1 + m^2)^2 / ( (7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2 )
-Shape TubeSection::shape(double outer_radius, double wall, double nu) {
+Profile TubeSection::profile(double outer_radius, double wall, double nu) {
   const double inner_radius = outer_radius - wall;
   const double r2 = outer_radius * outer_radius;
   const double q2 = inner_radius * inner_radius;
@@ -27,7 +27,7 @@ Shape TubeSection::shape(double outer_radius, double wall, double nu) {
 }
 
 Schema TubeSection::schema() {
-  Schema schema = shape_schema("Tube", "Circular hollow section of one isotropic material.");
+  Schema schema = profile_schema("Tube", "Circular hollow section of one isotropic material.");
   schema.add(number("Outer Radius", "m", "Radius of the outer circle.").positive())
       .add(number("Wall Thickness", "m", "Thickness of the wall.").positive())
       .check(check_cells_around)
@@ -45,7 +45,7 @@ Schema TubeSection::schema() {
 Section TubeSection::make(const Options& options) {
   const double radius = options.number("Outer Radius");
   const double wall = options.number("Wall Thickness");
-  Shape tube = shape(radius, wall, poisson_ratio(options));
+  Profile tube = profile(radius, wall, poisson_ratio(options));
   if (yields(options)) {
     tube.fibres = ring_fibres(radius - wall, radius, cells_of(options, {32, 1}));
   }

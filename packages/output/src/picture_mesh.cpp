@@ -58,11 +58,11 @@ void check_meshes(const std::vector<StructureMesh>& meshes) {
   }
 }
 
-void check_frame(const std::vector<StructureMesh>& meshes, const Frame& frame) {
-  internal_check(frame.structures.size() == meshes.size(), "one state per structure");
+void check_picture(const std::vector<StructureMesh>& meshes, const Picture& picture) {
+  internal_check(picture.structures.size() == meshes.size(), "one state per structure");
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     const StructureMesh& mesh = meshes[s];
-    const StructureState& state = frame.structures[s];
+    const StructureState& state = picture.structures[s];
     const auto demand = [&mesh](bool condition, const char* rule) {
       if (!condition) throw InternalError(fmt::format("state of '{}': {}", mesh.name, rule));
     };

@@ -202,20 +202,20 @@ class Recorder::File {
     give_name(path);
   }
 
-  void record(const Frame& frame) {
-    check_frame(meshes_, frame);
+  void record(const Picture& picture) {
+    check_picture(meshes_, picture);
     file_.take_sum();
-    const Handle step = file_.make_group(steps_.id(), step_name(frame.index));
-    file_.set_attribute(step.id(), "time", frame.time);
-    file_.set_attribute(step.id(), "index", frame.index);
-    file_.set_attribute(step.id(), "analysis", frame.analysis);
-    file_.set_attribute(step.id(), "step", frame.step);
-    const auto values = tables_.values(meshes_, frame.structures);
+    const Handle step = file_.make_group(steps_.id(), step_name(picture.index));
+    file_.set_attribute(step.id(), "time", picture.time);
+    file_.set_attribute(step.id(), "index", picture.index);
+    file_.set_attribute(step.id(), "analysis", picture.analysis);
+    file_.set_attribute(step.id(), "step", picture.step);
+    const auto values = tables_.values(meshes_, picture.structures);
     for (std::size_t t = 0; t < values.size(); ++t) {
       const StateTable& table = tables_.tables()[t];
       file_.write(step.id(), table.name, values[t], table_shape(values[t].size(), table.columns));
     }
-    if (!frame.arrays.empty()) write_arrays(step.id(), frame.arrays);
+    if (!picture.arrays.empty()) write_arrays(step.id(), picture.arrays);
     ++mark_.steps;
     mark_.steps_sum += file_.take_sum();
     if (is_due()) commit();
@@ -450,10 +450,10 @@ Recorder::~Recorder() {
   file_.reset();
 }
 
-void Recorder::record(const Frame& frame) {
+void Recorder::record(const Picture& picture) {
   internal_check(file_ != nullptr, "the recorder is closed");
   const QuietHdf5 quiet;
-  file_->record(frame);
+  file_->record(picture);
 }
 
 void Recorder::add_history(const HistoryRow& row) {

@@ -89,25 +89,25 @@ void Pictures::make_groups() {
   }
 }
 
-void Pictures::add(const Frame& frame) {
-  check_frame(meshes_, frame);
+void Pictures::add(const Picture& picture) {
+  check_picture(meshes_, picture);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     std::vector<VtuGrid> centres;
     std::vector<VtuGrid> skins;
     for (const std::size_t s : group.structures) {
-      centres.push_back(centre_grid(meshes_[s], frame.structures[s], static_cast<int>(s)));
+      centres.push_back(centre_grid(meshes_[s], picture.structures[s], static_cast<int>(s)));
     }
     for (const std::size_t s : group.skinned) {
-      skins.push_back(skin_grid(meshes_[s], frame.structures[s], static_cast<int>(s), skins_[s],
+      skins.push_back(skin_grid(meshes_[s], picture.structures[s], static_cast<int>(s), skins_[s],
                                 reference_skins_[s]));
     }
-    const std::string file = stem(group, frame.index);
-    write_picture(file + ".vtu", vtu_text(merge(centres), frame.time, names_));
-    list(centres_, frame.analysis, collection_entry(frame.time, g, file + ".vtu"));
+    const std::string file = stem(group, picture.index);
+    write_picture(file + ".vtu", vtu_text(merge(centres), picture.time, names_));
+    list(centres_, picture.analysis, collection_entry(picture.time, g, file + ".vtu"));
     if (skins.empty()) continue;
-    write_picture(file + "_skin.vtu", vtu_text(merge(skins), frame.time, names_));
-    list(*skins_listed_, frame.analysis, collection_entry(frame.time, g, file + "_skin.vtu"));
+    write_picture(file + "_skin.vtu", vtu_text(merge(skins), picture.time, names_));
+    list(*skins_listed_, picture.analysis, collection_entry(picture.time, g, file + "_skin.vtu"));
   }
 }
 

@@ -40,12 +40,12 @@ TEST(Recorder, StepsReadBackWhileTheFileIsOpen) {
   const TemporaryFolder folder;
   const std::vector<StructureMesh> meshes = sample_meshes(4);
   Recorder recorder = make_recorder(folder / "run.h5");
-  for (int i = 0; i < 3; ++i) recorder.record(sample_frame(meshes, i));
+  for (int i = 0; i < 3; ++i) recorder.record(sample_picture(meshes, i));
   recorder.commit();
   const auto read = [&](const std::string& name) {
     return read_dataset(folder / "run.h5", "/steps/000002/" + name);
   };
-  const StructureState state = sample_frame(meshes, 2).structures[0];
+  const StructureState state = sample_picture(meshes, 2).structures[0];
   for (std::size_t n = 0; n < 5; ++n) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -160,8 +160,8 @@ TEST(Recorder, PythonReadsTheWholeFile) {
   if (!has_python("h5py")) GTEST_SKIP() << "no h5py";
   const TemporaryFolder folder;
   Recorder recorder = make_recorder(folder / "run.h5");
-  recorder.record(sample_frame(sample_meshes(4), 0));
-  recorder.record(sample_frame(sample_meshes(4), 7));
+  recorder.record(sample_picture(sample_meshes(4), 0));
+  recorder.record(sample_picture(sample_meshes(4), 7));
   recorder.add_history({0.25, std::array{1.0, std::numeric_limits<double>::quiet_NaN()}, 1, 4});
   recorder.write_report("first", {});
   const NamedScalar scalars[] = {{"energy drift", "J", 1e-12}, {"a/b", "", 2.0}};
@@ -212,7 +212,7 @@ TEST(Recorder, WithoutACloseTheFileIsCompleteAllTheSame) {
   {
     Recorder recorder = make_recorder(folder / "run.h5");
     for (int i = 0; i < 50; ++i) {
-      recorder.record(sample_frame(sample_meshes(4), i));
+      recorder.record(sample_picture(sample_meshes(4), i));
       recorder.add_history({1.0 * i, std::array{1.0, 2.0}});
     }
   }
@@ -228,13 +228,13 @@ TEST(Recorder, KilledRunLosesAtMostWhatCameAfterItsLastCommit) {
     const pid_t child = ::fork();
     if (child == 0) {
       Recorder recorder = make_recorder(folder / "run.h5");
-      Frame frame = sample_frame(sample_meshes(4), 1);
-      for (frame.index = 0;; ++frame.index) {
-        recorder.record(frame);
-        recorder.add_history({1.0 * frame.index, std::array{1.0 * frame.index, 0.0}});
-        if (frame.index % 5 != 4) continue;
+      Picture picture = sample_picture(sample_meshes(4), 1);
+      for (picture.index = 0;; ++picture.index) {
+        recorder.record(picture);
+        recorder.add_history({1.0 * picture.index, std::array{1.0 * picture.index, 0.0}});
+        if (picture.index % 5 != 4) continue;
         recorder.commit();
-        if (::write(progress[1], &frame.index, sizeof frame.index) < 0) ::_exit(1);
+        if (::write(progress[1], &picture.index, sizeof picture.index) < 0) ::_exit(1);
       }
     }
     ::close(progress[1]);
@@ -262,7 +262,7 @@ RecordMark write_run(const std::filesystem::path& path, int steps) {
       recorder.write_results({"modes", {{"table", {"f"}, {{1.5}, {2.5}}, {}}}, {}, {}, {}});
       mark = recorder.commit();
     }
-    recorder.record(sample_frame(sample_meshes(4), i));
+    recorder.record(sample_picture(sample_meshes(4), i));
     recorder.add_history({1.0 * i, std::array{10.0 * i, 0.5}});
   }
   recorder.write_report("stopped", {});
@@ -297,7 +297,7 @@ TEST(Recorder, AnEarlierRunGoesOnAsItWasThen) {
     EXPECT_EQ(count_links(path, "/analyses"), 1);
     EXPECT_EQ(read_dataset(path, "/history/values"), recorded.history);
     for (int i = 3; i < 5; ++i) {
-      recorder.record(sample_frame(meshes, i));
+      recorder.record(sample_picture(meshes, i));
       recorder.add_history({1.0 * i, std::array{10.0 * i, 0.5}});
     }
     EXPECT_EQ(find_recorded(path, info.run, recorder.commit()).steps.size(), 5U);
@@ -419,10 +419,10 @@ TEST(Recorder, FullDiskIsAFileErrorAndKeepsEarlierCommits) {
     int code = 1;
     try {
       Recorder recorder = make_recorder(folder / "run.h5");
-      Frame frame = sample_frame(sample_meshes(4), 1);
-      for (frame.index = 0; frame.index < 1000; ++frame.index) {
-        recorder.record(frame);
-        if (frame.index == 2) recorder.commit();
+      Picture picture = sample_picture(sample_meshes(4), 1);
+      for (picture.index = 0; picture.index < 1000; ++picture.index) {
+        recorder.record(picture);
+        if (picture.index == 2) recorder.commit();
       }
     } catch (const FileError& error) {
       code = std::string(error.what()).find("File too large") != std::string::npos ? 6 : 2;
@@ -442,19 +442,19 @@ TEST(Recorder, FullDiskIsAFileErrorAndKeepsEarlierCommits) {
 TEST(Recorder, StepsAreNotOverwritten) {
   const TemporaryFolder folder;
   Recorder recorder = make_recorder(folder / "run.h5");
-  recorder.record(sample_frame(sample_meshes(4), 0));
-  EXPECT_THROW(recorder.record(sample_frame(sample_meshes(4), 0)), FileError);
+  recorder.record(sample_picture(sample_meshes(4), 0));
+  EXPECT_THROW(recorder.record(sample_picture(sample_meshes(4), 0)), FileError);
 }
 
 TEST(Recorder, WrongSizesAreABug) {
   const TemporaryFolder folder;
   Recorder recorder = make_recorder(folder / "run.h5");
-  Frame frame = sample_frame(sample_meshes(4), 0);
-  frame.structures[0].positions.pop_back();
-  EXPECT_THROW(recorder.record(frame), InternalError);
+  Picture picture = sample_picture(sample_meshes(4), 0);
+  picture.structures[0].positions.pop_back();
+  EXPECT_THROW(recorder.record(picture), InternalError);
   EXPECT_THROW(recorder.add_history({0.0, std::array{1.0}}), InternalError);
   recorder.close();
-  EXPECT_THROW(recorder.record(sample_frame(sample_meshes(4), 0)), InternalError);
+  EXPECT_THROW(recorder.record(sample_picture(sample_meshes(4), 0)), InternalError);
   std::vector<StructureMesh> twins = {body_mesh(), body_mesh()};
   EXPECT_THROW(Recorder(folder / "twins.h5", info, twins, {}), InternalError);
 }

@@ -112,17 +112,17 @@ inline StructureState tube_state(const StructureMesh& mesh, double angle) {
 }
 
 /// Step `index` at time index / 10: the tube bent by a quarter of the time, patch and body moved.
-inline Frame sample_frame(const std::vector<StructureMesh>& meshes, int index) {
-  Frame frame{.index = index, .time = 0.1 * index, .structures = {}, .arrays = {}};
-  frame.structures.push_back(tube_state(meshes[0], 2.5 * frame.time));
+inline Picture sample_picture(const std::vector<StructureMesh>& meshes, int index) {
+  Picture picture{.index = index, .time = 0.1 * index, .structures = {}, .arrays = {}};
+  picture.structures.push_back(tube_state(meshes[0], 2.5 * picture.time));
   StructureState patch{meshes[1].positions, meshes[1].triads, {{7.5}}, {}, {{1.5, 2.5}}};
-  for (Vec3& x : patch.positions) x.y() += frame.time;
-  frame.structures.push_back(patch);
+  for (Vec3& x : patch.positions) x.y() += picture.time;
+  picture.structures.push_back(patch);
   StructureState body{meshes[2].positions, meshes[2].triads, {}, {}};
-  body.positions[0].x() -= frame.time;
-  frame.structures.push_back(body);
-  frame.arrays.push_back({"multipliers", 1, {1.0, 2.0, 3.0}});
-  return frame;
+  body.positions[0].x() -= picture.time;
+  picture.structures.push_back(body);
+  picture.arrays.push_back({"multipliers", 1, {1.0, 2.0, 3.0}});
+  return picture;
 }
 
 }  // namespace culm::output

@@ -34,7 +34,7 @@ coordinates = decode(piece.find('Points/DataArray'))
 void write_pictures(const std::filesystem::path& folder, const std::vector<StructureMesh>& meshes,
                     int steps) {
   Pictures pictures(folder, "run", meshes);
-  for (int i = 0; i < steps; ++i) pictures.add(sample_frame(meshes, i));
+  for (int i = 0; i < steps; ++i) pictures.add(sample_picture(meshes, i));
   pictures.write();
 }
 
@@ -43,7 +43,7 @@ TEST(Vtu, APictureThatVanishesOrChangesIsAFileErrorAtTheEnd) {
   const std::vector<StructureMesh> meshes = sample_meshes(2);
   const auto end = [&](auto change) {
     Pictures pictures(folder.path(), "run", meshes);
-    for (int i = 0; i < 3; ++i) pictures.add(sample_frame(meshes, i));
+    for (int i = 0; i < 3; ++i) pictures.add(sample_picture(meshes, i));
     change(folder / "run_vtu/beam_000001.vtu");
     pictures.write();
   };
@@ -82,9 +82,9 @@ TEST(Vtu, CurvesOfHigherOrderHaveBothEndsFirst) {
   mesh.cells = {{CellType::line, {0, 1, 2}}, {CellType::line, {3, 2, 1, 0}}};
   mesh.resultant_names.clear();
   mesh.cell_arrays.clear();
-  Frame frame;
-  frame.structures.push_back({mesh.positions, mesh.triads, {{}, {}}, {}, {}});
-  Pictures(folder.path(), "run", {mesh}).add(frame);
+  Picture picture;
+  picture.structures.push_back({mesh.positions, mesh.triads, {{}, {}}, {}, {}});
+  Pictures(folder.path(), "run", {mesh}).add(picture);
   const std::string text =
       run_python(std::string(decoder) +
                      "print(topology['connectivity'], topology['offsets'], topology['types'])\n",
@@ -111,11 +111,11 @@ TEST(Vtu, StructuresOfOneTypeShareAFileAndMissingDataIsNan) {
   std::vector<StructureMesh> meshes = {patch_mesh(), patch_mesh()};
   meshes[1].name = "other";
   meshes[1].resultant_names = {"q"};
-  Frame frame;
+  Picture picture;
   for (const StructureMesh& mesh : meshes) {
-    frame.structures.push_back({mesh.positions, mesh.triads, {{4.0}}, {}, {{1.0, 2.0}}});
+    picture.structures.push_back({mesh.positions, mesh.triads, {{4.0}}, {}, {{1.0, 2.0}}});
   }
-  Pictures(folder.path(), "run", meshes).add(frame);
+  Pictures(folder.path(), "run", meshes).add(picture);
   const std::string text = run_python(std::string(decoder) + R"(
 print(points, cells, topology['connectivity'], topology['offsets'], cell_data)
 )",
@@ -165,9 +165,9 @@ TEST(Vtu, EachOfSeveralAnalysesHasCollectionsOfItsOwn) {
     EXPECT_FALSE(std::filesystem::exists(folder / "run.modes.pvd")) << "no state is its own";
   };
   write([&](Pictures& pictures, int i, int analysis) {
-    Frame frame = sample_frame(meshes, i);
-    frame.analysis = analysis;
-    pictures.add(frame);
+    Picture picture = sample_picture(meshes, i);
+    picture.analysis = analysis;
+    pictures.add(picture);
   });
   check();
   write(

@@ -21,9 +21,9 @@ void record_run(const TemporaryFolder& folder, int steps) {
   Recorder recorder(folder / "run.h5", {"t", "v", "d"}, meshes, {});
   XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   for (int i = 0; i < steps; ++i) {
-    const Frame frame = sample_frame(meshes, i);
-    recorder.record(frame);
-    xdmf.add_step(frame.index, frame.time);
+    const Picture picture = sample_picture(meshes, i);
+    recorder.record(picture);
+    xdmf.add_step(picture.index, picture.time);
   }
   xdmf.write();
 }

@@ -4,7 +4,7 @@
 #include <culm/output/file_part.hpp>
 #include <culm/output/vtu.hpp>
 
-#include "picture_frames.hpp"
+#include "pictures.hpp"
 
 #include <fmt/format.h>
 
@@ -25,10 +25,10 @@ void animate(const model::Model& model, const analysis::Shape& shape, const std:
     const double part = static_cast<double>(i) / frames_per_period;
     model::Coordinates q = state.next;
     analysis::displace(model, shape, factor, 2.0 * std::numbers::pi * part, q);
-    output::Frame frame = frame_of(model, {}, q);
-    frame.index = i;
-    frame.time = part;
-    pictures.add(frame);
+    output::Picture picture = picture_of(model, {}, q);
+    picture.index = i;
+    picture.time = part;
+    pictures.add(picture);
   }
   pictures.write();
 }

@@ -33,9 +33,9 @@ bool is_finite_node(const output::StructureState& state, std::size_t node) {
 
 bool is_finite(std::span<const double> values) { return find_infinite(values) == nullptr; }
 
-bool is_finite(const output::Frame& frame) {
+bool is_finite(const output::Picture& picture) {
   return std::all_of(
-      frame.structures.begin(), frame.structures.end(), [](const output::StructureState& s) {
+      picture.structures.begin(), picture.structures.end(), [](const output::StructureState& s) {
         const auto is_sound = [](const std::vector<double>& values) { return is_finite(values); };
         for (std::size_t node = 0; node < s.positions.size(); ++node) {
           if (!is_finite_node(s, node)) return false;
@@ -53,11 +53,12 @@ void refuse_infinite(const std::vector<output::HistoryColumn>& columns,
   refuse(fmt::format("The watched '{}'", columns[column].name), *found, when);
 }
 
-void refuse_infinite(const std::vector<output::StructureMesh>& meshes, const output::Frame& frame) {
-  const std::string when = fmt::format("at {:.8g}", frame.time);
+void refuse_infinite(const std::vector<output::StructureMesh>& meshes,
+                     const output::Picture& picture) {
+  const std::string when = fmt::format("at {:.8g}", picture.time);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     const output::StructureMesh& mesh = meshes[s];
-    const output::StructureState& state = frame.structures[s];
+    const output::StructureState& state = picture.structures[s];
     for (std::size_t node = 0; node < state.positions.size(); ++node) {
       if (is_finite_node(state, node)) continue;
       refuse(fmt::format("The position of node {} of '{}'", node, mesh.name),

@@ -12,7 +12,7 @@ namespace culm::simulation {
 
 /// Whether all values are numbers; `absent` is one.
 bool is_finite(std::span<const double> values);
-bool is_finite(const output::Frame& frame);
+bool is_finite(const output::Picture& picture);
 
 /// Throws NonFiniteError that names the first value of a history row that is infinite or not a
 /// number. @param when  for the message, such as "in step 3 of 'bend', at 0.5"
@@ -20,7 +20,7 @@ bool is_finite(const output::Frame& frame);
                                   std::span<const double> values, const std::string& when);
 /// The same for what is drawn of the structures of a model.
 [[noreturn]] void refuse_infinite(const std::vector<output::StructureMesh>& meshes,
-                                  const output::Frame& frame);
+                                  const output::Picture& picture);
 /// The same if there is one among the numbers and tables of an analysis.
 void refuse_infinite(const std::string& analysis, const analysis::AnalysisReport& report);
 

@@ -189,16 +189,16 @@ std::vector<output::StructureMesh> fluid_meshes(const model::Model& model) {
   return meshes;
 }
 
-output::Frame fluid_frame(const model::Model& model, const model::State& at) {
-  output::Frame frame;
+output::Picture fluid_picture(const model::Model& model, const model::State& at) {
+  output::Picture picture;
   for (const LatticeLoad* load : lattices_of(model)) {
-    frame.structures.push_back(panels_state(*load, at.next));
-    frame.structures.push_back(wake_state(*load, at.next));
+    picture.structures.push_back(panels_state(*load, at.next));
+    picture.structures.push_back(wake_state(*load, at.next));
   }
   // in statics time is the load level, and the sea is that at time 0
   const double time = at.velocity.empty() ? 0.0 : at.time;
-  for (const ShownSea& sea : seas_of(model)) frame.structures.push_back(surface_state(sea, time));
-  return frame;
+  for (const ShownSea& sea : seas_of(model)) picture.structures.push_back(surface_state(sea, time));
+  return picture;
 }
 
 }  // namespace culm::simulation

@@ -14,6 +14,6 @@ namespace culm::simulation {
 /// they may get: those that are not there yet lie on the trailing edge.
 std::vector<output::StructureMesh> fluid_meshes(const model::Model& model);
 /// The same at the end of the last accepted step, without index and time.
-output::Frame fluid_frame(const model::Model& model, const model::State& state);
+output::Picture fluid_picture(const model::Model& model, const model::State& state);
 
 }  // namespace culm::simulation

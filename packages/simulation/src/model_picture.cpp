@@ -2,7 +2,7 @@
 
 #include "load_watch.hpp"
 #include "on_root.hpp"
-#include "picture_frames.hpp"
+#include "pictures.hpp"
 
 #include <vector>
 
@@ -62,7 +62,7 @@ void draw_model(const assembly::System& system, const output::RunInfo& info, dou
   }
   on_root(system.comm(), [&] {
     output::Recorder recorder(path, info, meshes, {});
-    recorder.record(frame_of(model, {}, state.next));
+    recorder.record(picture_of(model, {}, state.next));
     recorder.close();
   });
 }

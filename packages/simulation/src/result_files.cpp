@@ -8,7 +8,7 @@
 #include "finite.hpp"
 #include "fluid_pictures.hpp"
 #include "on_root.hpp"
-#include "picture_frames.hpp"
+#include "pictures.hpp"
 
 #include <fmt/format.h>
 
@@ -194,7 +194,7 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
 void ResultFiles::record(double time, int analysis, int step, model::State& state) {
   system_->synchronise(state);
   on_root(system_->comm(), [&] {
-    output::Frame f = frame_of(system_->model(), settings_.layers, state.next);
+    output::Picture f = picture_of(system_->model(), settings_.layers, state.next);
     if (settings_.velocities) add_velocities(system_->model(), state, f);
     f.index = static_cast<int>(frames_);
     f.time = time;
@@ -211,11 +211,11 @@ void ResultFiles::record(double time, int analysis, int step, model::State& stat
 
 // Analyses without the loads that show something have no such picture.
 void ResultFiles::add_fluid(int index, double time, const model::State& state) {
-  output::Frame frame = fluid_frame(system_->model(), state);
-  if (frame.structures.empty()) return;
-  frame.index = index;
-  frame.time = time;
-  files_->fluid->add(frame);
+  output::Picture picture = fluid_picture(system_->model(), state);
+  if (picture.structures.empty()) return;
+  picture.index = index;
+  picture.time = time;
+  files_->fluid->add(picture);
 }
 
 void ResultFiles::add_results(const std::string& name, const analysis::AnalysisReport& report,

@@ -72,6 +72,14 @@ def light_nodes(ratio):
     ]
 
 
+def faulty_partner(fault):
+    """A third partner, at a port of its own, that fails from window 9 on."""
+    return [
+        *parameters("Ports/third", Type="Points", Points="{mast@0.75}"),
+        *parameters("Coupling/Partners/third", Type="Faulty", Port="third", Window=9, Fault=fault),
+    ]
+
+
 def flat_loops():
     """The four-bar loops with all their bars along one line."""
     settings = []
@@ -722,11 +730,18 @@ ILL_POSED = [
     ),
     IllPosed(
         "a partner that dies", "coupling/partners.xml",
-        [
-            *parameters("Ports/third", Type="Points", Points="{mast@0.75}"),
-            *parameters("Coupling/Partners/third", Type="Faulty", Port="third", Window=9),
-        ],
+        faulty_partner("Death"),
         9, "failed in window 9",
+    ),
+    IllPosed(
+        "a partner that answers nonsense", "coupling/partners.xml",
+        faulty_partner("No Number"),
+        9, "it answered nan",
+    ),
+    IllPosed(
+        "a partner that lies about its energy", "coupling/partners.xml",
+        faulty_partner("Wrong Energy"),
+        8, "the interface 'third' makes",
     ),
     IllPosed(
         "steps of many turns", "hard/quick_spin.xml",

@@ -1,7 +1,7 @@
 /// Moments on nodes.
 #pragma once
 
-#include <culm/load/frame.hpp>
+#include <culm/load/axes.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/node_table.hpp>
@@ -22,11 +22,11 @@ namespace culm::load {
 class MomentLoad final : public model::MemorylessBatch {
  public:
   MomentLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
-             Frame frame)
+             Axes axes)
       : MemorylessBatch(std::move(effect)),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
-        frame_(frame) {}
+        axes_(axes) {}
 
   /// @param components  of the moment [N m]; in space where the node is one of a shell
   void add_moment(int node, const Vec3& components) { items_.push_back({{node}, components}); }
@@ -65,14 +65,14 @@ class MomentLoad final : public model::MemorylessBatch {
   bool on_shell(const Item& item) const {
     return nodes_.kind(item.nodes.front()) == NodeKind::node6;
   }
-  bool follows(const Item& item) const { return frame_ == Frame::directors && !on_shell(item); }
+  bool follows(const Item& item) const { return axes_ == Axes::directors && !on_shell(item); }
   template <class Space>
   Verdict assemble_couple(std::size_t i, const model::State& state, const Stencil& stencil,
                           double factor, bool tangent, model::Target& target) const;
 
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
-  Frame frame_;
+  Axes axes_;
   std::vector<Item> items_;
 };
 

@@ -1,7 +1,7 @@
 /// Forces on slots that are constant or linear in the slots.
 #pragma once
 
-#include <culm/load/frame.hpp>
+#include <culm/load/axes.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/projection.hpp>
@@ -26,7 +26,7 @@ class SlotLoad final : public model::Batch {
 
   /// Adds a force at a material point. Points that follow each other on the same nodes share an
   /// item. @param components  of the force [N], or of its share of a force per length
-  void add_force(const model::Marker& point, const Vec3& components, Frame frame);
+  void add_force(const model::Marker& point, const Vec3& components, Axes axes);
   /// Adds constant forces on the slots of a node, shape (3, 4) [N, N m].
   void add_slot_forces(int node, const model::NodeSlots& forces);
   /// Adds a force in space on a node that set_force changes, zero before. @return item

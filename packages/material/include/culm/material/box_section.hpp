@@ -3,7 +3,7 @@
 
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
-#include <culm/material/shape.hpp>
+#include <culm/material/profile.hpp>
 
 namespace culm::material {
 
@@ -20,10 +20,10 @@ struct BoxSection {
   static Schema schema();
   static Section make(const Options& options);
 
-  /// Geometry of the shape: area and moments exact; shear factor of the thin-walled box by Cowper
+  /// Geometry of the profile: area and moments exact; shear factor of the thin-walled box by Cowper
   /// (1966), J. Appl. Mech. 33, 335-340; torsion by the formula of Bredt (1896) on the midline.
   /// @param nu  Poisson ratio [-]
-  static Shape shape(const Walls& walls, double nu);
+  static Profile profile(const Walls& walls, double nu);
 };
 
 }  // namespace culm::material

@@ -3,7 +3,7 @@
 
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
-#include <culm/material/shape.hpp>
+#include <culm/material/profile.hpp>
 
 namespace culm::material {
 
@@ -12,10 +12,10 @@ struct CircleSection {
   static Schema schema();
   static Section make(const Options& options);
 
-  /// Geometry of the shape. Shear factor: Cowper (1966), J. Appl. Mech. 33, 335-340.
+  /// Geometry of the profile. Shear factor: Cowper (1966), J. Appl. Mech. 33, 335-340.
   /// @param radius [m]
   /// @param nu     Poisson ratio [-]
-  static Shape shape(double radius, double nu);
+  static Profile profile(double radius, double nu);
 };
 
 }  // namespace culm::material

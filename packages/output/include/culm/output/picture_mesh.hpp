@@ -102,7 +102,7 @@ struct NamedArray {
 };
 
 /// The whole model at one time.
-struct Frame {
+struct Picture {
   int index = 0;                           ///< number of the recorded step, from 0; increasing
   double time = 0.0;                       ///< s
   int analysis = 0;                        ///< number in the deck, from 0
@@ -135,8 +135,8 @@ struct NamedScalar {
 /// Throws InternalError if a mesh contradicts itself or two meshes share a name.
 void check_meshes(const std::vector<StructureMesh>& meshes);
 
-/// Throws InternalError if the sizes of a frame are not those of the meshes.
-void check_frame(const std::vector<StructureMesh>& meshes, const Frame& frame);
+/// Throws InternalError if the sizes of a picture are not those of the meshes.
+void check_picture(const std::vector<StructureMesh>& meshes, const Picture& picture);
 
 /// Numbers of the directors that are written, of 1, 2, 3.
 std::vector<int> director_numbers(Directors directors);

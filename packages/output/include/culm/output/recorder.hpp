@@ -35,7 +35,7 @@ struct RunInfo {
 /// - /steps/000000: tables position, displacement, director1..3, resultants, node and cell arrays,
 ///   of all structures that have them, one after the other; attributes index, time, number of the
 ///   analysis, step; if numbers of columns differ there is
-///   more than one, as resultants%2F2; whatever Frame::arrays holds in /steps/000000/%arrays
+///   more than one, as resultants%2F2; whatever Picture::arrays holds in /steps/000000/%arrays
 /// - /history/values: one row per add_history(); attributes names, units; first column time, the
 /// last
 ///   two the number of the analysis and the step
@@ -74,7 +74,7 @@ class Recorder {
   ~Recorder();
 
   /// Writes one step. Its index must not have been used before.
-  void record(const Frame& frame);
+  void record(const Picture& picture);
 
   /// Adds a row to the history.
   void add_history(const HistoryRow& row);

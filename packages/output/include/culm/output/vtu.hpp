@@ -35,7 +35,7 @@ class Pictures {
 
   /// Writes the files of one step. The collections may lag behind, see GrowingFile. Throws
   /// FileError.
-  void add(const Frame& frame);
+  void add(const Picture& picture);
 
   /// Lists a step of an earlier run whose files are there; those that are not are left out. Throws
   /// FileError.

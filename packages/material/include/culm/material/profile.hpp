@@ -1,4 +1,4 @@
-/// Homogeneous isotropic sections: a shape filled with a material.
+/// Homogeneous isotropic sections: a profile filled with a material.
 #pragma once
 
 #include <culm/base/options.hpp>
@@ -8,7 +8,7 @@
 namespace culm::material {
 
 /// Geometry of a cross-section about its centroid, axes d1 and d2 being principal.
-struct Shape {
+struct Profile {
   double area = 0.0;     ///< [m^2]
   double I1 = 0.0;       ///< int xi2^2, bending about d1 [m^4]
   double I2 = 0.0;       ///< int xi1^2, bending about d2 [m^4]
@@ -19,15 +19,15 @@ struct Shape {
   std::vector<Fibre> fibres = {};  ///< where it yields
 };
 
-/// The beginning of the schema of a type with a shape: material, placement, the parameters that
-/// override the constants of the shape, and the rules between them.
-Schema shape_schema(std::string type, std::string doc);
+/// The beginning of the schema of a type with a profile: material, placement, the parameters that
+/// override the constants of the profile, and the rules between them.
+Schema profile_schema(std::string type, std::string doc);
 
 /// Poisson's ratio as given, or from both moduli: E / (2 G) - 1 [-].
 double poisson_ratio(const Options& options);
 
-/// The section of a shape: centred, then placed by `Offset` and `Angle`.
-Section make_section(const Shape& shape, const Options& options);
+/// The section of a profile: centred, then placed by `Offset` and `Angle`.
+Section make_section(const Profile& profile, const Options& options);
 
 /// Counter-clockwise regular polygon for the outline of a circle.
 std::vector<Vec<2>> circle_outline(double radius);

@@ -1,7 +1,7 @@
 #include <culm/material/expansion.hpp>
 #include <culm/material/placement.hpp>
 #include <culm/material/plasticity.hpp>
-#include <culm/material/shape.hpp>
+#include <culm/material/profile.hpp>
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ void check_material(const Options& options, InputIssues& issues) {
 
 }  // namespace
 
-Schema shape_schema(std::string type, std::string doc) {
+Schema profile_schema(std::string type, std::string doc) {
   Schema schema(std::move(type), std::move(doc));
   schema.add(number("Young Modulus", "N/m^2", "Modulus of elasticity E.").positive())
       .add(number("Poisson Ratio", "1",
@@ -70,31 +70,31 @@ double poisson_ratio(const Options& options) {
   return options.number("Young Modulus") / (2.0 * options.number("Shear Modulus")) - 1.0;
 }
 
-Section make_section(const Shape& shape, const Options& options) {
+Section make_section(const Profile& profile, const Options& options) {
   const double E = options.number("Young Modulus");
   const double G = shear_modulus(options);
   const double rho = options.number("Density");
-  double k1 = shape.k1;
-  double k2 = shape.k2;
+  double k1 = profile.k1;
+  double k2 = profile.k2;
   if (options.has("Shear Factor")) {
     k1 = options.numbers("Shear Factor")[0];
     k2 = options.numbers("Shear Factor")[1];
   }
   const double torsion =
-      options.has("Torsion Constant") ? options.number("Torsion Constant") : shape.torsion;
+      options.has("Torsion Constant") ? options.number("Torsion Constant") : profile.torsion;
   Section section;
-  section.stiffness = stiffness_matrix({.EA = E * shape.area,
-                                        .GA1 = k1 * G * shape.area,
-                                        .GA2 = k2 * G * shape.area,
-                                        .EI1 = E * shape.I1,
-                                        .EI2 = E * shape.I2,
+  section.stiffness = stiffness_matrix({.EA = E * profile.area,
+                                        .GA1 = k1 * G * profile.area,
+                                        .GA2 = k2 * G * profile.area,
+                                        .EI1 = E * profile.I1,
+                                        .EI2 = E * profile.I2,
                                         .GIp = G * torsion});
-  section.mass =
-      mass_matrix({.rhoA = rho * shape.area, .rhoI1 = rho * shape.I1, .rhoI2 = rho * shape.I2});
-  section.outline = shape.outline;
+  section.mass = mass_matrix(
+      {.rhoA = rho * profile.area, .rhoI1 = rho * profile.I1, .rhoI2 = rho * profile.I2});
+  section.outline = profile.outline;
   section.expansion = options.number("Expansion");
   if (const auto plasticity = read_plasticity(options)) {
-    section.fibres = shape.fibres;
+    section.fibres = profile.fibres;
     section.plasticity = {E, *plasticity};
   }
   return place(section, options);

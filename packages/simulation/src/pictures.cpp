@@ -1,4 +1,4 @@
-#include "picture_frames.hpp"
+#include "pictures.hpp"
 
 #include <culm/model/layer_source.hpp>
 
@@ -143,9 +143,9 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
   return meshes;
 }
 
-output::Frame frame_of(const model::Model& model, const LayerSettings& layers,
-                       const model::Coordinates& q) {
-  output::Frame frame;
+output::Picture picture_of(const model::Model& model, const LayerSettings& layers,
+                           const model::Coordinates& q) {
+  output::Picture picture;
   for (const model::Structure& structure : model.structures()) {
     output::StructureState s;
     read_nodes(structure, q, s.positions, s.triads);
@@ -154,9 +154,9 @@ output::Frame frame_of(const model::Model& model, const LayerSettings& layers,
       if (cell.source != nullptr) cell.source->resultants(cell.item, q, s.resultants.back());
     }
     s.cell_values = layer_values(structure, layers, q);
-    frame.structures.push_back(std::move(s));
+    picture.structures.push_back(std::move(s));
   }
-  return frame;
+  return picture;
 }
 
 void show_velocities(std::vector<output::StructureMesh>& meshes) {
@@ -168,8 +168,9 @@ void show_velocities(std::vector<output::StructureMesh>& meshes) {
   }
 }
 
-void add_velocities(const model::Model& model, const model::State& state, output::Frame& frame) {
-  for (std::size_t i = 0; i < frame.structures.size(); ++i) {
+void add_velocities(const model::Model& model, const model::State& state,
+                    output::Picture& picture) {
+  for (std::size_t i = 0; i < picture.structures.size(); ++i) {
     const model::Structure& structure = model.structures()[i];
     std::vector<double> velocities;
     std::vector<double> spins;
@@ -180,7 +181,7 @@ void add_velocities(const model::Model& model, const model::State& state, output
       const Vec3 own = spin(node, state);
       spins.insert(spins.end(), own.begin(), own.end());
     }
-    auto& values = frame.structures[i].node_values;
+    auto& values = picture.structures[i].node_values;
     values.push_back(std::move(velocities));
     if (!spins.empty()) values.push_back(std::move(spins));
   }

@@ -12,14 +12,14 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
                                              const LayerSettings& layers);
 
 /// The structures in a configuration that is up to date for all nodes; index and time stay zero.
-output::Frame frame_of(const model::Model& model, const LayerSettings& layers,
-                       const model::Coordinates& q);
+output::Picture picture_of(const model::Model& model, const LayerSettings& layers,
+                           const model::Coordinates& q);
 
 /// Makes velocities of nodes [m/s], and angular velocities of those with triads [rad/s], part of
 /// what is shown of the structures.
 void show_velocities(std::vector<output::StructureMesh>& meshes);
 
-/// Adds these numbers to a frame; zero in statics. The state must be up to date for all nodes.
-void add_velocities(const model::Model& model, const model::State& state, output::Frame& frame);
+/// Adds these numbers to a picture; zero in statics. The state must be up to date for all nodes.
+void add_velocities(const model::Model& model, const model::State& state, output::Picture& picture);
 
 }  // namespace culm::simulation

@@ -3,7 +3,7 @@
 namespace culm::load {
 
 /// What the components of a load refer to.
-enum class Frame {
+enum class Axes {
   space,      ///< fixed axes: a dead load
   directors,  ///< the directors of the node, with which the load turns: a follower load
 };
