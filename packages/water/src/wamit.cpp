@@ -10,6 +10,8 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace culm::water {
 namespace {
@@ -59,6 +61,42 @@ int direction(const Row& row, std::size_t column, const std::string& path) {
                    fmt::format("directions are 1 to 6, got {:g}: only one body is read", value));
 }
 
+// Which entries there are of each owner, a period or a heading at it. None may be there twice, and
+// all must have the same ones: what is missing would be zero without a word.
+class Entries {
+ public:
+  explicit Entries(std::string path) : path_(std::move(path)) {}
+
+  void add(const std::string& owner, const std::string& entry, int line) {
+    const auto [first, is_new] = lines_[owner].try_emplace(entry, line);
+    if (is_new) return;
+    throw InputError({path_, line, ""},
+                     fmt::format("has {}{} again, after line {}", entry, owner, first->second));
+  }
+  void require_all() const {
+    std::map<std::string, int> known;
+    for (const auto& [owner, entries] : lines_) known.insert(entries.begin(), entries.end());
+    for (const auto& [owner, entries] : lines_) {
+      for (const auto& [entry, line] : known) {
+        if (entries.contains(entry)) continue;
+        throw InputError({path_, line, ""}, fmt::format("has {} here, but not{}", entry, owner));
+      }
+    }
+  }
+
+ private:
+  std::string path_;
+  std::map<std::string, std::map<std::string, int>> lines_;  // of entries, by owner
+};
+
+std::string entry_of(int i, int j) { return fmt::format("the entry {} {}", i + 1, j + 1); }
+
+// A number of a row in SI units.
+double in_range(double value, const Row& row, const std::string& path) {
+  if (std::isfinite(value)) return value;
+  throw InputError({path, row.line, ""}, "is beyond the range of numbers in SI units");
+}
+
 // A length to the power in which it scales an entry, more by one for each rotation.
 double power(double length, int base, int i, int j) {
   return std::pow(length, base + (i > 2 ? 1 : 0) + (j > 2 ? 1 : 0));
@@ -67,26 +105,32 @@ double power(double length, int base, int i, int j) {
 void read_radiation(const std::string& path, const WamitScale& scale, const Where& asking,
                     PotentialBody& body) {
   std::map<double, Radiation> found;
+  Entries entries(path);
   bool has_limit = false;
   for (const Row& row : read_rows(path, 4, 5, asking)) {
     const int i = direction(row, 1, path), j = direction(row, 2, path);
     const double period = row.values[0];
-    const double mass = scale.density * power(scale.length, 3, i, j) * row.values[3];
+    const double volume = scale.density * power(scale.length, 3, i, j);
+    const double mass = in_range(volume * row.values[3], row, path);
+    if (period >= 0.0) {
+      entries.add(fmt::format(" at the period {} s", period), entry_of(i, j), row.line);
+    }
     if (period == 0.0) {
       body.infinite_mass(i, j) = mass;
       has_limit = true;
     }
     if (period <= 0.0) continue;
     if (row.values.size() < 5) throw InputError({path, row.line, ""}, "must have its damping");
-    const double frequency = turn / period;
+    const double frequency = in_range(turn / period, row, path);
     Radiation& one = found[frequency];
     one.frequency = frequency;
     one.added_mass(i, j) = mass;
-    one.damping(i, j) = scale.density * power(scale.length, 3, i, j) * frequency * row.values[4];
+    one.damping(i, j) = in_range(volume * frequency * row.values[4], row, path);
   }
   if (!has_limit) {
     throw InputError({path, 0, ""}, "lacks the added mass at infinite frequency, of period 0");
   }
+  entries.require_all();
   for (auto& [frequency, one] : found) body.radiation.push_back(one);
 }
 
@@ -95,15 +139,19 @@ void read_excitation(const std::string& path, const WamitScale& scale, const Whe
   constexpr double degree = std::numbers::pi / 180.0;
   std::map<double, std::map<double, Forces>> found;  // by frequency and heading in degrees
   std::set<double> headings;
+  Entries entries(path);
   for (const Row& row : read_rows(path, 7, 7, asking)) {
     const int i = direction(row, 2, path);
     const double period = row.values[0];
     if (period <= 0.0) continue;
-    const auto [place, fresh] =
-        found[turn / period].try_emplace(row.values[1], Forces(Forces::Zero()));
+    entries.add(fmt::format(" at the period {} s and the heading {}", period, row.values[1]),
+                fmt::format("the direction {}", i + 1), row.line);
+    const auto [place, fresh] = found[in_range(turn / period, row, path)].try_emplace(
+        row.values[1], Forces(Forces::Zero()));
     headings.insert(row.values[1]);
-    place->second[i] = scale.density * scale.gravity * power(scale.length, 2, i, 0) *
-                       std::complex<double>(row.values[5], row.values[6]);
+    const double area = scale.density * scale.gravity * power(scale.length, 2, i, 0);
+    place->second[i] = {in_range(area * row.values[5], row, path),
+                        in_range(area * row.values[6], row, path)};
   }
   for (const double heading : headings) body.headings.push_back(degree * heading);
   for (const auto& [frequency, forces] : found) {
@@ -117,6 +165,18 @@ void read_excitation(const std::string& path, const WamitScale& scale, const Whe
       one.forces.push_back(at->second);
     }
     body.excitation.push_back(std::move(one));
+  }
+  entries.require_all();
+}
+
+void read_hydrostatics(const std::string& path, const WamitScale& scale, const Where& asking,
+                       PotentialBody& body) {
+  Entries entries(path);
+  for (const Row& row : read_rows(path, 3, 3, asking)) {
+    const int i = direction(row, 0, path), j = direction(row, 1, path);
+    entries.add("", entry_of(i, j), row.line);
+    body.hydrostatics(i, j) = in_range(
+        scale.density * scale.gravity * power(scale.length, 2, i, j) * row.values[2], row, path);
   }
 }
 
@@ -139,11 +199,7 @@ PotentialBody read_wamit(const std::string& path, const WamitScale& scale, const
   PotentialBody body;
   read_radiation(path, scale, asking, body);
   read_excitation(name + ".3", scale, asking, body);
-  for (const Row& row : read_rows(name + ".hst", 3, 3, asking)) {
-    const int i = direction(row, 0, name + ".hst"), j = direction(row, 1, name + ".hst");
-    body.hydrostatics(i, j) =
-        scale.density * scale.gravity * power(scale.length, 2, i, j) * row.values[2];
-  }
+  read_hydrostatics(name + ".hst", scale, asking, body);
   return body;
 }
 

@@ -79,7 +79,8 @@ class WamitFiles : public testing::Test {
   WamitFiles() : folder_(std::filesystem::path(testing::TempDir()) / "culm wamit") {
     std::filesystem::create_directories(folder_);
     write("1",
-          "0 1 1 2.0\n-1 1 1 9.0\n6.283185307179586 1 1 3.0 0.5\n6.283185307179586 1 5 4.0 0.25\n");
+          "0 1 1 2.0\n0 1 5 1.0\n-1 1 1 9.0\n6.283185307179586 1 1 3.0 0.5\n6.283185307179586 1 5 "
+          "4.0 0.25\n");
     write("3",
           "6.283185307179586 0 1 5 0 3.0 4.0\n6.283185307179586 90 1 1 0 1.0 0.0\n"
           "3.141592653589793 0 1 7 0 7.0 0.0\n3.141592653589793 90 1 1 0 1.0 0.0\n");
@@ -132,6 +133,32 @@ TEST_F(WamitFiles, MistakesHaveTheirPlace) {
   write("1", "0 1 1 2.0\n6.28 1 1 3.0 0.5\n");
   write("3", "6.28 0 1 5 0 3.0 4.0\n3.14 90 1 5 0 3.0 4.0\n");
   EXPECT_THAT(message(), HasSubstr("body.3: lacks the heading 90 at the period 6.28 s"));
+}
+
+// What is missing would be zero, and of what is there twice the last would count.
+TEST_F(WamitFiles, NothingIsMissingOrThereTwice) {
+  write("1", "0 1 1 2.0\n6.28 1 1 3.0 0.5\n3.14 1 1 3.0 0.5\n3.14 5 5 3.0 0.5\n");
+  EXPECT_THAT(message(), HasSubstr("body.1:4: has the entry 5 5 here, but not at the period 0 s"));
+  write("1", "0 1 1 2.0\n6.28 1 1 3.0 0.5\n6.28 1 1 99 0.5\n");
+  EXPECT_THAT(message(), HasSubstr("body.1:3: has the entry 1 1 at the period 6.28 s again, after "
+                                   "line 2"));
+  write("1", "0 1 1 2.0\n6.28 1 1 3.0 0.5\n");
+  write("3", "6.28 0 1 5 0 3.0 4.0\n3.14 0 1 5 0 3.0 4.0\n3.14 0 5 5 0 3.0 4.0\n");
+  EXPECT_THAT(message(), HasSubstr("body.3:3: has the direction 5 here, but not at the period 6.28 "
+                                   "s and the heading 0"));
+  write("3", "6.28 0 1 5 0 3.0 4.0\n6.28 0 1 5 0 9.0 4.0\n");
+  EXPECT_THAT(message(), HasSubstr("body.3:2: has the direction 1 at the period 6.28 s and the "
+                                   "heading 0 again, after line 1"));
+  write("3", "6.28 0 1 5 0 3.0 4.0\n");
+  write("hst", "3 3 10.0\n3 3 99\n");
+  EXPECT_THAT(message(), HasSubstr("body.hst:2: has the entry 3 3 again, after line 1"));
+}
+
+TEST_F(WamitFiles, NumbersStayInRange) {
+  write("1", "0 1 1 2.0\n1e-320 1 1 3.0 0.5\n");
+  EXPECT_THAT(message(), HasSubstr("body.1:2: is beyond the range of numbers in SI units"));
+  write("1", "0 1 1 2.0\n6.28 1 1 1e308 0.5\n");
+  EXPECT_THAT(message(), HasSubstr("body.1:2: is beyond the range of numbers in SI units"));
 }
 
 }  // namespace
