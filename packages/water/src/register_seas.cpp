@@ -98,14 +98,18 @@ Wave wave_of(double amplitude, double period, double phase) {
 
 // Waves higher than this share of their length, or of the depth, have broken.
 // @source Miche (1944): H < 0.142 L tanh kd
-void check_regular(const Options& options, InputIssues& issues) {
-  const double k = wave_number(turn / options.number("Period"), options.number("Depth"),
-                               options.number("Gravity"));
-  const double limit = 0.142 * turn / k * std::tanh(k * options.number("Depth"));
-  if (options.number("Height") <= limit) return;
-  issues.add(options.where("Height"),
-             fmt::format("waves of this period break above {:.4g} m, got {:g} m", limit,
-                         options.number("Height")));
+std::string breaking(double height, double period, const Options& options) {
+  const double depth = options.number("Depth");
+  const double k = wave_number(turn / period, depth, options.number("Gravity"));
+  const double limit = 0.142 * turn / k * std::tanh(k * depth);
+  if (std::abs(height) <= limit) return {};
+  return fmt::format("waves of this period break above {:.4g} m, got {:g} m", limit, height);
+}
+
+// Of a sea that waves of one height and period stand for.
+void check_height(const Options& options, InputIssues& issues) {
+  const std::string text = breaking(options.number("Height"), options.number("Period"), options);
+  if (!text.empty()) issues.add(options.where("Height"), text);
 }
 
 void register_regular(flow::FlowRegistry& registry) {
@@ -117,7 +121,7 @@ void register_regular(flow::FlowRegistry& registry) {
           .add(number("Phase", "rad",
                       "At 0 a crest is at the origin at the start; with more, it comes later.")
                    .optional(0.0))
-          .check(check_regular),
+          .check(check_height),
       [](const Options& options, model::BuildContext&) {
         return make_sea(options, {wave_of(0.5 * options.number("Height"), options.number("Period"),
                                           options.number("Phase"))});
@@ -141,6 +145,8 @@ void check_irregular(const Options& options, InputIssues& issues) {
   if (options.text("Spectrum") == "Pierson Moskowitz" && options.has("Peak")) {
     issues.add(options.where("Peak"), "is 1 in a spectrum of Pierson and Moskowitz; leave it out");
   }
+  // the mean of the highest third of its waves
+  check_height(options, issues);
 }
 
 std::vector<Wave> read_irregular(const Options& options) {
@@ -187,12 +193,20 @@ void register_irregular(flow::FlowRegistry& registry) {
 }
 
 void check_components(const Options& options, InputIssues& issues) {
-  const std::size_t count = options.numbers("Periods").size();
+  const std::vector<double>& periods = options.numbers("Periods");
+  const std::size_t count = periods.size();
   for (const char* name : {"Heights", "Phases", "Turns"}) {
     if (!options.has(name) || options.numbers(name).size() == count) continue;
     issues.add(options.where(name),
                fmt::format("must have one value for each of {} 'Periods', got {}", count,
                            options.numbers(name).size()));
+  }
+  const std::vector<double>& heights = options.numbers("Heights");
+  if (heights.size() != count) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string text = breaking(heights[i], periods[i], options);
+    if (!text.empty())
+      issues.add(options.where("Heights"), fmt::format("item {}: {}", i + 1, text));
   }
 }
 

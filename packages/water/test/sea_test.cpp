@@ -124,6 +124,11 @@ TEST(RegularWaves, BreakAndAreRefused) {
               ElementsAre(HasSubstr("break above 4.004")));
 }
 
+TEST(IrregularWaves, BreakAndAreRefused) {
+  EXPECT_THAT(mistakes("Irregular Waves", {{"Depth", 30.0}, {"Height", 100.0}, {"Period", 9.0}}),
+              ElementsAre(HasSubstr("break above 15.32")));
+}
+
 // @source fluids C17
 TEST(Spectrum, KnownNumbers) {
   const SeaState young{6.0, 10.0, 3.3}, grown{6.0, 10.0, 1.0};
