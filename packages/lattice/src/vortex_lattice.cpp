@@ -2,11 +2,13 @@
 #include <culm/lattice/register_lattice.hpp>
 #include <culm/model/size_budget.hpp>
 
+#include "placement.hpp"
 #include "surfaces.hpp"
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace culm::lattice {
@@ -95,16 +97,25 @@ void build(const Options& options, flow::FluidContext& context) {
     mirror->normalize();
   }
   std::vector<SurfaceGrid> surfaces;
+  std::vector<std::string> names;
   bool is_sound = flow != nullptr;
   for (const Options& entry : options.list("Surfaces").entries()) {
     auto surface = read_surface(entry, context.build);
     is_sound = is_sound && surface;
     if (surface) surfaces.push_back(std::move(*surface));
+    names.push_back(entry.name());
   }
   if (!is_sound) return;
-  context.build.model.add_load(std::make_unique<LatticeLoad>(
-      model::Effect("Vortex Lattice", options.name()), context.build.model.nodes(),
-      std::move(surfaces), mirror, flow, setting_of(options)));
+  const model::NodeTable& nodes = context.build.model.nodes();
+  auto load = std::make_unique<LatticeLoad>(model::Effect("Vortex Lattice", options.name()), nodes,
+                                            std::move(surfaces), mirror, flow, setting_of(options));
+  if (const auto wrong =
+          find_misplaced(load->lattice().bound(), load->grid(nodes.reference()), names)) {
+    context.build.issues.add(options.list("Surfaces").entries()[wrong->surface].where(),
+                             wrong->text);
+    return;
+  }
+  context.build.model.add_load(std::move(load));
 }
 
 }  // namespace
