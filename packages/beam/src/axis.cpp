@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 namespace culm::beam {
 
 namespace {
@@ -55,7 +57,8 @@ std::optional<double> find_parallel(const std::vector<Segment>& segments, int in
   std::optional<double> found;
   for_each_node(segments, intervals, [&](const Segment& segment, int, double s, double span) {
     const double sine = segment.curve.tangent(s).cross(up).norm() / up.norm();
-    if (!found && !(sine > 1e-3)) found = span;
+    // an axis beyond the range of numbers has no places
+    if (!found && !(sine > 1e-3) && std::isfinite(span)) found = span;
   });
   return found;
 }
