@@ -63,6 +63,9 @@ def is_imported(folder, _):
     return "" if found == wanted else f"there is {found}"
 
 
+AIR = pathlib.Path(__file__).resolve().parents[2] / "inputs/air"
+
+
 def is_version(_, stdout):
     lines = r"\d+\.\d+\.\d+\ncommit: ([0-9a-f]{7,}(-dirty)?|unknown)\nbuild: \w+, .+\ndeck format: \d+\n"
     return "" if re.fullmatch(lines, stdout) else f"'{stdout}' is no version"
@@ -516,6 +519,32 @@ CASES = [
         says=["check units and load functions"],
         leaves=["out"],
         ranks=True,
+    ),
+    Case(
+        "wind beyond the range of numbers",
+        5,
+        deck=(AIR / "typical_section.xml").read_text(),
+        args="run deck.xml --output out --quiet --set V=1e200",
+        says=["The mass is not finite at the beginning of the motion.", "check units and functions"],
+        leaves=["out"],
+    ),
+    Case(
+        "flutter in a wind that is always the same",
+        8,
+        deck=(AIR / "goland_flutter.xml").read_text(),
+        args="run deck.xml --output out --quiet --strict --set Flows/air/Function=Constant",
+        says=["the modes are the same at all levels of 'Flutter': nothing that acts on them changes"],
+        leaves=["out"],
+    ),
+    Case(
+        "airfoil from a file without rows",
+        3,
+        deck=(AIR / "typical_section.xml")
+        .read_text()
+        .replace('value="Thin"/>', 'value="Polar"/>\n      <Parameter name="File Name" value="polar.csv"/>'),
+        files={"polar.csv": ""},
+        args="check deck.xml",
+        errors=["polar.csv: a polar needs at least three angles, got 0"],
     ),
     Case("check, quiet", 0, args="check deck.xml --quiet", silent=True),
     Case(

@@ -23,6 +23,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_growth = 1e-6;
 constexpr double precision = 1e-6;  // of a level, relative
 constexpr int most_trials = 60;
+// of eigenvalues between levels, relative; below it they are the same but for rounding
+constexpr double least_change = 1e-10;
 
 // The mode that grows most, or decays least, of those of one kind.
 struct Growth {
@@ -105,6 +107,17 @@ Growth close_in(Crossing& crossing, ModeDiagram& diagram, model::State& state) {
   return last;
 }
 
+// How far eigenvalues are from those of another level, over the largest of these.
+double change_of(const ModeSet& here, const ModeSet& there) {
+  if (here.modes.size() != there.modes.size()) return infinity;
+  double change = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < here.modes.size(); ++i) {
+    change = std::max(change, std::abs(here.modes[i].eigenvalue - there.modes[i].eigenvalue));
+    size = std::max(size, std::abs(there.modes[i].eigenvalue));
+  }
+  return size > 0.0 ? change / size : infinity;
+}
+
 }  // namespace
 
 Schema Flutter::schema() {
@@ -128,10 +141,20 @@ AnalysisReport Flutter::inspect(Context& context, model::State& state) {
   ModeDiagram diagram(context, settings_.modes, settings_.newton, "flutter");
   Crossing crossings[] = {{"flutter", flutter_of, {}}, {"divergence", divergence_of, {}}};
   state.time = state.time_prev = std::min(state.time, settings_.levels.front());
+  std::optional<ModeSet> first;
+  double largest_change = settings_.levels.size() > 1 ? 0.0 : infinity;
   for (double level : settings_.levels) {
     const ModeSet set = diagram.find(state, level);
+    if (!first) first = set;
+    largest_change = std::max(largest_change, change_of(set, *first));
     diagram.add(state, set);
     for (Crossing& crossing : crossings) crossing.see(level, set);
+  }
+  if (largest_change < least_change) {
+    context.findings.warn("levels",
+                          "the modes are the same at all levels of 'Flutter': nothing that acts on "
+                          "them changes with the level. Give the flow a 'Function' that does",
+                          state.time);
   }
   AnalysisReport report;
   report.text = diagram.text();

@@ -200,7 +200,12 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   const std::vector<double> speed = drive_speed(state, probe);
   const Evaluation found = evaluate(state, Stencil::statics(), Want::mass);
-  internal_check(found.verdict == Verdict::ok, "a mass matrix is not finite");
+  if (found.verdict != Verdict::ok) {
+    throw NonFiniteError(
+        "The mass is not finite at the beginning of the motion.\n"
+        "Likely cause: a mass, a length, a damping or a flow beyond the range of numbers.\n"
+        "Try: check units and functions.");
+  }
   const model::UnknownTable& unknowns = model_.unknowns();
   const bool null_space = unknowns.form() == model::Form::null_space;
   Vector velocity(layout_.rows());

@@ -247,9 +247,13 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   flow::FluidContext fluids(context, make_flows(catalogue.flows, deck.list("Flows"), context),
                             memory);
   strip::StripContext strips(fluids, make_all(catalogue.airfoils, deck.list("Airfoils"), issues));
+  // an airfoil whose file is wrong is no unknown one
+  issues.throw_if_any();
   build_loads(catalogue, deck.list("Loads"), setting.inactive, strips);
   auto ports = make_ports(catalogue, deck.list("Ports"), context);
   build_all(catalogue.initial_conditions, deck.list("Initial Conditions"), context);
+  // nor is a load that could not be made
+  issues.throw_if_any();
   auto watched =
       make_quantities(catalogue, deck.list("Output").list("History"), setting.inactive, context);
   issues.throw_if_any();
