@@ -14,6 +14,7 @@ from .ready_deck import ReadyDeck
 
 FILE = "st file with sections, or .htc"
 UPPER = numpy.triu_indices(6)
+FARTHEST = 1e100  # m, and degrees; squares of more would leave the range of numbers
 
 
 def declare(parser):
@@ -148,7 +149,9 @@ def _body(path, name, findings):
     if count is not None and (len(count[1]) < 2 or integer(count[1][1], count[0]) != len(table)):
         refuse(count[0], f"nsec does not fit: {len(table)} places are there")
     table = numpy.array(table).reshape(-1, 4)
-    if len(table) < 2 or (numpy.linalg.norm(numpy.diff(table[:, :3], axis=0), axis=1) == 0.0).any():
+    if (numpy.abs(table) > FARTHEST).any():
+        refuse(axis[0].place, f"c2_def has a place or a twist beyond {FARTHEST:g}")
+    if len(table) < 2 or (numpy.diff(table[:, :3], axis=0) == 0.0).all(axis=1).any():
         refuse(axis[0].place, "c2_def needs at least two places, each elsewhere than the one before")
     st_path = path.parent / file[1][1].replace("\\", "/")
     stations = read_stations(st_path, *numbers)
