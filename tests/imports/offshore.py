@@ -247,6 +247,31 @@ def moordyn(imports):
     imports.check("MoorDyn, H and V of line 1 [N]", [history["line 1 H [N]"], history["line 1 V [N]"]], [H, V], 1e-8)
 
 
+def monopile(imports):
+    """All modules of a turbine on a pile as one deck, beside the deck of the same turbine that was made by hand."""
+    folder = pathlib.Path(imports.folder.name)
+    deck = folder / "monopile.xml"
+    done = imports.program.call("import", "openfast", ROOT / "inputs/turbine/nrel5mw/openfast/oc3_monopile.fst",
+                                "--output", deck)
+    if done.returncode != 0:
+        sys.exit(done.stderr)
+
+    def modes(deck, settings, *analyses):
+        run = imports.program.run(deck, folder / "modes", settings)
+        if not run.succeeded:
+            sys.exit(run.errors)
+        tables = [csv.reader(open(run.folder / "analyses" / one / "modes.csv")) for one in analyses]
+        return [[float(row[1]) for row in list(table)[1:7]] for table in tables]
+
+    # the hand-made one has six elements of order 1 in the pile, other elements in the blades, and steps of the wall
+    by_hand, by_hand_dry = modes(ROOT / "inputs/offshore/oc3_monopile/modes.xml", [], "wet", "dry")
+    (found,) = modes(deck, ["end=step"], "modes")
+    imports.check("OpenFAST with SubDyn and HydroDyn, bending of the tower [Hz]", found[:2], by_hand[:2], 1e-3)
+    imports.check("and flap of the blades [Hz]", found[2:], by_hand[2:], 5e-3)
+    (dry,) = modes(deck, ["end=step", "Flows/sea/Density=1e-3"], "modes")
+    imports.check("and by what the water lowers them [Hz]", dry[1] - found[1], by_hand_dry[1] - by_hand[1], 0.05)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--culm", required=True)
@@ -254,6 +279,7 @@ def main():
     subdyn(imports)
     hydrodyn(imports)
     moordyn(imports)
+    monopile(imports)
     sys.exit("\n".join(imports.complaints) if imports.complaints else 0)
 
 

@@ -2,6 +2,7 @@
 
 #include "blade_axis.hpp"
 #include "headings.hpp"
+#include "sea_lists.hpp"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,6 @@ void write_flow(const ElastoDyn& turbine, const std::filesystem::path& folder, R
   const Air& air = *turbine.air;
   const Wind& wind = air.wind;
   using Kind = Wind::Kind;
-  deck.open("Flows");
   deck.open("wind", wind.kind == Kind::power_law ? "Power Law"
                     : wind.kind == Kind::table   ? "Table"
                                                  : "TurbSim Box");
@@ -105,7 +105,6 @@ void write_flow(const ElastoDyn& turbine, const std::filesystem::path& folder, R
            Vec3(std::cos(wind.upflow) * std::cos(wind.direction),
                 -std::cos(wind.upflow) * std::sin(wind.direction), std::sin(wind.upflow)));
   if (air.loads.tower_influence) write_tower_influence(turbine, report, deck);
-  deck.close();
   deck.close();
 }
 
@@ -312,7 +311,12 @@ void write_air_variables(const ElastoDyn& turbine, DeckWriter& deck) {
 void write_air(const ElastoDyn& turbine, const std::filesystem::path& folder, Report& report,
                DeckWriter& deck) {
   const Air& air = *turbine.air;
+  deck.open("Flows");
   write_flow(turbine, folder, report, deck);
+  if (turbine.substructure && turbine.substructure->water) {
+    write_sea(turbine.substructure->water->sea, deck);
+  }
+  deck.close();
   if (air.wind.kind == Wind::Kind::box) {
     report.add(assumed,
                "wind: the middle of the box passes the hub; it is known half its width upwind from "
@@ -384,6 +388,10 @@ void write_operation(DeckWriter& deck) {
   deck.set("End Time", "end");
   deck.set("Step", "step");
   deck.set("Inactive", std::vector<std::string>{"generator"});
+  deck.comment({"What is induced is not in the tangent: so that the balance closes."});
+  deck.open("Newton");
+  deck.set("Force Tolerance", 1e-12);
+  deck.close();
   deck.close();
 }
 

@@ -17,7 +17,7 @@ namespace culm::openfast {
 
 /// Speeds of wind and rotor, stations, step and end.
 void write_air_variables(const ElastoDyn& turbine, DeckWriter& deck);
-/// The lists Flows, Airfoils and Functions.
+/// The lists Flows, with the sea of a substructure, Airfoils and Functions.
 /// @param folder  of the deck, from which it names files
 void write_air(const ElastoDyn& turbine, const std::filesystem::path& folder, Report& report,
                DeckWriter& deck);

@@ -35,7 +35,7 @@ constexpr Module modules[] = {
     {"SeaState", "CompSeaSt", 1, 0, "SeaStFile", false, "no waves and no current"},
     {"HydroDyn", "CompHydro", 1, 0, "HydroFile", true,
      "no water: its inertia, which lowers frequencies, buoyancy, waves and drag are missing"},
-    {"substructure", "CompSub", 2, 0, "SubFile", true,
+    {"substructure", "CompSub", 2, 1, "SubFile", true,
      "what is below the tower does not bend: frequencies are too high"},
     {"moorings", "CompMooring", 4, 0, "MooringFile", true,
      "nothing moors the platform, which is held"},
@@ -71,10 +71,16 @@ std::optional<std::filesystem::path> file_if(InputFile& file, const char* flag, 
   return file.file(module.file);
 }
 
+// Water acts on the beams of SubDyn.
+bool is_of_sea(const Module& module) {
+  return module.flag == std::string("CompHydro") || module.flag == std::string("CompSeaSt");
+}
+
 void report_modules(InputFile& file, Report& report) {
   for (const Module& module : modules) {
     const int value = value_of(file, module);
-    if (value == 0 || value == module.imported) continue;
+    const bool stands_on_it = is_of_sea(module) && value_of(file, module_of("CompSub")) == 1;
+    if (value == 0 || value == module.imported || (stands_on_it && value == 1)) continue;
     const std::string named =
         module.file != nullptr && file.has(module.file) ? " (" + file.text(module.file) + ")" : "";
     report.add(missing, fmt::format("{}: {}, {} = {}{}: {}", to_string(file.where(module.flag)),

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace culm::openfast {
@@ -18,6 +19,9 @@ namespace culm::openfast {
 namespace {
 
 constexpr const char* platform = "platform";
+
+// Parts of a length below it are rounding of files.
+constexpr double least_share = 1e-4;
 
 double mix(double a, double b, double share) { return a + share * (b - a); }
 
@@ -33,42 +37,59 @@ struct Section {
   HydroCoefficients coefficients;
 };
 
+// What carries a member: a body with its node at the origin, or a beam along the member.
+struct Carrier {
+  std::string body = {};
+  std::string beam = {};
+  std::array<double, 2> of_member = {0.0, 1.0};  // the part of the member's length on the beam
+  std::array<double, 2> of_beam = {0.0, 1.0};    // the same part of the beam's, rising
+};
+
 class MemberWriter {
  public:
-  MemberWriter(const HydroDyn& hydro, const HydroMember& member, Report& report)
-      : hydro_(hydro), member_(member), report_(report) {
-    for (std::size_t end = 0; end < 2; ++end) place_[end] = hydro.joints[member.joints[end]].place;
+  MemberWriter(const HydroDyn& hydro, const HydroMember& member, Carrier carrier, Report& report)
+      : hydro_(hydro), member_(member), carrier_(std::move(carrier)), report_(report) {
+    const Vec3 &from = hydro.joints[member.joints[0]].place,
+               &to = hydro.joints[member.joints[1]].place;
+    for (std::size_t end = 0; end < 2; ++end) {
+      place_[end] = from + carrier_.of_member[end] * (to - from);
+    }
   }
 
-  void write(const std::string& body, DeckWriter& deck) {
-    const std::string name = fmt::format("member {}", member_.id);
-    if (member_.is_potential) {
-      report_.add(missing, name + ": is left to potential flow, and not in the deck");
-      return;
-    }
+  // @return whether there is anything above the bed
+  bool write(const std::string& name, DeckWriter& deck) {
     const double bed = hydro_.sea.level - hydro_.sea.depth;
     const std::optional<std::array<double, 2>> range = above(bed);
     if (!range) {
       report_.add(assumed, name + ": is below the bed, and not in the deck");
-      return;
+      return false;
     }
     make_sections();
     deck.open(name, "Morison");
-    deck.set("Node", body);
-    deck.set("From", place_[0]);
-    deck.set("To", place_[1]);
-    deck.set("Flow", sea_name);
-    if ((*range)[0] > 0.0 || (*range)[1] < 1.0) {
-      deck.set("Range", std::vector<double>{(*range)[0], (*range)[1]});
+    if (carrier_.beam.empty()) {
+      deck.set("Node", carrier_.body);
+      deck.set("From", place_[0]);
+      deck.set("To", place_[1]);
+    } else {
+      deck.set("Structure", carrier_.beam);
     }
+    deck.set("Flow", sea_name);
+    const double first = on_carrier((*range)[0]), last = on_carrier((*range)[1]);
+    if (first > 0.0 || last < 1.0) deck.set("Range", std::vector<double>{first, last});
     write_sections(deck);
     if (!member_.has_buoyancy) deck.set("Buoyancy", "false");
     write_ends(*range, bed, deck);
     deck.close();
     report_coefficients(name);
+    return true;
   }
 
  private:
+  // s is the fraction of the part that is written, from its first end to its last.
+  double on_carrier(double s) const {
+    return s == 1.0 ? carrier_.of_beam[1] : mix(carrier_.of_beam[0], carrier_.of_beam[1], s);
+  }
+  double on_member(double s) const { return mix(carrier_.of_member[0], carrier_.of_member[1], s); }
   double height(double s) const { return mix(place_[0].z(), place_[1].z(), s); }
 
   // The part that is not below a height.
@@ -104,13 +125,23 @@ class MemberWriter {
       const double middle = 0.5 * (places[i] + places[i + 1]);
       for (const double s : {places[i], places[i + 1]}) add_section(s, middle);
     }
+    // lists go from end to end of a beam, whatever part of it is in the range
+    for (Section& section : sections_) section.place = on_carrier(section.place);
+    if (sections_.front().place > 0.0) {
+      sections_.insert(sections_.begin(), sections_.front());
+      sections_.front().place = 0.0;
+    }
+    if (sections_.back().place < 1.0) {
+      sections_.push_back(sections_.back());
+      sections_.back().place = 1.0;
+    }
   }
 
   void add_section(double s, double middle) {
     Section section;
     section.place = s;
-    section.diameter = mix(member_.diameters[0], member_.diameters[1], s);
-    section.wall = mix(member_.walls[0], member_.walls[1], s);
+    section.diameter = mix(member_.diameters[0], member_.diameters[1], on_member(s));
+    section.wall = mix(member_.walls[0], member_.walls[1], on_member(s));
     const bool grown = grow(section, s, middle);
     section.coefficients = coefficients(s, grown ? 1 : 0);
     if (!sections_.empty() && is_same(sections_.back(), section)) return;
@@ -141,7 +172,7 @@ class MemberWriter {
   HydroCoefficients coefficients(double s, std::size_t grown) const {
     if (member_.coefficients == 1) return hydro_.simple[grown];
     if (member_.coefficients == 3) {
-      return mix(member_.own[0][grown], member_.own[1][grown], s);
+      return mix(member_.own[0][grown], member_.own[1][grown], on_member(s));
     }
     const auto& depths = hydro_.by_depth;
     const double depth = hydro_.sea.level - height(s);
@@ -208,12 +239,18 @@ class MemberWriter {
     }
   }
 
+  // Whether there is no face, because the member is longer than its part on this beam.
+  bool goes_on(std::size_t end) const {
+    const double s = carrier_.of_member[end];
+    return s > least_share && s < 1.0 - least_share;
+  }
+
   // Faces at or below the bed are dry.
   void write_ends(const std::array<double, 2>& range, double bed, DeckWriter& deck) const {
     std::vector<std::string> dry;
     const double near = 1e-3 * hydro_.sea.depth;
-    if (range[0] > 0.0 || place_[0].z() - bed <= near) dry.emplace_back("first");
-    if (range[1] < 1.0 || place_[1].z() - bed <= near) dry.emplace_back("last");
+    if (range[0] > 0.0 || goes_on(0) || place_[0].z() - bed <= near) dry.emplace_back("first");
+    if (range[1] < 1.0 || goes_on(1) || place_[1].z() - bed <= near) dry.emplace_back("last");
     if (!dry.empty()) deck.set("Dry Ends", dry);
     const HydroJoint &first = hydro_.joints[member_.joints[0]],
                      &last = hydro_.joints[member_.joints[1]];
@@ -248,6 +285,7 @@ class MemberWriter {
 
   const HydroDyn& hydro_;
   const HydroMember& member_;
+  Carrier carrier_;
   Report& report_;
   std::array<Vec3, 2> place_;
   std::vector<Section> sections_;
@@ -271,13 +309,32 @@ double displaced_volume(const HydroDyn& hydro) {
   return volume;
 }
 
-}  // namespace
+std::string name_of(const HydroMember& member) { return fmt::format("member {}", member.id); }
 
-void write_members(const HydroDyn& hydro, const std::string& body, DeckWriter& deck,
-                   Report& report) {
-  for (const HydroMember& member : hydro.members) {
-    MemberWriter(hydro, member, report).write(body, deck);
-  }
+bool is_left_out(const HydroMember& member, Report& report) {
+  if (!member.is_potential) return false;
+  report.add(missing, name_of(member) + ": is left to potential flow, and not in the deck");
+  return true;
+}
+
+// The part of a member that lies along a beam from a to b; none if they only meet or are apart.
+std::optional<Carrier> along(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b) {
+  const Vec3 axis = (b - a).normalized();
+  const double length = (b - a).norm(), near = 1e-3 * length;
+  const auto beside = [&](const Vec3& x) {
+    const Vec3 arm = x - a;
+    return (arm - arm.dot(axis) * axis).norm();
+  };
+  if (beside(from) > near || beside(to) > near) return {};
+  const double t0 = (from - a).dot(axis) / length, t1 = (to - a).dot(axis) / length;
+  const double low = std::clamp(std::min(t0, t1), 0.0, 1.0);
+  const double high = std::clamp(std::max(t0, t1), 0.0, 1.0);
+  if (high - low < least_share) return {};
+  const auto of_member = [&](double t) { return std::clamp((t - t0) / (t1 - t0), 0.0, 1.0); };
+  return Carrier{{}, {}, {of_member(low), of_member(high)}, {low, high}};
+}
+
+void report_all(const HydroDyn& hydro, Report& report) {
   report.add(checked, fmt::format("volume of members below still water, without growth: {:.5g} m^3",
                                   displaced_volume(hydro)));
   report.add(
@@ -286,13 +343,54 @@ void write_members(const HydroDyn& hydro, const std::string& body, DeckWriter& d
       "in the deck");
 }
 
+}  // namespace
+
+void write_members(const HydroDyn& hydro, const std::string& body, DeckWriter& deck,
+                   Report& report) {
+  for (const HydroMember& member : hydro.members) {
+    if (is_left_out(member, report)) continue;
+    MemberWriter(hydro, member, Carrier{body}, report).write(name_of(member), deck);
+  }
+  report_all(hydro, report);
+}
+
+std::vector<std::string> write_members(const HydroDyn& hydro, const SubDyn& sub, DeckWriter& deck,
+                                       Report& report) {
+  std::vector<std::string> names;
+  for (const HydroMember& member : hydro.members) {
+    if (is_left_out(member, report)) continue;
+    const Vec3 &from = hydro.joints[member.joints[0]].place,
+               &to = hydro.joints[member.joints[1]].place;
+    double carried = 0.0;
+    for (const SubMember& beam : sub.members) {
+      if (beam.kind != SubMember::Kind::beam) continue;
+      auto carrier =
+          along(from, to, sub.joints[beam.joints[0]].place, sub.joints[beam.joints[1]].place);
+      if (!carrier) continue;
+      carried += std::abs(carrier->of_member[1] - carrier->of_member[0]);
+      carrier->beam = fmt::format("member {}", beam.id);
+      const std::string name = fmt::format("water on {}, {}", carrier->beam, name_of(member));
+      MemberWriter writer(hydro, member, *carrier, report);
+      if (writer.write(name, deck)) names.push_back(name);
+    }
+    if (carried < 1.0 - least_share) {
+      report.add(missing, fmt::format("{} of HydroDyn: {:.3g} m of {:.3g} m lie along no beam of "
+                                      "SubDyn, and have no water",
+                                      name_of(member), (1.0 - carried) * (to - from).norm(),
+                                      (to - from).norm()));
+    }
+  }
+  report_all(hydro, report);
+  return names;
+}
+
 std::string write_deck(const HydroDyn& hydro, Report& report) {
   DeckWriter deck(hydro.title, {"Shows: the sea on the members of a platform that does not move.",
                                 "Imported from " + hydro.path.filename().string() + " and " +
                                     hydro.sea.path.filename().string() + " of OpenFAST.",
                                 "z is up, 0 at mean sea level. SI units."});
   write_held_body(platform, "held", deck);
-  write_sea(hydro.sea, deck);
+  write_flows(hydro.sea, deck);
   deck.open("Loads");
   write_members(hydro, platform, deck, report);
   deck.close();

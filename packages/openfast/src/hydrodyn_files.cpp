@@ -3,6 +3,7 @@
 #include <culm/openfast/hydrodyn.hpp>
 #include <culm/openfast/text_table.hpp>
 
+#include "file_end.hpp"
 #include "headings.hpp"
 #include "words.hpp"
 
@@ -268,11 +269,15 @@ std::filesystem::path find_seastate(InputFile& file, const Surroundings& surroun
 }  // namespace
 
 HydroDyn read_hydrodyn(const std::filesystem::path& path, Report& report) {
+  return read_hydrodyn(path, find_surroundings(path), report);
+}
+
+HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& surroundings,
+                       Report& report) {
   InputFile file(path);
   HydroDyn hydro;
   hydro.path = path;
   hydro.title = file.title();
-  const Surroundings surroundings = find_surroundings(path);
   hydro.sea = read_seastate(find_seastate(file, surroundings), surroundings, report);
   Lists lists;
   read_joints(file, hydro, lists, report);
@@ -294,6 +299,7 @@ HydroDyn read_hydrodyn(const std::filesystem::path& path, Report& report) {
   read_growth(file, hydro);
   read_fillings(file, hydro, report);
   report_rest(file, report);
+  check_end(file, report);
   report.add(read, fmt::format("{}: HydroDyn, {} joints, {} members, {} depths with coefficients, "
                                "{} with growth",
                                path.string(), hydro.joints.size(), hydro.members.size(),

@@ -56,6 +56,27 @@ std::optional<Air> find_air(const GlueFile& glue, const ElastoDyn& turbine, Repo
   return air;
 }
 
+// Members and water of a substructure, where it is switched on. What is imported of it is taken
+// from the list of what is not.
+std::optional<Substructure> find_substructure(const GlueFile& glue, Platform& platform,
+                                              Report& report) {
+  if (!glue.subdyn || !is_there(glue, *glue.subdyn, "SubDyn",
+                                "what is below the tower is not in the deck", report)) {
+    return std::nullopt;
+  }
+  const auto imported = [&](const char* module) {
+    std::erase_if(platform.modules,
+                  [&](const std::string& name) { return name.starts_with(module); });
+  };
+  Substructure found{read_subdyn(*glue.subdyn, report), {}};
+  imported("SubDyn");
+  if (glue.hydrodyn && is_there(glue, *glue.hydrodyn, "HydroDyn", "no water", report)) {
+    found.water = read_hydrodyn(*glue.hydrodyn, read_surroundings(glue.path), report);
+    imported("HydroDyn");
+  }
+  return found;
+}
+
 // `glue` is what was given, or what was found beside the main file.
 Imported import_turbine(const std::filesystem::path& path, const std::optional<GlueFile>& glue,
                         const TurbineOptions& options, Report& report) {
@@ -66,6 +87,7 @@ Imported import_turbine(const std::filesystem::path& path, const std::optional<G
   if (!options.blade.empty()) replace_blades(turbine, read_beamdyn(options.blade, report), report);
   if (options.blade_mass > 0.0) scale_blades(turbine, options.blade_mass, report);
   if (glue) turbine.air = find_air(*glue, turbine, report);
+  if (glue) turbine.substructure = find_substructure(*glue, turbine.platform, report);
   Imported imported{{}, {}, variants_of(turbine), only_modes_of(turbine)};
   imported.deck = write_deck(std::move(turbine), options.folder, report);
   return imported;

@@ -4,6 +4,7 @@
 #include <culm/openfast/moordyn.hpp>
 #include <culm/openfast/text_table.hpp>
 
+#include "file_end.hpp"
 #include "headings.hpp"
 #include "words.hpp"
 
@@ -206,6 +207,7 @@ MoorDyn read_moordyn(const std::filesystem::path& path, Report& report) {
     report.add(missing, fmt::format("{}: {} lines below {} are not in the deck", path.string(),
                                     count, heading));
   }
+  check_end(file, report);
   report.add(read,
              fmt::format("{}: MoorDyn, {} types of lines, {} points, {} lines", path.string(),
                          moorings.types.size(), moorings.points.size(), moorings.lines.size()));

@@ -13,16 +13,7 @@
 
 namespace culm::openfast {
 
-namespace {
-
-// Files of these modules end with such a line; what is behind the place of a cut is not missed
-// otherwise where files of some years do not have it.
-void check_end(const InputFile& file, Report& report) {
-  if (file.has_line("END")) return;
-  report.add(unknown, file.path().string() + ": has no line END; it may have been cut off");
-}
-
-std::optional<std::string> write_any(const InputFile& file, Report& report) {
+std::optional<std::string> import_offshore(const InputFile& file, Report& report) {
   if (file.has("NReact") || file.has("NInterf")) {
     return write_deck(read_subdyn(file.path(), report), report);
   }
@@ -34,14 +25,6 @@ std::optional<std::string> write_any(const InputFile& file, Report& report) {
     return write_deck(read_moordyn(file.path(), report), report);
   }
   return {};
-}
-
-}  // namespace
-
-std::optional<std::string> import_offshore(const InputFile& file, Report& report) {
-  auto deck = write_any(file, report);
-  if (deck) check_end(file, report);
-  return deck;
 }
 
 }  // namespace culm::openfast

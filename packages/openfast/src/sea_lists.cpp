@@ -28,7 +28,6 @@ void write_current(const SeaState& sea, DeckWriter& deck) {
 }  // namespace
 
 void write_sea(const SeaState& sea, DeckWriter& deck) {
-  deck.open("Flows");
   const bool is_regular = sea.kind == SeaState::Kind::regular;
   const bool is_still = sea.kind == SeaState::Kind::still;
   deck.open(sea_name, is_still ? "Still Water" : is_regular ? "Regular Waves" : "Irregular Waves");
@@ -51,6 +50,11 @@ void write_sea(const SeaState& sea, DeckWriter& deck) {
   }
   write_current(sea, deck);
   deck.close();
+}
+
+void write_flows(const SeaState& sea, DeckWriter& deck) {
+  deck.open("Flows");
+  write_sea(sea, deck);
   deck.close();
 }
 
@@ -74,7 +78,7 @@ std::string write_deck(const SeaState& sea, Report& report) {
                               "Imported from " + sea.path.filename().string() + " of OpenFAST.",
                               "z is up, 0 at mean sea level. SI units."});
   write_held_body(pole, "held", deck);
-  write_sea(sea, deck);
+  write_flows(sea, deck);
   deck.open("Loads");
   deck.open("water on the pole", "Morison");
   deck.set("Node", pole);

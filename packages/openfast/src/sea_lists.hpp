@@ -11,8 +11,10 @@ namespace culm::openfast {
 /// The name of the sea in a deck.
 inline constexpr const char* sea_name = "sea";
 
-/// The list Flows with the sea.
+/// The sea, an entry of the list Flows.
 void write_sea(const SeaState& sea, DeckWriter& deck);
+/// The list with nothing else.
+void write_flows(const SeaState& sea, DeckWriter& deck);
 
 /// A body without motion that carries what acts in the sea.
 void write_held_body(const std::string& name, const std::string& constraint, DeckWriter& deck);

@@ -2,6 +2,7 @@
 #include <culm/base/text.hpp>
 #include <culm/openfast/seastate.hpp>
 
+#include "file_end.hpp"
 #include "headings.hpp"
 
 #include <fmt/format.h>
@@ -187,6 +188,37 @@ void report_rest(InputFile& file, Report& report) {
   }
 }
 
+// What of a file of SeaState is known and changes nothing here.
+void finish(InputFile& file, Report& report) {
+  file.ignore({"Echo",         "WaveTMax",     "WaveDT",      "WaveDirSpread", "WaveNDir",
+               "WaveDirRange", "WaveSeed(2)",  "WvKinFile",   "WvLowCOffD",    "WvHiCOffD",
+               "WvLowCOffS",   "WvHiCOffS",    "CrestHmax",   "CrestTime",     "CrestXi",
+               "CrestYi",      "X_HalfWidth",  "Y_HalfWidth", "Z_Depth",       "NX",
+               "NY",           "NZ",           "SeaStSum",    "OutSwtch",      "OutFmt",
+               "OutSFmt",      "NWaveElev",    "WaveElevxi",  "WaveElevyi",    "NWaveKin",
+               "WaveKinxi",    "WaveKinyi",    "WaveKinzi",   "WaveHs",        "WaveTp",
+               "WavePkShp",    "WaveSeed(1)",  "WaveDir",     "WaveDirMod",    "WaveNDAmp",
+               "WaveStMod",    "CurrMod",      "CurrSSV0",    "CurrSSDir",     "CurrNSRef",
+               "CurrNSV0",     "CurrNSDir",    "CurrDIV",     "CurrDIDir",     "WvDiffQTF",
+               "WvSumQTF",     "ConstWaveMod", "MCFD",        "WvLowCOff",     "WvHiCOff",
+               "WtrDens",      "WtrDpth",      "MSL2SWL"});
+  report.add(unknown, file.unread());
+  check_end(file, report);
+}
+
+Surroundings surroundings_of(InputFile& file) {
+  Surroundings found{file.path(),
+                     number_in(file, "Gravity"),
+                     number_in(file, "WtrDens"),
+                     number_in(file, "WtrDpth"),
+                     number_in(file, "MSL2SWL"),
+                     {}};
+  for (const char* name : {"SeaStFile", "SeaStateInputFile", "SeaStInputFile"}) {
+    if (file.has(name)) found.seastate = file.file(name);
+  }
+  return found;
+}
+
 }  // namespace
 
 Surroundings find_surroundings(const std::filesystem::path& module) {
@@ -209,18 +241,14 @@ Surroundings find_surroundings(const std::filesystem::path& module) {
       return file.has(name) && std::filesystem::equivalent(file.file(name), module, ignored);
     });
     if (!is_it) continue;
-    Surroundings found{candidate,
-                       number_in(file, "Gravity"),
-                       number_in(file, "WtrDens"),
-                       number_in(file, "WtrDpth"),
-                       number_in(file, "MSL2SWL"),
-                       {}};
-    for (const char* name : {"SeaStFile", "SeaStateInputFile", "SeaStInputFile"}) {
-      if (file.has(name)) found.seastate = file.file(name);
-    }
-    return found;
+    return surroundings_of(file);
   }
   return {};
+}
+
+Surroundings read_surroundings(const std::filesystem::path& whole) {
+  InputFile file(whole);
+  return surroundings_of(file);
 }
 
 SeaState read_seastate(const std::filesystem::path& path, const Surroundings& surroundings,
@@ -241,6 +269,8 @@ SeaState read_seastate(const std::filesystem::path& path, const Surroundings& su
   read_waves(file, sea, report);
   read_current(file, sea, report);
   report_rest(file, report);
+  const bool is_of_hydrodyn = file.has("NAxCoef");
+  if (!is_of_hydrodyn) finish(file, report);
   report.add(read,
              path.string() + ": " +
                  (sea.kind == SeaState::Kind::still

@@ -36,25 +36,125 @@ double shear_factor(const SubSection& tube) {
 
 class SubDeck {
  public:
-  SubDeck(const SubDyn& sub, Report& report)
-      : sub_(sub),
-        report_(report),
-        deck_(sub.title,
-              {"Shows: a substructure under its own weight, and its modes.",
-               "Imported from " + sub.path.filename().string() + " of OpenFAST.",
-               "z is up; d1, d2, d3 of beams are the axes x, y, z of members. SI units."}),
-        ends_(sub.joints.size()) {}
-
-  std::string write() {
+  SubDeck(const SubDyn& sub, DeckWriter& deck, Report& report)
+      : sub_(sub), report_(report), deck_(deck), ends_(sub.joints.size()) {
     find_ends();
-    write_sections();
-    write_structures();
-    write_constraints();
-    write_loads();
-    write_analyses();
-    write_output();
-    report_masses();
-    return deck_.text();
+  }
+
+  const std::string& node_at(std::size_t joint) const { return ends_[joint].front(); }
+
+  void write_sections() {
+    for (const SubSection& section : sub_.sections) {
+      if (section.is_tube) {
+        write_tube(section);
+      } else {
+        write_arbitrary(section);
+      }
+    }
+  }
+
+  void write_structures() {
+    for (const SubMember& member : sub_.members) {
+      if (member.kind == SubMember::Kind::beam) write_beam(member);
+    }
+    for (std::size_t i = 0; i < sub_.masses.size(); ++i) write_body(i);
+  }
+
+  void write_masses() {
+    for (std::size_t i = 0; i < sub_.masses.size(); ++i) {
+      const std::string name = fmt::format("mass {}", i + 1);
+      const SubMass& mass = sub_.masses[i];
+      if (!is_point(mass) || node_at(mass.joint) == name || mass.mass == 0.0) continue;
+      deck_.open(name, "Point Mass");
+      deck_.set("Node", node_at(mass.joint));
+      deck_.set("Mass", mass.mass);
+      deck_.close();
+    }
+  }
+
+  void write_constraints() {
+    for (std::size_t joint = 0; joint < ends_.size(); ++joint) write_joint(joint);
+    write_rigid_links();
+    write_interface();
+    for (const SubSupport& support : sub_.supports) write_support(support);
+  }
+
+  // A cable is a spring whose free length gives it its tension.
+  void write_cables() {
+    for (const SubMember& member : sub_.members) {
+      if (member.kind != SubMember::Kind::cable) continue;
+      const SubLink& cable = sub_.cables[member.properties[0]];
+      const double free = length_of(sub_, member) / (1.0 + cable.tension / cable.stiffness);
+      deck_.open(name_of(member), "Spring");
+      deck_.set("First", node_at(member.joints[0]));
+      deck_.set("Second", node_at(member.joints[1]));
+      deck_.set("Stiffness", cable.stiffness / free);
+      deck_.set("Free Length", free);
+      deck_.close();
+      report_.add(assumed, fmt::format("{}: a cable becomes a spring of {:g} N/m with {:g} N; it "
+                                       "also resists pressure, and its mass of {:g} kg is not in "
+                                       "the deck",
+                                       name_of(member), cable.stiffness / free, cable.tension,
+                                       mass_of(sub_, member)));
+    }
+  }
+
+  void write_history() {
+    const auto show = [&](const std::string& name, const char* type, std::size_t joint) {
+      deck_.open(name, type);
+      deck_.set("Node", node_at(joint));
+      deck_.close();
+    };
+    if (!sub_.interface.empty()) show("interface", "Displacement", sub_.interface.front());
+    for (const SubSupport& support : sub_.supports) {
+      show(body_at(sub_, support.joint), "Reaction", support.joint);
+    }
+    if (sub_.interface.empty() && sub_.supports.empty()) show("first joint", "Displacement", 0);
+  }
+
+  bool is_held() const {
+    std::array<bool, 6> held{};
+    for (const SubSupport& support : sub_.supports) {
+      for (std::size_t k = 0; k < 6; ++k) held[k] = held[k] || support.held[k];
+    }
+    return held[0] && held[1] && held[2];
+  }
+
+  void report_masses() {
+    double beams = 0.0, others = 0.0;
+    Vec3 moment = Vec3::Zero();
+    for (const SubMember& member : sub_.members) {
+      if (member.kind != SubMember::Kind::beam) continue;
+      const double mass = mass_of(sub_, member);
+      const SubSection &a = sub_.sections[member.properties[0]],
+                       &b = sub_.sections[member.properties[1]];
+      const double ma = a.area * a.density, mb = b.area * b.density;
+      const double centre = ma + mb > 0.0 ? (ma + 2.0 * mb) / (3.0 * (ma + mb)) : 0.5;
+      const Vec3 &from = sub_.joints[member.joints[0]].place,
+                 &to = sub_.joints[member.joints[1]].place;
+      beams += mass;
+      moment += mass * (from + centre * (to - from));
+    }
+    for (const SubMass& mass : sub_.masses) {
+      others += mass.mass;
+      moment += mass.mass * (sub_.joints[mass.joint].place + mass.centre);
+    }
+    const Vec3 centre = beams + others > 0.0 ? Vec3(moment / (beams + others)) : Vec3::Zero();
+    report_.add(masses, fmt::format("beams {:.10g} kg, concentrated {:.10g} kg, centre ({:.6g}, "
+                                    "{:.6g}, {:.6g}) m, by the tables",
+                                    beams, others, centre.x(), centre.y(), centre.z()));
+    report_.add(assumed,
+                fmt::format("{} elements of order 2 for each member; properties are linear "
+                            "between its two sections, where SubDyn has the mean of each "
+                            "element",
+                            sub_.divisions));
+    for (const SubSection& section : sub_.sections) {
+      if (section.is_tube) continue;
+      report_.add(assumed,
+                  "axis x of members with arbitrary sections is horizontal, along (y, -x) of "
+                  "the member; that of space where it is vertical");
+      return;
+    }
   }
 
  private:
@@ -80,20 +180,6 @@ class SubDeck {
 
   static bool is_point(const SubMass& mass) {
     return mass.inertia.isZero(0.0) && mass.centre.isZero(0.0);
-  }
-
-  const std::string& node_at(std::size_t joint) const { return ends_[joint].front(); }
-
-  void write_sections() {
-    deck_.open("Sections");
-    for (const SubSection& section : sub_.sections) {
-      if (section.is_tube) {
-        write_tube(section);
-      } else {
-        write_arbitrary(section);
-      }
-    }
-    deck_.close();
   }
 
   void write_tube(const SubSection& tube) {
@@ -122,26 +208,6 @@ class SubDeck {
     deck_.set("rhoA", section.density * section.area);
     deck_.set("rhoI1", section.density * section.bending[0]);
     deck_.set("rhoI2", section.density * section.bending[1]);
-    deck_.close();
-  }
-
-  void write_structures() {
-    deck_.open("Structures");
-    for (const SubMember& member : sub_.members) {
-      if (member.kind == SubMember::Kind::beam) write_beam(member);
-    }
-    for (std::size_t i = 0; i < sub_.masses.size(); ++i) write_body(i);
-    deck_.close();
-    deck_.open("Masses");
-    for (std::size_t i = 0; i < sub_.masses.size(); ++i) {
-      const std::string name = fmt::format("mass {}", i + 1);
-      const SubMass& mass = sub_.masses[i];
-      if (!is_point(mass) || node_at(mass.joint) == name || mass.mass == 0.0) continue;
-      deck_.open(name, "Point Mass");
-      deck_.set("Node", node_at(mass.joint));
-      deck_.set("Mass", mass.mass);
-      deck_.close();
-    }
     deck_.close();
   }
 
@@ -180,15 +246,6 @@ class SubDeck {
     deck_.set("Mass", mass.mass);
     deck_.set("Centre", mass.centre);
     deck_.set("Inertia", std::vector<double>{J(0, 0), J(1, 1), J(2, 2), J(1, 2), J(0, 2), J(0, 1)});
-    deck_.close();
-  }
-
-  void write_constraints() {
-    deck_.open("Constraints");
-    for (std::size_t joint = 0; joint < ends_.size(); ++joint) write_joint(joint);
-    write_rigid_links();
-    write_interface();
-    for (const SubSupport& support : sub_.supports) write_support(support);
     deck_.close();
   }
 
@@ -245,8 +302,7 @@ class SubDeck {
     report_.add(
         assumed,
         fmt::format(
-            "{} carries what stands on the substructure{}; nothing does here",
-            body_at(sub_, sub_.interface.front()),
+            "{} carries what stands on the substructure{}", body_at(sub_, sub_.interface.front()),
             sub_.interface.size() > 1 ? ", and the other interface joints are rigid with it" : ""));
   }
 
@@ -270,119 +326,97 @@ class SubDeck {
     }
   }
 
-  // A cable is a spring whose free length gives it its tension.
-  void write_loads() {
-    deck_.open("Loads");
-    deck_.open("weight", "Gravity");
-    deck_.set("Acceleration", Vec3(0.0, 0.0, -gravity));
-    deck_.close();
-    for (const SubMember& member : sub_.members) {
-      if (member.kind != SubMember::Kind::cable) continue;
-      const SubLink& cable = sub_.cables[member.properties[0]];
-      const double free = length_of(sub_, member) / (1.0 + cable.tension / cable.stiffness);
-      deck_.open(name_of(member), "Spring");
-      deck_.set("First", node_at(member.joints[0]));
-      deck_.set("Second", node_at(member.joints[1]));
-      deck_.set("Stiffness", cable.stiffness / free);
-      deck_.set("Free Length", free);
-      deck_.close();
-      report_.add(assumed, fmt::format("{}: a cable becomes a spring of {:g} N/m with {:g} N; it "
-                                       "also resists pressure, and its mass of {:g} kg is not in "
-                                       "the deck",
-                                       name_of(member), cable.stiffness / free, cable.tension,
-                                       mass_of(sub_, member)));
-    }
-    deck_.close();
-    report_.add(assumed,
-                fmt::format("weight by {:g} m/s^2, which this file does not say", gravity));
-  }
-
-  bool is_held() const {
-    std::array<bool, 6> held{};
-    for (const SubSupport& support : sub_.supports) {
-      for (std::size_t k = 0; k < 6; ++k) held[k] = held[k] || support.held[k];
-    }
-    return held[0] && held[1] && held[2];
-  }
-
-  void write_analyses() {
-    deck_.open("Analyses");
-    if (is_held()) {
-      deck_.open("weight", "Static");
-      deck_.set("Steps", 1);
-      deck_.close();
-    } else {
-      report_.add(missing,
-                  "no joint is held in all directions: modes are those of a free structure");
-    }
-    deck_.open("modes", "Modal");
-    deck_.set("Modes", 10);
-    deck_.close();
-    deck_.close();
-  }
-
-  void write_output() {
-    deck_.open("Output");
-    deck_.open("History");
-    const auto show = [&](const std::string& name, const char* type, std::size_t joint) {
-      deck_.open(name, type);
-      deck_.set("Node", node_at(joint));
-      deck_.close();
-    };
-    if (!sub_.interface.empty()) show("interface", "Displacement", sub_.interface.front());
-    for (const SubSupport& support : sub_.supports) {
-      show(body_at(sub_, support.joint), "Reaction", support.joint);
-    }
-    if (sub_.interface.empty() && sub_.supports.empty()) show("first joint", "Displacement", 0);
-    deck_.close();
-    deck_.close();
-  }
-
-  void report_masses() {
-    double beams = 0.0, others = 0.0;
-    Vec3 moment = Vec3::Zero();
-    for (const SubMember& member : sub_.members) {
-      if (member.kind != SubMember::Kind::beam) continue;
-      const double mass = mass_of(sub_, member);
-      const SubSection &a = sub_.sections[member.properties[0]],
-                       &b = sub_.sections[member.properties[1]];
-      const double ma = a.area * a.density, mb = b.area * b.density;
-      const double centre = ma + mb > 0.0 ? (ma + 2.0 * mb) / (3.0 * (ma + mb)) : 0.5;
-      const Vec3 &from = sub_.joints[member.joints[0]].place,
-                 &to = sub_.joints[member.joints[1]].place;
-      beams += mass;
-      moment += mass * (from + centre * (to - from));
-    }
-    for (const SubMass& mass : sub_.masses) {
-      others += mass.mass;
-      moment += mass.mass * (sub_.joints[mass.joint].place + mass.centre);
-    }
-    const Vec3 centre = beams + others > 0.0 ? Vec3(moment / (beams + others)) : Vec3::Zero();
-    report_.add(masses, fmt::format("beams {:.10g} kg, concentrated {:.10g} kg, centre ({:.6g}, "
-                                    "{:.6g}, {:.6g}) m, by the tables",
-                                    beams, others, centre.x(), centre.y(), centre.z()));
-    report_.add(assumed,
-                fmt::format("{} elements of order 2 for each member; properties are linear "
-                            "between its two sections, where SubDyn has the mean of each "
-                            "element",
-                            sub_.divisions));
-    for (const SubSection& section : sub_.sections) {
-      if (section.is_tube) continue;
-      report_.add(assumed,
-                  "axis x of members with arbitrary sections is horizontal, along (y, -x) of "
-                  "the member; that of space where it is vertical");
-      return;
-    }
-  }
-
   const SubDyn& sub_;
   Report& report_;
-  DeckWriter deck_;
+  DeckWriter& deck_;
   std::vector<std::vector<std::string>> ends_;  // nodes at each joint, the carrying one first
 };
 
 }  // namespace
 
-std::string write_deck(const SubDyn& sub, Report& report) { return SubDeck(sub, report).write(); }
+void write_sections(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_sections();
+}
+
+void write_structures(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_structures();
+}
+
+void write_masses(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_masses();
+}
+
+void write_constraints(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_constraints();
+}
+
+void write_cables(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_cables();
+}
+
+void write_history(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_history();
+}
+
+void report_masses(const SubDyn& sub, Report& report) {
+  DeckWriter none("", {});
+  SubDeck(sub, none, report).report_masses();
+}
+
+std::string interface_node(const SubDyn& sub) {
+  if (sub.interface.empty()) {
+    throw InputError({sub.path.string(), 0, "NInterf"}, "must be at least 1, to carry the tower");
+  }
+  DeckWriter none("", {});
+  Report ignored;
+  return SubDeck(sub, none, ignored).node_at(sub.interface.front());
+}
+
+std::string write_deck(const SubDyn& sub, Report& report) {
+  DeckWriter deck(sub.title,
+                  {"Shows: a substructure under its own weight, and its modes.",
+                   "Imported from " + sub.path.filename().string() + " of OpenFAST.",
+                   "z is up; d1, d2, d3 of beams are the axes x, y, z of members. SI units."});
+  SubDeck lists(sub, deck, report);
+  deck.open("Sections");
+  lists.write_sections();
+  deck.close();
+  deck.open("Structures");
+  lists.write_structures();
+  deck.close();
+  deck.open("Masses");
+  lists.write_masses();
+  deck.close();
+  deck.open("Constraints");
+  lists.write_constraints();
+  deck.close();
+  if (!sub.interface.empty()) report.add(assumed, "nothing stands on the interface here");
+  deck.open("Loads");
+  deck.open("weight", "Gravity");
+  deck.set("Acceleration", Vec3(0.0, 0.0, -gravity));
+  deck.close();
+  lists.write_cables();
+  deck.close();
+  report.add(assumed, fmt::format("weight by {:g} m/s^2, which this file does not say", gravity));
+  deck.open("Analyses");
+  if (lists.is_held()) {
+    deck.open("weight", "Static");
+    deck.set("Steps", 1);
+    deck.close();
+  } else {
+    report.add(missing, "no joint is held in all directions: modes are those of a free structure");
+  }
+  deck.open("modes", "Modal");
+  deck.set("Modes", 10);
+  deck.close();
+  deck.close();
+  deck.open("Output");
+  deck.open("History");
+  lists.write_history();
+  deck.close();
+  deck.close();
+  lists.report_masses();
+  return deck.text();
+}
 
 }  // namespace culm::openfast

@@ -3,6 +3,7 @@
 #include <culm/openfast/subdyn.hpp>
 #include <culm/openfast/text_table.hpp>
 
+#include "file_end.hpp"
 #include "headings.hpp"
 
 #include <Eigen/Geometry>
@@ -363,6 +364,7 @@ SubDyn read_subdyn(const std::filesystem::path& path, Report& report) {
   read_masses(file, sub, lists);
   report_content(sub, report);
   report.add(unknown, file.unread());
+  check_end(file, report);
   return sub;
 }
 

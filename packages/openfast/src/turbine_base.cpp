@@ -65,12 +65,16 @@ std::vector<std::string> estimate(const ElastoDyn& turbine) {
 
 bool stands_on_more(const ElastoDyn& turbine) {
   const Platform& platform = turbine.platform;
+  if (turbine.substructure) return !platform.modules.empty();
   return turbine.tower_base - lowest(turbine) > least_height || platform.mass > 0.0 ||
          !free_names(platform).empty() || !platform.modules.empty();
 }
 
 std::vector<std::string> describe_base(const ElastoDyn& turbine) {
   const Platform& platform = turbine.platform;
+  if (turbine.substructure) {
+    return {"modules that carry it, not imported: " + join(platform.modules, ", ")};
+  }
   std::vector<std::string> lines{
       fmt::format("the tower is clamped at its base, z = {:g} m", turbine.tower_base)};
   if (turbine.tower_base - lowest(turbine) > least_height) {

@@ -11,7 +11,8 @@
 namespace culm::openfast {
 
 /// Whether the tower stands on more than the ground: a base above the platform's reference point or
-/// above zero, a platform with a mass or with degrees of freedom, modules of a substructure.
+/// above zero, a platform with a mass or with degrees of freedom, modules of a substructure; where
+/// the deck has the substructure, on modules beside it.
 bool stands_on_more(const ElastoDyn& turbine);
 
 /// Sentences about what carries the tower and is not in the deck, with the frequencies of the first

@@ -7,6 +7,9 @@
 #include "air_lists.hpp"
 #include "blade_lists.hpp"
 #include "headings.hpp"
+#include "hydrodyn_deck.hpp"
+#include "sea_lists.hpp"
+#include "subdyn_deck.hpp"
 #include "turbine_base.hpp"
 #include "turbine_cantilevers.hpp"
 #include "turbine_layout.hpp"
@@ -82,6 +85,7 @@ void write_sections_list(const ElastoDyn& turbine, Report& report, DeckWriter& d
     write_sections(name, turbine.blades[i].beam.blade, deck);
     written.push_back(name);
   }
+  if (turbine.substructure) write_sections(turbine.substructure->frame, deck, report);
   deck.close();
 }
 
@@ -166,10 +170,11 @@ void write_structures(const ElastoDyn& turbine, const TurbineLayout& layout,
     write_beam(fmt::format("blade {}", i + 1), sections_of(turbine, i), turbine.blades[i].beam,
                layout.roots[i], blade_mesh, deck);
   }
+  if (turbine.substructure) write_structures(turbine.substructure->frame, deck, report);
   deck.close();
 }
 
-void write_masses(const ElastoDyn& turbine, DeckWriter& deck) {
+void write_masses(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
   std::vector<std::pair<std::string, double>> found;
   if (turbine.yaw_bearing_mass > 0.0) found.emplace_back("tower/last", turbine.yaw_bearing_mass);
   for (std::size_t i = 0; i < turbine.tip_masses.size(); ++i) {
@@ -177,8 +182,9 @@ void write_masses(const ElastoDyn& turbine, DeckWriter& deck) {
       found.emplace_back(fmt::format("blade {}/last", i + 1), turbine.tip_masses[i]);
     }
   }
-  if (found.empty()) return;
+  if (found.empty() && !turbine.substructure) return;
   deck.open("Masses");
+  if (turbine.substructure) write_masses(turbine.substructure->frame, deck, report);
   for (const auto& [node, mass] : found) {
     deck.open("at " + node, "Point Mass");
     deck.set("Node", node);
@@ -205,8 +211,27 @@ void open_about(const Vec3& axis, const std::string& name, const std::string& ty
   deck.set("Axis", axis);
 }
 
-void write_foundation(const ElastoDyn& turbine, DeckWriter& deck) {
+// The tower may begin beside the joint that carries it.
+void report_gap(const ElastoDyn& turbine, Report& report) {
+  const SubDyn& frame = turbine.substructure->frame;
+  const SubJoint& carrier = frame.joints[frame.interface.front()];
+  const Vec3 arm = Vec3(0.0, 0.0, turbine.tower_base) - carrier.place;
+  if (frame.interface.size() > 1 ? std::abs(arm.z()) < 1e-3 : arm.norm() < 1e-3) return;
+  report.add(assumed,
+             fmt::format("{:.3g} m between the foot of the tower and joint {} are rigid",
+                         frame.interface.size() > 1 ? std::abs(arm.z()) : arm.norm(), carrier.id));
+}
+
+void write_foundation(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
   const bool has_platform = turbine.platform.mass > 0.0;
+  if (turbine.substructure) {
+    write_constraints(turbine.substructure->frame, deck, report);
+    const std::string carrier = interface_node(turbine.substructure->frame);
+    write_follower("transition", "tower/first", carrier, deck);
+    report_gap(turbine, report);
+    if (has_platform) write_follower("platform", "platform", carrier, deck);
+    return;
+  }
   if (stands_on_more(turbine)) deck.comment(describe_base(turbine));
   deck.open("foundation", "Rigid Support");
   deck.set("Node", has_platform ? "platform" : "tower/first");
@@ -225,9 +250,10 @@ void write_yaw_bearing(const ElastoDyn& turbine, const TurbineLayout& layout, De
   write_follower("yaw bearing", "nacelle", "tower/last", deck);
 }
 
-void write_constraints(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
+void write_constraints(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report,
+                       DeckWriter& deck) {
   deck.open("Constraints");
-  write_foundation(turbine, deck);
+  write_foundation(turbine, report, deck);
   write_yaw_bearing(turbine, layout, deck);
   open_about(layout.shaft, "generator bearing", "Revolute Joint", "nacelle", "generator", deck);
   deck.close();
@@ -276,6 +302,14 @@ void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, Report& 
     deck.close();
   }
   if (turbine.air) write_air_loads(turbine, layout, report, deck);
+  if (turbine.substructure) {
+    const Substructure& base = *turbine.substructure;
+    write_cables(base.frame, deck, report);
+    if (base.water) write_members(*base.water, base.frame, deck, report);
+    if (base.water && base.water->sea.kind != SeaState::Kind::still) {
+      report.add(assumed, "weight and modes see the waves as they stand at time 0");
+    }
+  }
   deck.close();
 }
 
@@ -302,13 +336,18 @@ void write_history(const std::string& name, const std::string& type, const std::
   deck.close();
 }
 
-void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWriter& deck) {
+void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report,
+                  DeckWriter& deck) {
   deck.open("Output");
   if (turbine.air) deck.set("Every", 50);
   deck.open("History");
   write_history("tower top", "Displacement", "tower/last", deck);
-  write_history("tower base", "Reaction", turbine.platform.mass > 0.0 ? "platform" : "tower/first",
-                deck);
+  if (turbine.substructure) {
+    write_history(turbine.substructure->frame, deck, report);
+  } else {
+    write_history("tower base", "Reaction",
+                  turbine.platform.mass > 0.0 ? "platform" : "tower/first", deck);
+  }
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
     const std::string name = fmt::format("blade {}", i + 1);
     write_history(name + " tip", "Displacement", name + "/last", deck);
@@ -408,7 +447,10 @@ std::vector<std::string> about(const ElastoDyn& turbine) {
           : fmt::format("x downwind, z up from ground or mean sea level; the foot of the "
                         "tower is at z = {:g} m. SI units.",
                         turbine.tower_base));
-  if (stands_on_more(turbine)) {
+  if (turbine.substructure) {
+    lines.push_back("It stands on the substructure of " +
+                    turbine.substructure->frame.path.filename().string() + ".");
+  } else if (stands_on_more(turbine)) {
     lines.emplace_back("What is below the tower is not in this deck: see 'foundation'.");
   }
   return lines;
@@ -484,18 +526,23 @@ std::string write_deck(ElastoDyn turbine, const std::filesystem::path& folder, R
   if (stands_on_more(turbine)) {
     for (const std::string& line : describe_base(turbine)) report.add(missing, line);
   }
+  if (turbine.substructure) report_masses(turbine.substructure->frame, report);
   DeckWriter deck(turbine.title, about(turbine));
   deck.variable("torsion", 1.0, "times GJ of the tower");
   if (turbine.air) write_air_variables(turbine, deck);
   write_sections_list(turbine, report, deck);
-  if (turbine.air) write_air(turbine, folder, report, deck);
+  if (turbine.air) {
+    write_air(turbine, folder, report, deck);
+  } else if (turbine.substructure && turbine.substructure->water) {
+    write_flows(turbine.substructure->water->sea, deck);
+  }
   write_structures(turbine, layout, tower_damping, report, deck);
-  write_masses(turbine, deck);
-  write_constraints(turbine, layout, deck);
+  write_masses(turbine, report, deck);
+  write_constraints(turbine, layout, report, deck);
   write_loads(turbine, layout, report, deck);
   if (turbine.air) write_initial_velocities(turbine, layout, deck);
   write_analyses(turbine, deck);
-  write_output(turbine, layout, deck);
+  write_output(turbine, layout, report, deck);
   return deck.text();
 }
 

@@ -4,6 +4,7 @@
 #include <culm/base/read_file.hpp>
 #include <culm/openfast/import.hpp>
 
+#include "offshore_files.hpp"
 #include "sample_files.hpp"
 #include "sample_scene.hpp"
 
@@ -18,8 +19,6 @@
 
 namespace culm::openfast {
 namespace {
-
-constexpr int flips = 500;
 
 class DamagedFiles : public SampleFiles {
  protected:
@@ -68,40 +67,65 @@ class DamagedFiles : public SampleFiles {
     return false;
   }
 
+  void expect_cuts_to_be_told() {
+    for (const auto& [name, path] : files_) {
+      const std::string text = read_file(path);
+      for (std::size_t percent = 0; percent < 100; percent += 5) {
+        const auto made = import_with(name, text.substr(0, text.size() * percent / 100));
+        if (!made || made->deck == whole_.deck || says_more(*made)) continue;
+        ADD_FAILURE() << name << " cut at " << percent << " %: another deck without a word";
+      }
+      write(name, text);
+    }
+  }
+
+  void expect_flips_to_be_told(int flips) {
+    std::mt19937 generator(1);
+    for (const auto& [name, path] : files_) {
+      const std::string text = read_file(path);
+      for (int i = 0; i < flips; ++i) {
+        std::string damaged = text;
+        const std::size_t place = generator() % text.size();
+        const unsigned bit = generator() % 8;
+        damaged[place] =
+            static_cast<char>(static_cast<unsigned char>(damaged[place]) ^ (1U << bit));
+        const auto made = import_with(name, damaged);
+        if (!made || !has_less(*made) || says_more(*made)) continue;
+        ADD_FAILURE() << name << ", bit " << bit << " of byte " << place << " ('" << text[place]
+                      << "') flipped: a deck without a word";
+      }
+      write(name, text);
+    }
+  }
+
   std::map<std::string, std::filesystem::path> files_;
   std::filesystem::path scene_;
   Imported whole_;
 };
 
-TEST_F(DamagedFiles, ThatAreCutMakeTheSameDeckOrAMessage) {
-  for (const auto& [name, path] : files_) {
-    const std::string text = read_file(path);
-    for (std::size_t percent = 0; percent < 100; percent += 5) {
-      const auto made = import_with(name, text.substr(0, text.size() * percent / 100));
-      if (!made || made->deck == whole_.deck || says_more(*made)) continue;
-      ADD_FAILURE() << name << " cut at " << percent << " %: another deck without a word";
-    }
-    write(name, text);
-  }
-}
+TEST_F(DamagedFiles, ThatAreCutMakeTheSameDeckOrAMessage) { expect_cuts_to_be_told(); }
 
-TEST_F(DamagedFiles, WithAFlippedBitLoseNothingInSilence) {
-  std::mt19937 generator(1);
-  for (const auto& [name, path] : files_) {
-    const std::string text = read_file(path);
-    for (int i = 0; i < flips; ++i) {
-      std::string damaged = text;
-      const std::size_t place = generator() % text.size();
-      const unsigned bit = generator() % 8;
-      damaged[place] = static_cast<char>(static_cast<unsigned char>(damaged[place]) ^ (1U << bit));
-      const auto made = import_with(name, damaged);
-      if (!made || !has_less(*made) || says_more(*made)) continue;
-      ADD_FAILURE() << name << ", bit " << bit << " of byte " << place << " ('" << text[place]
-                    << "') flipped: a deck without a word";
-    }
-    write(name, text);
+TEST_F(DamagedFiles, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(500); }
+
+// The files of what carries the tower, in the same scene.
+class DamagedSubstructures : public DamagedFiles {
+ protected:
+  DamagedSubstructures() {
+    std::string joined = change(scene, "0     CompHydro", "1     CompHydro");
+    joined = change(joined, "0     CompSub", "1     CompSub");
+    write("scene.fst", joined +
+                           "\"waves.dat\" HydroFile - (quoted string)\n\"jacket.dat\" SubFile - "
+                           "(quoted string)\n\"sea.dat\" SeaStFile - (quoted string)\n");
+    files_ = {{"jacket.dat", write("jacket.dat", subdyn_file)},
+              {"sea.dat", write("sea.dat", seastate_file)},
+              {"waves.dat", write("waves.dat", hydrodyn_file)}};
+    whole_ = import_file(scene_);
   }
-}
+};
+
+TEST_F(DamagedSubstructures, ThatAreCutMakeTheSameDeckOrAMessage) { expect_cuts_to_be_told(); }
+
+TEST_F(DamagedSubstructures, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(150); }
 
 }  // namespace
 }  // namespace culm::openfast

@@ -2,6 +2,7 @@
 #include <culm/openfast/elastodyn.hpp>
 #include <culm/openfast/import.hpp>
 
+#include "offshore_files.hpp"
 #include "sample_files.hpp"
 #include "sample_turbine.hpp"
 
@@ -16,6 +17,7 @@
 namespace culm::openfast {
 namespace {
 
+using testing::ContainsRegex;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
@@ -235,6 +237,41 @@ TEST_F(ElastoDynFiles, TheFileOfAllModulesIsFoundOrGiven) {
                 HasSubstr("not imported: HydroDyn (waves.dat), SubDyn (jacket.dat)"));
     EXPECT_THAT(imported.deck, HasSubstr("SubDyn (jacket.dat)"));
   }
+}
+
+// A leg of the frame is a member of HydroDyn that goes the other way; a brace of HydroDyn has no
+// beam.
+TEST_F(ElastoDynFiles, TowersStandOnTheMembersOfSubDynInTheWaterOfHydroDyn) {
+  write("turbine.dat",
+        change(turbine, "20    TowerHt     - (m)", "30.5 TowerHt - (m)\n10.5 TowerBsHt - (m)\n"));
+  write("jacket.dat", subdyn_file);
+  write("sea.dat", seastate_file);
+  std::string water = change(hydrodyn_file, "  1        0.0     0.0   -20.0001   1         0",
+                             "  1        5.0     0.0    10.0      1         0");
+  water = change(water, "  2        0.0     0.0    10.0      1         0",
+                 "  2        5.0     0.0   -20.0      1         0");
+  write("waves.dat", water);
+  const Imported imported = import_file(write("scene.fst", glue));
+  for (const char* part :
+       {R"(<Parameter name="Sections" value="{tube 1, tube 2}"/>)",
+        R"(<Parameter name="Structure" value="member 2"/>)",
+        R"(<Parameter name="Node" value="tower/first"/>)",
+        R"(<Parameter name="Master" value="member 1/last"/>)", R"(name="joint 11, held")",
+        R"(<Parameter name="Type" value="Irregular Waves"/>)",
+        "It stands on the substructure of"}) {
+    EXPECT_THAT(imported.deck, HasSubstr(part));
+  }
+  EXPECT_THAT(imported.deck, Not(HasSubstr("foundation")));
+  std::string load = imported.deck.substr(imported.deck.find("water on member 2, member 1"));
+  load.resize(load.find("</ParameterList>"));
+  std::erase_if(load, [](char c) { return c == ' ' || c == '\n'; });
+  // 3 m at the bed, 6 m above the water
+  EXPECT_THAT(load, ContainsRegex("Diameters\"value=\"[{]3,[^}]*,6[}]"));
+  EXPECT_THAT(imported.report, HasSubstr("member 2 of HydroDyn: 10 m of 10 m lie along no"));
+  EXPECT_THAT(imported.report, HasSubstr("0.5 m between the foot of the tower and joint 13"));
+  EXPECT_THAT(imported.report, Not(HasSubstr("not imported")));
+  write("jacket.dat", change(subdyn_file, "2            NInterf", "0            NInterf"));
+  EXPECT_THROW(import_file(path_of("scene.fst")), InputError);
 }
 
 TEST_F(ElastoDynFiles, AServoDynFileThatIsNotThereIsMissed) {

@@ -3,7 +3,9 @@
 
 #include <culm/openfast/aerodyn.hpp>
 #include <culm/openfast/beamdyn.hpp>
+#include <culm/openfast/hydrodyn.hpp>
 #include <culm/openfast/inflow.hpp>
+#include <culm/openfast/subdyn.hpp>
 
 #include <optional>
 
@@ -59,6 +61,12 @@ struct Air {
   double end = 0.0;  ///< of the motion [s]
 };
 
+/// What carries the tower, and the water on it.
+struct Substructure {
+  SubDyn frame;
+  std::optional<HydroDyn> water;
+};
+
 /// The tower.
 struct ElastoDynTower {
   std::filesystem::path path;
@@ -111,6 +119,7 @@ struct ElastoDyn {
   std::vector<ElastoDynBlade> blades;
   ElastoDynTower tower;
   std::optional<Air> air;
+  std::optional<Substructure> substructure;
 
   /// Whether the nacelle turns against a spring; without one it would turn without end.
   bool yaws() const { return yaw_is_free && yaw_drive && yaw_drive->stiffness > 0.0; }

@@ -69,5 +69,7 @@ struct HydroDyn {
 /// Reads the file and SeaState's, which the file of the whole turbine names, or the only one beside
 /// it. Throws InputError, FileError.
 HydroDyn read_hydrodyn(const std::filesystem::path& path, Report& report);
+HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& surroundings,
+                       Report& report);
 
 }  // namespace culm::openfast

@@ -25,6 +25,8 @@ struct Surroundings {
 /// From the file beside this one that names it: `.fst`, or a driver. The first one by name where
 /// there are several.
 Surroundings find_surroundings(const std::filesystem::path& module);
+/// From the file of the whole turbine or of a driver. Throws InputError, FileError.
+Surroundings read_surroundings(const std::filesystem::path& whole);
 
 /// A sea. Heights are counted from mean sea level.
 struct SeaState {
