@@ -62,6 +62,12 @@ void scale(const Options& options, TurbulenceGrid& grid) {
     const double factor = found > 0.0 ? wanted[c] / found : 0.0;
     for (std::size_t i = c; i < grid.values.size(); i += 3) {
       grid.values[i] = static_cast<float>(factor * grid.values[i]);
+      if (!std::isfinite(grid.values[i])) {
+        throw InputError(options.where("Deviations"),
+                         fmt::format("component {} of the box, which varies by {:g} m/s, cannot be "
+                                     "scaled to {:g} m/s",
+                                     c + 1, found, wanted[c]));
+      }
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace culm::flow {
@@ -98,6 +99,12 @@ TurbulenceGrid read_turbsim(const std::string& name, const Where& where) {
     slope[c] = reader.finite("slope");
     intercept[c] = reader.finite("intercept");
     if (slope[c] == 0.0) reader.fail("a slope must not be zero");
+    constexpr double farthest = 32768.0;  // of the integers
+    const double fastest = (farthest + std::abs(intercept[c])) / std::abs(slope[c]);
+    if (fastest > std::numeric_limits<float>::max()) {
+      reader.fail(
+          fmt::format("a slope of {:g} makes velocities up to {:g} m/s", slope[c], fastest));
+    }
   }
   reader.skip(static_cast<std::size_t>(reader.count("length of the description", 0)));
 

@@ -161,5 +161,15 @@ TEST_F(Boxes, BrokenFilesGiveOneClearError) {
   EXPECT_THAT(objection(still), HasSubstr("mean speed must be > 0"));
 }
 
+// The integers of the file, divided by that, are no numbers in single precision.
+TEST_F(Boxes, VelocitiesStayInRange) {
+  std::string bytes = turbsim(7);
+  const float slope = 1e-38F;
+  constexpr std::size_t place = 2 + 4 * 4 + 6 * 4;  // kind, counts, sizes
+  std::memcpy(bytes.data() + place, &slope, sizeof(slope));
+  EXPECT_THAT(objection(bytes),
+              HasSubstr("a slope of 1e-38 makes velocities up to 3.2768e+42 m/s"));
+}
+
 }  // namespace
 }  // namespace culm::flow

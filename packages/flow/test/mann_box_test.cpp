@@ -105,6 +105,8 @@ TEST_F(MannBoxes, DeviationsAreThoseAskedFor) {
   EXPECT_NEAR(variance[0], 4.0, 1e-5);
   EXPECT_EQ(variance[1], 0.0);
   EXPECT_NEAR(variance[2], 0.25, 1e-6);
+  EXPECT_THAT(objection({{"Deviations", std::vector{1e300, 0.0, 0.0}}}),
+              HasSubstr("cannot be scaled to 1e+300 m/s"));
 }
 
 TEST_F(MannBoxes, FilesThatDoNotFitAreRefused) {
