@@ -32,6 +32,13 @@ const std::filesystem::path& scratch_folder();
 /// Writes a file into the scratch folder, in place of the one of the same name.
 std::filesystem::path write_scratch(std::string_view name, std::string_view content);
 
+/// Writes the files that an input holds: a line "%%% NAME" begins each, names with folders are left
+/// out. Returns the path of the first one, or nothing.
+std::filesystem::path write_files(std::string_view input);
+
+/// Removes all files from the scratch folder.
+void empty_scratch();
+
 /// The bytes of an input as text.
 inline std::string_view text_of(const unsigned char* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
