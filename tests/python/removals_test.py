@@ -117,6 +117,16 @@ class Removals(unittest.TestCase):
         self.assertEqual(settings(found, "hub losses"), [['Loads/r/Losses={"Tip"}']])
         self.assertEqual(settings(found, "skewed wake"), [["Loads/r/Yaw=None"]])
 
+    def test_towers_leave_the_wind_alone(self):
+        both = entry("a", {"Type": "Uniform"}, entry("Tower Influence", {"Upstream": "Bak", "Downstream": "Eames"}))
+        one = entry("b", {"Type": "Gust"}, entry("Tower Influence", {"Upstream": "Potential", "Downstream": "None"}))
+        found = removals.find(deck(entry("Flows", {}, both + one + entry("c", {"Type": "Uniform"}))))
+        self.assertEqual(
+            settings(found, "wind in front of the tower"),
+            [["Flows/a/Tower Influence/Upstream=None"], ["Flows/b/Tower Influence/Upstream=None"]],
+        )
+        self.assertEqual(settings(found, "wake of the tower"), [["Flows/a/Tower Influence/Downstream=None"]])
+
     def test_free_wakes_become_prescribed(self):
         lattice = entry("a", {"Type": "Vortex Lattice"}, entry("Wake", {"Motion": "Free"}))
         lattice += entry("b", {"Type": "Vortex Lattice"}, entry("Wake", {"Motion": "Prescribed"}))

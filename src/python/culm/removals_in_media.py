@@ -33,6 +33,16 @@ def shear_of_the_wind(deck):
                 yield Removal("shear of the wind", name, [f"Flows/{name}/{key}=0"], key)
 
 
+def influence_of_towers(deck):
+    """What a tower does to the wind in front of it and behind."""
+    for name in deck.names_in("Flows"):
+        path = f"Flows/{name}/Tower Influence"
+        influence = parameters(deck, path)
+        for key, effect in (("Upstream", "wind in front of the tower"), ("Downstream", "wake of the tower")):
+            if influence.get(key, "None") != "None":
+                yield Removal(effect, name, [f"{path}/{key}=None"])
+
+
 def members_in_water(deck):
     """Pressure, drag, added mass and growth of members, each by itself."""
     for name in of_types(deck, "Loads", "Morison"):
@@ -145,6 +155,7 @@ def plasticity(deck):
 FINDERS = [
     waves,
     shear_of_the_wind,
+    influence_of_towers,
     members_in_water,
     air_of_sections,
     induction,
