@@ -63,6 +63,22 @@ class Run:
         line = next(line for line in self.output.splitlines() if line.strip().startswith(what))
         return float(line.split(what)[1].split()[0])
 
+    def books(self):
+        """The energies and works of the certificate [J] by name, 'work of loads, air' for a share of an account; of
+        energies what they gained. The run must not be quiet."""
+        books, row = {}, None
+        for line in self.output.splitlines():
+            energy = re.fullmatch(r"  (\S.*?) +(\S+) J  -> +(\S+) J", line)
+            amount = re.fullmatch(r"  (  )?(\S.*?) +(\S+) J", line)
+            if energy:
+                books[energy[1]] = float(energy[3]) - float(energy[2])
+            elif amount and amount[1]:
+                books[f"{row}, {amount[2]}"] = float(amount[3])
+            elif amount:
+                row = amount[2]
+                books[row] = float(amount[3])
+        return books
+
     def _steps(self, pattern):
         """A number of the closing words, such as '500 steps accepted, 0 cut back; …'."""
         return int(re.search(pattern, self.output).group(1))

@@ -4,8 +4,8 @@
 import math
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from verify import figure, main, save
+from scipy.integrate import simpson, solve_ivp
+from verify import figure, gain, main, save
 
 ROTOR, PITCH = "control/speed_control.xml", "control/pitch_actuator.xml"
 VARIABLE = "control/variable_speed.xml"
@@ -83,13 +83,15 @@ def variable_at(times):
         return [(drive - torque(filtered)) / 2.0, (speed - filtered) / 0.2, filtered - 1.6 + beyond / 0.05]
 
     found = solve_ivp(rates, (0.0, times[-1]), [1.5, 1.5, 0.0], t_eval=times, rtol=1e-10, atol=1e-12, max_step=1e-3).y
-    return found[1], [torque(speed) for speed in found[1]], found[2]
+    powers = [[(3.0 + 5.0 * math.sin(1.3 * t)) * speed, -torque(filtered) * speed]
+              for t, speed, filtered in zip(times, found[0], found[1])]
+    return found[1], [torque(speed) for speed in found[1]], found[2], np.transpose(powers)
 
 
 def variable_error(culm, step):
     history = culm.history(VARIABLE, [f"Analyses/motion/Step={step}"])
     times = np.array(history.levels)
-    speed, _, excess = variable_at(times)
+    speed, _, excess, _ = variable_at(times)
     return [np.abs(np.array(history.column(name)) - wanted).max()
             for name, wanted in (("speed [1]", speed), ("turned too far [1]", excess))]
 
@@ -101,6 +103,13 @@ def verify_variable_speed(culm, report):
         report.holds(f"{name} at 0.0025 s", b, 1e-4)
         # corners lie within steps, here early and there late
         report.check(f"{name}: order of the step", math.log2(a / b) / 3.0, 2.0, 0.6)
+    report.title("The same: works of wind and generator, each on its account")
+    run = culm.run(VARIABLE, ["Analyses/motion/Step=0.0025"], quiet=False)
+    times = np.linspace(0.0, 10.0, 4001)
+    books = run.books()
+    for account, power in zip(("wind", "generator"), variable_at(times)[3]):
+        report.relative(f"{account} [J]", books[f"work of loads, {account}"], float(simpson(power, x=times)), 1e-4)
+    report.holds("books: gain less the works [J]", abs(gain(books)), 1e-9 * books["work of loads, wind"])
     for what, speed, drive, slope in (("table", 1.5, 3.0, 10.0), ("constant power", 2.4, 5.0, -12.0 / 2.4**2)):
         table = culm.table("modes/modes", VARIABLE, [
             f"W={speed}", f"M={drive}", "swing=0", "end=0.01", "Signals/turned too far/Initial=-0.1",

@@ -4,7 +4,8 @@
 import math
 
 import numpy as np
-from verify import figure, main, save
+from scipy.integrate import trapezoid
+from verify import figure, gain, main, save
 
 STEP = "turbine/nrel5mw/turbine_step.xml"
 STOP = "turbine/nrel5mw/turbine_stop.xml"
@@ -99,7 +100,16 @@ def verify_stop(culm, report):
     report.note(f"largest speed {speed[1:].max():.2f} rpm at {times[1:][speed[1:].argmax()]:.2f} s, "
                 f"{speed[-1]:.2f} rpm at the end; least thrust {min(history.column('rotor thrust [N]')[1:]) / 1e3:.0f} kN")
     report.holds("speed at the end, of the rated one", speed[-1] / RATED_SPEED, 0.15)
-    report.holds("counter-torque behind the loss", max(np.array(history.column("counter torque [1]"))[times > 10.02]), 0.0)
+    torque = np.array(history.column("counter torque [1]"))
+    report.holds("counter-torque behind the loss", max(torque[times > 10.02]), 0.0)
+    books = run.books()
+    report.title("The same: what the air gave, what the generator took [J]")
+    given, taken = (books[f"work of loads, {account}"] for account in ("air", "generator"))
+    # the generator is stiff with the rotor up to the twist of the shaft
+    power = torque * np.array(history.column("rotor speed [rad/s]"))
+    report.relative("generator", -taken, float(trapezoid(power[1:], times[1:])), 2e-3)
+    report.holds("gain less air, generator, drives and dampers as printed, of what the air gave",
+                 abs(gain(books)) / given, 1e-7)
     report.holds("energy balance", run.drift("energy balance"), 1e-10)
 
 

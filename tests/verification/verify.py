@@ -54,6 +54,13 @@ def _text(value):
     return f"{value:.8g}"
 
 
+def gain(books):
+    """What the energies of a run gained beyond what its certificate books (`Run.books`) [J]."""
+    energies = sum(books[f"{kind} energy"] for kind in ("kinetic", "strain", "potential"))
+    flows = books["work of loads"] + books["work of drives"]
+    return energies - flows + books["energy taken by dampers"] + books["energy taken by dissipation"]
+
+
 def richardson(coarse, fine, order=2, ratio=2):
     """The limit of quantities whose error falls with the given power of the mesh width."""
     factor = ratio**order

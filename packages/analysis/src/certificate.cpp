@@ -29,7 +29,7 @@ double relative(double drift, double scale) { return scale > 0.0 ? drift / scale
 }  // namespace
 
 Certificate::Certificate(const assembly::System& system, bool promises)
-    : system_(system), promises_(promises) {}
+    : system_(system), promises_(promises), books_(system) {}
 
 void Certificate::start(const model::State& state) {
   first_momentum_ = momentum_ = system_.momentum(state.next, state.velocity);
@@ -43,7 +43,7 @@ void Certificate::start(const model::State& state) {
 void Certificate::add_work(const model::State& state, const Stencil& stencil,
                            double constraint_violation) {
   ++steps_;
-  const model::StepWork step = system_.step_work(state, stencil);
+  const model::StepWork step = books_.add(state, stencil);
   work_ += step;
   impulse_ += stencil.step * step.force;
   angular_impulse_ += stencil.step * step.moment;
@@ -93,8 +93,14 @@ auto Certificate::memory(Self& self) {
     add_vector(m->linear);
     add_vector(m->angular);
   }
+  const auto add_amounts = [&places](auto& w) {
+    places.insert(places.end(), {&w.external, &w.drives, &w.damping, &w.dissipation});
+  };
   auto& work = self.work_;
-  places.insert(places.end(), {&work.external, &work.drives, &work.damping, &work.dissipation});
+  add_amounts(work);
+  if (!self.books_.accounts().empty()) {
+    for (auto& share : self.books_.works()) add_amounts(share);
+  }
   for (auto* v : {&work.force, &work.moment, &self.impulse_, &self.angular_impulse_}) {
     add_vector(*v);
   }
@@ -134,17 +140,36 @@ bool Certificate::is_free() const {
                      [](const model::Constraint& c) { return c.is_internal; });
 }
 
+std::vector<Certificate::Amount> Certificate::amounts() const {
+  const auto amount = [this](const char* name, double model::StepWork::*what) {
+    Amount row{name, work_.*what, {}};
+    const std::vector<std::string>& accounts = books_.accounts();
+    for (std::size_t i = 0; i < books_.works().size(); ++i) {
+      const double value = books_.works()[i].*what;
+      const bool has_account = i < accounts.size();
+      if (value == 0.0 || (!has_account && row.shares.empty())) continue;
+      row.shares.emplace_back(has_account ? accounts[i] : "others", value);
+    }
+    return row;
+  };
+  return {amount("work of loads", &model::StepWork::external),
+          amount("work of drives", &model::StepWork::drives),
+          amount("energy taken by dampers", &model::StepWork::damping),
+          amount("energy taken by dissipation", &model::StepWork::dissipation)};
+}
+
 std::vector<std::pair<std::string, double>> Certificate::numbers() const {
-  std::vector<std::pair<std::string, double>> numbers = {
-      {"kinetic energy", last_.kinetic},
-      {"strain energy", last_.strain},
-      {"potential energy", last_.potential},
-      {"work of loads", work_.external},
-      {"work of drives", work_.drives},
-      {"energy taken by dampers", work_.damping},
-      {"energy taken by dissipation", work_.dissipation},
-      {"relative energy drift", relative(energy_drift_, energy_scale())},
-      {"constraint drift", constraint_violation_}};
+  std::vector<std::pair<std::string, double>> numbers = {{"kinetic energy", last_.kinetic},
+                                                         {"strain energy", last_.strain},
+                                                         {"potential energy", last_.potential}};
+  for (const Amount& row : amounts()) {
+    numbers.emplace_back(row.name, row.value);
+    for (const auto& [account, value] : row.shares) {
+      numbers.emplace_back(row.name + ", " + account, value);
+    }
+  }
+  numbers.emplace_back("relative energy drift", relative(energy_drift_, energy_scale()));
+  numbers.emplace_back("constraint drift", constraint_violation_);
   if (hidden_violation_) numbers.emplace_back("hidden constraint violation", *hidden_violation_);
   if (is_free()) {
     numbers.emplace_back("relative linear momentum drift", relative(linear_drift_, linear_scale()));
@@ -185,13 +210,12 @@ std::string Certificate::text() const {
   line("kinetic energy", first_.kinetic, last_.kinetic);
   line("strain energy", first_.strain, last_.strain);
   line("potential energy", first_.potential, last_.potential);
-  const auto amount = [&text](const std::string& name, double value) {
-    text += fmt::format("  {:<28} {:>41.9g} J\n", name, value);
-  };
-  amount("work of loads", work_.external);
-  amount("work of drives", work_.drives);
-  amount("taken by dampers", work_.damping);
-  amount("taken by dissipation", work_.dissipation);
+  for (const Amount& row : amounts()) {
+    text += fmt::format("  {:<28} {:>41.9g} J\n", row.name, row.value);
+    for (const auto& [account, value] : row.shares) {
+      text += fmt::format("    {:<26} {:>41.9g} J\n", account, value);
+    }
+  }
   for (const Line& one : lines()) {
     if (one.name == "constraints" && !is_free()) {
       text += "  momenta: the model is held, so supports change them\n";

@@ -56,6 +56,7 @@ LatticeLoad::LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
                          std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror,
                          flow::SharedFlow flow, LatticeSetting setting)
     : MemorylessBatch(std::move(effect)),
+      FluidForce(*flow),
       nodes_(nodes),
       lattice_(
           BoundLattice(panels_of(surfaces), reference_grid(surfaces, nodes), std::move(mirror)),

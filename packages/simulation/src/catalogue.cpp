@@ -172,6 +172,19 @@ Variants with_common_fields(Variants analyses) {
   return analyses;
 }
 
+// What every load has.
+Variants with_account(Variants loads) {
+  for (auto& [type, schema] : loads) {
+    schema.add(
+        text("Account",
+             "Line of the balance of energy in which its work is shown; loads of one account "
+             "are summed. If absent: air, water, contact and heat have their own, others "
+             "none.")
+            .optional());
+  }
+  return loads;
+}
+
 // Functions that every deck has.
 void check_functions(const Options& list, InputIssues& issues) {
   for (const Options& entry : list.entries()) {
@@ -258,7 +271,8 @@ Schema Catalogue::deck_schema() const {
             Schema("Airfoils", "What sections do in a flow, by name.")
                 .entries_by_type(airfoils.variants()),
             Presence::defaulted)
-      .list("Loads", Schema("Loads", "Loads by name.").entries_by_type(std::move(all_loads)),
+      .list("Loads",
+            Schema("Loads", "Loads by name.").entries_by_type(with_account(std::move(all_loads))),
             Presence::defaulted)
       .list("Ports",
             Schema("Ports",

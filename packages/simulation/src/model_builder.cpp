@@ -1,5 +1,7 @@
 #include "model_builder.hpp"
 
+#include <culm/model/booked.hpp>
+
 #include "silent_quantity.hpp"
 
 #include <algorithm>
@@ -58,6 +60,27 @@ std::map<std::string, flow::SharedFlow> make_flows(const flow::FlowRegistry& reg
   return flows;
 }
 
+// Under the account that the deck names.
+void book(const Options& entry, model::BuildContext& context) {
+  const std::string& account = entry.text("Account");
+  if (account.empty() || account == "others") {
+    context.issues.add(entry.where("Account"),
+                       "must be a name of its own; 'others' is all that has no account");
+    return;
+  }
+  bool works = false;
+  for (const auto& batch : context.model.loads()) {
+    auto* booked = dynamic_cast<model::Booked*>(batch.get());
+    if (booked == nullptr || batch->effect().name != entry.name()) continue;
+    booked->book_under(account);
+    works = true;
+  }
+  if (!works && context.issues.empty()) {
+    context.issues.add(entry.where("Account"), "loads of type '" + entry.text("Type") +
+                                                   "' do no work that could be booked");
+  }
+}
+
 // Loads of all kinds stand in one list, in any order.
 void build_loads(const Catalogue& catalogue, const Options& list, const Inactive& inactive,
                  strip::StripContext& strips) {
@@ -74,6 +97,9 @@ void build_loads(const Catalogue& catalogue, const Options& list, const Inactive
     }
   }
   fluids.finish();
+  for (const Options& entry : list.entries()) {
+    if (entry.has("Account") && !inactive.contains(entry.name())) book(entry, fluids.build);
+  }
 }
 
 void build_structures(const structure::StructureRegistry& registry, const Options& list,

@@ -32,6 +32,7 @@ PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes
                              model::Amplitude amplitude, std::shared_ptr<const Sea> sea, int node,
                              FloatingBody body)
     : MemorylessBatch(std::move(effect)),
+      FluidForce(*sea),
       nodes_(nodes),
       amplitude_(std::move(amplitude)),
       sea_(std::move(sea)),

@@ -1,6 +1,7 @@
 /// Whether a run kept what its scheme promises.
 #pragma once
 
+#include <culm/analysis/books.hpp>
 #include <culm/assembly/system.hpp>
 #include <culm/base/snapshot.hpp>
 
@@ -12,7 +13,8 @@
 namespace culm::analysis {
 
 /// Follows energy and momenta through a dynamic run and balances them against loads, drives,
-/// dampers and dissipation. @source formulation 4.3, 4.6
+/// dampers and dissipation, with the shares of the accounts that they book under (`model::Booked`).
+/// @source formulation 4.3, 4.6
 class Certificate {
  public:
   /// @param promises whether the scheme balances energy and momenta exactly
@@ -54,8 +56,16 @@ class Certificate {
     bool is_promised = true;
   };
 
+  /// A row of what flowed in or out, and the shares that are not zero, by account.
+  struct Amount {
+    std::string name;
+    double value = 0.0;  ///< [J]
+    std::vector<std::pair<std::string, double>> shares;
+  };
+
   template <class Self>
   static auto memory(Self& self);
+  std::vector<Amount> amounts() const;
   std::vector<Line> lines() const;
   void measure(const model::State& state);
   double energy_scale() const;
@@ -66,6 +76,7 @@ class Certificate {
   bool promises_;
   assembly::Energies first_, last_;
   model::Momentum first_momentum_, momentum_;
+  Books books_;
   model::StepWork work_;  ///< summed over all steps
   Vec3 impulse_ = Vec3::Zero();
   Vec3 angular_impulse_ = Vec3::Zero();

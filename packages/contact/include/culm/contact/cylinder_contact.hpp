@@ -3,6 +3,7 @@
 
 #include <culm/contact/contact_point.hpp>
 #include <culm/contact/penalty.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 
 #include <Eigen/Core>
@@ -28,13 +29,17 @@ struct Cylinder {
 /// whose differences obey DD = G . Dy with G = (1, -2 cm) / (D_n + D_n+1), cm the mean of c over
 /// the step. The force on the slots is the pressure of the step times G through the gradient of y
 /// at theta: a conserving step keeps energy and momenta.
-class CylinderContact final : public model::MemorylessBatch, public Contact {
+class CylinderContact final : public model::MemorylessBatch, public Contact, public model::Booked {
  public:
   static constexpr int max_nodes = 5;
 
   CylinderContact(model::Effect effect, const model::NodeTable& nodes, const Cylinder& cylinder,
                   const Penalty& penalty)
-      : MemorylessBatch(std::move(effect)), nodes_(nodes), cylinder_(cylinder), penalty_(penalty) {}
+      : MemorylessBatch(std::move(effect)),
+        Booked("contact"),
+        nodes_(nodes),
+        cylinder_(cylinder),
+        penalty_(penalty) {}
 
   void add(const ContactPoint& point);
 

@@ -4,6 +4,7 @@
 #include <culm/contact/contact_point.hpp>
 #include <culm/contact/friction.hpp>
 #include <culm/contact/penalty.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 
 #include <cstddef>
@@ -23,13 +24,14 @@ struct Plane {
 ///   x_c = x + sum_i xi_i d_i,   xi_i = -r n . d_i   in the middle of the step,
 /// against the velocity Dx_c / step of this material point, so that it only takes energy. In
 /// statics there is none. @source fluids B8
-class PlaneContact final : public model::MemorylessBatch, public Contact {
+class PlaneContact final : public model::MemorylessBatch, public Contact, public model::Booked {
  public:
   static constexpr int max_nodes = 4;
 
   PlaneContact(model::Effect effect, const model::NodeTable& nodes, Plane plane,
                const Penalty& penalty, const Friction& friction)
       : MemorylessBatch(std::move(effect)),
+        Booked("contact"),
         nodes_(nodes),
         plane_(std::move(plane)),
         penalty_(penalty),

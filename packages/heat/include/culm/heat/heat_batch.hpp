@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/model/amplitude.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/element_batch.hpp>
 
 #include <array>
@@ -34,7 +35,7 @@ struct HeatedElement {
 ///   S . De = DW - D,   D = (a C e_T . e_T - C e_T . e) Da     at the means of a and e,
 /// of which D is the work that heat does on the structure.
 template <class E>
-class HeatBatch final : public model::Batch, public model::AddedStresses {
+class HeatBatch final : public model::Batch, public model::AddedStresses, public model::Booked {
  public:
   static constexpr int N = E::num_nodes;
   static constexpr int S = E::num_slots;
@@ -43,7 +44,8 @@ class HeatBatch final : public model::Batch, public model::AddedStresses {
   /// @pre amplitude.is_function_of_time(); `elements` outlives this
   HeatBatch(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
             const model::ElementBatch<E>& elements)
-      : effect_(std::move(effect)),
+      : Booked("heat"),
+        effect_(std::move(effect)),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
         elements_(elements) {}

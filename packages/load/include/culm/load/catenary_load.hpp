@@ -3,6 +3,7 @@
 
 #include <culm/load/catenary.hpp>
 #include <culm/load/link.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/item_motion.hpp>
 #include <culm/model/memoryless_batch.hpp>
 
@@ -14,7 +15,7 @@ namespace culm::load {
 ///   y = (|p|^2 / L^2, e . p / L)      p from the anchor to the fairlead, e upwards
 /// and the force on the slots is f = -B(q_theta)^T G, with G . Dy = DW in the conserving step, so
 /// that a step keeps the energy, and the angular momentum about the vertical through the anchor.
-class CatenaryLoad final : public model::MemorylessBatch {
+class CatenaryLoad final : public model::MemorylessBatch, public model::Booked {
  public:
   CatenaryLoad(model::Effect effect, const model::NodeTable& nodes)
       : MemorylessBatch(std::move(effect)), nodes_(nodes) {}

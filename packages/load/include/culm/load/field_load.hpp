@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/model/amplitude.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/structure.hpp>
 #include <culm/model/vector_field.hpp>
@@ -16,7 +17,7 @@ namespace culm::load {
 /// the point: on the slots
 ///   f_s = T_s a l f(x_theta, t_theta)     x = sum_s T_s q_s,
 /// so that the force does the work f . Dx over a step. @source formulation 3, 3.7
-class FieldLoad final : public model::MemorylessBatch {
+class FieldLoad final : public model::MemorylessBatch, public model::Booked {
  public:
   static constexpr int max_nodes = 4;
 

@@ -4,6 +4,7 @@
 #include <culm/load/link.hpp>
 #include <culm/load/link_law.hpp>
 #include <culm/model/batch.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/item_motion.hpp>
 
 #include <memory>
@@ -20,7 +21,7 @@ namespace culm::load {
 /// so that f . Dq = F Du exactly; where F = DW / Du that is the change of the stored energy.
 /// Forms between two nodes do not change under rigid motion, so f keeps the momenta.
 /// @source formulation 0.3, 3.6, 4.4
-class LinkLoad final : public model::Batch {
+class LinkLoad final : public model::Batch, public model::Booked {
  public:
   LinkLoad(model::Effect effect, const model::NodeTable& nodes, std::unique_ptr<LinkLaw> law)
       : effect_(std::move(effect)), nodes_(nodes), law_(std::move(law)) {}

@@ -3,6 +3,7 @@
 
 #include <culm/load/axes.hpp>
 #include <culm/model/amplitude.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/node_table.hpp>
 
@@ -19,7 +20,7 @@ namespace culm::load {
 /// hence both have the same solutions. On a shell node it is a couple on its director,
 ///   f_d = m x d / (d . d)
 /// in both forms; the part of m along d is not carried. @source formulation 3.1, 3.2
-class MomentLoad final : public model::MemorylessBatch {
+class MomentLoad final : public model::MemorylessBatch, public model::Booked {
  public:
   MomentLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
              Axes axes)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/model/amplitude.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/projection.hpp>
 
@@ -16,7 +17,7 @@ namespace culm::load {
 ///   f_x_a = a p int N_a g1 x g2 dxi deta      f_d_a = zeta f_x_a
 /// Taken at q_theta, so a step keeps the momentum balance, and a closed surface has no resultant.
 /// @source formulation 3.4
-class PressureLoad final : public model::MemorylessBatch {
+class PressureLoad final : public model::MemorylessBatch, public model::Booked {
  public:
   PressureLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude)
       : MemorylessBatch(std::move(effect)), nodes_(nodes), amplitude_(std::move(amplitude)) {}

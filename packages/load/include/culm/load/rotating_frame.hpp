@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/model/amplitude.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/steady_rotation.hpp>
@@ -17,7 +18,9 @@ namespace culm::load {
 ///   f_s = -sum_t M_st (omega x (omega x q_t) + 2 omega x v_t),
 /// exactly for any shape and rotation. Velocities are (q_next - q_prev) / step: zero in statics.
 /// The speed is taken as steady: there is no term with its rate. @source formulation 1.2
-class RotatingFrame final : public model::MemorylessBatch, public model::SteadyRotation {
+class RotatingFrame final : public model::MemorylessBatch,
+                            public model::SteadyRotation,
+                            public model::Booked {
  public:
   static constexpr int max_nodes = 4;
 

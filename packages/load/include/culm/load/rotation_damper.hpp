@@ -3,6 +3,7 @@
 
 #include <culm/joint/axis_turn.hpp>
 #include <culm/load/piecewise_linear.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 
 #include <string>
@@ -14,7 +15,7 @@ namespace culm::load {
 /// Moments -F(omega_n) n on nodes with omega_n = n . tau / dt, tau the Cayley vector of the step:
 /// they take F omega_n dt >= 0 exactly, and are not there in statics.
 /// @source formulation 3.1, 3.6
-class RotationDamper final : public model::MemorylessBatch {
+class RotationDamper final : public model::MemorylessBatch, public model::Booked {
  public:
   /// @param moment F, with the sign of omega_n
   RotationDamper(model::Effect effect, const model::NodeTable& nodes, PiecewiseLinear moment)

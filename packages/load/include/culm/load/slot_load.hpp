@@ -4,6 +4,7 @@
 #include <culm/load/axes.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/batch.hpp>
+#include <culm/model/booked.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/structure.hpp>
 
@@ -17,7 +18,7 @@ namespace culm::load {
 /// Points are linear in the slots, so a dead force F at a point is f0_s = T_s F, and a force
 /// F_k d_k that follows the directors is L = T D^T with D the slot factors of F_k d_k. Both are
 /// taken at q_theta, so the work of dead forces over a step is exact. @source formulation 3, 3.2
-class SlotLoad final : public model::Batch {
+class SlotLoad final : public model::Batch, public model::Booked {
  public:
   static constexpr int max_nodes = 4;
 

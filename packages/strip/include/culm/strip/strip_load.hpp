@@ -125,6 +125,7 @@ class StripLoad final : public model::MemorylessBatch,
   StripLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
             flow::SharedFlow flow, StripModel model)
       : MemorylessBatch(std::move(effect)),
+        FluidForce(*flow),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
         flow_(std::move(flow)),

@@ -1,6 +1,7 @@
 /// What plastic flow takes from the stresses of linear elements.
 #pragma once
 
+#include <culm/model/booked.hpp>
 #include <culm/model/element_batch.hpp>
 
 #include <algorithm>
@@ -52,6 +53,7 @@ struct YieldingElement {
 template <class E, class Law>
 class PlasticBatch final : public model::Batch,
                            public model::AddedStresses,
+                           public model::Booked,
                            public YieldingElements {
  public:
   static constexpr int N = E::num_nodes;
@@ -63,7 +65,7 @@ class PlasticBatch final : public model::Batch,
   /// @param elements  outlives this
   PlasticBatch(model::Effect effect, const model::NodeTable& nodes,
                const model::ElementBatch<E>& elements)
-      : effect_(std::move(effect)), nodes_(nodes), elements_(elements) {}
+      : Booked("plastic heat"), effect_(std::move(effect)), nodes_(nodes), elements_(elements) {}
 
   void add(Yielding yielding) {
     const auto item = static_cast<std::size_t>(yielding.item);

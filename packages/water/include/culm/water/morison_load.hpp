@@ -33,6 +33,7 @@ class MorisonLoad final : public model::MemorylessBatch,
   MorisonLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
               std::shared_ptr<const Sea> sea, MorisonModel model)
       : MemorylessBatch(std::move(effect)),
+        FluidForce(*sea),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
         sea_(std::move(sea)),
