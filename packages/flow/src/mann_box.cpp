@@ -1,6 +1,6 @@
 #include "box.hpp"
 #include "mann_files.hpp"
-#include "reference_wind.hpp"
+#include "mean_wind.hpp"
 #include "tower_influence.hpp"
 
 #include <fmt/format.h>
@@ -10,32 +10,6 @@
 
 namespace culm::flow {
 namespace {
-
-// A wind with power law, and what a box adds to it.
-class TurbulentWind final : public Flow {
- public:
-  TurbulentWind(const Options& options, SharedFlow fluctuations)
-      : Flow(options.number("Density")),
-        axes_(read_wind_axes(options)),
-        speed_(options.number("Speed")),
-        height_(options.number("Height")),
-        exponent_(options.number("Exponent")),
-        fluctuations_(std::move(fluctuations)) {}
-
-  void velocities(std::span<const Vec3> places, double time,
-                  std::span<Vec3> velocities) const override {
-    fluctuations_->velocities(places, time, velocities);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      velocities[i] +=
-          speed_ * power_law(axes_.height(places[i]), height_, exponent_) * axes_.along;
-    }
-  }
-
- private:
-  WindAxes axes_;
-  double speed_, height_, exponent_;
-  SharedFlow fluctuations_;
-};
 
 // Of one component over the whole box.
 double deviation(const TurbulenceGrid& grid, std::size_t component) {
@@ -50,24 +24,29 @@ double deviation(const TurbulenceGrid& grid, std::size_t component) {
   return std::sqrt(std::max(squares / count - mean * mean, 0.0));
 }
 
-void scale(const Options& options, TurbulenceGrid& grid) {
-  const std::vector<double>& wanted = options.numbers("Deviations");
+// By which the components have the deviations that are wanted.
+std::vector<double> factors_to(const std::vector<double>& wanted, const Where& where,
+                               const TurbulenceGrid& grid) {
+  std::vector<double> factors;
   for (std::size_t c = 0; c < wanted.size(); ++c) {
     const double found = deviation(grid, c);
     if (found == 0.0 && wanted[c] > 0.0) {
-      throw InputError(
-          options.where("Deviations"),
-          fmt::format("component {} of the box does not vary, so it cannot be scaled", c + 1));
+      throw InputError(where, fmt::format("component {} of the box does not vary, so it cannot be "
+                                          "scaled",
+                                          c + 1));
     }
-    const double factor = found > 0.0 ? wanted[c] / found : 0.0;
-    for (std::size_t i = c; i < grid.values.size(); i += 3) {
-      grid.values[i] = static_cast<float>(factor * grid.values[i]);
-      if (!std::isfinite(grid.values[i])) {
-        throw InputError(options.where("Deviations"),
-                         fmt::format("component {} of the box, which varies by {:g} m/s, cannot be "
-                                     "scaled to {:g} m/s",
-                                     c + 1, found, wanted[c]));
-      }
+    factors.push_back(found > 0.0 ? wanted[c] / found : 0.0);
+  }
+  return factors;
+}
+
+void scale(const std::vector<double>& factors, const Where& where, TurbulenceGrid& grid) {
+  for (std::size_t i = 0; i < grid.values.size(); ++i) {
+    const double scaled = factors[i % factors.size()] * grid.values[i];
+    grid.values[i] = static_cast<float>(scaled);
+    if (!std::isfinite(grid.values[i])) {
+      throw InputError(where, fmt::format("component {} of the box cannot be scaled to {:g} m/s",
+                                          i % factors.size() + 1, scaled));
     }
   }
 }
@@ -77,8 +56,12 @@ SharedFlow make_mann_box(const Options& options, model::BuildContext&) {
   const std::vector<double>& d = options.numbers("Spacing");
   TurbulenceGrid grid = read_mann(options.texts("File Names"), options.where("File Names"),
                                   {n[0], n[1], n[2]}, {d[0], d[1], d[2]}, options.number("Speed"));
-  if (options.has("Deviations")) scale(options, grid);
-  return std::make_shared<TurbulentWind>(options, make_box(options, std::move(grid)));
+  if (options.has("Factors")) scale(options.numbers("Factors"), options.where("Factors"), grid);
+  if (options.has("Deviations")) {
+    const Where& where = options.where("Deviations");
+    scale(factors_to(options.numbers("Deviations"), where, grid), where, grid);
+  }
+  return add_mean_wind(options, options.number("Speed"), make_box(options, std::move(grid)));
 }
 
 }  // namespace
@@ -88,12 +71,12 @@ void register_mann_box(FlowRegistry& registry) {
       registry, "Mann Box",
       box_schema("Mann Box",
                  "Turbulence of three files as HAWC2 and Mann's generator write them, added to a "
-                 "wind with power law. The box repeats itself along the wind.")
+                 "mean wind. The box repeats itself along the wind.")
           .add(number("Speed", "m/s", "Mean speed at 'Height', with which the box moves.")
                    .positive())
           .add(number("Height", "m", "Height above the origin, along 'Up', at which 'Speed' holds.")
                    .positive())
-          .add(number("Exponent", "1", "Exponent of the height.").non_negative().optional(0.2))
+          .add_all(mean_profile_schema())
           .add(texts("File Names",
                      "Binary files of the components along the wind, across it and upwards, "
                      "relative to the deck.")
@@ -107,7 +90,16 @@ void register_mann_box(FlowRegistry& registry) {
                        "scaled; as the files have them if absent.")
                    .size(3)
                    .non_negative()
-                   .optional()),
+                   .optional())
+          .add(numbers("Factors", "1", "Factors on the components of the files, instead.")
+                   .size(3)
+                   .non_negative()
+                   .optional())
+          .check([](const Options& options, InputIssues& issues) {
+            if (!options.has("Factors") || !options.has("Deviations")) return;
+            issues.add(options.where("Factors"),
+                       "stands in place of 'Deviations'; give one of them");
+          }),
       make_mann_box);
 }
 

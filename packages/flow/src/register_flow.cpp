@@ -10,6 +10,7 @@ void register_flows(FlowRegistry& registry) {
   register_gust(registry);
   register_turbsim_box(registry);
   register_mann_box(registry);
+  register_bladed_box(registry);
 }
 
 }  // namespace culm::flow

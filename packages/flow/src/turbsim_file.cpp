@@ -1,72 +1,19 @@
 #include "turbsim_file.hpp"
 
-#include <culm/base/error.hpp>
 #include <culm/base/read_file.hpp>
+
+#include "binary_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <limits>
-#include <utility>
 
 namespace culm::flow {
 namespace {
-
-// files are little endian, and are copied as they are
-static_assert(std::endian::native == std::endian::little);
-
-// Values one after the other.
-class Reader {
- public:
-  Reader(const std::string& bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
-
-  template <class Number>
-  Number take() {
-    need(sizeof(Number));
-    Number number;
-    std::memcpy(&number, bytes_.data() + at_, sizeof(Number));
-    at_ += sizeof(Number);
-    return number;
-  }
-  void skip(std::size_t bytes) {
-    need(bytes);
-    at_ += bytes;
-  }
-  std::size_t left() const { return bytes_.size() - at_; }
-  [[noreturn]] void fail(const std::string& what) const { throw InputError({path_, 0, {}}, what); }
-
-  int count(const char* what, int least) {
-    const auto number = take<std::int32_t>();
-    if (number < least) fail(fmt::format("{} must be at least {}, got {}", what, least, number));
-    return number;
-  }
-  double positive(const char* what) {
-    const double number = finite(what);
-    if (number <= 0.0) fail(fmt::format("{} must be > 0, got {:g}", what, number));
-    return number;
-  }
-  // A number that must not be infinite or not a number.
-  double finite(const char* what) {
-    const auto number = static_cast<double>(take<float>());
-    if (!std::isfinite(number)) fail(fmt::format("{} is not a number", what));
-    return number;
-  }
-
- private:
-  void need(std::size_t bytes) const {
-    if (bytes > left())
-      fail(fmt::format("ends in its header, after {} bytes: it is truncated", bytes_.size()));
-  }
-
-  const std::string& bytes_;
-  std::string path_;
-  std::size_t at_ = 0;
-};
 
 constexpr std::int16_t single = 7;
 constexpr std::int16_t periodic = 8;
@@ -76,7 +23,7 @@ constexpr std::int16_t periodic = 8;
 TurbulenceGrid read_turbsim(const std::string& name, const Where& where) {
   const std::string path = (std::filesystem::path(where.file).parent_path() / name).string();
   const std::string bytes = read_file(path, where);
-  Reader reader(bytes, path);
+  BinaryReader reader(bytes, path);
   TurbulenceGrid grid;
 
   const auto kind = reader.take<std::int16_t>();

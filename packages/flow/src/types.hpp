@@ -17,5 +17,6 @@ void register_table(FlowRegistry& registry);
 void register_gust(FlowRegistry& registry);
 void register_turbsim_box(FlowRegistry& registry);
 void register_mann_box(FlowRegistry& registry);
+void register_bladed_box(FlowRegistry& registry);
 
 }  // namespace culm::flow

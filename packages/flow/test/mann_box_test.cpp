@@ -106,7 +106,15 @@ TEST_F(MannBoxes, DeviationsAreThoseAskedFor) {
   EXPECT_EQ(variance[1], 0.0);
   EXPECT_NEAR(variance[2], 0.25, 1e-6);
   EXPECT_THAT(objection({{"Deviations", std::vector{1e300, 0.0, 0.0}}}),
-              HasSubstr("cannot be scaled to 1e+300 m/s"));
+              HasSubstr("component 1 of the box cannot be scaled to"));
+}
+
+TEST_F(MannBoxes, FactorsAndALogarithmicMeanWindStandInPlaceOfTheOthers) {
+  const SharedFlow wind = box({{"Roughness", 0.05}, {"Factors", std::vector{2.0, 0.0, 0.5}}});
+  const Vec3 place = point(1, 1);
+  const double mean = speed * std::log(place[2] / 0.05) / std::log(height / 0.05);
+  const Vec3 expected = Vec3(mean, 0.0, 0.0) + known(0, 1, 1).cwiseProduct(Vec3(2.0, 0.0, 0.5));
+  EXPECT_LT((wind->velocity(place, 0.0) - expected).norm(), 1e-6);
 }
 
 TEST_F(MannBoxes, FilesThatDoNotFitAreRefused) {

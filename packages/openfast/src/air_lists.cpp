@@ -76,29 +76,84 @@ void write_tower_influence(const ElastoDyn& turbine, Report& report, DeckWriter&
                   drag, turbulence));
 }
 
+const char* type_of(Wind::Kind kind) {
+  switch (kind) {
+    case Wind::Kind::table:
+      return "Table";
+    case Wind::Kind::box:
+      return "TurbSim Box";
+    case Wind::Kind::mann:
+      return "Mann Box";
+    case Wind::Kind::bladed:
+      return "Bladed Box";
+    default:
+      return "Power Law";
+  }
+}
+
+bool is_box(const Wind& wind) {
+  using Kind = Wind::Kind;
+  return wind.kind == Kind::box || wind.kind == Kind::mann || wind.kind == Kind::bladed;
+}
+
+// Whether a box repeats itself, so that it can be anywhere at the start; as OpenFAST does.
+bool is_endless(const Wind& wind) {
+  using Kind = Wind::Kind;
+  return wind.kind == Kind::mann || (wind.kind == Kind::bladed && wind.bladed.is_periodic);
+}
+
+// Whether there is a mean wind by a law of the height.
+bool has_mean(const Wind& wind) {
+  using Kind = Wind::Kind;
+  return wind.kind == Kind::power_law || wind.kind == Kind::mann ||
+         (wind.kind == Kind::bladed && wind.speed > 0.0);
+}
+
+void write_mann(const MannFiles& box, const std::filesystem::path& folder, DeckWriter& deck) {
+  std::vector<std::string> names;
+  for (const auto& file : box.files) names.push_back(name_from(folder, file));
+  deck.set("File Names", names);
+  deck.set("Points", std::vector<double>(box.points.begin(), box.points.end()));
+  deck.set("Spacing", box.spacing);
+  if (!box.factors.empty()) deck.set("Factors", box.factors);
+  if (!box.deviations.empty()) deck.set("Deviations", box.deviations);
+}
+
+void write_bladed(const BladedFile& box, DeckWriter& deck) {
+  if (!box.intensities.empty()) deck.set("Intensities", box.intensities);
+  deck.set("Components Across", box.is_left_handed ? "Right" : "Left");
+  deck.set("Points From", box.is_clockwise ? "Left" : "Right");
+  deck.set("Periodic", box.is_periodic ? "true" : "false");
+}
+
 void write_flow(const ElastoDyn& turbine, const std::filesystem::path& folder, Report& report,
                 DeckWriter& deck) {
   const Air& air = *turbine.air;
   const Wind& wind = air.wind;
   using Kind = Wind::Kind;
-  deck.open("wind", wind.kind == Kind::power_law ? "Power Law"
-                    : wind.kind == Kind::table   ? "Table"
-                                                 : "TurbSim Box");
+  deck.open("wind", type_of(wind.kind));
   deck.set("Density", air.loads.density);
-  if (wind.kind == Kind::power_law) {
+  if (has_mean(wind)) {
     deck.set("Speed", "V");
     deck.set("Height", wind.height);
-    deck.set("Exponent", wind.exponent);
-  } else {
-    deck.set("File Name", name_from(folder, wind.file));
+    if (wind.roughness > 0.0) {
+      deck.set("Roughness", wind.roughness);
+    } else {
+      deck.set("Exponent", wind.exponent);
+    }
   }
+  if (!wind.file.empty()) deck.set("File Name", name_from(folder, wind.file));
   if (wind.kind == Kind::table) {
     deck.set("File Format", "OpenFAST");
     deck.set("Height", wind.height);
     deck.set("Length", wind.length);
   }
-  if (wind.kind == Kind::box) {
-    deck.set("Centre", Vec3(0.0, 0.0, turbine.hub_height()));
+  if (wind.kind == Kind::mann) write_mann(wind.mann, folder, deck);
+  if (wind.kind == Kind::bladed) write_bladed(wind.bladed, deck);
+  if (is_box(wind)) {
+    const double centre = wind.kind == Kind::box ? turbine.hub_height() : wind.centre;
+    deck.set("Centre", Vec3(0.0, 0.0, centre));
+    if (is_endless(wind)) deck.set("Delay", has_mean(wind) ? wind.ahead / wind.speed : 0.0);
     deck.set("Outside", "Hold");
   }
   deck.set("Direction",
@@ -299,7 +354,7 @@ void write_rotor(const ElastoDyn& turbine, const TurbineLayout& layout, DeckWrit
 void write_air_variables(const ElastoDyn& turbine, DeckWriter& deck) {
   constexpr double rpm = std::numbers::pi / 30.0;
   const Air& air = *turbine.air;
-  if (air.wind.kind == Wind::Kind::power_law) {
+  if (has_mean(air.wind)) {
     deck.variable("V", air.wind.speed, fmt::format("wind at {:g} m [m/s]", air.wind.height));
   }
   deck.variable("W", turbine.rotor_speed / rpm, "speed of the rotor in operation", "rpm");
@@ -317,10 +372,11 @@ void write_air(const ElastoDyn& turbine, const std::filesystem::path& folder, Re
     write_sea(turbine.substructure->water->sea, deck);
   }
   deck.close();
-  if (air.wind.kind == Wind::Kind::box) {
-    report.add(assumed,
-               "wind: the middle of the box passes the hub; it is known half its width upwind from "
-               "the start, and held outside of it");
+  if (is_box(air.wind)) {
+    report.add(assumed, is_endless(air.wind)
+                            ? "wind: the box repeats itself, and is held beside, above and below it"
+                            : "wind: the middle of the box passes the hub; it is known half its "
+                              "width upwind from the start, and held outside of it");
   }
   write_airfoils(air.loads, deck);
   deck.open("Functions");

@@ -2,11 +2,14 @@
 #include <culm/openfast/inflow.hpp>
 #include <culm/openfast/input_file.hpp>
 
+#include "entries.hpp"
 #include "headings.hpp"
+#include "inflow_boxes.hpp"
 
 #include <fmt/format.h>
 
 #include <numbers>
+#include <vector>
 
 namespace culm::openfast {
 
@@ -14,29 +17,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-double positive(InputFile& file, const char* keyword) {
-  const double value = file.number(keyword);
-  if (!(value > 0.0)) {
-    throw InputError(file.where(keyword), fmt::format("must be positive, got {:g}", value));
-  }
-  return value;
-}
-
-// Keywords that are alike in several parts of the file have endings since some year.
-const char* name_of(const InputFile& file, const char* now, const char* before) {
-  return file.has(now) || !file.has(before) ? now : before;
-}
-
 void read_steady(InputFile part, Wind& wind, Report& report) {
-  wind.speed = part.number("HWindSpeed");
+  wind.speed = non_negative(part, "HWindSpeed");
   wind.height = positive(part, "RefHt");
-  wind.exponent = part.number("PLExp");
-  for (const char* keyword : {"HWindSpeed", "PLExp"}) {
-    if (part.number(keyword) < 0.0) {
-      throw InputError(part.where(keyword),
-                       fmt::format("must not be negative, got {:g}", part.number(keyword)));
-    }
-  }
+  wind.exponent = non_negative(part, "PLExp");
   report.add(unknown, part.unread());
 }
 
@@ -55,17 +39,21 @@ void read_box(InputFile part, Wind& wind, Report& report) {
 }
 
 void make_still(Wind& wind, double height) {
-  wind.kind = Wind::Kind::power_law;
-  wind.height = height;
-  wind.file.clear();
+  Wind still;
+  still.height = height;
+  still.direction = wind.direction;
+  still.upflow = wind.upflow;
+  wind = still;
 }
 
-// The mean wind that the file adds to a box for HAWC2.
-void read_mean(InputFile part, Wind& wind, double height) {
-  make_still(wind, height);
-  wind.speed = part.number("URef");
-  const int profile = part.integer("WindProfile");
-  if (profile == 2) wind.exponent = part.number(name_of(part, "PLExp_Hawc", "PLExp"));
+// The first file of a wind that is not there.
+std::filesystem::path missing_file(const Wind& wind) {
+  std::vector<std::filesystem::path> files = wind.mann.files;
+  if (!wind.file.empty()) files.push_back(wind.file);
+  for (const auto& file : files) {
+    if (!std::filesystem::is_regular_file(file)) return file;
+  }
+  return {};
 }
 
 }  // namespace
@@ -87,27 +75,22 @@ Wind read_inflow(const std::filesystem::path& path, double height, Report& repor
   if (type == 1) read_steady(file.part("Steady"), wind, report);
   if (type == 2) read_table(file.part("Uniform"), wind, report);
   if (type == 3) read_box(file.part("TurbSim"), wind, report);
-  if (type == 5) {
-    const double reference =
-        file.part("HAWC-format binary").number(file.has("RefHt_Hawc") ? "RefHt_Hawc" : "RefHt");
-    read_mean(file.part("Mean wind profile"), wind, reference);
-    report.add(missing, place +
-                            ": the turbulence of boxes for HAWC2; the mean wind of the file is "
-                            "taken. A box of TurbSim (WindType 3) can be imported");
-  }
-  if (type == 4 || type == 6 || type == 7) {
+  if (type == 4) read_bladed_style(file, wind, report);
+  if (type == 5) read_mann(file, wind, report);
+  if (type == 7) read_native_bladed(file, wind, report);
+  if (type == 6) {
     make_still(wind, height);
-    report.add(
-        missing,
-        fmt::format("{}: {}; the air stands still. A box of TurbSim (WindType 3) can be "
-                    "imported, or set the variable V, the speed at the hub",
-                    place, type == 6 ? "a wind of a user's routine" : "boxes in Bladed's format"));
+    report.add(missing,
+               place +
+                   ": a wind of a user's routine; the air stands still. A box of turbulence "
+                   "(WindType 3, 4, 5, 7) can be imported, or set the variable V, the speed at "
+                   "the hub");
   }
-  if (!wind.file.empty() && !std::filesystem::is_regular_file(wind.file)) {
+  if (const std::filesystem::path gone = missing_file(wind); !gone.empty()) {
     report.add(missing,
                fmt::format("{}: names {}, which is not there; the air stands still. Set the "
                            "variable V, the speed at the hub",
-                           place, wind.file.string()));
+                           place, gone.string()));
     make_still(wind, height);
   }
   if (general.has("VelInterpCubic") && general.flag("VelInterpCubic")) {

@@ -179,21 +179,19 @@ TEST_F(AeroDynFiles, UniformWindAndBoxesNameTheirFiles) {
 
 TEST_F(AeroDynFiles, WindsThatAreNotKnownAreNamedWithWhatIsNearest) {
   const std::string type = "1   WindType";
-  const Wind mean = inflow(change(wind, type, "5   WindType"));
-  EXPECT_EQ(mean.kind, Wind::Kind::power_law);
-  EXPECT_EQ(mean.speed, 13.0);
-  EXPECT_EQ(mean.height, 25.0);
-  EXPECT_EQ(mean.exponent, 0.1);
-  const Wind still = inflow(change(wind, type, "4   WindType"));
+  const Wind still = inflow(change(wind, type, "6   WindType"));
   EXPECT_EQ(still.speed, 0.0);
   EXPECT_EQ(still.height, 22.0);
-  const Wind gone = inflow(change(wind, type, "3   WindType"));
-  EXPECT_EQ(gone.kind, Wind::Kind::power_law);
-  EXPECT_EQ(gone.speed, 0.0);
-  for (const char* part :
-       {"WindType = 5: the turbulence of boxes for HAWC2; the mean wind of the file is taken",
-        "WindType = 4: boxes in Bladed's format; the air stands still", "which is not there"}) {
-    EXPECT_THAT(told(), HasSubstr(part));
+  EXPECT_THAT(told(), HasSubstr("WindType = 6: a wind of a user's routine; the air stands still"));
+  for (const char* other : {"3   WindType", "4   WindType", "5   WindType", "7   WindType"}) {
+    const Wind gone = inflow(change(wind, type, other));
+    EXPECT_EQ(gone.kind, Wind::Kind::power_law);
+    EXPECT_EQ(gone.speed, 0.0);
+    EXPECT_TRUE(gone.file.empty());
+    EXPECT_DOUBLE_EQ(gone.direction, other[0] == '7' ? 0.0 : 90.0 * degree);
+  }
+  for (const char* file : {"box.bts", "style.wnd", "mann_u.bin", "style"}) {
+    EXPECT_THAT(told(), HasSubstr(std::string(file) + ", which is not there"));
   }
   EXPECT_THAT(message_of([&] { (void)inflow(change(wind, type, "8   WindType")); }),
               HasSubstr("WindType: must be from 1 to 7, got 8"));

@@ -131,12 +131,34 @@ Our wind
 20  RefLength  - (-)
 ====== Parameters for Binary TurbSim Full-Field files   [used only for WindType = 3] ======
 "box.bts" Filename - (.bts)
+====== Parameters for Binary Bladed-style Full-Field files   [used only for WindType = 4 or WindType = 7] ======
+"style" FilenameRoot - root of .wnd and .sum, or the file with the scaling
+False   TowerFile    - (flag)
 ====== Parameters for HAWC-format binary files  [Only used with WindType = 5] ======
-25  RefHt      - (m)
+"mann_u.bin" FileName_u - along
+"mann_v.bin" FileName_v - across
+"mann_w.bin" FileName_w - upwards
+4   nx         - (-)
+3   ny         - (-)
+2   nz         - (-)
+5   dx         - (m)
+10  dy         - (m)
+20  dz         - (m)
+25  RefHt_Hawc - (m)
+  -------------   Scaling parameters for turbulence   ------
+1   ScaleMethod - (0 = none, 1 = direct scaling, 2 = by a standard deviation)
+1.5 SFx         - (-)
+0.7 SFy         - (-)
+0.5 SFz         - (-)
+2.5 SigmaFx     - (m/s)
+2   SigmaFy     - (m/s)
+1   SigmaFz     - (m/s)
   -------------   Mean wind profile parameters (added to HAWC-format files)   ------
 13  URef        - (m/s)
 2   WindProfile - (0=constant;1=logarithmic,2=power law)
-0.1 PLExp       - (-)
+0.1 PLExp_Hawc  - (-)
+0.03 Z0         - (m)
+6.5 XOffset     - (m)
 ====== OUTPUT ======
 )~";
 
