@@ -2,10 +2,13 @@
 """Flutter and divergence by eigenvalues with the lag of strips. Page: doc/verification/strips.md."""
 
 import math
+import pathlib
+import tempfile
 
 import numpy as np
-from verify import figure, main, save
+from verify import INPUTS, figure, main, save
 
+PARKED = "turbine/nrel5mw/turbine_parked.xml"
 # Jones' states; divergence is exact
 SECTION = (25.379599, 16.695289, 36.084392)  # m/s, rad/s, m/s
 GOLAND = (137.335, 69.346, 252.28)
@@ -60,6 +63,55 @@ def verify(culm, report):
             report.relative(f"{what}: frequency [Hz]", table.at(row, f"frequency {mode} [Hz]"),
                             s.imag / (2.0 * math.pi), 1e-6)
             report.relative(f"{what}: damping", table.at(row, f"damping ratio {mode}"), -s.real / abs(s), 1e-6)
+    verify_parked(culm, report)
+
+
+SWEEP = """    <ParameterList name="flutter">
+      <Parameter name="Type" value="Flutter"/>
+      <Parameter name="Levels" value="{10, 20, 30, 40, 50}"/>
+      <Parameter name="Modes" value="10"/>
+    </ParameterList>
+"""
+AT_ONCE = """    <ParameterList name="storm">
+      <Parameter name="Type" value="Static"/>
+      <Parameter name="Steps" value="4"/>
+    </ParameterList>
+    <ParameterList name="modes">
+      <Parameter name="Type" value="Modal"/>
+      <Parameter name="Modes" value="10"/>
+      <Parameter name="Damping" value="true"/>
+    </ParameterList>
+"""
+
+
+def least_damped(table, row, modes):
+    """Frequency [Hz] and damping ratio of the mode of a row that is damped least."""
+    found = [(table.at(row, f"damping ratio {i}"), table.at(row, f"frequency {i} [Hz]")) for i in range(1, modes + 1)]
+    return min(found)[::-1]
+
+
+def verify_parked(culm, report):
+    report.title("Parked NREL 5 MW turbine in a storm from 60 degrees: the sweep against equilibrium and modes in one wind")
+    sweep = culm.table("flutter/flutter", PARKED)
+    onset = culm.table("flutter/onset", PARKED)
+    speed = onset.at(1, "level")
+    report.note(f"grows from {speed:.3f} m/s on, with {onset.at(1, 'frequency [Hz]'):.4f} Hz")
+    path = INPUTS / PARKED
+    with tempfile.TemporaryDirectory() as folder:
+        deck = pathlib.Path(folder) / "parked.xml"
+        text = path.read_text().replace(SWEEP, AT_ONCE).replace('href="', f'href="{path.parent}/')
+        deck.write_text(text)
+        for level, row in ((30, 3), (50, 5)):
+            table = culm.table("modes/modes", deck, [f"Functions/speed/Expression={level}"])
+            dampings, frequencies = table.column("damping ratio"), table.column("frequency [Hz]")
+            least = dampings.index(min(dampings))
+            frequency, damping = least_damped(sweep, row, 10)
+            report.relative(f"{level} m/s: frequency of the mode damped least [Hz]", frequency, frequencies[least], 1e-6)
+            report.check("its damping ratio", damping, dampings[least], 1e-7)
+        for side, wanted in ((0.999 * speed, 1.0), (1.001 * speed, -1.0)):
+            table = culm.table("modes/modes", deck, [f"Functions/speed/Expression={side}"])
+            least = min(table.column("damping ratio"))
+            report.check(f"sign of the least damping at {side:.3f} m/s ({least:.1e})", math.copysign(1.0, least), wanted, 0.0)
 
 
 def plot(culm, path):

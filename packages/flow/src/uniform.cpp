@@ -1,5 +1,6 @@
 #include "tower_influence.hpp"
 #include "types.hpp"
+#include "wind_function.hpp"
 
 #include <algorithm>
 
@@ -27,14 +28,10 @@ void register_uniform(FlowRegistry& registry) {
            Schema("Uniform", "The same velocity everywhere.")
                .add(density_field())
                .add(model::vector_field("Velocity", "m/s", "Velocity in space."))
-               .add(model::function_field("Constant")),
+               .add(wind_function_field()),
            [](const Options& options, model::BuildContext& context) -> SharedFlow {
-             const auto function = model::find_function(options, context);
+             const auto function = find_wind_function(options, context);
              if (!function) return nullptr;
-             if (!function->is_function_of_time()) {
-               context.issues.add(options.where("Function"), "must be a function of time");
-               return nullptr;
-             }
              return std::make_shared<Uniform>(options.number("Density"),
                                               model::vector(options, "Velocity"), *function);
            });

@@ -76,6 +76,20 @@ TEST_F(Winds, LogLawVanishesAtTheRoughness) {
       ElementsAre(HasSubstr("less than 'Height'")));
 }
 
+TEST_F(Winds, LawsOfTheHeightFollowAFunction) {
+  const std::string growing = "growing";  // 2 t
+  kit::GivenValues values = {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 100.0}};
+  values.insert(values.end(), {{"Function", growing}, {"Exponent", 0.5}});
+  const SharedFlow power = make("Power Law", values);
+  expect_near(power->velocity(Vec3(0.0, 0.0, 25.0), 1.5), Vec3(12.0, 0.0, 0.0));
+  values.back() = {"Roughness", 0.01};
+  const SharedFlow logarithmic = make("Log Law", values);
+  expect_near(logarithmic->velocity(Vec3(0.0, 0.0, 1.0), 1.5), Vec3(12.0, 0.0, 0.0));
+  values[3] = {"Function", std::string("noise")};
+  EXPECT_EQ(make("Log Law", values), nullptr);
+  EXPECT_THROW(issues_.throw_if_any(), InputError);
+}
+
 TEST_F(Winds, TablesAreLinearInTimeHeldOutsideAndJumpAtEqualTimes) {
   const SharedFlow wind = table(
       "# a step at 4 s\n0, 6, 0, 0, 0, 0, 0, 0\n4, 8, 0, 0, 0, 0, 0, 0\n"
