@@ -35,4 +35,11 @@ InflowState InflowState::after(double step, const InflowTimes& times, const Indu
           end - lag + slow_left * carried + fast_left * fast_part};
 }
 
+// Of one that starts at zero: InflowState::after where begin = end = 1.
+double inflow_response(double step, const InflowTimes& times) {
+  const double carried = (1.0 - k) / (1.0 - times.fast / times.slow);
+  return 1.0 - carried * std::exp(-step / times.slow) -
+         (1.0 - carried) * std::exp(-step / times.fast);
+}
+
 }  // namespace culm::rotor

@@ -49,10 +49,21 @@ class Turned {
   const strip::Station& station() const { return station_; }
   // @param alpha  angle of attack of the quarter chord
   LiftDrag at(double alpha) const {
-    const double angle =
-        std::atan2(speed_ * std::sin(alpha) + across_, speed_ * std::cos(alpha) + along_);
-    const strip::Coefficients c = station_.coefficients(mirror_ * angle);
-    return {mirror_ * c[0], c[1]};
+    const double sine = std::sin(alpha), cosine = std::cos(alpha);
+    const double along = speed_ * cosine + along_, across = speed_ * sine + across_;
+    strip::Coefficients slope;
+    const strip::Coefficients c = station_.coefficients(mirror_ * std::atan2(across, along), slope);
+    const double turn =
+        speed_ * (along * cosine + across * sine) / (along * along + across * across);
+    return {mirror_ * c[0], c[1], turn * slope[0], mirror_ * turn * slope[1]};
+  }
+  // What would have to be added to alpha for the same change of angle: by the speed, and by the
+  // turning along and across the chord, downwind.
+  Vec3 equal_to_alpha(double alpha) const {
+    const double sine = std::sin(alpha), cosine = std::cos(alpha);
+    const double along = speed_ * cosine + along_, across = speed_ * sine + across_;
+    return Vec3(along * sine - across * cosine, across, -along) /
+           (speed_ * (along * cosine + across * sine));
   }
 
  private:
@@ -90,6 +101,7 @@ RotorLoad::RotorLoad(model::Effect effect, const model::NodeTable& nodes, RotorH
     blade->set_inducer(this);
   }
   accepted_.wake.resize(elements_.size());
+  accepted_.angles.resize(elements_.size());
   trial_ = accepted_;
   flows_.resize(elements_.size());
 }
@@ -120,7 +132,10 @@ std::optional<RotorState> RotorLoad::state() const {
   return accepted_.seen;
 }
 
-void RotorLoad::prepare(const model::State&, const Stencil&) { evaluated_.clear(); }
+void RotorLoad::prepare(const model::State&, const Stencil&) {
+  evaluated_.clear();
+  trial_.angles = accepted_.angles;  // a step that is repeated finds the same
+}
 
 // The hub turns by the Cayley vector tau = 2 tan(angle / 2) axis: D d = tau x d_middle.
 RotorState RotorLoad::motion(const model::State& state, const Stencil& stencil) const {
@@ -141,46 +156,80 @@ RotorState RotorLoad::motion(const model::State& state, const Stencil& stencil) 
   return rotor;
 }
 
+// A rotation w of the section turns the span s by w x s, whose parts along normal n and `against`
+// t are p and r. With the axis m n + k s:  dn = -k/m r t - p s,  dt = k/m r n - r s.
 RotorLoad::Balanced RotorLoad::balance(const Element& element, const strip::StationFlow& flow,
-                                       const RotorState& rotor) const {
+                                       const RotorState& rotor, double near) const {
   const Vec3 span = flow.along.cross(flow.across);
+  const Vec3 normal = across(rotor.axis, span);
   Balanced found;
   found.outwards = across(flow.place - rotor.centre, rotor.axis).normalized();
-  found.normal = across(rotor.axis, span).normalized();
+  found.normal = normal.normalized();
   const Vec3 motion = std::copysign(1.0, rotor.speed) * rotor.axis.cross(found.outwards);
   found.against = -across(across(motion, span), found.normal).normalized();
-  const double axial = flow.relative().dot(found.normal);
-  const double tangential = flow.relative().dot(found.against);
+  const Eigen::RowVector3d of_normal = span.cross(found.normal),
+                           of_against = span.cross(found.against);
+  const Eigen::RowVector3d swing = rotor.axis.dot(span) / normal.norm() * of_against;
+  found.normal_slope = -found.against * swing - span * of_normal;
+  found.against_slope = found.normal * swing - span * of_against;
+
+  const Vec3 relative = flow.relative();
+  const double axial = relative.dot(found.normal);
+  const double tangential = relative.dot(found.against);
   const double along = flow.along.dot(found.against), lead = flow.along.dot(found.normal);
+  const Vec3 downwind = along * found.normal - lead * found.against;
   const Turned airfoil(element.strip->stations()[static_cast<std::size_t>(element.station)], flow,
-                       along * found.normal - lead * found.against);
+                       downwind);
   const Section section = [&airfoil](double alpha) { return airfoil.at(alpha); };
   const AnnulusPlace place{static_cast<int>(blades_.size()), element.radius, element.hub_radius,
                            element.tip_radius};
-  const Induction induction =
-      solve_induction({place, kind_.losses, airfoil.station().chord, std::atan2(lead, along), axial,
-                       tangential, kind_.drag_induces},
-                      section);
+  const double twist = std::atan2(lead, along);
+  const Induction induction = solve_induction(
+      {place, kind_.losses, airfoil.station().chord, twist, axial, tangential, kind_.drag_induces},
+      section, near);
   if (!induction.found) return found;
   const double share =
       turning_share(std::abs(rotor.speed) * tip_radius_, std::abs(rotor.wind.dot(rotor.axis)));
+  found.angle = induction.inflow_angle;
   found.induction = share * induction.axial;
   found.quasi_steady = {-share * induction.axial * axial,
                         share * induction.tangential * tangential};
+
+  const Vec3 turn = airfoil.equal_to_alpha(induction.inflow_angle - twist);
+  Mat<3, 9> slope = Mat<3, 9>::Zero();  // of axial and tangential wind, and of an angle of attack
+  slope.block<1, 3>(0, 0) = -found.normal.transpose();
+  slope.block<1, 3>(1, 0) = -found.against.transpose();
+  slope.block<1, 3>(2, 0) = -turn[0] / std::max(relative.norm(), 1e-9) * relative.transpose();
+  slope.block<1, 3>(2, 3) = turn[1] * flow.along.transpose() + turn[2] * downwind.transpose();
+  slope.block<1, 3>(0, 6) = relative.transpose() * found.normal_slope;
+  slope.block<1, 3>(1, 6) = relative.transpose() * found.against_slope;
+  slope.block<1, 3>(2, 6) = turn[1] * flow.along.cross(flow.turning) +
+                            turn[2] * downwind.cross(flow.turning) - flow.along.cross(downwind);
+  slope.block<1, 3>(2, 6) += swing;
+  const Mat<2, 9> of_induction = induction.slope * slope;
+  found.axial_slope = -share * (axial * of_induction.row(0) + induction.axial * slope.row(0));
+  found.tangential_slope =
+      share * (tangential * of_induction.row(1) + induction.tangential * slope.row(1));
   return found;
 }
 
-// The wake at the end of the step; one that has not stepped yet is steady.
-InflowState RotorLoad::follow(std::size_t element, const Induced& quasi_steady, double step) const {
+// Sets the wake at the end of the step; one that has not stepped yet is steady.
+RotorLoad::Felt RotorLoad::follow(std::size_t element, const Induced& quasi_steady, double step) {
+  InflowState& end = trial_.wake[element];
   if (kind_.follow == Follow::steady || !accepted_.has_wake || step == 0.0) {
-    return InflowState::steady(quasi_steady);
+    end = InflowState::steady(quasi_steady);
+    return {end.induced, 1.0};
   }
   const InflowState& wake = accepted_.wake[element];
-  if (kind_.follow == Follow::frozen) return wake;
+  if (kind_.follow == Follow::frozen) {
+    end = wake;
+    return {wake.induced, 0.0};
+  }
   const double wind = std::max(std::abs(accepted_.seen.wind.dot(accepted_.seen.axis)), least_wind);
   const InflowTimes times = inflow_times(accepted_.seen.induction, wind, tip_radius_,
                                          elements_[element].radius / tip_radius_);
-  return wake.after(step, times, quasi_steady, quasi_steady);
+  end = wake.after(step, times, quasi_steady, quasi_steady);
+  return {0.5 * (wake.induced + end.induced), 0.5 * inflow_response(step, times)};
 }
 
 double RotorLoad::skew(const RotorState& rotor, const Element& element,
@@ -210,15 +259,18 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
   rotor.wind /= area;
   for (std::size_t i = 0; i < elements_.size() && kind_.follow != Follow::none; ++i) {
     const Element& element = elements_[i];
-    const Balanced found = balance(element, flows_[i], rotor);
+    const Balanced found = balance(element, flows_[i], rotor, trial_.angles[i]);
+    trial_.angles[i] = found.angle;
     rotor.induction += element.area / area * found.induction;
-    trial_.wake[i] = follow(i, found.quasi_steady, stencil.step);
-    Induced felt = trial_.wake[i].induced;
-    if (stencil.step > 0.0 && accepted_.has_wake && kind_.follow == Follow::dynamic) {
-      felt = 0.5 * (felt + accepted_.wake[i].induced);  // in the middle of the step
-    }
-    felt[0] *= skew(rotor, element, found.outwards);
-    element.strip->set_induced(element.station, felt[0] * found.normal + felt[1] * found.against);
+    const Felt felt = follow(i, found.quasi_steady, stencil.step);
+    const double skewed = skew(rotor, element, found.outwards);
+    const double axial = skewed * felt.induced[0], tangential = felt.induced[1];
+    strip::InducedVelocity induced;
+    induced.velocity = axial * found.normal + tangential * found.against;
+    induced.slope = felt.response * (skewed * found.normal * found.axial_slope +
+                                     found.against * found.tangential_slope);
+    induced.slope.rightCols<3>() += axial * found.normal_slope + tangential * found.against_slope;
+    element.strip->set_induced(element.station, induced);
   }
   trial_.has_stepped = true;
   trial_.has_wake = accepted_.has_wake || stencil.step > 0.0;
@@ -230,7 +282,7 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
 
 void RotorLoad::accept(model::State&) { accepted_ = trial_; }
 
-std::size_t RotorLoad::memory_size() const { return 2 + RotorState::size + 4 * elements_.size(); }
+std::size_t RotorLoad::memory_size() const { return 2 + RotorState::size + 5 * elements_.size(); }
 
 void RotorLoad::save(model::Items items, std::span<double> numbers) const {
   if (items == model::Items::owned && !blades_.front()->owns(0)) return;
@@ -242,6 +294,7 @@ void RotorLoad::save(model::Items items, std::span<double> numbers) const {
     rest = std::ranges::copy(wake.reduced, rest).out;
     rest = std::ranges::copy(wake.induced, rest).out;
   }
+  std::ranges::copy(accepted_.angles, rest);
 }
 
 void RotorLoad::restore(std::span<const double> numbers) {
@@ -254,6 +307,7 @@ void RotorLoad::restore(std::span<const double> numbers) {
     wake.induced = Induced(rest + 2);
     rest += 4;
   }
+  std::copy_n(rest, accepted_.angles.size(), accepted_.angles.begin());
   trial_ = accepted_;
   evaluated_.clear();
 }

@@ -95,7 +95,7 @@ class Nrel5MW : public testing::Test {
     const double speed = std::hypot(axial * (1.0 - result.induction.axial),
                                     tangential * (1.0 + result.induction.tangential));
     result.coefficients = polar.at(phi - element.twist);
-    const auto [lift, drag] = result.coefficients;
+    const double lift = result.coefficients.lift, drag = result.coefficients.drag;
     const double force = 0.5 * density * speed * speed * s.chord;
     result.normal = force * (lift * std::cos(phi) + drag * std::sin(phi));
     result.tangential = force * (lift * std::sin(phi) - drag * std::cos(phi));

@@ -3,42 +3,27 @@
 #include <culm/rotor/rotor_load.hpp>
 #include <culm/rotor/skewed_wake.hpp>
 
+#include "rotor_kit.hpp"
+
 #include <Eigen/Geometry>
 #include <culm_kit/batch_laws.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <span>
 #include <vector>
 
 namespace culm::rotor {
 namespace {
 
 using std::numbers::pi;
+using test::Airfoil;
+using test::Wind;
 
 constexpr int num_blades = 3, num_stations = 4;
 constexpr double root = 2.0, tip = 10.0, chord = 0.8, twist = 0.1;
 constexpr double h = 1e-4, omega = 6.0;  // the turn in a step is so small that its chord is its arc
-
-class Wind final : public flow::Flow {
- public:
-  explicit Wind(const Vec3& steady) : Flow(1.2), velocity(steady) {}
-  void velocities(std::span<const Vec3>, double, std::span<Vec3> velocities) const override {
-    std::ranges::fill(velocities, velocity);
-  }
-  Vec3 velocity;
-};
-
-class Airfoil final : public strip::Airfoil {
- public:
-  strip::Coefficients at(double alpha, strip::Coefficients& slope) const override {
-    slope.setZero();
-    return {2.0 * std::sin(2.0 * (alpha + 0.03)), 0.01 + 0.5 * alpha * alpha, 0.0};
-  }
-};
 
 // The axis is director 1; blade 1 points along director 3 and moves towards -2, or +2 if it turns
 // the other way. Anywhere in space.
@@ -48,7 +33,7 @@ class Turbine {
     slots_ = kit::random_node(7);
     model_.nodes().add(slots_);
     std::vector<strip::StripLoad*> blades;
-    wind_ = std::make_shared<Wind>(axis() * 8.0);
+    wind_ = std::make_shared<Wind>(1.2, axis() * 8.0);
     for (int b = 0; b < num_blades; ++b) {
       const Mat3 turn =
           Eigen::AngleAxisd(2.0 * pi * b / num_blades, Vec3::UnitX()).toRotationMatrix();
@@ -101,9 +86,9 @@ class Turbine {
     const auto now = model::NodeTable::slots(state_.next, 0);
     const Mat3 turn =
         Eigen::AngleAxisd(2.0 * pi * blade / num_blades, Vec3::UnitX()).toRotationMatrix();
-    const Vec3 u =
-        turn.transpose() * (now.rightCols<3>().transpose() *
-                            rotor_->blades()[static_cast<std::size_t>(blade)]->induced(station));
+    const Vec3 u = turn.transpose() *
+                   (now.rightCols<3>().transpose() *
+                    rotor_->blades()[static_cast<std::size_t>(blade)]->induced(station).velocity);
     return {u[0], sense_ * u[1]};
   }
   // What the balance gives by itself.

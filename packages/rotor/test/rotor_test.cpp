@@ -39,6 +39,21 @@ double kappa_of(double thrust, double induction, double loss) {
   return thrust / (4.0 * loss * (1.0 - induction) * (1.0 - induction));
 }
 
+TEST(Losses, HaveTheSlopeOfTheirDifferences) {
+  const AnnulusPlace place{3, 50.0, 1.5, 63.0};
+  for (const Losses losses : {Losses{true, false}, Losses{true, true}}) {
+    for (const double angle : {0.3, 1.2, 2.0, -0.2}) {
+      double slope;
+      loss_factor(losses, place, angle, slope);
+      constexpr double h = 1e-5;
+      EXPECT_NEAR(slope,
+                  (loss_factor(losses, place, angle + h) - loss_factor(losses, place, angle - h)) /
+                      (2.0 * h),
+                  1e-8);
+    }
+  }
+}
+
 TEST(Momentum, ThrustOfThreeQuartersInducesAQuarter) {
   EXPECT_NEAR(axial_induction(kappa_of(0.75, 0.25, 1.0), 1.0), 0.25, 1e-15);
 }
@@ -169,6 +184,8 @@ TEST(DynamicInflow, InputsThatGrowLinearlyAreFollowedExactly) {
 
 TEST(DynamicInflow, NothingChangesInTheSteadyState) {
   const Induced w(-2.0, 0.3);
+  const InflowState from_rest = InflowState().after(3.0, example_times(), w, w);
+  EXPECT_LT((from_rest.induced - inflow_response(3.0, example_times()) * w).norm(), 1e-15);
   const InflowState later = InflowState::steady(w).after(3.0, example_times(), w, w);
   EXPECT_LT((later.induced - w).norm(), 1e-15);
   EXPECT_LT((later.reduced - 0.4 * w).norm(), 1e-15);

@@ -31,21 +31,41 @@ class Polar final : public Airfoil {
     std::vector<LiftPoint> lift;
     for (const PolarRow& row : rows_) lift.push_back({row.alpha, row.coefficients[0]});
     separation_ = find_separation(lift);
+    cells_.resize(2 * rows_.size());
+    cells_per_radian_ =
+        static_cast<double>(cells_.size()) / (rows_.back().alpha - rows_.front().alpha);
+    std::size_t above = 1;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const double begin = rows_.front().alpha + static_cast<double>(i) / cells_per_radian_;
+      while (above + 1 < rows_.size() && rows_[above].alpha <= begin) ++above;
+      cells_[i] = above;
+    }
   }
 
   Coefficients at(double alpha, Coefficients& slope) const override {
-    const auto above =
-        std::upper_bound(rows_.begin() + 1, rows_.end() - 1, alpha,
-                         [](double angle, const PolarRow& row) { return angle < row.alpha; });
-    const PolarRow& high = *above;
-    const PolarRow& low = *(above - 1);
+    const std::size_t above = above_of(alpha);
+    const PolarRow& high = rows_[above];
+    const PolarRow& low = rows_[above - 1];
     slope = (high.coefficients - low.coefficients) / (high.alpha - low.alpha);
     return low.coefficients + (alpha - low.alpha) * slope;
   }
   const Separation* separation() const override { return separation_ ? &*separation_ : nullptr; }
 
  private:
+  // The first row above an angle, or the last one; the second one below them all.
+  std::size_t above_of(double alpha) const {
+    const double cell = (alpha - rows_.front().alpha) * cells_per_radian_;
+    if (!(cell > 0.0)) return 1;
+    const auto last = static_cast<double>(cells_.size() - 1);
+    std::size_t above = cells_[static_cast<std::size_t>(std::min(cell, last))];
+    while (above + 1 < rows_.size() && rows_[above].alpha <= alpha) ++above;
+    while (above > 1 && rows_[above - 1].alpha > alpha) --above;  // by rounding of the cell
+    return above;
+  }
+
   std::vector<PolarRow> rows_;
+  std::vector<std::size_t> cells_;  // of one size each: the first row above its begin
+  double cells_per_radian_ = 0.0;
   std::optional<Separation> separation_;
 };
 

@@ -24,6 +24,17 @@ Mat<4, 3> factors(const Station& station, std::size_t a) {
   return T;
 }
 
+// The same for their coordinates, one after another.
+Mat<12, 9> slots_of_vectors(const Mat<4, 3>& T) {
+  Mat<12, 9> result = Mat<12, 9>::Zero();
+  for (int s = 0; s < 4; ++s) {
+    for (int p = 0; p < 3; ++p) {
+      result.block<3, 3>(3 * s, 3 * p).diagonal().setConstant(T(s, p));
+    }
+  }
+  return result;
+}
+
 template <class Slots>
 Columns vectors_of(const Station& station, const Slots& slots) {
   Columns result = Columns::Zero();
@@ -56,6 +67,42 @@ SectionVectors<Number> carried(const Columns& values, double factor) {
   return result;
 }
 
+// What the vectors of a section at the end of the step do for its motion (`StationFlow`) per metre:
+// rows velocity, turning, rotation. With the triad c, g, s of along, across and span, a rotation w
+// has w . s = g . dc, w . g = -s . dc, w . c = s . dg.
+Mat<9, 9> motion_of_vectors(const Station& station, const Columns& middle, double theta,
+                            double rate) {
+  const double chord = middle.col(1).norm();
+  const Vec3 c = middle.col(1) / chord;
+  const double leaning = middle.col(2).dot(c);
+  const Vec3 upright = middle.col(2) - leaning * c;
+  const double height = upright.norm();
+  const Vec3 g = upright / height;
+  const Vec3 s = c.cross(g);
+  Mat<9, 9> result = Mat<9, 9>::Zero();
+  result.block<3, 3>(0, 0).diagonal().setConstant(rate);
+  result.block<3, 3>(0, 3).diagonal().setConstant(rate * (0.25 - station.axis_at) * station.chord);
+  result.block<3, 3>(3, 3).diagonal().setConstant(rate * 0.5 * station.chord);
+  result.block<3, 3>(6, 3) =
+      theta / chord * (s * g.transpose() - Vec3(g + leaning / height * c) * s.transpose());
+  result.block<3, 3>(6, 6) = theta / height * c * s.transpose();
+  return result;
+}
+
+// Adds a velocity with the derivatives that rows of a matrix hold.
+template <class Derivative>
+void add_velocity(const Vec3& velocity, const Derivative&, Vector<double>& result) {
+  result += velocity;
+}
+template <class Derivative>
+void add_velocity(const Vec3& velocity, const Derivative& derivative, Vector<Dual>& result) {
+  const Mat<3, 9> by_vectors = derivative();
+  for (int i = 0; i < 3; ++i) {
+    result[i].value() += velocity[i];
+    result[i].derivatives() += by_vectors.row(i).transpose();
+  }
+}
+
 void put(const Vector<double>& force, int column, Columns& values, Mat<9, 9>&) {
   values.col(column) = force;
 }
@@ -74,9 +121,13 @@ struct StripLoad::Evaluation {
   StationEnd end;
 };
 
-Coefficients Station::coefficients(double alpha) const {
-  const auto [lift, drag, moment] = steady(*this, alpha);
-  return {lift, drag, moment};
+Coefficients Station::coefficients(double alpha, Coefficients& slope) const {
+  const Coefficients one = airfoil->at(alpha, slope);
+  if (blend == 0.0) return one;
+  Coefficients next_slope;
+  const Coefficients next = next_airfoil->at(alpha, next_slope);
+  slope += blend * (next_slope - slope);
+  return one + blend * (next - one);
 }
 
 std::array<double, StationState::size> StationState::numbers() const {
@@ -100,7 +151,7 @@ void StationState::set(std::span<const double> values) {
 void StripLoad::add(Station station) {
   stations_.push_back(std::move(station));
   owned_.push_back(false);
-  induced_.push_back(Vec3::Zero());
+  induced_.emplace_back();
   accepted_.emplace_back();
   trial_.emplace_back();
 }
@@ -168,8 +219,14 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
       middle.col(0) + (0.75 - station.axis_at) * station.chord * middle.col(1)};
   std::array<Vec3, 2> winds;
   flow_->velocities(places, load::time_of(state, stencil), winds);
-  around.wind_at_quarter = winds[0] + induced_[station_number];
-  around.wind_at_three_quarters = winds[1] + induced_[station_number];
+  around.wind_at_quarter = winds[0];
+  around.wind_at_three_quarters = winds[1];
+  // to the section it is as if it moved against what is induced
+  const InducedVelocity& induced = induced_[station_number];
+  const auto by_vectors = [&]() -> Mat<3, 9> {
+    return -induced.slope.lazyProduct(motion_of_vectors(station, middle, theta, rate));
+  };
+  if (!mass) add_velocity(-induced.velocity, by_vectors, motion.velocity.axis);
 
   const SectionLoads<Number> loads = section_loads<Number>(station, model_, motion, around);
   Evaluation result;
@@ -225,31 +282,29 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
   return Verdict::ok;
 }
 
-// dr_s / dq_t = -T_s dF/dX T_t^T,   X the vectors of the section at the end
+// dr / du = -(P_theta^T T) dF/dX (P_next^T T)^T,   X the vectors of the section at the end
 template <class Space>
 void StripLoad::add_tangent(std::size_t i, const Evaluation& found, const model::State& state,
                             double theta, bool turns, model::Target& target) {
   constexpr int W = Space::width;
   const Station& station = stations_[static_cast<std::size_t>(placement().items[i])];
+  const std::size_t n = station.point.nodes.size();
   const Motion motion(nodes_, station.point.nodes, state, theta);
-  for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
-    const Mat<4, 3> T = factors(station, a);
-    for (std::size_t b = 0; b < station.point.nodes.size(); ++b) {
-      const Mat<4, 3> other = factors(station, b);
-      Mat<12, 12> K = Mat<12, 12>::Zero();
-      for (int p = 0; p < 3; ++p) {
-        for (int q = 0; q < 3; ++q) {
-          const Mat3 part = -found.derivative.block<3, 3>(3 * p, 3 * q);
-          for (int s = 0; s < 4; ++s) {
-            for (int t = 0; t < 4; ++t) K.block<3, 3>(3 * s, 3 * t) += T(s, p) * other(t, q) * part;
-          }
-        }
-      }
-      RowMat<W, W> block = RowMat<W, W>::Zero();
-      load::add_slot_tangent<Space>(K, motion.arms_mid[a], motion.arms_next[b], block);
+  std::array<Mat<W, 9>, max_nodes> forces;
+  std::array<Mat<9, W>, max_nodes> derivatives;
+  for (std::size_t a = 0; a < n; ++a) {
+    const Mat<12, 9> T = slots_of_vectors(factors(station, a));
+    Mat<W, 9> vectors;
+    Space::reduce_rows(T, motion.arms_mid[a], forces[a]);
+    Space::reduce_rows(T, motion.arms_next[a], vectors);
+    derivatives[a].noalias() = found.derivative.lazyProduct(vectors.transpose());
+  }
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) {
+      RowMat<W, W> block = -forces[a].lazyProduct(derivatives[b]);
       if (a == b && turns) {
-        Space::add_turning(Mat<3, 4>(-found.forces * T.transpose()), motion.arms_next[a], theta,
-                           block);
+        Space::add_turning(Mat<3, 4>(-found.forces * factors(station, a).transpose()),
+                           motion.arms_next[a], theta, block);
       }
       placement().scatter.add_tangent(i, static_cast<int>(a), static_cast<int>(b), block, target);
     }
@@ -363,6 +418,7 @@ void StripLoad::restore(std::span<const double> numbers) {
 }
 
 model::StepWork StripLoad::step_work(const model::State& state, const Stencil& stencil) const {
+  if (inducer_ != nullptr) inducer_->induce(state, stencil);  // for this motion, and no other
   model::StepWork work;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;

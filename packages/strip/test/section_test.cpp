@@ -34,7 +34,7 @@ class Effects : public testing::TestWithParam<StripModel> {
         effect, model.nodes(), model::Amplitude::constant(),
         std::make_shared<Wind>(1.3, turned * Vec3(9.0, 4.0, -3.0)), GetParam());
     load->add(between_nodes());
-    load->set_induced(0, turned * Vec3(-0.5, 0.3, 0.2));
+    load->set_induced(0, {turned * Vec3(-0.5, 0.3, 0.2)});
     model.add_load(std::move(load));
   }
 };
@@ -146,11 +146,11 @@ TEST(StripLoads, InducedVelocityAddsToTheWind) {
   for (const bool split : {false, true}) {
     MovedSection plate(section(1.5, 0.4, airfoil("Thin", {{"Drag", 0.1}})), {}, 1.2,
                        split ? Vec3(wind - induced) : wind, 0.1);
-    if (split) plate.load().set_induced(0, induced);
+    if (split) plate.load().set_induced(0, {induced});
     plate.start(placed(0, 0, 0), model::Coordinates(12, 0.0));
     loads[split] = plate.go(placed(0, 0, 0.1));
     if (!split) continue;
-    EXPECT_EQ(plate.load().induced(0), induced);
+    EXPECT_EQ(plate.load().induced(0).velocity, induced);
   }
   EXPECT_LT((loads[0].force - loads[1].force).norm(), 1e-12);
   EXPECT_LT((loads[0].moment - loads[1].moment).norm(), 1e-12);

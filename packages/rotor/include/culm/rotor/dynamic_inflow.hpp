@@ -38,4 +38,7 @@ struct InflowState {
                     const Induced& end) const;
 };
 
+/// The part of W_qs, the same on the whole step, that W has at its end.
+double inflow_response(double step, const InflowTimes& times);
+
 }  // namespace culm::rotor

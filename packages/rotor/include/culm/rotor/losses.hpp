@@ -24,5 +24,8 @@ inline constexpr double least_loss_factor = 1e-4;
 /// a disc; from `least_loss_factor`, at both ends and beyond, to 1.
 /// @source fluids B3
 double loss_factor(const Losses& losses, const AnnulusPlace& place, double inflow_angle);
+/// @param slope  its derivative by the inflow angle [1/rad]; zero at the least factor
+double loss_factor(const Losses& losses, const AnnulusPlace& place, double inflow_angle,
+                   double& slope);
 
 }  // namespace culm::rotor

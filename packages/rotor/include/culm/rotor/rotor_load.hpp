@@ -50,10 +50,12 @@ struct RotorState {
 
 /// Blade element and momentum, at each station of the strips of its blades by itself: wind, motion
 /// and attitude of the deformed blade in the middle of the step give the balance, its induced
-/// velocity is set at the station. It has no forces of its own. The balance is computed anew in
-/// each iteration; its derivative is left out of the tangent. What it remembers changes in `accept`
-/// alone. Induction is good for rotors that turn: it fades out between tip speeds of twice and of
-/// once the wind, so in statics there is none. Every rank computes all of it. @source fluids B3
+/// velocity is set at the station, with its derivative by the motion of the station. It has no
+/// forces of its own. The balance is computed anew in each iteration, from the angle of the one
+/// before; what the hub and other stations do to it is left out of the tangent. What it remembers
+/// changes in `accept` alone. Induction is good for rotors that turn: it fades out between tip
+/// speeds of twice and of once the wind, so in statics there is none. Every rank computes all of
+/// it. @source fluids B3
 class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
  public:
   /// @param blades  one strip load per blade, each of at least two stations from the root to the
@@ -100,19 +102,30 @@ class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
     bool has_wake = false;  ///< a step in time was accepted
     RotorState seen;
     std::vector<InflowState> wake;  ///< by element
+    std::vector<double> angles;     ///< of inflow, where the next balance is looked for; 0: nowhere
   };
+  /// By velocity, turning and rotation of a station (`strip::InducedVelocity`).
+  using Slope = Eigen::Matrix<double, 1, 9>;
   /// A station with its balance, in the plane of its section.
   struct Balanced {
     Vec3 outwards, normal, against;          ///< unit vectors: from the axis, of the rotor, of wind
+    double angle = 0.0;                      ///< of inflow; 0 without a balance [rad]
     Induced quasi_steady = Induced::Zero();  ///< along the normal, and against the motion
     double induction = 0.0;                  ///< a
+    Slope axial_slope = Slope::Zero(), tangential_slope = Slope::Zero();  ///< of `quasi_steady`
+    Mat3 normal_slope, against_slope;  ///< of the unit vectors by a rotation of the section
+  };
+  /// What is left of W_qs in what a station feels in a step.
+  struct Felt {
+    Induced induced = Induced::Zero();
+    double response = 0.0;  ///< its derivative by W_qs
   };
 
   void add_blade(strip::StripLoad& blade, const model::NodeTable& nodes);
   RotorState motion(const model::State& state, const Stencil& stencil) const;
-  Balanced balance(const Element& element, const strip::StationFlow& flow,
-                   const RotorState& rotor) const;
-  InflowState follow(std::size_t element, const Induced& quasi_steady, double step) const;
+  Balanced balance(const Element& element, const strip::StationFlow& flow, const RotorState& rotor,
+                   double near) const;
+  Felt follow(std::size_t element, const Induced& quasi_steady, double step);
   double skew(const RotorState& rotor, const Element& element, const Vec3& outwards) const;
 
   RotorHub hub_;

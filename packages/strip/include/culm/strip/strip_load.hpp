@@ -33,7 +33,8 @@ struct Station {
   double blend = 0.0;                             ///< share of the second one
 
   /// In a steady flow. @param alpha  angle of attack from -pi to pi [rad]
-  Coefficients coefficients(double alpha) const;
+  /// @param slope  derivatives by it [1/rad]
+  Coefficients coefficients(double alpha, Coefficients& slope) const;
 };
 
 /// What a station saw and felt in a step.
@@ -63,6 +64,14 @@ struct StationFlow {
   Vec3 turning = Vec3::Zero();   ///< by which that of the three-quarter chord differs [m/s]
   /// What the structure feels [m/s].
   Vec3 relative() const { return wind - velocity; }
+};
+
+/// What others induce at a station.
+struct InducedVelocity {
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]
+  /// Its derivative by the motion of the station (`StationFlow`): columns by `velocity`, by
+  /// `turning`, and by a small rotation of `along` and `across` about fixed axes [m/s].
+  Mat<3, 9> slope = Mat<3, 9>::Zero();
 };
 
 /// Induces velocities at stations of strips, such as a rotor.
@@ -145,15 +154,17 @@ class StripLoad final : public model::MemorylessBatch,
   StationFlow flow_at(int station, const model::State& state, const Stencil& stencil) const;
   const flow::Flow& flow() const { return *flow_; }
   /// Sets what others induce at a station, such as a rotor: it adds to the wind of both of its
-  /// points until it is set anew, and is constant in an iteration. Zero at first. Whoever sets it
-  /// does so on all ranks, and keeps what it needs of accepted states [m/s].
-  void set_induced(int station, const Vec3& velocity) {
-    induced_[static_cast<std::size_t>(station)] = velocity;
+  /// points until it is set anew; the tangent knows its slope. Zero at first. Whoever sets it does
+  /// so on all ranks, and keeps what it needs of accepted states.
+  void set_induced(int station, const InducedVelocity& induced) {
+    induced_[static_cast<std::size_t>(station)] = induced;
   }
   /// Asks somebody before each evaluation; null at first: nobody.
   void set_inducer(Inducer* inducer) { inducer_ = inducer; }
   const Inducer* inducer() const { return inducer_; }
-  const Vec3& induced(int station) const { return induced_[static_cast<std::size_t>(station)]; }
+  const InducedVelocity& induced(int station) const {
+    return induced_[static_cast<std::size_t>(station)];
+  }
   /// Whether this rank counts a station in sums.
   bool owns(int station) const { return owned_[static_cast<std::size_t>(station)]; }
 
@@ -204,7 +215,7 @@ class StripLoad final : public model::MemorylessBatch,
   StripModel model_;
   std::vector<Station> stations_;
   std::vector<bool> owned_;
-  std::vector<Vec3> induced_;
+  std::vector<InducedVelocity> induced_;
   Inducer* inducer_ = nullptr;
   std::vector<StationEnd> accepted_, trial_;
   bool has_stepped_ = false;
