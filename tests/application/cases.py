@@ -314,6 +314,27 @@ CASES = [
         check=has_findings(),
     ),
     Case(
+        "air on what a rotating frame turns",
+        0,
+        args=RUN,
+        change=[
+            (
+                '<ParameterList name="Loads">',
+                f'<ParameterList name="Masses">{entry("tip mass", Type="Point Mass", Node="beam/last", Mass="1")}</ParameterList>'
+                f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
+                f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")}</ParameterList>'
+                '<ParameterList name="Loads">'
+                + entry("air", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="0.25", Airfoil="thin")
+                + entry("turning", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="0.1"),
+            ),
+        ],
+        says=["warning: Strip 'air' stands in the frame that Rotating Frame 'turning' turns, and meets the wind as if it "
+              "stood still"],
+        results="out",
+        last_level=1.0,
+        check=has_findings("rotating frame", grade=False),
+    ),
+    Case(
         "a load on the clamp, on the page",
         8,
         args="run deck.xml --output out --report",

@@ -15,6 +15,7 @@
 #include "on_root.hpp"
 #include "other_run.hpp"
 #include "port_picture.hpp"
+#include "rotating_air.hpp"
 #include "run_observer.hpp"
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
@@ -221,6 +222,9 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     if (!resumes) phase.system->forget_reactions();
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
+    for (const std::string& sentence : strips_that_miss_rotation(*phase.model)) {
+      p.findings.warn("rotating frame", sentence, state.time);
+    }
     const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
                                      resumes ? from : nullptr);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
