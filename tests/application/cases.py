@@ -66,6 +66,23 @@ def is_imported(folder, _):
 AIR = pathlib.Path(__file__).resolve().parents[2] / "inputs/air"
 
 
+def in_two_flows(deck):
+    """Goland's wing with a second load of strips, in a flow of its own, and a rotor of both."""
+
+    def entries(**pairs):
+        return "".join(f'<Parameter name="{key}" value="{value}"/>' for key, value in pairs.items())
+
+    start = deck.index('<ParameterList name="air on the wing">')
+    strips = deck[start : deck.index("</ParameterList>", start)] + "</ParameterList>\n"
+    other = strips.replace("air on the wing", "more air").replace('"Flow" value="air"', '"Flow" value="other"')
+    blades = "{air on the wing, more air}"
+    rotor = f'<ParameterList name="rotor">{entries(Type="Rotor", Hub="wing/first", Axis="{1, 0, 0}", Blades=blades)}'
+    flow = f'<ParameterList name="other">{entries(Type="Uniform", Density=1, Velocity="{9, 0, 0}")}</ParameterList>'
+    return deck.replace(strips, strips + other + rotor + "</ParameterList>\n").replace(
+        '<ParameterList name="Flows">', '<ParameterList name="Flows">' + flow
+    )
+
+
 def is_version(_, stdout):
     lines = r"\d+\.\d+\.\d+\ncommit: ([0-9a-f]{7,}(-dirty)?|unknown)\nbuild: \w+, .+\ndeck format: \d+\n"
     return "" if re.fullmatch(lines, stdout) else f"'{stdout}' is no version"
@@ -556,6 +573,13 @@ CASES = [
         args="run deck.xml --output out --quiet --strict --set Flows/air/Function=Constant",
         says=["the modes are the same at all levels of 'Flutter': nothing that acts on them changes"],
         leaves=["out"],
+    ),
+    Case(
+        "rotor whose blades stand in two flows",
+        3,
+        deck=in_two_flows((AIR / "goland_flutter.xml").read_text()),
+        args="check deck.xml",
+        says=["Loads / rotor / Blades: 'more air' stands in another flow than 'air on the wing'; a rotor has one"],
     ),
     Case(
         "airfoil from a file without rows",

@@ -65,6 +65,9 @@ std::vector<strip::StripLoad*> find_blades(const Options& options, strip::StripC
       issue = "'" + name + "' is a blade of a rotor already";
     } else if (found->second->size() < 2) {
       issue = "'" + name + "' must have at least two stations, from the root to the tip";
+    } else if (!blades.empty() && &blades.front()->flow() != &found->second->flow()) {
+      issue = "'" + name + "' stands in another flow than '" + options.texts("Blades")[0] +
+              "'; a rotor has one";
     }
     if (issue.empty()) {
       blades.push_back(found->second);
