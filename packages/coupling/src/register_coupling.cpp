@@ -24,7 +24,7 @@ void add_stepping_partner(PartnerRegistry& registry, const std::string& type, Sc
                           const std::function<std::unique_ptr<PointModel>(const Options&)>& make) {
   schema
       .add(integer("Steps", "Steps that it makes in each window, its points moving straight.")
-               .at_least(1)
+               .between(1, 1000000)
                .optional(1))
       .add(choice("Window Load", {"Mean", "Last"},
                   "What it answers: the mean of its steps, which keeps the energy, or the forces "
