@@ -1,3 +1,4 @@
+#include <culm/analysis/books.hpp>
 #include <culm/model/velocity_dissipation.hpp>
 
 #include "motion.hpp"
@@ -48,7 +49,7 @@ class Damped : public Motion {
   // one step; returns what the dissipation took
   double step(double h) {
     if (!attempt(h).accepted) throw std::runtime_error("a step did not converge");
-    const double taken = system->step_work(state, Stencil::midpoint(h)).dissipation;
+    const double taken = Books(*system).add(state, Stencil::midpoint(h)).dissipation;
     stepper->accept();
     return taken;
   }

@@ -65,18 +65,4 @@ model::Momentum System::momentum(const model::Coordinates& q,
   return total;
 }
 
-model::StepWork System::step_work(const model::State& state, const Stencil& stencil) const {
-  model::StepWork total;
-  for (const model::Batch* batch : batches_) total += batch->step_work(state, stencil);
-  double scalars[4] = {total.external, total.drives, total.damping, total.dissipation};
-  comm_.sum(scalars);
-  total.external = scalars[0];
-  total.drives = scalars[1];
-  total.damping = scalars[2];
-  total.dissipation = scalars[3];
-  comm_.sum(std::span(total.force.data(), 3));
-  comm_.sum(std::span(total.moment.data(), 3));
-  return total;
-}
-
 }  // namespace culm::assembly

@@ -151,8 +151,6 @@ class System {
   double strain_energy(const model::Coordinates& q) const;
   Energies energies(const model::Coordinates& q, const model::Momentum& momentum) const;
   model::Momentum momentum(const model::Coordinates& q, const model::Coordinates& velocity) const;
-  /// What loads, drives and dampers did in the step from state.prev to state.next.
-  model::StepWork step_work(const model::State& state, const Stencil& stencil) const;
   double multiplier_scale() const { return multiplier_scale_; }
 
   /// Force [N] and moment about the node [N m] by which supports and joints act on the structure
