@@ -5,8 +5,9 @@
 namespace culm::contact {
 
 void register_contact(model::BuilderRegistry& registry) {
-  register_plane_contact(registry);
-  register_cylinder_contact(registry);
+#define CULM_REGISTER(type) register_##type(registry);
+  CULM_CONTACTS(CULM_REGISTER)
+#undef CULM_REGISTER
 }
 
 }  // namespace culm::contact

@@ -5,7 +5,13 @@
 
 namespace culm::contact {
 
-void register_plane_contact(model::BuilderRegistry& registry);     // Plane Contact
-void register_cylinder_contact(model::BuilderRegistry& registry);  // Cylinder Contact
+/// Every type, one line each: NAME stands for register_NAME.
+#define CULM_CONTACTS(TYPE)                  \
+  TYPE(plane_contact)    /* Plane Contact */ \
+  TYPE(cylinder_contact) /* Cylinder Contact */
+
+#define CULM_DECLARE(type) void register_##type(model::BuilderRegistry& registry);
+CULM_CONTACTS(CULM_DECLARE)
+#undef CULM_DECLARE
 
 }  // namespace culm::contact

@@ -1,16 +1,6 @@
-#include <culm/control/actuator.hpp>
-#include <culm/control/external_signal.hpp>
-#include <culm/control/extreme.hpp>
-#include <culm/control/integral.hpp>
-#include <culm/control/lag.hpp>
-#include <culm/control/library.hpp>
 #include <culm/control/library_batch.hpp>
-#include <culm/control/pi_controller.hpp>
-#include <culm/control/product.hpp>
 #include <culm/control/register_control.hpp>
 #include <culm/control/sensor.hpp>
-#include <culm/control/table.hpp>
-#include <culm/control/weighted_sum.hpp>
 
 #include <utility>
 
@@ -69,18 +59,28 @@ void ControlContext::finish() {
   if (blocks_->size() > 0) model.add_load(std::move(blocks_));
 }
 
+// Every type, one line each: NAME stands for register_NAME.
+#define CULM_SIGNALS(TYPE) \
+  TYPE(actuator)           \
+  TYPE(external_signal)    \
+  TYPE(extremes)           \
+  TYPE(integral)           \
+  TYPE(lag)                \
+  TYPE(library)            \
+  TYPE(pi_controller)      \
+  TYPE(product)            \
+  TYPE(sensors)            \
+  TYPE(table)              \
+  TYPE(weighted_sum)
+
+#define CULM_DECLARE(type) void register_##type(SignalRegistry& registry);
+CULM_SIGNALS(CULM_DECLARE)
+#undef CULM_DECLARE
+
 void register_signals(SignalRegistry& registry) {
-  register_actuator(registry);
-  register_external_signal(registry);
-  register_extremes(registry);
-  register_integral(registry);
-  register_lag(registry);
-  register_library(registry);
-  register_pi_controller(registry);
-  register_product(registry);
-  register_sensors(registry);
-  register_table(registry);
-  register_weighted_sum(registry);
+#define CULM_REGISTER(type) register_##type(registry);
+  CULM_SIGNALS(CULM_REGISTER)
+#undef CULM_REGISTER
 }
 
 }  // namespace culm::control

@@ -3,14 +3,9 @@
 namespace culm::flow {
 
 void register_flows(FlowRegistry& registry) {
-  register_uniform(registry);
-  register_power_law(registry);
-  register_log_law(registry);
-  register_table(registry);
-  register_gust(registry);
-  register_turbsim_box(registry);
-  register_mann_box(registry);
-  register_bladed_box(registry);
+#define CULM_REGISTER(type) register_##type(registry);
+  CULM_FLOWS(CULM_REGISTER)
+#undef CULM_REGISTER
 }
 
 }  // namespace culm::flow

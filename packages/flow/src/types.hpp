@@ -10,13 +10,19 @@ inline Field density_field() {
   return number("Density", "kg/m^3", "Mass of the fluid per volume.").positive();
 }
 
-void register_uniform(FlowRegistry& registry);
-void register_power_law(FlowRegistry& registry);
-void register_log_law(FlowRegistry& registry);
-void register_table(FlowRegistry& registry);
-void register_gust(FlowRegistry& registry);
-void register_turbsim_box(FlowRegistry& registry);
-void register_mann_box(FlowRegistry& registry);
-void register_bladed_box(FlowRegistry& registry);
+/// Every type, one line each: NAME stands for register_NAME.
+#define CULM_FLOWS(TYPE) \
+  TYPE(uniform)          \
+  TYPE(power_law)        \
+  TYPE(log_law)          \
+  TYPE(table)            \
+  TYPE(gust)             \
+  TYPE(turbsim_box)      \
+  TYPE(mann_box)         \
+  TYPE(bladed_box)
+
+#define CULM_DECLARE(type) void register_##type(FlowRegistry& registry);
+CULM_FLOWS(CULM_DECLARE)
+#undef CULM_DECLARE
 
 }  // namespace culm::flow

@@ -5,28 +5,31 @@
 
 namespace culm::load {
 
-void register_force(model::BuilderRegistry& registry);          // Force, Follower Force
-void register_moment(model::BuilderRegistry& registry);         // Moment, Follower Moment
-void register_line_force(model::BuilderRegistry& registry);     // Line Force, Follower Line Force
-void register_line_moment(model::BuilderRegistry& registry);    // Line Moment, Follower Line Moment
-void register_line_load(model::BuilderRegistry& registry);      // Line Load, Follower Line Load
-void register_field_force(model::BuilderRegistry& registry);    // Field Force
-void register_pressure(model::BuilderRegistry& registry);       // Pressure
-void register_surface_force(model::BuilderRegistry& registry);  // Surface Force
-void register_director_force(model::BuilderRegistry& registry);  // Director Force
-void register_gravity(model::BuilderRegistry& registry);         // Gravity
-void register_external(model::BuilderRegistry& registry);        // External
+/// Every type of load, one line each: NAME stands for register_NAME of NAME.cpp.
+#define CULM_LOADS(TYPE)                                                            \
+  TYPE(force)                  /* Force, Follower Force */                          \
+  TYPE(moment)                 /* Moment, Follower Moment */                        \
+  TYPE(line_force)             /* Line Force, Follower Line Force */                \
+  TYPE(line_moment)            /* Line Moment, Follower Line Moment */              \
+  TYPE(line_load)              /* Line Load, Follower Line Load */                  \
+  TYPE(field_force)            /* Field Force */                                    \
+  TYPE(pressure)               /* Pressure */                                       \
+  TYPE(surface_force)          /* Surface Force */                                  \
+  TYPE(director_force)         /* Director Force */                                 \
+  TYPE(gravity)                /* Gravity */                                        \
+  TYPE(external)               /* External */                                       \
+  TYPE(rotating_frame)         /* Rotating Frame */                                 \
+  TYPE(catenary)               /* Catenary */                                       \
+  TYPE(spring)                 /* Spring, Damper */                                 \
+  TYPE(directed_spring)        /* Directed Spring, Directed Damper */               \
+  TYPE(ground_spring)          /* Ground Spring, Ground Damper */                   \
+  TYPE(directed_ground_spring) /* Directed Ground Spring, Directed Ground Damper */ \
+  TYPE(plane_ground_spring)    /* Plane Ground Spring, Plane Ground Damper */       \
+  TYPE(torsion)                /* Torsion Spring, Torsion Damper, Torsion Drive */  \
+  TYPE(rotation_damper)        /* Rotation Damper, Rotation Damper Local */
 
-void register_rotating_frame(model::BuilderRegistry& registry);  // Rotating Frame
-void register_catenary(model::BuilderRegistry& registry);        // Catenary
-
-// … Spring and … Damper, all of them
-void register_spring(model::BuilderRegistry& registry);
-void register_directed_spring(model::BuilderRegistry& registry);
-void register_ground_spring(model::BuilderRegistry& registry);
-void register_directed_ground_spring(model::BuilderRegistry& registry);
-void register_plane_ground_spring(model::BuilderRegistry& registry);
-void register_torsion(model::BuilderRegistry& registry);          // and Torsion Drive
-void register_rotation_damper(model::BuilderRegistry& registry);  // and Rotation Damper Local
+#define CULM_DECLARE(type) void register_##type(model::BuilderRegistry& registry);
+CULM_LOADS(CULM_DECLARE)
+#undef CULM_DECLARE
 
 }  // namespace culm::load

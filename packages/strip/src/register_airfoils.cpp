@@ -3,8 +3,9 @@
 namespace culm::strip {
 
 void register_airfoils(AirfoilRegistry& registry) {
-  register_thin(registry);
-  register_polar(registry);
+#define CULM_REGISTER(type) register_##type(registry);
+  CULM_AIRFOILS(CULM_REGISTER)
+#undef CULM_REGISTER
 }
 
 }  // namespace culm::strip

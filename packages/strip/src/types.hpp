@@ -5,7 +5,13 @@
 
 namespace culm::strip {
 
-void register_thin(AirfoilRegistry& registry);
-void register_polar(AirfoilRegistry& registry);
+/// Every type, one line each: NAME stands for register_NAME.
+#define CULM_AIRFOILS(TYPE) \
+  TYPE(thin)                \
+  TYPE(polar)
+
+#define CULM_DECLARE(type) void register_##type(AirfoilRegistry& registry);
+CULM_AIRFOILS(CULM_DECLARE)
+#undef CULM_DECLARE
 
 }  // namespace culm::strip
