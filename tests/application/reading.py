@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -83,6 +84,33 @@ def check_refusals(run):
             raise AssertionError("nothing was raised")
 
 
+def check_constraint_forces(program, folder):
+    """In the deformed place each part is in balance, and joints act on both sides with opposite signs."""
+    deck = ROOT / "inputs/joint/forces_by_name.xml"
+    for form in ("Null Space", "Multipliers"):
+        form_of_deck = ["--set", f"Solver/Form={form}"]
+        subprocess.run([program, "run", deck, "--quiet", "--output", folder, *form_of_deck], check=True)
+        run = culm.read(folder)
+        state = run.states[-1]
+        clamp, hinge, roller = (state.constraint_forces(name).to_numpy() for name in ("clamp", "hinge", "roller"))
+        load = numpy.hstack([state.position("hung")[2], [10, 20, -100], [0, 0, 0]])
+        for part in ([clamp[0], hinge[0]], [hinge[1], roller[0], load]):
+            place, force, moment = numpy.split(numpy.array(part), 3, axis=1)
+            assert numpy.abs(force.sum(axis=0)).max() < 1e-6, (form, part)
+            assert numpy.abs((moment + numpy.cross(place, force)).sum(axis=0)).max() < 1e-6, (form, part)
+        row = run.history.iloc[-1]
+        for name, forces in (("hinge", hinge[1]), ("hinge on held", hinge[0]), ("clamp", clamp[0])):
+            assert numpy.abs(run.columns(name).iloc[-1].to_numpy() - forces[3:]).max() < 1e-9, (form, name, row)
+        for ask, word in ((lambda: state.constraint_forces("hing"), "hinge"),
+                          (lambda: run.states[0].constraint_forces("hinge"), "'hinge'")):
+            try:
+                ask()
+            except KeyError as error:
+                assert word in str(error), error
+            else:
+                raise AssertionError("nothing was raised")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True, type=pathlib.Path)
@@ -97,6 +125,7 @@ def main():
         check_states(run)
         check_columns(run)
         check_refusals(run)
+        check_constraint_forces(program, "results/forces")
         assert len(names["axes"].lines) == 9, "three components in three analyses"
         assert names["modes"].shapes["tower"].shape == (15, 11, 6)
         assert isinstance(repr(culm.read("results/notebook")), str)

@@ -127,6 +127,9 @@ Schema output_schema(const QuantityRegistry& quantities) {
                 "Record velocities of nodes, and angular velocities of those with directors, with "
                 "each state.")
                .optional(false))
+      .add(flag("Constraint Forces",
+                "Record with each step what supports, joints and drives exert on their nodes.")
+               .optional(false))
       .add(flag("Checkpoints", "Write checkpoints, from which 'culm resume' goes on.")
                .optional(true))
       .add(number("Checkpoint Interval", "s",

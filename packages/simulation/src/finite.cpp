@@ -34,6 +34,9 @@ bool is_finite_node(const output::StructureState& state, std::size_t node) {
 bool is_finite(std::span<const double> values) { return find_infinite(values) == nullptr; }
 
 bool is_finite(const output::Picture& picture) {
+  for (const output::NamedArray& array : picture.arrays) {
+    if (!is_finite(array.values)) return false;
+  }
   return std::all_of(
       picture.structures.begin(), picture.structures.end(), [](const output::StructureState& s) {
         const auto is_sound = [](const std::vector<double>& values) { return is_finite(values); };
@@ -79,6 +82,10 @@ void refuse_infinite(const std::vector<output::StructureMesh>& meshes,
                          at / mesh.cell_arrays[a].columns.size(), mesh.name),
              *found, when);
     }
+  }
+  for (const output::NamedArray& array : frame.arrays) {
+    const double* found = find_infinite(array.values);
+    if (found != nullptr) refuse(fmt::format("A number of '{}'", array.name), *found, when);
   }
   throw InternalError("all values are finite");
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -149,6 +150,31 @@ bool read_constraint(const Options& options, model::BuildContext& context, Watch
   return false;
 }
 
+// The node of a constraint that names one or two, the second of a joint; or none, and an issue.
+std::optional<int> node_of_constraint(const Options& options, model::BuildContext& context) {
+  if (!options.has("Constraint")) {
+    context.issues.add(options.where(), "needs a 'Node', the name of a 'Constraint', or both");
+    return {};
+  }
+  const std::string& wanted = options.text("Constraint");
+  std::set<int> nodes;
+  std::vector<std::string> names;
+  int last = -1;
+  for (const model::Constraint& c : context.model.constraints()) {
+    if (c.is_structural) continue;
+    names.push_back(c.name);
+    if (c.name != wanted || c.nodes.empty()) continue;
+    nodes.insert(c.nodes.begin(), c.nodes.end());
+    last = c.nodes.back();
+  }
+  if (nodes.size() == 1 || nodes.size() == 2) return last;
+  context.issues.add(options.where("Constraint"),
+                     nodes.empty() ? "no constraint '" + wanted + "'" + did_you_mean(wanted, names)
+                                   : "'" + wanted + "' acts on " + std::to_string(nodes.size()) +
+                                         " nodes; name one of them as 'Node'");
+  return {};
+}
+
 // Whether a node turns as a whole: with a frame, or for an angular velocity, a director does not
 // do.
 bool has_triad_where_needed(const std::string& type, const Options& options,
@@ -163,13 +189,23 @@ void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> c
   const bool has_offset = schema.find_field("Offset") != nullptr;
   const bool has_frame = schema.find_field("Frame") != nullptr;
   const bool has_constraint = schema.find_field("Constraint") != nullptr;
-  schema.add(model::node_field("Node", "The node, such as 'structure/last'."));
+  schema.add(has_constraint ? model::node_field(
+                                  "Node",
+                                  "The node, such as 'structure/last'; if absent, the second of "
+                                  "the joint, or the one of the support, that 'Constraint' names.")
+                                  .optional()
+                            : model::node_field("Node", "The node, such as 'structure/last'."));
   registry.add(
       type, std::move(schema),
       [type, columns = std::move(columns), evaluate = std::move(evaluate), object, has_offset,
        has_frame, has_constraint](const Options& options,
                                   model::BuildContext& context) -> std::unique_ptr<Quantity> {
-        const std::optional<Place> read = read_place(options, has_offset, has_frame, context);
+        std::optional<Place> read;
+        if (!has_constraint || options.has("Node")) {
+          read = read_place(options, has_offset, has_frame, context);
+        } else if (const std::optional<int> node = node_of_constraint(options, context)) {
+          read = Place{*node, Vec3::Zero(), -1};
+        }
         if (!read) return nullptr;
         Watched place{*read, {}};
         if (has_constraint && !read_constraint(options, context, place)) return nullptr;

@@ -5,6 +5,7 @@
 
 #include "analysis_files.hpp"
 #include "checkpoints.hpp"
+#include "constraint_forces.hpp"
 #include "finite.hpp"
 #include "fluid_pictures.hpp"
 #include "on_root.hpp"
@@ -191,11 +192,13 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
   ++rows_;
 }
 
-void ResultFiles::record(double time, int analysis, int step, model::State& state) {
+void ResultFiles::record(double time, int analysis, int step, model::State& state,
+                         bool was_solved) {
   system_->synchronise(state);
   on_root(system_->comm(), [&] {
     output::Picture f = picture_of(system_->model(), settings_.layers, state.next);
     if (settings_.velocities) add_velocities(system_->model(), state, f);
+    if (settings_.constraint_forces && was_solved) f.arrays = constraint_forces(*system_, state);
     f.index = static_cast<int>(frames_);
     f.time = time;
     f.analysis = analysis;

@@ -86,7 +86,7 @@ void RunObserver::resume(const Snapshot& snapshot) {
 void RunObserver::start_run(model::State& state, bool steps_follow) {
   if (has_started_) return;
   has_started_ = is_recorded_ = true;
-  record(state.time, 0, state);
+  record(state.time, 0, state, false);
   if (!steps_follow) start(state);
 }
 
@@ -115,9 +115,9 @@ void RunObserver::add_history(double time, int step, model::State& state) {
   files_.add_history({time, numbers, static_cast<int>(number_), step});
 }
 
-void RunObserver::record(double time, int step, model::State& state) {
+void RunObserver::record(double time, int step, model::State& state, bool was_solved) {
   const Ledger::Scope scope(ledger_, states_effect_);
-  files_.record(time, static_cast<int>(number_), step, state);
+  files_.record(time, static_cast<int>(number_), step, state, was_solved);
 }
 
 void RunObserver::step(const analysis::StepReport& report, model::State& state) {
@@ -139,7 +139,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     loads_.step(context_->system, state);
     ranges_.step(context_->system);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
-    if (is_recorded_) record(report.time, report.step, state);
+    if (is_recorded_) record(report.time, report.step, state, true);
   } else {
     ++rejected_;
   }
@@ -309,7 +309,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
   ranges_.report(state.time, findings_);
   if (!has_history_) start(state);  // also where a run fails before its first step
   // a run that fails leaves its last accepted state
-  if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state);
+  if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state, false);
   const Ledger::Scope scope(ledger_, states_effect_);
   std::vector<output::NamedScalar> numbers = {
       {"accepted steps", "", static_cast<double>(accepted_)},

@@ -84,7 +84,7 @@ class RunObserver final : public analysis::Observer {
   void watch_turns(double time, const model::State& state);
   void report_turns(double time);
   void add_history(double time, int step, model::State& state);
-  void record(double time, int step, model::State& state);
+  void record(double time, int step, model::State& state, bool was_solved);
 
   Ledger& ledger_;
   Findings& findings_;

@@ -43,6 +43,20 @@ class State:
         """(nodes, 3) [rad/s], likewise"""
         return self._array(structure, "angular velocity")
 
+    def constraint_forces(self, name):
+        """What a support, joint or drive exerts on the structure: a frame with a row for each of its nodes,
+        place x y z [m], force Fx Fy Fz [N] and moment about the node Mx My Mz [N m], all in space; where
+        Output / Constraint Forces asks for them, and of states that a step led to."""
+        prefix = "constraint forces: "
+        with h5py.File(self.path) as file:
+            group = file[f"steps/{self.index:06}"].get("%arrays", {})
+            found = {_without_escapes(link): link for link in group}
+            if prefix + name not in found:
+                known = [array.removeprefix(prefix) for array in found if array.startswith(prefix)]
+                raise KeyError(f"no forces of a constraint '{name}' among: {', '.join(known)}")
+            values = group[found[prefix + name]][()]
+        return pandas.DataFrame(values, columns=["x", "y", "z", "Fx", "Fy", "Fz", "Mx", "My", "Mz"])
+
     def resultants(self, structure):
         """A frame with the stress resultants of the elements, in the directors of their sections."""
         with h5py.File(self.path) as file:

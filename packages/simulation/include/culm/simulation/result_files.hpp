@@ -39,7 +39,8 @@ struct ResultSettings {
   int every = 1;
   bool pictures = true;
   LayerSettings layers = {};
-  bool velocities = false;  ///< in each recorded state
+  bool velocities = false;         ///< in each recorded state
+  bool constraint_forces = false;  ///< likewise, of steps
 };
 
 /// Gathers states and writes them on rank 0. All functions are called on all ranks, and throw
@@ -70,7 +71,9 @@ class ResultFiles {
   bool is_due(int step) const { return step % settings_.every == 0; }
   /// Records a whole state.
   /// @param analysis, step  as in output::HistoryRow
-  void record(double time, int analysis, int step, model::State& state);
+  /// @param was_solved      whether the last evaluation was that of this state, so that forces of
+  ///                        constraints are known
+  void record(double time, int analysis, int step, model::State& state, bool was_solved);
   /// Records what an analysis says at its end; its pictures and tables go to a folder of its name.
   /// @param state up to date on all ranks
   void add_results(const std::string& name, const analysis::AnalysisReport& report,
