@@ -83,7 +83,7 @@ void refuse_infinite(const std::vector<output::StructureMesh>& meshes,
              *found, when);
     }
   }
-  for (const output::NamedArray& array : frame.arrays) {
+  for (const output::NamedArray& array : picture.arrays) {
     const double* found = find_infinite(array.values);
     if (found != nullptr) refuse(fmt::format("A number of '{}'", array.name), *found, when);
   }
