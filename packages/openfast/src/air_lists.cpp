@@ -444,7 +444,7 @@ void write_operation(DeckWriter& deck) {
   deck.set("End Time", "end");
   deck.set("Step", "step");
   deck.set("Inactive", std::vector<std::string>{"generator"});
-  deck.comment({"What is induced is not in the tangent: so that the balance closes."});
+  deck.comment({"What 1e-10 leaves at the far ends of the blades adds up in turbulence."});
   deck.open("Newton");
   deck.set("Force Tolerance", 1e-12);
   deck.close();
