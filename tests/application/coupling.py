@@ -585,7 +585,7 @@ class Decks(CouplingTest):
         self.assertEqual(self.rows("count"), 3)
         errors = self.culm("run", self.deck, "--output", "energy", *fault, "--set",
                            "Coupling/Partners/fault/Fault=Wrong Energy", code=8)
-        self.assertIn("the interface 'fault' makes", errors)
+        self.assertIn("the partner 'fault' books 1 J, and nothing went through its port", errors)
 
 
 if __name__ == "__main__":

@@ -351,13 +351,25 @@ void CoupledRun::close_books(analysis::AnalysisReport& report, double time) {
                                  : "  the partner keeps no books: no balance\n";
       continue;
     }
-    const double share = gap == 0.0 ? 0.0 : std::abs(gap) / side.exchanged;
     report.text += fmt::format(
         "  energy that the partner gained    {:>20.12g} J\n"
         "  energy that it turned into heat   {:>20.12g} J\n"
-        "  gap                               {:>20.2g} J, {:.1e} of all that was exchanged\n",
-        side.books.energy, side.books.dissipated, gap, share);
+        "  gap                               {:>20.2g} J, ",
+        side.books.energy, side.books.dissipated, gap);
     report.numbers.emplace_back("gap of partner " + side.name, gap);
+    if (side.exchanged == 0.0) {
+      report.text += "and nothing was exchanged\n";
+      if (gap != 0.0) {
+        findings_.broken("interface",
+                         fmt::format("the partner '{}' books {:.3g} J, and nothing went through "
+                                     "its port: what it says of its energy is wrong",
+                                     side.name, gap),
+                         time);
+      }
+      continue;
+    }
+    const double share = std::abs(gap) / side.exchanged;
+    report.text += fmt::format("{:.1e} of all that was exchanged\n", share);
     if (share <= notable_gap) continue;
     findings_.broken(
         "interface",

@@ -741,7 +741,7 @@ ILL_POSED = [
     IllPosed(
         "a partner that lies about its energy", "coupling/partners.xml",
         faulty_partner("Wrong Energy"),
-        8, "the interface 'third' makes",
+        8, "the partner 'third' books 1 J",
     ),
     IllPosed(
         "steps of many turns", "hard/quick_spin.xml",
