@@ -373,6 +373,11 @@ std::vector<std::string> write_members(const HydroDyn& hydro, const SubDyn& sub,
       MemberWriter writer(hydro, member, *carrier, report);
       if (writer.write(name, deck)) names.push_back(name);
     }
+    if (carried > 1.0 + least_share) {
+      throw InputError({hydro.path.string(), 0, name_of(member)},
+                       "lies along beams of SubDyn that lie upon each other, which would all carry "
+                       "its water");
+    }
     if (carried < 1.0 - least_share) {
       report.add(missing, fmt::format("{} of HydroDyn: {:.3g} m of {:.3g} m lie along no beam of "
                                       "SubDyn, and have no water",

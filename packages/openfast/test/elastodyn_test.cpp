@@ -21,6 +21,7 @@ using testing::ContainsRegex;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
+using testing::ThrowsMessage;
 
 class ElastoDynFiles : public SampleFiles {
  protected:
@@ -270,6 +271,12 @@ TEST_F(ElastoDynFiles, TowersStandOnTheMembersOfSubDynInTheWaterOfHydroDyn) {
   EXPECT_THAT(imported.report, HasSubstr("member 2 of HydroDyn: 10 m of 10 m lie along no"));
   EXPECT_THAT(imported.report, HasSubstr("0.5 m between the foot of the tower and joint 13"));
   EXPECT_THAT(imported.report, Not(HasSubstr("not imported")));
+  // a second beam in the place of a leg
+  write("jacket.dat",
+        change(subdyn_file, " 6          15        12         2           2         1     -1",
+               " 6          12        14         2           2         1     -1"));
+  EXPECT_THAT([&] { import_file(path_of("scene.fst")); },
+              ThrowsMessage<InputError>(HasSubstr("beams of SubDyn that lie upon each other")));
   write("jacket.dat", change(subdyn_file, "2            NInterf", "0            NInterf"));
   EXPECT_THROW(import_file(path_of("scene.fst")), InputError);
 }
