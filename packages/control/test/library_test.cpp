@@ -2,9 +2,9 @@
 #include <culm/control/library_batch.hpp>
 
 #include <culm_kit/batch_laws.hpp>
+#include <culm_kit/temporary_folder.hpp>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -22,19 +22,11 @@ constexpr int count = 120;
 // An input file of the controller, which goes with it.
 class InputFile {
  public:
-  explicit InputFile(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() /
-              ("culm_library_test_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    std::ofstream(path_) << text;
-  }
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-  ~InputFile() { std::filesystem::remove(path_); }
-  std::string name() const { return path_.string(); }
+  explicit InputFile(const std::string& text) { std::ofstream(name()) << text; }
+  std::string name() const { return (folder_ / "controller.in").string(); }
 
  private:
-  std::filesystem::path path_;
+  kit::TemporaryFolder folder_;
 };
 
 TEST(SwapLibrary, AnswersThroughItsRecords) {

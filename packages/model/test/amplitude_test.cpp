@@ -2,11 +2,11 @@
 #include <culm/model/amplitude.hpp>
 
 #include <culm_kit/deck_list.hpp>
+#include <culm_kit/temporary_folder.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <string>
@@ -175,11 +175,7 @@ TEST_F(Functions, AnExpressionThatIsNotFiniteIsAMistakeOfTheDeck) {
 
 class FunctionFile : public Functions {
  protected:
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      testing::UnitTest::GetInstance()->current_test_info()->name();
-  FunctionFile() { std::filesystem::create_directories(folder); }
-  ~FunctionFile() override { std::filesystem::remove_all(folder); }
+  const kit::TemporaryFolder folder;
 
   std::string write(const std::string& text) const {
     const std::string path = (folder / "gust.csv").string();

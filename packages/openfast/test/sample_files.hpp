@@ -1,6 +1,7 @@
 /// Small files in the formats of OpenFAST, with numbers of our own.
 #pragma once
 
+#include <culm_kit/temporary_folder.hpp>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,13 +13,7 @@ namespace culm::openfast {
 /// A folder of its own for each test.
 class SampleFiles : public testing::Test {
  protected:
-  SampleFiles() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("openfast ") + info->test_suite_name() + " " + info->name());
-    std::filesystem::create_directories(folder_);
-  }
-  ~SampleFiles() override { std::filesystem::remove_all(folder_); }
+  SampleFiles() { std::filesystem::create_directories(folder_); }
 
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
@@ -37,7 +32,9 @@ class SampleFiles : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  kit::TemporaryFolder temporary_;
+  // Names of real folders have blanks.
+  std::filesystem::path folder_ = temporary_ / "sample files";
 };
 
 }  // namespace culm::openfast

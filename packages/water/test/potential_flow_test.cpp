@@ -3,10 +3,10 @@
 #include <culm/water/radiation_fit.hpp>
 
 #include <Eigen/Eigenvalues>
+#include <culm_kit/temporary_folder.hpp>
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -76,8 +76,7 @@ TEST(RadiationFit, HasNoTermsWhereNothingIsRadiated) {
 
 class WamitFiles : public testing::Test {
  protected:
-  WamitFiles() : folder_(std::filesystem::path(testing::TempDir()) / "culm wamit") {
-    std::filesystem::create_directories(folder_);
+  WamitFiles() {
     write("1",
           "0 1 1 2.0\n0 1 5 1.0\n-1 1 1 9.0\n6.283185307179586 1 1 3.0 0.5\n6.283185307179586 1 5 "
           "4.0 0.25\n");
@@ -86,7 +85,6 @@ class WamitFiles : public testing::Test {
           "3.141592653589793 0 1 7 0 7.0 0.0\n3.141592653589793 90 1 1 0 1.0 0.0\n");
     write("hst", "3 3 10.0\n5 5 20.0\n");
   }
-  ~WamitFiles() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& ending, const std::string& text) const {
     std::ofstream(folder_ / ("body." + ending)) << text;
@@ -104,7 +102,7 @@ class WamitFiles : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  kit::TemporaryFolder folder_;
 };
 
 // Lengths to the third power, and one more for each rotation; damping times the frequency.
