@@ -17,10 +17,21 @@ using Fixed = std::integral_constant<int, size>;
 /// with the diagonal does not depend on how rows are scaled.
 constexpr double preferred_pivot = 1e-3;
 
-/// The row with the pivot of a column of a block, at or below the diagonal.
+/// Largest entry of each row of a block; 1 where there is none.
 template <class Size>
-int find_pivot(const double* D, int stride, Size size, int column) {
-  const auto size_of = [&](int row) { return std::abs(D[row * stride + column]); };
+void find_row_sizes(const double* D, int stride, Size size, double* row_size) {
+  for (int r = 0; r < size; ++r) {
+    double largest = 0.0;
+    for (int k = 0; k < size; ++k) largest = std::max(largest, std::abs(D[r * stride + k]));
+    row_size[r] = largest > 0.0 ? largest : 1.0;
+  }
+}
+
+/// The row with the pivot of a column of a block, at or below the diagonal.
+/// @param weight of each row, by which its entries are compared
+template <class Size, class Weight>
+int find_pivot(const double* D, int stride, Size size, int column, const Weight& weight) {
+  const auto size_of = [&](int row) { return weight(row) * std::abs(D[row * stride + column]); };
   double largest = size_of(column);
   for (int r = column + 1; r < size; ++r) largest = std::max(largest, size_of(r));
   if (!(size_of(column) < preferred_pivot * largest)) return column;
@@ -35,15 +46,21 @@ int find_pivot(const double* D, int stride, Size size, int column) {
 /// @param before     largest size of each diagonal entry so far
 /// @param least      of which each pivot must exceed so much
 /// @param exchanged  of each row, the one it was exchanged with
+/// @param row_size   room for a number of each row. Rows of multipliers have another scale than
+///                   those of nodes, so pivots are compared with the largest entries of their rows
 /// @return false if a pivot is too small or not a number
 template <class Size, class Columns>
 bool factor_panel(double* D, Size size, Columns columns, const double* before, double least,
-                  int* exchanged) {
+                  int* exchanged, double* row_size) {
   const int stride = size + columns;
+  find_row_sizes(D, stride, size, row_size);
   for (int c = 0; c < size; ++c) {
     double* row_c = D + c * stride;
-    const int best = find_pivot(D, stride, size, c);
-    if (best != c) std::swap_ranges(row_c, row_c + stride, D + best * stride);
+    const int best = find_pivot(D, stride, size, c, [&](int row) { return 1.0 / row_size[row]; });
+    if (best != c) {
+      std::swap_ranges(row_c, row_c + stride, D + best * stride);
+      std::swap(row_size[c], row_size[best]);
+    }
     exchanged[c] = best;
     if (!(std::abs(row_c[c]) > least * before[c])) return false;
     row_c[c] = 1.0 / row_c[c];
@@ -71,16 +88,17 @@ bool factor_panel(double* D, Size size, Columns columns, const double* before, d
   return true;
 }
 
-/// The same for sizes that are known, so that it works in a copy without loops.
+/// The same for sizes that are known, so that it works in a copy without loops. These blocks are
+/// nodes, whose rows are of one scale.
 template <int size, int columns>
 bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, double least,
-                  int* exchanged) {
+                  int* exchanged, double*) {
   constexpr int stride = size + columns;
   std::array<double, size * stride> a;
   std::copy_n(D, a.size(), a.data());
   const auto eliminate = [&](auto c) {
     double* row_c = a.data() + c * stride;
-    const int best = find_pivot(a.data(), stride, Fixed<size>(), c);
+    const int best = find_pivot(a.data(), stride, Fixed<size>(), c, [](int) { return 1.0; });
     if (best != c) std::swap_ranges(row_c, row_c + stride, a.data() + best * stride);
     exchanged[c] = best;
     if (!(std::abs(row_c[c]) > least * before[c])) return false;

@@ -21,6 +21,9 @@ constexpr auto none = std::numeric_limits<std::size_t>::max();
 // kept pivots of KLU2. The error of a solution grows by as much.
 constexpr double largest_growth = 1e4;
 
+// Of the largest coefficient of a joint; with less an unknown hardly takes part in it.
+constexpr double smallest_share = 1e-2;
+
 // More are not parts of a model that joints hold, but a matrix that is singular.
 constexpr int most_merged = 8;
 
@@ -117,15 +120,22 @@ void BlockLu::plan() {
   exchanged_.assign(rows, 0);
   x_.assign(rows, 0.0);
   diagonal_.assign(rows, none);
+  place_.assign(rows, 0);
   for (std::size_t place = 0; place < rows; ++place) {
     const std::size_t row = index(plan_.unknown[place]);
+    place_[row] = static_cast<int>(place);
     for (auto k = local_.graph.row_map(row); k < local_.graph.row_map(row + 1); ++k) {
       if (index(local_.graph.entries(k)) == row) diagonal_[place] = k;
     }
   }
   int widest = 0;
-  for (const BlockPlan::Panel& panel : plan_.panels) widest = std::max(widest, panel.width);
+  int tallest = 0;
+  for (const BlockPlan::Panel& panel : plan_.panels) {
+    widest = std::max(widest, panel.width);
+    tallest = std::max(tallest, panel.size);
+  }
   beside_.assign(index(widest), 0.0);
+  row_size_.assign(index(tallest), 0.0);
 }
 
 void BlockLu::copy(const double* values) {
@@ -159,8 +169,10 @@ bool BlockLu::has_grown(const BlockPlan::Panel& panel) {
   for (int i = 0; i < panel.size; ++i, entry += panel.stride() + 1) {
     const std::size_t place = index(panel.first + i);
     const double now = std::abs(*entry);
+    const int row = plan_.unknown[place];
     if (now > largest_growth * before_[place] && before_[place] > 0.0 &&
-        now > largest_growth * largest_in_row(plan_.unknown[place])) {
+        now > largest_growth * largest_in_row(row) &&
+        now > largest_growth * largest_behind_joints(row)) {
       return true;
     }
     before_[place] = std::max(before_[place], now);
@@ -176,12 +188,32 @@ double BlockLu::largest_in_row(int row) const {
   return largest;
 }
 
+// What joints may bring to this row: a body with next to no mass of its own carries, once a joint
+// to a heavy one is eliminated, the mass of that one.
+double BlockLu::largest_behind_joints(int row) const {
+  const auto for_entries = [&](int of, const auto& visit) {
+    for (auto k = local_.graph.row_map(index(of)); k < local_.graph.row_map(index(of) + 1); ++k) {
+      if (local_.values(k) != 0.0) visit(local_.graph.entries(k), std::abs(local_.values(k)));
+    }
+  };
+  double largest = 0.0;
+  for_entries(row, [&](int joint, double here) {
+    const std::size_t diagonal = diagonal_[index(place_[index(joint)])];
+    if (diagonal != none && local_.values(diagonal) != 0.0) return;
+    for_entries(joint, [&](int other, double there) {
+      const double ratio = here / std::max(there, smallest_share * largest_in_row(joint));
+      largest = std::max(largest, ratio * ratio * before_[index(place_[index(other)])]);
+    });
+  });
+  return largest;
+}
+
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
                                                                    double least) {
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
-                        least, exchanged_.data() + panel.first);
+                        least, exchanged_.data() + panel.first, row_size_.data());
   });
   if (!is_sound) {
     failed_ = &panel;

@@ -47,6 +47,7 @@ class BlockLu {
   bool eliminate(const BlockPlan::Panel& panel, double least);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
+  double largest_behind_joints(int row) const;
   void update(const BlockPlan::Panel& panel, std::size_t from);
   template <class Size, class Width>
   void substitute_forward(const BlockPlan::Panel& panel, Size size, Width width);
@@ -61,11 +62,13 @@ class BlockLu {
   BlockPlan plan_;
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
   std::vector<std::size_t> diagonal_;         ///< by place: its entry of the matrix; `none`
+  std::vector<int> place_;                    ///< of each row
   std::vector<double> values_;
-  std::vector<double> before_;  ///< by place: largest size of the diagonal so far
-  std::vector<int> exchanged_;  ///< by place: the row of the block it was exchanged with
-  std::vector<double> x_;       ///< by place
-  std::vector<double> beside_;  ///< of one panel
+  std::vector<double> before_;    ///< by place: largest size of the diagonal so far
+  std::vector<int> exchanged_;    ///< by place: the row of the block it was exchanged with
+  std::vector<double> x_;         ///< by place
+  std::vector<double> beside_;    ///< of one panel
+  std::vector<double> row_size_;  ///< of one panel
 };
 
 }  // namespace culm::solver

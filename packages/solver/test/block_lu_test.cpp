@@ -290,6 +290,48 @@ TEST(BlockLu, APartThatOnlyJointsHoldIsEliminatedWithThem) {
   EXPECT_EQ(blocks.determinant().sign, A.values.determinant() > 0.0 ? 1 : -1);
 }
 
+// A generator with next to no mass between a heavy rotor and a tower; equations of joints of any
+// scale. Neither the mass that comes to the generator nor the scale is a sign of bad pivots.
+TEST(BlockLu, LightBodiesBetweenHeavyOnesAndScaledJointsServe) {
+  enum { rotor, generator, tower, shaft, bearing, brake };
+  const Skeleton s{"drive train",
+                   {{rotor, shaft},
+                    {generator, shaft},
+                    {generator, bearing},
+                    {tower, bearing},
+                    {generator, brake},
+                    {tower, brake}},
+                   {6, 6, 6, 5, 5, 1},
+                   {shaft, bearing, brake}};
+  for (const double scale : {1.0, 1e6, 1e13}) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      BlockMatrix A(s, seed);
+      const auto make_body = [&](int body, double mass) {
+        auto block = A.values.block(6 * body, 6 * body, 6, 6);
+        block = mass * Eigen::MatrixXd(block * block.transpose());
+      };
+      make_body(rotor, 1e5);
+      make_body(generator, 1e-1);
+      make_body(tower, 1e6);
+      A.values.bottomLeftCorner(11, 18) *= scale;
+      A.values.topRightCorner(18, 11) = A.values.bottomLeftCorner(11, 18).transpose();
+      A.refresh();
+      BlockLu blocks(*A.matrix);
+      ASSERT_TRUE(blocks.factor()) << scale << " " << seed;
+      Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+      x.tail(11) /= scale;
+      const Eigen::VectorXd b = A.values * x;
+      const Eigen::VectorXd found = solve(blocks, b);
+      const Eigen::VectorXd rest = (b - A.values * found).cwiseAbs();
+      const Eigen::VectorXd size = A.values.cwiseAbs() * x.cwiseAbs();
+      EXPECT_LT(rest.head(18).maxCoeff(), 1e-11 * size.head(18).maxCoeff()) << scale << " " << seed;
+      EXPECT_LT(rest.tail(11).maxCoeff(), 1e-11 * size.tail(11).maxCoeff()) << scale << " " << seed;
+      EXPECT_EQ(blocks.determinant().sign,
+                Eigen::FullPivLU<Eigen::MatrixXd>(A.values).determinant() > 0.0 ? 1 : -1);
+    }
+  }
+}
+
 TEST(FindHosts, EachJointFindsABodyOfItsOwn) {
   // joints with five equations need one body each, and only one assignment does
   Skeleton s = bodies(40, false);
