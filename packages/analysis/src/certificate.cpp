@@ -78,10 +78,12 @@ void Certificate::finish(double change, double velocity) {
 // The places of all numbers that add_work() and measure() build upon.
 template <class Self>
 auto Certificate::memory(Self& self) {
-  std::vector<decltype(&self.energy_drift_)> places = {
-      &self.largest_kinetic_, &self.largest_strain_,  &self.largest_work_,
-      &self.largest_linear_,  &self.largest_angular_, &self.energy_drift_,
-      &self.linear_drift_,    &self.angular_drift_,   &self.constraint_violation_};
+  std::vector<decltype(&self.energy_drift_)> places;
+  places.reserve(64);
+  places.insert(places.end(),
+                {&self.largest_kinetic_, &self.largest_strain_, &self.largest_work_,
+                 &self.largest_linear_, &self.largest_angular_, &self.energy_drift_,
+                 &self.linear_drift_, &self.angular_drift_, &self.constraint_violation_});
   const auto add_vector = [&places](auto& v) {
     places.insert(places.end(), {&v[0], &v[1], &v[2]});
   };
@@ -108,14 +110,17 @@ auto Certificate::memory(Self& self) {
 }
 
 void Certificate::save(Snapshot& snapshot) const {
-  std::vector<double> numbers = {static_cast<double>(steps_)};
-  for (const double* place : memory(*this)) numbers.push_back(*place);
+  const auto places = memory(*this);
+  std::vector<double> numbers;
+  numbers.reserve(places.size() + 1);
+  numbers.push_back(static_cast<double>(steps_));
+  for (const double* place : places) numbers.push_back(*place);
   snapshot.set("certificate", std::move(numbers));
 }
 
 void Certificate::restore(const Snapshot& snapshot) {
   const auto places = memory(*this);
-  const std::vector<double>& numbers = snapshot.numbers("certificate", places.size() + 1);
+  const std::span<const double> numbers = snapshot.numbers("certificate", places.size() + 1);
   steps_ = static_cast<int>(numbers.front());
   for (std::size_t i = 0; i < places.size(); ++i) *places[i] = numbers[i + 1];
 }

@@ -77,7 +77,7 @@ void CutBacks::save(Snapshot& snapshot) const {
 }
 
 void CutBacks::restore(const Snapshot& snapshot) {
-  const std::vector<double>& numbers = snapshot.numbers("cut-backs", 5 + num_reasons);
+  const std::span<const double> numbers = snapshot.numbers("cut-backs", 5 + num_reasons);
   accepted_ = numbers[0];
   rejected_ = numbers[1];
   least_taken_ = numbers[2];

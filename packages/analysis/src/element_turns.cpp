@@ -36,7 +36,7 @@ void ElementTurn::save(Snapshot& snapshot) const {
 }
 
 void ElementTurn::restore(const Snapshot& snapshot) {
-  const std::vector<double>& numbers = snapshot.numbers("turn", 6);
+  const std::span<const double> numbers = snapshot.numbers("turn", 6);
   *this = {numbers[0],
            numbers[1],
            numbers[2],

@@ -54,7 +54,7 @@ std::optional<double> FailureTrend::end(double final_level) const {
 void FailureTrend::save(Snapshot& snapshot) const { snapshot.set("statics/failures", levels_); }
 
 void FailureTrend::restore(const Snapshot& snapshot) {
-  levels_ = snapshot.numbers("statics/failures");
+  levels_ = snapshot.copy("statics/failures");
 }
 
 }  // namespace culm::analysis

@@ -86,7 +86,7 @@ void MissedPulses::save(Snapshot& snapshot) const {
 }
 
 void MissedPulses::restore(const Snapshot& snapshot) {
-  const std::vector<double>& told = snapshot.numbers("pulses/told", candidates_.size());
+  const std::span<const double> told = snapshot.numbers("pulses/told", candidates_.size());
   for (std::size_t i = 0; i < told.size(); ++i) candidates_[i].is_told = told[i] != 0.0;
   is_first_ = snapshot.number("pulses/first") != 0.0;
 }

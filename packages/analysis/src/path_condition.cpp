@@ -224,11 +224,12 @@ void PathCondition::accept(const model::State& state) {
 }
 
 void PathCondition::save(Snapshot& snapshot) const {
-  snapshot.set("path/increment", {previous_.data(), previous_.data() + previous_.size()});
+  snapshot.set("path/increment", std::span<const double>(
+                                     previous_.data(), static_cast<std::size_t>(previous_.size())));
 }
 
 void PathCondition::restore(const Snapshot& snapshot) {
-  const std::vector<double>& increment = snapshot.numbers("path/increment");
+  const std::span<const double> increment = snapshot.numbers("path/increment");
   previous_ = Eigen::Map<const Motion>(increment.data(), 12,
                                        static_cast<Eigen::Index>(increment.size() / 12));
 }

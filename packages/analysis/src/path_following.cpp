@@ -36,7 +36,7 @@ std::vector<double> numbers_of(const PathPoint& p) {
           p.determinant.log_size};
 }
 
-PathPoint point_of(const std::vector<double>& n) {
+PathPoint point_of(std::span<const double> n) {
   return {n[0], n[1], {n[2], n[3]}, {static_cast<int>(n[4]), n[5]}};
 }
 
@@ -397,7 +397,7 @@ void PathFollowing::do_save(Snapshot& snapshot) const {
 }
 
 void PathFollowing::do_restore(const Snapshot& snapshot) {
-  const std::vector<double>& step = snapshot.numbers("path/step", 8);
+  const std::span<const double> step = snapshot.numbers("path/step", 8);
   size_ = step[0];
   first_size_ = step[1];
   last_length_ = step[2];
@@ -409,7 +409,7 @@ void PathFollowing::do_restore(const Snapshot& snapshot) {
   known_.is_ended = step[7] != 0.0;
   known_.behind = point_of(snapshot.numbers("path/behind", 6));
   known_.here = point_of(snapshot.numbers("path/here", 6));
-  const std::vector<double>& events = snapshot.numbers("path/events");
+  const std::span<const double> events = snapshot.numbers("path/events");
   for (std::size_t i = 0; i + 2 < events.size(); i += 3) {
     known_.events.push_back(
         {static_cast<PathEventKind>(static_cast<int>(events[i])), events[i + 1], events[i + 2]});

@@ -107,7 +107,7 @@ void Predictor::restore(const Snapshot& snapshot) {
   reversal_ = snapshot.number("predictor/reversal");
   past_.clear();
   for (const double time : snapshot.numbers("predictor/times")) {
-    past_.push_back({time, system_.spread_motions(snapshot.numbers(name_of(past_.size())))});
+    past_.push_back({time, system_.spread_motions(snapshot.copy(name_of(past_.size())))});
   }
 }
 

@@ -143,7 +143,7 @@ void Statics::do_save(Snapshot& snapshot) const {
 void Statics::do_restore(const Snapshot& snapshot) {
   increment_ = snapshot.number("statics/increment");
   determinant_sign_ = snapshot.integer("statics/determinant sign");
-  crossings_ = snapshot.numbers("statics/crossings");
+  crossings_ = snapshot.copy("statics/crossings");
   trend_.restore(snapshot);
 }
 

@@ -166,13 +166,13 @@ void StepControl::save(Snapshot& snapshot) const {
 }
 
 void StepControl::restore(const Snapshot& snapshot) {
-  const std::vector<double>& lengths = snapshot.numbers("steps/lengths", 3);
+  const std::span<const double> lengths = snapshot.numbers("steps/lengths", 3);
   memory_.next = lengths[0];
   memory_.last = lengths[1];
   memory_.before_last = lengths[2];
   memory_.failed = snapshot.number("steps/failed") != 0.0;
-  memory_.velocity = snapshot.numbers("steps/velocity");
-  memory_.acceleration = snapshot.numbers("steps/acceleration");
+  memory_.velocity = snapshot.copy("steps/velocity");
+  memory_.acceleration = snapshot.copy("steps/acceleration");
   // steps that become adaptive now do not know the ones before
   if (settings_.adaptive && memory_.velocity.empty()) memory_.last = memory_.before_last = 0.0;
 }

@@ -70,7 +70,7 @@ void GeneralisedAlphaScheme::save(const assembly::System& system, Snapshot& snap
 }
 
 void GeneralisedAlphaScheme::restore(const Snapshot& snapshot) {
-  acceleration_ = snapshot.numbers("scheme/acceleration");
+  acceleration_ = snapshot.copy("scheme/acceleration");
 }
 
 }  // namespace culm::analysis

@@ -46,7 +46,8 @@ void System::save(model::State& state, Snapshot& snapshot) {
   snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
   snapshot.set("system/multiplier scale", multiplier_scale_);
   if (snapshot.is_for_memory()) {
-    snapshot.set("system/carried", carried_.value_or(std::vector<double>{}));
+    snapshot.set("system/carried",
+                 carried_ ? std::span<const double>(*carried_) : std::span<const double>());
   } else {
     snapshot.set("system/carried", gather_carried());
   }
@@ -80,21 +81,24 @@ bool System::fits(const Snapshot& snapshot, const model::State& state) const {
 
 void System::restore(const Snapshot& snapshot, model::State& state) {
   state.time = state.time_prev = snapshot.number("state/time");
-  state.next = state.prev = snapshot.numbers("state/position", state.next.size());
-  state.velocity = snapshot.numbers("state/velocity");
+  const auto put = [](std::span<const double> numbers, auto&... targets) {
+    (targets.assign(numbers.begin(), numbers.end()), ...);
+  };
+  put(snapshot.numbers("state/position", state.next.size()), state.next, state.prev);
+  put(snapshot.numbers("state/velocity"), state.velocity);
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
-  state.multipliers = snapshot.numbers("state/multipliers", state.multipliers.size());
-  state.multipliers_prev = state.multipliers;
-  state.own = state.own_prev = snapshot.numbers("state/own", state.own.size());
+  put(snapshot.numbers("state/multipliers", state.multipliers.size()), state.multipliers,
+      state.multipliers_prev);
+  put(snapshot.numbers("state/own", state.own.size()), state.own, state.own_prev);
   state.at_rest = snapshot.number("state/at rest") != 0.0;
   multiplier_scale_ = snapshot.number("system/multiplier scale");
-  const std::vector<double>& carried = snapshot.numbers("system/carried");
+  const std::span<const double> carried = snapshot.numbers("system/carried");
   if (!snapshot.is_for_memory()) {
-    restore_carried(carried);
+    restore_carried({carried.begin(), carried.end()});
   } else if (carried.empty()) {
     carried_.reset();
   } else {
-    carried_ = carried;
+    carried_.emplace(carried.begin(), carried.end());
   }
   std::span<const double> memory = snapshot.numbers("system/batches", memory_size());
   for (model::Batch* batch : batches_) {
@@ -127,7 +131,7 @@ void System::save_matrix(Snapshot& snapshot) const {
   const auto mine = std::as_const(*matrix_).values();
   snapshot.set("matrix/ranks", comm_.size());
   if (snapshot.is_for_memory()) {
-    snapshot.set("matrix/values", {mine.begin(), mine.end()});
+    snapshot.set("matrix/values", mine);
   } else {
     snapshot.set("matrix/values", comm_.gather(mine));
   }
@@ -139,13 +143,13 @@ void System::save_matrix(Snapshot& snapshot) const {
 
 bool System::restore_matrix(const Snapshot& snapshot) {
   if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
-  if (snapshot.has("matrix/point")) tangent_point_ = snapshot.numbers("matrix/point");
+  if (snapshot.has("matrix/point")) tangent_point_ = snapshot.copy("matrix/point");
   const auto values = matrix_->values();
   if (snapshot.is_for_memory()) {
     std::ranges::copy(snapshot.numbers("matrix/values", values.size()), values.data());
     return true;
   }
-  const std::vector<double>& all = snapshot.numbers("matrix/values", matrix_->total_entries());
+  const std::span<const double> all = snapshot.numbers("matrix/values", matrix_->total_entries());
   // pieces are in the order of the ranks
   std::vector<double> ends(index(comm_.size()), 0.0);
   for (int rank = comm_.rank(); rank < comm_.size(); ++rank) {

@@ -53,7 +53,7 @@ void Findings::save(Snapshot& snapshot) const {
 }
 
 void Findings::restore(const Snapshot& snapshot) {
-  const std::vector<double>& numbers = snapshot.numbers("findings/numbers");
+  const std::span<const double> numbers = snapshot.numbers("findings/numbers");
   for (std::size_t i = 0; 2 * i + 1 < numbers.size(); ++i) {
     const std::string name = fmt::format("findings/{} ", i);
     add({numbers[2 * i] != 0.0 ? Finding::Grade::broken : Finding::Grade::warning,

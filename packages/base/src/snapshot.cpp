@@ -2,6 +2,7 @@
 #include <culm/base/snapshot.hpp>
 #include <culm/base/text.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -38,61 +39,165 @@ std::string_view take_text(std::string_view& bytes) {
   return text;
 }
 
-template <class Map>
-const auto& find(const Map& map, const std::string& name) {
-  const auto found = map.find(name);
-  if (found == map.end()) throw FileError("the checkpoint has no '" + name + "'");
-  return found->second;
+[[noreturn]] void miss(std::string_view name) {
+  throw FileError("the checkpoint has no '" + std::string(name) + "'");
+}
+
+// What is longer has memory of its own.
+constexpr std::size_t most_small = 256;
+
+// Its length and its last letters.
+std::uint64_t mark_of(std::string_view name) {
+  std::uint64_t mark = 0;
+  const std::size_t letters = std::min<std::size_t>(name.size(), 7);
+  std::memcpy(&mark, name.data() + name.size() - letters, letters);
+  return mark | std::uint64_t{name.size()} << 56;
+}
+
+using Bits = std::array<std::uint64_t, 4>;
+std::uint64_t bit_of(std::uint64_t mark) { return mark * 0x9e3779b97f4a7c15 >> 56; }
+bool has_bit(const Bits& bits, std::uint64_t mark) {
+  const std::uint64_t bit = bit_of(mark);
+  return (bits[bit / 64] >> bit % 64 & 1) != 0;
+}
+void set_bit(Bits& bits, std::uint64_t mark) {
+  const std::uint64_t bit = bit_of(mark);
+  bits[bit / 64] |= std::uint64_t{1} << bit % 64;
 }
 
 }  // namespace
 
-void Snapshot::set(const std::string& name, std::vector<double> numbers) {
-  numbers_[name] = std::move(numbers);
+std::string_view Snapshot::name_of(const Entry& entry) const {
+  return std::string_view(names_).substr(entry.name, entry.length);
 }
 
-void Snapshot::set(const std::string& name, double number) { numbers_[name] = {number}; }
-
-void Snapshot::set_text(const std::string& name, std::string text) {
-  texts_[name] = std::move(text);
+std::span<const double> Snapshot::numbers_of(const Entry& entry) const {
+  if (!entry.large.empty()) return entry.large;
+  return std::span(small_).subspan(entry.first, entry.count);
 }
 
-const std::vector<double>& Snapshot::numbers(const std::string& name) const {
-  return find(numbers_, name);
+// Who writes and reads does so in the same order, mostly.
+const Snapshot::Entry* Snapshot::find(std::string_view name) const {
+  const std::uint64_t mark = mark_of(name);
+  if (!has_bit(seen_, mark)) return nullptr;
+  const auto is_at = [&](std::size_t place) {
+    return marks_[place] == mark && name_of(entries_[place]) == name;
+  };
+  if (next_ < marks_.size() && is_at(next_)) return &entries_[next_++];
+  for (std::size_t place = 0; place < marks_.size(); ++place) {
+    if (!is_at(place)) continue;
+    next_ = place + 1;
+    return &entries_[place];
+  }
+  return nullptr;
 }
 
-const std::vector<double>& Snapshot::numbers(const std::string& name, std::size_t count) const {
-  const std::vector<double>& found = numbers(name);
+Snapshot::Entry& Snapshot::make(std::string_view name) {
+  if (const Entry* known = find(name)) return const_cast<Entry&>(*known);
+  if (entries_.empty()) {  // enough for a step of a small model
+    entries_.reserve(48);
+    marks_.reserve(48);
+    names_.reserve(1024);
+    small_.reserve(2 * most_small);
+  }
+  entries_.push_back({names_.size(), name.size(), 0, 0, {}});
+  marks_.push_back(mark_of(name));
+  set_bit(seen_, marks_.back());
+  names_ += name;
+  return entries_.back();
+}
+
+void Snapshot::set(std::string_view name, std::span<const double> numbers) {
+  Entry& entry = make(name);
+  if (numbers.size() > most_small) {
+    entry.large.assign(numbers.begin(), numbers.end());
+    return;
+  }
+  entry.large.clear();
+  if (numbers.size() > entry.count) {
+    entry.first = small_.size();
+    small_.resize(small_.size() + numbers.size());
+  }
+  entry.count = numbers.size();
+  std::ranges::copy(numbers, small_.begin() + static_cast<std::ptrdiff_t>(entry.first));
+}
+
+void Snapshot::set(std::string_view name, std::vector<double>&& numbers) {
+  if (numbers.size() > most_small) {
+    make(name).large = std::move(numbers);
+  } else {
+    set(name, std::span<const double>(numbers));
+  }
+}
+
+void Snapshot::set(std::string_view name, std::initializer_list<double> numbers) {
+  set(name, std::span<const double>(numbers.begin(), numbers.size()));
+}
+
+void Snapshot::set(std::string_view name, double number) {
+  set(name, std::span<const double>(&number, 1));
+}
+
+void Snapshot::set_text(std::string_view name, std::string text) {
+  const auto found = texts_.find(name);
+  if (found != texts_.end()) {
+    found->second = std::move(text);
+  } else {
+    texts_.emplace(name, std::move(text));
+  }
+}
+
+std::span<const double> Snapshot::numbers(std::string_view name) const {
+  const Entry* entry = find(name);
+  if (entry == nullptr) miss(name);
+  return numbers_of(*entry);
+}
+
+std::span<const double> Snapshot::numbers(std::string_view name, std::size_t count) const {
+  const std::span<const double> found = numbers(name);
   if (found.size() != count) {
-    throw FileError("the checkpoint has " + std::to_string(found.size()) + " numbers of '" + name +
-                    "', the model " + std::to_string(count));
+    throw FileError("the checkpoint has " + std::to_string(found.size()) + " numbers of '" +
+                    std::string(name) + "', the model " + std::to_string(count));
   }
   return found;
 }
 
-double Snapshot::number(const std::string& name) const { return numbers(name, 1).front(); }
+std::vector<double> Snapshot::copy(std::string_view name) const {
+  const std::span<const double> found = numbers(name);
+  return {found.begin(), found.end()};
+}
 
-int Snapshot::integer(const std::string& name) const {
+double Snapshot::number(std::string_view name) const { return numbers(name, 1).front(); }
+
+int Snapshot::integer(std::string_view name) const {
   const double value = number(name);
   constexpr double most = std::numeric_limits<int>::max();
   if (!(std::abs(value) <= most) || value != std::trunc(value)) {
-    throw FileError("the checkpoint has " + format_number(value) + " for '" + name +
+    throw FileError("the checkpoint has " + format_number(value) + " for '" + std::string(name) +
                     "', which is a whole number of at most " + format_number(most) + " either way");
   }
   return static_cast<int>(value);
 }
 
-const std::string& Snapshot::text(const std::string& name) const { return find(texts_, name); }
+const std::string& Snapshot::text(std::string_view name) const {
+  const auto found = texts_.find(name);
+  if (found == texts_.end()) miss(name);
+  return found->second;
+}
 
-bool Snapshot::has(const std::string& name) const {
-  return numbers_.count(name) + texts_.count(name) > 0;
+bool Snapshot::has(std::string_view name) const {
+  return find(name) != nullptr || texts_.contains(name);
 }
 
 std::string Snapshot::encode() const {
   std::string bytes;
-  put(numbers_.size(), bytes);
-  for (const auto& [name, numbers] : numbers_) {
-    put(name, bytes);
+  std::vector<const Entry*> in_order;  // of the alphabet
+  for (const Entry& entry : entries_) in_order.push_back(&entry);
+  std::ranges::sort(in_order, {}, [this](const Entry* entry) { return name_of(*entry); });
+  put(in_order.size(), bytes);
+  for (const Entry* entry : in_order) {
+    const std::span<const double> numbers = numbers_of(*entry);
+    put(name_of(*entry), bytes);
     put(std::string_view(reinterpret_cast<const char*>(numbers.data()),
                          numbers.size() * sizeof(double)),
         bytes);

@@ -1,6 +1,9 @@
 #include <culm/base/error.hpp>
 #include <culm/control/block_batch.hpp>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -42,8 +45,10 @@ void BlockBatch::connect(const model::Signal& output, std::vector<model::Amplitu
       items_, [&](const Item& one) { return one.unknowns.front().index == output.index; });
   internal_check(item != items_.end(), "inputs of a block that is not there");
   item->inputs = std::move(inputs);
-  const double start =
+  double start =
       initial ? *initial : item->block->start(values_of(item->inputs, model_.initial_state(), 1.0));
+  // of inputs that are not known before the first state has been found
+  if (!std::isfinite(start)) start = 0.0;
   model_.set_initial(item->unknowns[static_cast<std::size_t>(item->block->state())], start);
 }
 
@@ -87,6 +92,18 @@ Verdict BlockBatch::assemble(const model::State& state, const Stencil& stencil, 
   return verdict;
 }
 
+void BlockBatch::refuse(const Item& item, const model::State& state, double theta,
+                        const char* what) const {
+  const auto number = static_cast<std::size_t>(item.unknowns.front().block);
+  const Block::Inputs u = values_of(item.inputs, state, theta);
+  throw NonFiniteError(
+      fmt::format("{} has {} at time {:.6g}, where its signals are {:.6g}.\n"
+                  "What is measured of velocities is 0 before the first step: a 'Lag' with "
+                  "'Initial' starts elsewhere.",
+                  model_.own_blocks()[number].name, what, state.time,
+                  fmt::join(u.data(), u.data() + u.size(), ", ")));
+}
+
 // Rows over the scales of their unknowns; what an equation with a rate is out of balance by makes
 // an error of h times as much in its unknown.
 Verdict BlockBatch::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
@@ -97,7 +114,10 @@ Verdict BlockBatch::assemble_item(std::size_t i, const model::State& state, cons
   const double h = stencil.step;
   Block::Values values;
   evaluate(item, state, stencil, values);
-  if (!std::isfinite(values.f.sum())) return Verdict::not_finite;
+  if (!std::isfinite(values.f.sum())) refuse(item, state, theta, "no finite value");
+  if (tangent && !std::isfinite(values.by_unknown.sum() + values.by_input.sum())) {
+    refuse(item, state, theta, "an infinite slope");
+  }
   Block::Unknowns residual(count);
   Square K = Square::Zero(count, count);
   for (Eigen::Index k = 0; k < count; ++k) {

@@ -1,3 +1,4 @@
+#include <culm/base/error.hpp>
 #include <culm/control/actuator.hpp>
 #include <culm/control/block_batch.hpp>
 #include <culm/control/extreme.hpp>
@@ -17,6 +18,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace culm::control {
@@ -272,6 +274,29 @@ TEST(Product, DividesAndKeepsItsLimits) {
   EXPECT_EQ(negative.f[0], 0.0);
   EXPECT_EQ(negative.by_input(0, 0), 0.0);
   EXPECT_EQ(negative.by_input(0, 1), 18.0);
+}
+
+TEST(Product, SaysWhereItHasNoValueOrSlope) {
+  const std::vector<std::pair<double, const char*>> wrong = {{-1.0, "no finite value"},
+                                                             {0.5, "an infinite slope"}};
+  for (const auto& [power, what] : wrong) {
+    model::Model model;
+    fill({"", [power] { return std::make_unique<Product>(1.0, Vec<1>(power), Limits{}, 1.0); }},
+         model);
+    model.freeze(model::Form::null_space);
+    kit::DenseAssembly dense(model);
+    model::State state = kit::random_state(model, 3);
+    state.own.assign(state.own.size(), 0.0);
+    state.own_prev = state.own;
+    try {
+      dense.tangent(state, Stencil::midpoint(0.1));
+      FAIL() << power;
+    } catch (const NonFiniteError& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("tested has ") + what),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(Extreme, FollowsOneOfItsInputs) {

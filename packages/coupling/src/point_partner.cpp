@@ -137,11 +137,12 @@ void PointPartner::accept(const Window& window) {
 
 void PointPartner::save(const std::string& prefix, Snapshot& snapshot) {
   const VectorXd memory = model_->memory();
-  snapshot.set(prefix + "memory", std::vector<double>(memory.begin(), memory.end()));
+  snapshot.set(prefix + "memory",
+               std::span(memory.data(), static_cast<std::size_t>(memory.size())));
 }
 
 void PointPartner::restore(const std::string& prefix, const Snapshot& snapshot) {
-  const std::vector<double>& memory =
+  const std::span<const double> memory =
       snapshot.numbers(prefix + "memory", static_cast<std::size_t>(model_->memory().size()));
   model_->restore(as_vector(memory));
 }

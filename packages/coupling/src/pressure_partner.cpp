@@ -45,7 +45,7 @@ void PressurePartner::save(const std::string& prefix, Snapshot& snapshot) {
 }
 
 void PressurePartner::restore(const std::string& prefix, const Snapshot& snapshot) {
-  const std::vector<double>& volumes = snapshot.numbers(prefix + "volumes", 3);
+  const std::span<const double> volumes = snapshot.numbers(prefix + "volumes", 3);
   volume_ = volumes[0];
   start_ = volumes[1];
   has_started_ = volumes[2] != 0.0;

@@ -70,7 +70,7 @@ void RemotePartner::save(const std::string& prefix, Snapshot& snapshot) {
 
 // It was told in begin from which window on.
 void RemotePartner::restore(const std::string& prefix, const Snapshot& snapshot) {
-  const std::vector<double>& books = snapshot.numbers(prefix + "books", 2);
+  const std::span<const double> books = snapshot.numbers(prefix + "books", 2);
   books_ = {books[0], books[1]};
   last_.number -= 1;
 }

@@ -97,8 +97,8 @@ void QuasiNewton::save(Snapshot& snapshot) const {
 }
 
 void QuasiNewton::restore(const Snapshot& snapshot) {
-  const std::vector<double>& counts = snapshot.numbers("coupling/scheme/windows");
-  const std::vector<double>& numbers = snapshot.numbers("coupling/scheme/differences");
+  const std::span<const double> counts = snapshot.numbers("coupling/scheme/windows");
+  const std::span<const double> numbers = snapshot.numbers("coupling/scheme/differences");
   const double columns = 2.0 * std::accumulate(counts.begin(), counts.end(), 0.0);
   const auto size =
       columns > 0.0 ? static_cast<Eigen::Index>(static_cast<double>(numbers.size()) / columns) : 0;

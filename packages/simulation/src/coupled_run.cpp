@@ -95,7 +95,7 @@ void CoupledRun::begin(const model::State& state) {
   }
   loads_ = VectorXd::Zero(count);
   if (goes_on) {
-    const std::vector<double>& counts = resumed_->numbers("coupling/counts", 3);
+    const std::span<const double> counts = resumed_->numbers("coupling/counts", 3);
     windows_ = static_cast<int>(counts[0]);
     attempts_ = static_cast<int>(counts[1]);
     most_attempts_ = static_cast<int>(counts[2]);
@@ -114,7 +114,7 @@ void CoupledRun::begin(const model::State& state) {
     side.wanted = static_cast<coupling::Quantities>(comm_.max(wanted)) | bit(Quantity::motion);
     if (!scheme_->is_implicit()) side.wanted |= bit(Quantity::velocity);
     if (!goes_on) continue;
-    const std::vector<double>& books = resumed_->numbers(prefix + "side", 5);
+    const std::span<const double> books = resumed_->numbers(prefix + "side", 5);
     side.work = books[0];
     side.exchanged = books[1];
     side.stiffness = books[2];

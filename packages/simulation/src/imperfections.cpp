@@ -17,7 +17,7 @@
 namespace culm::simulation {
 namespace {
 
-std::vector<Vec6> to_motions(const std::vector<double>& numbers) {
+std::vector<Vec6> to_motions(std::span<const double> numbers) {
   std::vector<Vec6> motions;
   for (std::size_t i = 0; i + 5 < numbers.size(); i += 6) {
     motions.emplace_back(Eigen::Map<const Vec6>(&numbers[i]));

@@ -76,7 +76,7 @@ void LoadWatch::save(Snapshot& snapshot) const {
 }
 
 void LoadWatch::restore(const Snapshot& snapshot) {
-  const std::vector<double>& seen = snapshot.numbers("run/loads", loads_.size());
+  const std::span<const double> seen = snapshot.numbers("run/loads", loads_.size());
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     loads_[i].seen = static_cast<Seen>(static_cast<int>(seen[i]));
   }

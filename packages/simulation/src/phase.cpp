@@ -101,7 +101,7 @@ Ranges<model::Effect> memories_of(const model::Model& model) {
 }
 
 template <class Name>
-std::vector<double> move_ranges(const std::vector<double>& values, const Ranges<Name>& from,
+std::vector<double> move_ranges(std::span<const double> values, const Ranges<Name>& from,
                                 const Ranges<Name>& to) {
   std::size_t size = 0;
   for (const auto& [name, range] : to) size += range.size;

@@ -31,7 +31,7 @@ void RangeWatch::save(Snapshot& snapshot) const {
 }
 
 void RangeWatch::restore(const Snapshot& snapshot) {
-  const std::vector<double>& used = snapshot.numbers("run/ranges", loads_.size());
+  const std::span<const double> used = snapshot.numbers("run/ranges", loads_.size());
   for (std::size_t i = 0; i < loads_.size(); ++i) loads_[i].used = used[i];
 }
 

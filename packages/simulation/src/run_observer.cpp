@@ -76,7 +76,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
 void RunObserver::resume(const Snapshot& snapshot) {
   loads_.restore(snapshot);
   ranges_.restore(snapshot);
-  const std::vector<double>& balance = snapshot.numbers("run/balance", 3);
+  const std::span<const double> balance = snapshot.numbers("run/balance", 3);
   balance_.scale = balance[0];
   balance_.residual = balance[1];
   balance_.time = balance[2];
@@ -241,7 +241,7 @@ void RunObserver::go_back(const Snapshot& kept) {
 
 void RunObserver::restore(const Snapshot& snapshot) {
   has_started_ = has_history_ = true;
-  const std::vector<double>& counts = snapshot.numbers("run/counts", 9);
+  const std::span<const double> counts = snapshot.numbers("run/counts", 9);
   accepted_ = static_cast<int>(counts[0]);
   rejected_ = static_cast<int>(counts[1]);
   iterations_ = static_cast<int>(counts[2]);
@@ -254,13 +254,13 @@ void RunObserver::restore(const Snapshot& snapshot) {
   worst_held_row_ = snapshot.text("run/held row");
   certificates_ = snapshot.text("run/certificates");
   turn_.restore(snapshot);
-  const std::vector<double>& steps = snapshot.numbers("run/steps");
+  const std::span<const double> steps = snapshot.numbers("run/steps");
   const std::size_t columns = steps_.columns.size();
   for (std::size_t i = 0; i + columns <= steps.size(); i += columns) {
     const auto row = steps.begin() + static_cast<std::ptrdiff_t>(i);
     steps_.rows.emplace_back(row, row + static_cast<std::ptrdiff_t>(columns));
   }
-  const std::vector<double>& values = snapshot.numbers("run/numbers");
+  const std::span<const double> values = snapshot.numbers("run/numbers");
   for (std::size_t i = 0; i < values.size(); ++i) {
     numbers_.push_back({snapshot.text("run/number " + std::to_string(i)), "", values[i]});
   }

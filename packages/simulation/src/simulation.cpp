@@ -10,6 +10,7 @@
 #include <culm/simulation/simulation.hpp>
 #include <culm/solver/fill.hpp>
 
+#include "gravity_and_sea.hpp"
 #include "model_picture.hpp"
 #include "model_report.hpp"
 #include "on_root.hpp"
@@ -224,6 +225,9 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     if (resumes) observer.resume(*from);
     for (const std::string& sentence : strips_that_miss_rotation(*phase.model)) {
       p.findings.warn("rotating frame", sentence, state.time);
+    }
+    for (const std::string& sentence : weights_that_miss_seas(p.deck)) {
+      p.findings.warn("gravity", sentence, state.time);
     }
     const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
                                      resumes ? from : nullptr);

@@ -289,7 +289,7 @@ void NewtonSolver::save(Snapshot& snapshot) const {
 void NewtonSolver::restore(const Snapshot& snapshot) {
   NewtonProblem& p = *nox_->problem;
   p.expected_iterations = snapshot.integer("newton/expected iterations");
-  const std::vector<double>& kept = snapshot.numbers("newton/pivots");
+  const std::span<const double> kept = snapshot.numbers("newton/pivots");
   // where they do not fit, the solver begins anew
   p.linear.set_pivots(std::vector<int>(kept.begin(), kept.end()));
   if (p.settings.refresh == Refresh::every_iteration || !snapshot.has("newton/inertia")) return;

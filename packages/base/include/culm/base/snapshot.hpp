@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,18 +25,22 @@ class Snapshot {
   explicit Snapshot(Use use = Use::files) : use_(use) {}
   bool is_for_memory() const { return use_ == Use::memory; }
 
-  void set(const std::string& name, std::vector<double> numbers);
-  void set(const std::string& name, double number);
-  void set_text(const std::string& name, std::string text);
+  void set(std::string_view name, std::span<const double> numbers);
+  void set(std::string_view name, std::vector<double>&& numbers);
+  void set(std::string_view name, std::initializer_list<double> numbers);
+  void set(std::string_view name, double number);
+  void set_text(std::string_view name, std::string text);
 
-  /// Throws FileError if there is nothing of this name.
-  const std::vector<double>& numbers(const std::string& name) const;
+  /// Good until something is set. Throws FileError if there is nothing of this name.
+  std::span<const double> numbers(std::string_view name) const;
   /// The same, of a known length.
-  const std::vector<double>& numbers(const std::string& name, std::size_t count) const;
-  double number(const std::string& name) const;
-  int integer(const std::string& name) const;
-  const std::string& text(const std::string& name) const;
-  bool has(const std::string& name) const;
+  std::span<const double> numbers(std::string_view name, std::size_t count) const;
+  /// A copy of them.
+  std::vector<double> copy(std::string_view name) const;
+  double number(std::string_view name) const;
+  int integer(std::string_view name) const;
+  const std::string& text(std::string_view name) const;
+  bool has(std::string_view name) const;
 
   /// As bytes, in the order of this machine.
   std::string encode() const;
@@ -40,9 +48,28 @@ class Snapshot {
   static Snapshot decode(std::string_view bytes);
 
  private:
+  // Steps are saved and restored as often as they are tried, so that small things cost no memory of
+  // their own: their names and numbers follow each other.
+  struct Entry {
+    std::size_t name = 0;    ///< where it begins in names_
+    std::size_t length = 0;  ///< of the name
+    std::size_t first = 0;   ///< number in small_
+    std::size_t count = 0;
+    std::vector<double> large;
+  };
+  std::string_view name_of(const Entry& entry) const;
+  std::span<const double> numbers_of(const Entry& entry) const;
+  const Entry* find(std::string_view name) const;
+  Entry& make(std::string_view name);
+
   Use use_;
-  std::map<std::string, std::vector<double>> numbers_;
-  std::map<std::string, std::string> texts_;
+  std::vector<Entry> entries_;
+  std::vector<std::uint64_t> marks_;     ///< of their names, most of which differ in it
+  std::array<std::uint64_t, 4> seen_{};  ///< a bit for each mark: who has none there is new
+  std::string names_;
+  std::vector<double> small_;
+  std::map<std::string, std::string, std::less<>> texts_;
+  mutable std::size_t next_ = 0;  ///< the entry after the last one that was found
 };
 
 }  // namespace culm

@@ -46,6 +46,8 @@ class BlockBatch final : public model::MemorylessBatch {
   static double place(const Stencil& stencil) { return stencil.step > 0.0 ? 0.5 : 1.0; }
   static void evaluate(const Item& item, const model::State& state, const Stencil& stencil,
                        Block::Values& values);
+  [[noreturn]] void refuse(const Item& item, const model::State& state, double theta,
+                           const char* what) const;
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, model::Target& target) const;
   void add_inputs(std::size_t i, const Block::Values& values, double theta,

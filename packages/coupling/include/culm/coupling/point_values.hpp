@@ -3,11 +3,12 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 namespace culm::coupling {
 
-inline Eigen::VectorXd as_vector(const std::vector<double>& values) {
+inline Eigen::VectorXd as_vector(std::span<const double> values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
