@@ -331,6 +331,25 @@ CASES = [
         check=has_findings(),
     ),
     Case(
+        "weight and a sea of another world",
+        0,
+        args=RUN,
+        change=[
+            (
+                '<ParameterList name="Loads">',
+                f'<ParameterList name="Masses">{entry("tip mass", Type="Point Mass", Node="beam/last", Mass="1")}</ParameterList>'
+                '<ParameterList name="Flows">'
+                + entry("sea", Type="Still Water", Depth="10", Level="100", Up="{0, 1, 0}", Gravity="9")
+                + '</ParameterList><ParameterList name="Loads">'
+                + entry("weight", Type="Gravity", Acceleration="{0, -3, 0}"),
+            ),
+        ],
+        says=["warning: Loads / weight pulls with 3 m/s^2, but Flows / sea has Gravity = 9: weight and buoyancy do not match"],
+        results="out",
+        last_level=1.0,
+        check=has_findings("gravity", grade=False),
+    ),
+    Case(
         "air on what a rotating frame turns",
         0,
         args=RUN,

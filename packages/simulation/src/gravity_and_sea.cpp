@@ -14,7 +14,8 @@ constexpr double largest_angle = 0.01;  // [rad]
 constexpr double largest_difference = 0.01;
 
 bool is_sea(const Options& flow) {
-  return std::ranges::any_of(flow.parameters(), [](const auto& one) { return one.name == "Up"; });
+  return std::ranges::any_of(flow.parameters(),
+                             [](const auto& one) { return one.name == "Gravity"; });
 }
 
 Vec3 vector(const Options& options, const char* name) { return Vec3(options.numbers(name).data()); }
@@ -22,7 +23,7 @@ Vec3 vector(const Options& options, const char* name) { return Vec3(options.numb
 std::string objection(const Options& load, const Options& sea) {
   const Vec3 pull = vector(load, "Acceleration");
   if (pull.isZero(0.0)) return {};
-  const Vec3 down = -vector(sea, "Up").normalized();
+  const Vec3 down = Vec3::Zero() - vector(sea, "Up").normalized();
   const std::string who =
       fmt::format("Loads / {} pulls with {:.6g} m/s^2", load.name(), pull.norm());
   if ((pull.normalized() - down).norm() > largest_angle) {
