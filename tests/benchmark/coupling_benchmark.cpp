@@ -1,6 +1,7 @@
 // What a coupling costs beside the steps: points that are read and loaded, and the exchange of
 // loads and motions with another thread over a socket.
 
+#include <culm/base/snapshot.hpp>
 #include <culm/coupling/remote_partner.hpp>
 #include <culm/simulation/simulation.hpp>
 
@@ -47,17 +48,19 @@ const char* const deck = R"(<ParameterList name="culm">
   </ParameterList></ParameterList>
 </ParameterList>)";
 
+simulation::Simulation open_mast() {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("culm_benchmark_" + std::to_string(getpid()) + ".xml");
+  std::ofstream(path) << deck;
+  auto simulation = simulation::Simulation::open(path.string());
+  std::filesystem::remove(path);
+  return simulation;
+}
+
 // A mast in an attempt of its first step.
 simulation::Simulation& mast() {
   // never destroyed: MPI ends before static objects do
-  static auto& opened = *new simulation::Simulation([] {
-    const auto path = std::filesystem::temp_directory_path() /
-                      ("culm_benchmark_" + std::to_string(getpid()) + ".xml");
-    std::ofstream(path) << deck;
-    auto simulation = simulation::Simulation::open(path.string());
-    std::filesystem::remove(path);
-    return simulation;
-  }());
+  static auto& opened = *new simulation::Simulation(open_mast());
   static const bool begun = [] {
     analysis::Stepper& stepper = opened.begin();
     opened.set_port("skin", std::vector<double>(3 * points, 0.1));
@@ -90,6 +93,43 @@ void BM_PortWrite(benchmark::State& state) {
 }
 BENCHMARK(BM_PortWrite);
 
+// Another mast, after its first step.
+analysis::Stepper& rested() {
+  static auto& opened = *new simulation::Simulation(open_mast());
+  static analysis::Stepper& stepper = [&]() -> analysis::Stepper& {
+    analysis::Stepper& begun = opened.begin();
+    opened.set_port("skin", std::vector<double>(3 * points, 0.1));
+    begun.attempt(0.01);
+    begun.accept();
+    return begun;
+  }();
+  return stepper;
+}
+
+void BM_Attempt(benchmark::State& state) {
+  for (auto _ : state) {
+    rested().attempt(0.02);
+    rested().discard();
+  }
+}
+BENCHMARK(BM_Attempt);
+
+void BM_Save(benchmark::State& state) {
+  for (auto _ : state) {
+    Snapshot snapshot(Snapshot::Use::memory);
+    rested().save(snapshot);
+    benchmark::DoNotOptimize(snapshot);
+  }
+}
+BENCHMARK(BM_Save);
+
+void BM_Restore(benchmark::State& state) {
+  Snapshot snapshot(Snapshot::Use::memory);
+  rested().save(snapshot);
+  for (auto _ : state) rested().restore(snapshot);
+}
+BENCHMARK(BM_Restore);
+
 // Answers as quickly as it can.
 void answer(const std::string& address) {
   const auto channel = coupling::connect(address, 10.0);
@@ -101,6 +141,7 @@ void answer(const std::string& address) {
   for (;;) {
     const coupling::Frame frame = coupling::decode(channel->receive(10.0));
     if (frame.kind == coupling::FrameKind::bye) return;
+    if (frame.kind == coupling::FrameKind::alive) continue;
     coupling::Frame loads = frame;
     loads.kind = coupling::FrameKind::answer;
     channel->send(coupling::encode(loads));

@@ -20,6 +20,7 @@
 #include <cstring>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace culm::coupling {
 namespace {
@@ -64,6 +65,12 @@ bool wait(int handle, Clock::time_point deadline) {
   }
 }
 
+// A partner that is quick answers before a thread has gone to sleep and been woken again.
+constexpr auto wakeful = std::chrono::microseconds(50);
+
+// A whole frame of some hundred points comes in one piece.
+constexpr std::size_t ahead_size = 1U << 16U;
+
 class SocketChannel final : public Channel {
  public:
   explicit SocketChannel(Socket socket) : socket_(std::move(socket)) {
@@ -85,6 +92,7 @@ class SocketChannel final : public Channel {
   std::string receive(double patience) override {
     const auto deadline = after(patience);
     std::string frame(frame_header, '\0');
+    is_in_frame_ = false;
     read(frame.data(), frame_header, deadline, patience);
     const std::uint64_t more = payload_size(frame);
     // as it comes, so that a length that is a lie takes no memory
@@ -100,23 +108,51 @@ class SocketChannel final : public Channel {
 
  private:
   void read(char* to, std::size_t size, Clock::time_point deadline, double patience) {
-    std::size_t done = 0;
-    while (done < size) {
-      if (!wait(socket_.get(), deadline)) {
+    while (size > 0) {
+      if (ahead_begin_ == ahead_end_ && size < ahead_size) {
+        ahead_end_ = fetch(ahead_.data(), ahead_size, deadline, patience);
+        ahead_begin_ = 0;
+      }
+      std::size_t n = std::min(size, ahead_end_ - ahead_begin_);
+      if (n > 0) {
+        std::memcpy(to, ahead_.data() + ahead_begin_, n);
+        ahead_begin_ += n;
+      } else {
+        n = fetch(to, size, deadline, patience);
+      }
+      to += n;
+      size -= n;
+      is_in_frame_ = true;
+    }
+  }
+
+  // What is there, at least one byte.
+  std::size_t fetch(char* to, std::size_t size, Clock::time_point deadline, double patience) {
+    const auto sleep = std::min(Clock::now() + wakeful, deadline);
+    for (;;) {
+      const ssize_t n = ::recv(socket_.get(), to, size, MSG_DONTWAIT);
+      if (n > 0) return static_cast<std::size_t>(n);
+      if (n == 0) {
+        throw PartnerError(is_in_frame_ ? "it is gone in the middle of a frame"
+                                        : "it is gone without a word");
+      }
+      if (errno == EINTR) continue;
+      if (errno != EAGAIN && errno != EWOULDBLOCK) {
+        throw PartnerError("it is gone (" + reason() + ")");
+      }
+      if (Clock::now() < sleep) {
+        std::this_thread::yield();
+      } else if (!wait(socket_.get(), deadline)) {
         throw PartnerError(fmt::format("it said nothing for {:g} s", patience));
       }
-      const ssize_t n = ::recv(socket_.get(), to + done, size - done, 0);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) throw PartnerError("it is gone (" + reason() + ")");
-      if (n == 0) {
-        throw PartnerError(done == 0 ? "it is gone without a word"
-                                     : "it is gone in the middle of a frame");
-      }
-      done += static_cast<std::size_t>(n);
     }
   }
 
   Socket socket_;
+  std::vector<char> ahead_ = std::vector<char>(ahead_size);  // read, and not yet asked for
+  std::size_t ahead_begin_ = 0;
+  std::size_t ahead_end_ = 0;
+  bool is_in_frame_ = false;
 };
 
 // A place in the network or on this machine.
