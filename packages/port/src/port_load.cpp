@@ -70,10 +70,10 @@ void PortLoad::set(std::span<const Vec3> forces, std::span<const Vec3> moments) 
     item.has_moments = false;
     for (const std::size_t p : item.points) {
       const model::Marker& point = points_[p];
+      const model::NodeSlots whole =
+          forces[p] * Vec<4>(1.0, point.offset[0], point.offset[1], point.offset[2]).transpose();
       for (std::size_t a = 0; a < item.nodes.size(); ++a) {
-        const Vec<4> T =
-            point.weights[a] * Vec<4>(1.0, point.offset[0], point.offset[1], point.offset[2]);
-        item.forces.middleCols<4>(4 * static_cast<int>(a)) += forces[p] * T.transpose();
+        item.forces.middleCols<4>(4 * static_cast<int>(a)) += point.weights[a] * whole;
       }
       item.has_moments |= !moments_[p].isZero(0.0);
     }
