@@ -269,11 +269,13 @@ void read_masses(InputFile& file, SubDyn& sub, const Lists& lists) {
     SubMass one;
     one.joint = look_up(lists.joints, table, i, {"CMJointID"}, "joint");
     one.mass = non_negative(table, i, {"JMass"});
+    const double xx = non_negative(table, i, {"JMXX"}), yy = non_negative(table, i, {"JMYY"}),
+                 zz = non_negative(table, i, {"JMZZ"});
     const double xy = table.number(i, {"JMXY"}, 0.0), xz = table.number(i, {"JMXZ"}, 0.0),
                  yz = table.number(i, {"JMYZ"}, 0.0);
-    one.inertia << non_negative(table, i, {"JMXX"}), xy, xz,  //
-        xy, non_negative(table, i, {"JMYY"}), yz,             //
-        xz, yz, non_negative(table, i, {"JMZZ"});
+    one.inertia << xx, xy, xz,  //
+        xy, yy, yz,             //
+        xz, yz, zz;
     one.centre = {table.number(i, {"MCGX"}, 0.0), table.number(i, {"MCGY"}, 0.0),
                   table.number(i, {"MCGZ"}, 0.0)};
     sub.masses.push_back(one);
