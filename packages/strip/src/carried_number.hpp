@@ -32,12 +32,14 @@ inline Dual angle_of(const Dual& y, const Dual& x) {
 
 /// What follows a target with a delay, in the middle of the step; in statics the target.
 /// @param delay  its time [s]
+/// @param follow  share of the derivatives of the target that it has in statics
 /// @param state  at the start of the step, then at its end
 template <class Number>
-Number relaxed(const Number& target, const Number& delay, double step, double& state) {
+Number relaxed(const Number& target, const Number& delay, double step, double follow,
+               double& state) {
   if (step <= 0.0) {
     state = value_of(target);
-    return target;
+    return chain(target, state, follow);
   }
   const double from = state;
   const Number end = lag_step<Number>(from, target, lag_share(Number(step / delay)));

@@ -52,6 +52,8 @@ struct StallInput {
   Number speed;      ///< [m/s]
   Number turning;    ///< nose up [rad/s]
   double step;       ///< zero in statics [s]
+  /// What share of a change of their targets states follow in statics.
+  PerStateKind follow;
 };
 
 /// Half a chord over the speed, within what models of stall are good for [s].
@@ -62,6 +64,18 @@ Number stall_time(double chord, const Number& speed) {
   if (value_of(time) < limits[0]) return Number(limits[0]);
   if (value_of(time) > limits[1]) return Number(limits[1]);
   return time;
+}
+
+/// In which the attached flow builds up its lift [s].
+template <class Number>
+Number pressure_time(double chord, const Number& speed) {
+  return Number(1.7 * stall_time(chord, speed));
+}
+
+/// In which the attached share of the chord follows [s].
+template <class Number>
+Number attached_time(Stall stall, double chord, const Number& speed) {
+  return Number((stall == Stall::four_states ? 3.0 : 6.0) * stall_time(chord, speed));
 }
 
 /// The share of dynamic stall: none beyond angles for which it was not made.
@@ -105,11 +119,13 @@ SectionCoefficients<Number> stalled(const Airfoil& airfoil, double chord,
   const Number carried = time * input.turning;  // by the turn of the section, over pi
   if (four) {
     const Number built = relaxed<Number>(Number(potential + std::numbers::pi * carried),
-                                         Number(1.7 * time), input.step, pressure);
+                                         pressure_time(chord, input.speed), input.step,
+                                         input.follow[state_kind::pressure], pressure);
     followed = Number(built / separation.slope + separation.zero_lift);
   }
   const Number share = relaxed<Number>(attached_share(airfoil, followed),
-                                       Number((four ? 3.0 : 6.0) * time), input.step, attached);
+                                       attached_time(input.stall, chord, input.speed), input.step,
+                                       input.follow[state_kind::attached], attached);
   Coefficients slope;
   const Coefficients value = airfoil.at(value_of(alpha), slope);
   const Attachment here = separation.at(value_of(alpha), value[0], slope[0]);

@@ -41,7 +41,8 @@ struct Surroundings {
   Vec3 wind_at_quarter = Vec3::Zero(), wind_at_three_quarters = Vec3::Zero();
   double step = 0.0;     ///< zero in statics
   SectionStates memory;  ///< at the start of the step
-  int held = -1;         ///< state of the lag that stands still at its steady value, or none
+  /// What share of a change of their targets states follow in statics.
+  PerStateKind follow{};
 };
 
 /// What follows from it. The forces act on the vectors of the section: f . dx + g . dc + h . dn.
@@ -85,12 +86,9 @@ Number lagged(const Lag& lag, const Number& downwash, const Number& speed, doubl
   Number effective = downwash;
   for (std::size_t i = 0; i < static_cast<std::size_t>(lag.states); ++i) {
     const Number target = lag.amplitude[i] * downwash;
-    if (static_cast<int>(i) == around.held) {
-      effective += value_of(target) - target;
-      continue;
-    }
     const Number delay = lag_time(lag, i, half_chord, speed);
-    effective += relaxed<Number>(target, delay, around.step, states[i]) - target;
+    const double follow = around.follow[state_kind::first_lag + i];
+    effective += relaxed<Number>(target, delay, around.step, follow, states[i]) - target;
   }
   return effective;
 }
@@ -136,7 +134,8 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
       found = steady(station, alpha);
       found.drag += tilt * found.lift;
     } else {
-      const StallInput<Number> input{model.stall, angle, alpha, tilt, speed, turning, around.step};
+      const StallInput<Number> input{model.stall, angle,   alpha,       tilt,
+                                     speed,       turning, around.step, around.follow};
       found = stalled(station, input, loads.memory);
     }
     const Number &lift = found.lift, &drag = found.drag;

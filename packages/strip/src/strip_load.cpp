@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace culm::strip {
 namespace {
@@ -189,7 +191,8 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
 
 template <class Number>
 StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const model::State& state,
-                                          const Stencil& stencil, Want want, int held) const {
+                                          const Stencil& stencil, Want want,
+                                          const PerStateKind& follow) const {
   const Station& station = stations_[station_number];
   const bool mass = want == Want::mass;
   const bool moves = stencil.step > 0.0 && !mass;
@@ -212,7 +215,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   // where there is no inertia, a linearisation asks: lags have ended
   around.step = moves && stencil.inertia > 0.0 ? stencil.step : 0.0;
   around.memory = accepted_[station_number].memory;
-  around.held = held;
+  around.follow = follow;
   const Columns middle = (1.0 - theta) * prev + theta * next;
   const std::array<Vec3, 2> places = {
       middle.col(0) + (0.25 - station.axis_at) * station.chord * middle.col(1),
@@ -311,33 +314,61 @@ void StripLoad::add_tangent(std::size_t i, const Evaluation& found, const model:
   }
 }
 
-double StripLoad::delay_of(std::size_t station, int lag_state, const model::State& state) const {
+PerStateKind StripLoad::times_of(std::size_t number, const model::State& state) const {
+  constexpr double distance = 1e-4;  // relative, below which times are moved apart
+  const Station& station = stations_[number];
+  PerStateKind times;
+  times.fill(std::numeric_limits<double>::infinity());
   const double speed =
-      evaluate<double>(station, state, Stencil::linearisation(), Want::residual).end.seen.speed;
-  return lag_time(model_.lag, static_cast<std::size_t>(lag_state), 0.5 * stations_[station].chord,
-                  speed);
+      evaluate<double>(number, state, Stencil::linearisation(), Want::residual).end.seen.speed;
+  if (!(speed > 0.0)) return times;  // no wind, no load
+  for (std::size_t k = 0; k < static_cast<std::size_t>(model_.lag.states); ++k) {
+    times[state_kind::first_lag + k] = lag_time(model_.lag, k, 0.5 * station.chord, speed);
+  }
+  const bool stalls = station.airfoil->separation() != nullptr ||
+                      (station.blend > 0.0 && station.next_airfoil->separation() != nullptr);
+  if (model_.stall != Stall::none && stalls) {
+    const bool four = model_.stall == Stall::four_states;
+    if (four) times[state_kind::pressure] = pressure_time(station.chord, speed);
+    times[state_kind::attached] = attached_time(model_.stall, station.chord, speed);
+  }
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const auto others = std::span(times).first(k);
+    while (std::isfinite(times[k]) && std::ranges::any_of(others, [&](double other) {
+             return std::abs(other - times[k]) < distance * times[k];
+           })) {
+      times[k] *= 1.0 + 2.0 * distance;
+    }
+  }
+  return times;
 }
 
 std::vector<double> StripLoad::delays(const model::State& state) const {
   std::vector<double> all;
   for (const int item : placement().items) {
-    for (int k = 0; k < model_.lag.states; ++k) {
-      const double delay = delay_of(static_cast<std::size_t>(item), k, state);
-      if (std::isfinite(delay)) all.push_back(delay);  // not where there is no wind
-    }
+    std::ranges::copy_if(times_of(static_cast<std::size_t>(item), state), std::back_inserter(all),
+                         [](double time) { return std::isfinite(time); });
   }
   return all;
 }
 
+// The forces are affine in 1 / (1 + s T_k) of each kind k, so the factor of that of one of them is
+// found where the others have the values T_k / (T_k - T_j) that they take at its pole.
 Verdict StripLoad::assemble_delayed(const model::State& state, const Stencil& stencil, double delay,
                                     model::Target& target) {
   return assemble_items([&](auto space, std::size_t i) {
     const auto number = static_cast<std::size_t>(placement().items[i]);
-    for (int k = 0; k < model_.lag.states; ++k) {
-      if (!(std::abs(delay_of(number, k, state) - delay) <= model::same_delay * delay)) continue;
+    const PerStateKind times = times_of(number, state);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (!(std::abs(times[k] - delay) <= model::same_delay * delay)) continue;
+      PerStateKind follow = all_follow;
+      for (std::size_t j = 0; j < times.size(); ++j) {
+        if (j != k && std::isfinite(times[j])) follow[j] = times[k] / (times[k] - times[j]);
+      }
       constexpr Want want = Want::residual_and_tangent;
-      Evaluation gained = evaluate<Dual>(number, state, stencil, want, k);
-      const Evaluation all = evaluate<Dual>(number, state, stencil, want);
+      const Evaluation all = evaluate<Dual>(number, state, stencil, want, follow);
+      follow[k] = 0.0;
+      Evaluation gained = evaluate<Dual>(number, state, stencil, want, follow);
       gained.derivative -= all.derivative;
       if (!gained.derivative.allFinite()) return Verdict::not_finite;
       add_tangent<decltype(space)>(i, gained, state, stencil.theta, false, target);
@@ -380,13 +411,6 @@ std::string StripLoad::range_warning(double used) const {
       "{}: sections meet the wind at angles up to {:.2g} times the one to which their airfoils are "
       "good, 15 degrees of a 'Thin' one: it does not stall, and real ones do. Take a 'Polar'",
       effect().quoted(), used);
-}
-
-std::string StripLoad::left_out_of_modes() const {
-  if (model_.stall == Stall::none) return {};
-  return effect().quoted() +
-         ": linear analyses see its air with a stall that follows at once: damping by air and "
-         "flutter next to stall are others. A motion in time knows it";
 }
 
 std::size_t StripLoad::memory_size() const {

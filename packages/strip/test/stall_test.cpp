@@ -170,6 +170,28 @@ TEST(Stall, OyesShareFollowsExponentially) {
   EXPECT_NEAR(0.4 + 0.6 * std::exp(-0.1 / T), 0.708050, 1e-6);
 }
 
+// Of a plate of two airfoils that stall, each kind of states counts once.
+TEST(Stall, DelaysAreThoseOfItsStates) {
+  const double chord = 3.0, speed = 60.0, alpha = 14.0 * degree, half = chord / (2.0 * speed);
+  const auto delays = [&](StripModel kind) {
+    Station station = section(chord, 0.25, polar());
+    station.next_airfoil = polar();
+    station.blend = 0.3;
+    MovedSection plate(station, kind, 1.2, speed * Vec3(std::cos(alpha), std::sin(alpha), 0), 0.1);
+    plate.start(placed(0, 0, 0), model::Coordinates(12, 0.0));
+    return plate.load().delays(plate.state());
+  };
+  const auto near = [&](double relative) { return testing::DoubleNear(relative * half, 1e-14); };
+  EXPECT_THAT(delays({Lag{}, false, Stall::oye}), testing::ElementsAre(near(6.0)));
+  EXPECT_THAT(delays({Lag::airfoil(), false, Stall::four_states}),
+              testing::ElementsAre(near(1.0 / 0.14), near(1.0 / 0.53), near(1.7), near(3.0)));
+  // what has the time of a state of the lag moves away from it
+  const Lag same{1, {1.0, 0.0}, {1.0 / 1.7, 1.0}};
+  const std::vector<double> apart = delays({same, false, Stall::four_states});
+  ASSERT_EQ(apart.size(), 3U);
+  EXPECT_NEAR(apart[1] / apart[0], 1.0002, 1e-9);
+}
+
 class AeroDynFiles : public testing::Test {
  protected:
   SharedAirfoil read(const std::string& text) {

@@ -173,10 +173,7 @@ TEST(StripLoad, SaysWhereItsMethodEnds) {
     section.load(Stencil::statics());
     section.batch->accept(section.state);
     EXPECT_NEAR(section.batch->range_used(), angle / 0.2, 1e-13);
-    EXPECT_TRUE(section.batch->left_out_of_modes().empty());
   }
-  Section stalling({{}, false, Stall::oye}, Vec3::UnitX(), 0.25, std::make_shared<Limited>());
-  EXPECT_FALSE(stalling.batch->left_out_of_modes().empty());
 }
 
 TEST(StripLoad, MomentIsNoseUp) {

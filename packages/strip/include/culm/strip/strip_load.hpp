@@ -115,17 +115,29 @@ struct SectionStates {
   }
 };
 
+/// Kinds of states of a section: those of the lag move the pressure, this the attached share. Both
+/// airfoils of a section have the same times.
+namespace state_kind {
+constexpr std::size_t first_lag = 0;  ///< and those of the lag after it
+constexpr std::size_t pressure = Lag::max_states;
+constexpr std::size_t attached = pressure + 1;
+constexpr std::size_t count = attached + 1;
+}  // namespace state_kind
+/// A number of each kind of states.
+using PerStateKind = std::array<double, state_kind::count>;
+
 /// Lift, drag and moment of sections by their coefficients, at the angle of the three-quarter
 /// chord, with the lag of the circulation and apparent mass. Points of a section are linear in the
 /// coordinates, x + eta c with the axis x and the unit vector c along the chord; forces come in by
 /// the transpose of the same map, so that their work over a step is F . Dx of their points. The
 /// wind is that without the structure, and what others induce. In statics the structure stands
 /// still, and lags have ended. States of the lag start at zero, as after a sudden start from rest,
-/// unless a static analysis was before; those of stall with a flow that is attached. @source fluids
-/// B0, B2, B4
+/// unless a static analysis was before; those of stall with a flow that is attached. A
+/// linearisation has all of these states as single lags side by side: what passes several lags one
+/// after another, product_i 1 / (1 + s T_i), is sum_i c_i / (1 + s T_i) with c_i = product_j T_i /
+/// (T_i - T_j). @source fluids B0, B2, B4
 class StripLoad final : public model::MemorylessBatch,
                         public model::LimitedRange,
-                        public model::LeftOutOfModes,
                         public model::Delayed,
                         public flow::FluidForce {
  public:
@@ -180,7 +192,6 @@ class StripLoad final : public model::MemorylessBatch,
   std::optional<Resultant> resultant() const override;
   double range_used() const override;
   std::string range_warning(double used) const override;
-  std::string left_out_of_modes() const override;
   std::vector<double> delays(const model::State& state) const override;
   Verdict assemble_delayed(const model::State& state, const Stencil& stencil, double delay,
                            model::Target& target) override;
@@ -196,12 +207,14 @@ class StripLoad final : public model::MemorylessBatch,
     StationState seen;
   };
   struct Evaluation;
-  /// @param held  state of the lag that stands still, or none
+  static constexpr PerStateKind all_follow = {1.0, 1.0, 1.0, 1.0};
+  /// @param follow  what share of a change of their targets states follow, where there are no steps
   template <class Number>
   Evaluation evaluate(std::size_t station, const model::State& state, const Stencil& stencil,
-                      Want want, int held = -1) const;
-  /// Of a state of the lag about a steady state [s].
-  double delay_of(std::size_t station, int lag_state, const model::State& state) const;
+                      Want want, const PerStateKind& follow = all_follow) const;
+  /// Times of the states of a station about a steady state, no two alike; infinite where it has
+  /// none [s].
+  PerStateKind times_of(std::size_t station, const model::State& state) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
                         model::Target& target);
