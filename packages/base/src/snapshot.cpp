@@ -114,12 +114,13 @@ void Snapshot::set(std::string_view name, std::span<const double> numbers) {
     return;
   }
   entry.large.clear();
-  if (numbers.size() > entry.count) {
+  if (numbers.size() <= entry.count) {
+    std::ranges::copy(numbers, small_.begin() + static_cast<std::ptrdiff_t>(entry.first));
+  } else {
     entry.first = small_.size();
-    small_.resize(small_.size() + numbers.size());
+    small_.insert(small_.end(), numbers.begin(), numbers.end());
   }
   entry.count = numbers.size();
-  std::ranges::copy(numbers, small_.begin() + static_cast<std::ptrdiff_t>(entry.first));
 }
 
 void Snapshot::set(std::string_view name, std::vector<double>&& numbers) {

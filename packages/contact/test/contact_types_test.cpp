@@ -102,6 +102,13 @@ TEST_F(ContactTypes, BarCannotTouchItsOwnBody) {
   EXPECT_THAT(messages(), ElementsAre("is a node of what it shall touch"));
 }
 
+TEST_F(ContactTypes, NothingBeginsDeepInsideABar) {
+  build("Cylinder Contact", bar({{"Offset", Numbers{0.0, -4.0, 0.5}}}));
+  EXPECT_THAT(messages(),
+              ElementsAre("overlaps what it shall touch by 4 m in the reference; contact begins "
+                          "with half of both radii, 2.25 m, at most"));
+}
+
 TEST_F(ContactTypes, LineMustBeALine) {
   build("Plane Contact", {{"Stiffness", 1.0}, {"Structure", std::string("b")}, {"Width", 0.1}});
   EXPECT_THAT(messages(), ElementsAre("structure 'b' is not a line: name its nodes instead"));
