@@ -28,22 +28,43 @@ class Box final : public Flow {
 
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override {
-    for (std::size_t i = 0; i < places.size(); ++i) velocities[i] = at(places[i], time);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Vec3 inside = find_inside(places[i], time);
+      velocities[i] = directions() * grid_.at(inside[0], inside[1], inside[2]);
+    }
+  }
+  Mat3 gradient(const Vec3& place, double time) const override {
+    const Vec3 wanted = coordinates(place, time), inside = find_inside(place, time);
+    Mat3 by_place;
+    by_place << axes_.across.transpose(), axes_.normal.transpose(),
+        -axes_.along.transpose() / grid_.speed;
+    for (int i = 0; i < 3; ++i) {
+      if (wanted[i] != inside[i]) by_place.row(i).setZero();  // held
+    }
+    return directions() * grid_.slope_at(inside[0], inside[1], inside[2]) * by_place;
   }
 
  private:
-  Vec3 at(const Vec3& place, double time) const {
+  Mat3 directions() const {
+    Mat3 result;
+    result << axes_.along, axes_.across, axes_.normal;
+    return result;
+  }
+  // Of a place in the grid: across, upwards [m] and in time [s].
+  Vec3 coordinates(const Vec3& place, double time) const {
     const Vec3 from_centre = place - centre_;
-    double across = axes_.across.dot(from_centre) + 0.5 * grid_.width();
-    double up = axes_.normal.dot(from_centre) + 0.5 * grid_.height();
     // what is at the place now was at the centre by the way over the speed earlier
     double moment = time + delay_ - axes_.along.dot(from_centre) / grid_.speed;
     if (grid_.periodic) moment -= std::floor(moment / grid_.duration()) * grid_.duration();
-    across = within(across, grid_.width(), grid_.spacing[0], "across the wind", place, time);
-    up = within(up, grid_.height(), grid_.spacing[1], "upwards", place, time);
-    moment = within(moment, grid_.duration(), grid_.interval, "in time", place, time);
-    const Vec3 u = grid_.at(across, up, moment);
-    return u[0] * axes_.along + u[1] * axes_.across + u[2] * axes_.normal;
+    return {axes_.across.dot(from_centre) + 0.5 * grid_.width(),
+            axes_.normal.dot(from_centre) + 0.5 * grid_.height(), moment};
+  }
+  // The nearest ones that are known.
+  Vec3 find_inside(const Vec3& place, double time) const {
+    const Vec3 at = coordinates(place, time);
+    return {within(at[0], grid_.width(), grid_.spacing[0], "across the wind", place, time),
+            within(at[1], grid_.height(), grid_.spacing[1], "upwards", place, time),
+            within(at[2], grid_.duration(), grid_.interval, "in time", place, time)};
   }
 
   double within(double value, double size, double spacing, const char* direction, const Vec3& place,

@@ -87,6 +87,13 @@ class Gust final : public Flow {
       velocities[i] = speed * along;
     }
   }
+  Mat3 gradient(const Vec3& place, double time) const override {
+    const Change change = change_at(time - start_);
+    const double slope =
+        site_.speed * power_law_slope(axes_.height(place), site_.height, exponent_);
+    const Vec3 shear = (slope + change.upwards) * axes_.up + change.across * axes_.across;
+    return axes_.turned(change.turn) * shear.transpose();
+  }
 
  private:
   Change change_at(double time) const {

@@ -25,6 +25,11 @@ class LogLaw final : public Flow {
       velocities[i] = speed * axes_.along;
     }
   }
+  Mat3 gradient(const Vec3& place, double time) const override {
+    const double height = axes_.height(place);
+    if (height <= roughness_) return Mat3::Zero();
+    return amplitude_.at(time) * friction_ / height * axes_.along * axes_.up.transpose();
+  }
 
  private:
   WindAxes axes_;

@@ -29,12 +29,20 @@ class TurbulentWind final : public Flow {
       velocities[i] += speed_ * profile(axes_.height(places[i])) * axes_.along;
     }
   }
+  Mat3 gradient(const Vec3& place, double time) const override {
+    const double slope = speed_ * profile_slope(axes_.height(place));
+    return fluctuations_->gradient(place, time) + slope * axes_.along * axes_.up.transpose();
+  }
 
  private:
   double profile(double height) const {
     if (roughness_ == 0.0) return power_law(height, height_, exponent_);
     return height > roughness_ ? std::log(height / roughness_) / std::log(height_ / roughness_)
                                : 0.0;
+  }
+  double profile_slope(double height) const {
+    if (roughness_ == 0.0) return power_law_slope(height, height_, exponent_);
+    return height > roughness_ ? 1.0 / (height * std::log(height_ / roughness_)) : 0.0;
   }
 
   WindAxes axes_;

@@ -24,6 +24,10 @@ class PowerLaw final : public Flow {
       velocities[i] = speed * power_law(axes_.height(places[i]), height_, exponent_) * axes_.along;
     }
   }
+  Mat3 gradient(const Vec3& place, double time) const override {
+    const double slope = power_law_slope(axes_.height(place), height_, exponent_);
+    return amplitude_.at(time) * speed_ * slope * axes_.along * axes_.up.transpose();
+  }
 
  private:
   WindAxes axes_;

@@ -22,5 +22,9 @@ inline Schema reference_wind_schema(const std::string& name, const std::string& 
 inline double power_law(double height, double reference, double exponent) {
   return height > 0.0 ? std::pow(height / reference, exponent) : 0.0;
 }
+/// Its derivative by the height [1/m].
+inline double power_law_slope(double height, double reference, double exponent) {
+  return height > 0.0 ? exponent / height * power_law(height, reference, exponent) : 0.0;
+}
 
 }  // namespace culm::flow

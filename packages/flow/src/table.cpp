@@ -50,6 +50,14 @@ class Table final : public Flow {
       velocities[i] = (now[speed] * ratio + now[gust]) * along + now[vertical] * axes_.up;
     }
   }
+  Mat3 gradient(const Vec3& place, double time) const override {
+    const Row now = row_at(time);
+    const Vec3 along = axes_.turned(now[direction]);
+    const double slope = power_law_slope(axes_.height(place), height_, now[exponent]);
+    const Vec3 ratio = (slope + now[up_shear] / length_) * axes_.up +
+                       now[across_shear] / length_ * axes_.up.cross(along).normalized();
+    return now[speed] * along * ratio.transpose();
+  }
 
  private:
   // Linear between rows, held before the first and after the last; the later of equal times.

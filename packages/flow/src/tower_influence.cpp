@@ -34,6 +34,17 @@ class WindAroundTower final : public Flow {
     wind_->velocities(places, time, velocities);
     for (std::size_t i = 0; i < places.size(); ++i) velocities[i] += change(places[i], time);
   }
+  // Along the tower its influence varies only with shear and taper, which are left out.
+  Mat3 gradient(const Vec3& place, double time) const override {
+    Mat3 result = wind_->gradient(place, time);
+    const double h = 1e-5 * tower_.radius_at_foot;
+    const Vec3 one = tower_.axis.unitOrthogonal();
+    for (const Vec3& across : {one, Vec3(tower_.axis.cross(one))}) {
+      const Vec3 difference = change(place + h * across, time) - change(place - h * across, time);
+      result += difference / (2.0 * h) * across.transpose();
+    }
+    return result;
+  }
 
  private:
   Vec3 change(const Vec3& place, double time) const {

@@ -30,6 +30,8 @@ struct TurbulenceGrid {
   /// @param across, up  from the lower right corner, seen along the wind; from 0 to the sizes [m]
   /// @param time        from 0 to duration() [s]
   Vec3 at(double across, double up, double time) const;
+  /// Its derivatives, columns by `across`, `up` [1/s] and `time` [m/s^2].
+  Mat3 slope_at(double across, double up, double time) const;
 };
 
 }  // namespace culm::flow

@@ -119,6 +119,17 @@ TEST_F(Boxes, TheyTurnWithTheWind) {
   expect_near(wind->velocity(Vec3(-10.0, 0.0, 100.0), 0.0), Vec3(-u[1], u[0], u[2]));
 }
 
+TEST_F(Boxes, GradientsAreThoseOfTheVelocity) {
+  const std::vector<double> direction = {1.0, 0.4, 0.1};
+  const Vec3 place(0.3, 4.0, 93.0);
+  expect_gradient(*box(turbsim(7), {{"Direction", direction}}), place, 1.2 * dt);
+  expect_gradient(*box(turbsim(8), {{"Direction", direction}}), place, -2.4 * dt);
+  // what is held does not change outwards
+  const SharedFlow held = box(turbsim(7), {{"Outside", std::string("Hold")}});
+  expect_gradient(*held, Vec3(0.3, 14.0, 93.0), 1.2 * dt);
+  EXPECT_EQ(held->gradient(Vec3(0.3, 14.0, 93.0), 1.2 * dt).col(1).norm(), 0.0);
+}
+
 TEST_F(Boxes, PeriodicOnesRepeat) {
   const SharedFlow wind = box(turbsim(8));
   expect_near(wind->velocity(point(1, 0), -dt), known(3, 1, 0));

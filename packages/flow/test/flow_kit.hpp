@@ -14,6 +14,21 @@
 
 namespace culm::flow {
 
+/// Its gradient against central differences, which nearly linear winds leave only rounding.
+inline void expect_gradient(const Flow& flow, const Vec3& place, double time,
+                            const Mat3& directions = Mat3::Identity()) {
+  constexpr double h = 1e-4;
+  const Mat3 gradient = flow.gradient(place, time);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 step = h * directions.col(i);
+    const Vec3 found =
+        (flow.velocity(place + step, time) - flow.velocity(place - step, time)) / (2.0 * h);
+    EXPECT_LT((gradient * directions.col(i) - found).norm(), 1e-7)
+        << i << ": " << found.transpose();
+  }
+  EXPECT_GT(gradient.norm(), 1e-4);
+}
+
 class FlowTest : public testing::Test {
  protected:
   FlowTest() { register_flows(registry_); }

@@ -79,6 +79,12 @@ TEST_F(MannBoxes, FluctuationsAreAddedToTheMeanWind) {
       }
 }
 
+TEST_F(MannBoxes, GradientsHaveThatOfTheMeanWind) {
+  const Vec3 place = 0.4 * point(0, 0) + 0.6 * point(1, 1);
+  expect_gradient(*box(), place, 0.3 * dx / speed);
+  expect_gradient(*box({{"Roughness", 0.1}}), place, 0.3 * dx / speed);
+}
+
 TEST_F(MannBoxes, TheyRepeatAlongTheWind) {
   const SharedFlow wind = box();
   const double period = nx * dx / speed;

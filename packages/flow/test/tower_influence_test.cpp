@@ -95,6 +95,12 @@ TEST_F(WindsWithTowers, FeelItByItsRadiusAtTheirHeight) {
   // above the top it fades within one diameter of 4 m
   EXPECT_LT((change(Vec3(9.0, 0.0, 82.0)) - Vec3(0.0, 0.5 * 10.0 / 4.0, 0.0)).norm(), 1e-12);
   EXPECT_EQ(change(Vec3(9.0, 0.0, 84.1)).norm(), 0.0);
+  // along the tower its gradient is not known
+  Mat3 directions;
+  directions << Vec3::UnitX(), Vec3::UnitY(), Vec3::Zero();
+  for (const Vec3& place : {Vec3(9.0, -7.5, 40.0), Vec3(6.0, 10.0, 40.0), Vec3(9.0, 1.0, 82.0)}) {
+    expect_gradient(*shaded, place, 0.0, directions);
+  }
   // Powles, four radii behind
   EXPECT_NEAR(change(Vec3(5.0, 10.0, 40.0))[1], -10.0 / 16.0 - 10.0 / 2.0, 1e-12);
 }

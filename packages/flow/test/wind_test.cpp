@@ -65,6 +65,26 @@ TEST_F(Winds, DirectionsNeedNotBeUnitVectors) {
               ElementsAre(HasSubstr("must not be parallel")));
 }
 
+TEST_F(Winds, GradientsAreThoseOfTheVelocity) {
+  const std::vector<double> direction = {3.0, 1.0, 0.4}, up = {0.1, 0.2, 1.0};
+  const Vec3 place(12.0, -31.0, 71.0), low(1.0, 2.0, -40.0);
+  const kit::GivenValues values = {{"Density", 1.2}, {"Speed", 8.0},
+                                   {"Height", 90.0}, {"Direction", direction},
+                                   {"Up", up},       {"Function", "growing"}};
+  kit::GivenValues power = values, log = values;
+  power.emplace_back("Exponent", 0.3);
+  log.emplace_back("Roughness", 0.05);
+  for (const auto& [type, given] : {std::pair{"Power Law", power}, std::pair{"Log Law", log}}) {
+    const SharedFlow wind = make(type, given);
+    expect_gradient(*wind, place, 1.5);
+    EXPECT_EQ(wind->gradient(low, 1.5).norm(), 0.0) << "below the ground";
+  }
+  expect_gradient(*table("0, 10, 30, 1, 0.4, 0.2, 0.1, 2\n"), place, 0.0);
+  for (const char* shear : {"Vertical", "Horizontal"}) {
+    expect_gradient(*gust("EWS", {{"Shear", std::string(shear)}}), place, 9.0);
+  }
+}
+
 TEST_F(Winds, LogLawVanishesAtTheRoughness) {
   const SharedFlow wind =
       make("Log Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 100.0}, {"Roughness", 0.01}});

@@ -36,9 +36,10 @@ struct SectionMotion {
 };
 
 /// What a section knows of the flow and of the step.
+template <class Number>
 struct Surroundings {
   double density = 0.0;
-  Vec3 wind_at_quarter = Vec3::Zero(), wind_at_three_quarters = Vec3::Zero();
+  Vector<Number> wind_at_quarter, wind_at_three_quarters;
   double step = 0.0;     ///< zero in statics
   SectionStates memory;  ///< at the start of the step
   /// What share of a change of their targets states follow in statics.
@@ -82,7 +83,7 @@ Number lag_time(const Lag& lag, std::size_t state, double half_chord, const Numb
 /// The downwash behind the lag.
 template <class Number>
 Number lagged(const Lag& lag, const Number& downwash, const Number& speed, double half_chord,
-              const Surroundings& around, std::array<double, Lag::max_states>& states) {
+              const Surroundings<Number>& around, std::array<double, Lag::max_states>& states) {
   Number effective = downwash;
   for (std::size_t i = 0; i < static_cast<std::size_t>(lag.states); ++i) {
     const Number target = lag.amplitude[i] * downwash;
@@ -97,7 +98,7 @@ Number lagged(const Lag& lag, const Number& downwash, const Number& speed, doubl
 template <class Number>
 SectionLoads<Number> section_loads(const Station& station, const StripModel& model,
                                    const SectionMotion<Number>& motion,
-                                   const Surroundings& around) {
+                                   const Surroundings<Number>& around) {
   using std::sqrt;
   SectionLoads<Number> loads;
   loads.memory = around.memory;
@@ -116,8 +117,7 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
   };
   const Number turning = -dot(motion.velocity.chord, n) / chord_norm;  // nose up
 
-  const Vector<Number> wind =
-      around.wind_at_three_quarters.cast<Number>() - velocity_at(behind(0.75));
+  const Vector<Number> wind = around.wind_at_three_quarters - velocity_at(behind(0.75));
   const Number along = dot(wind, c);
   const Number across = dot(wind, n);
   const Number speed_squared = along * along + across * across;
@@ -141,8 +141,7 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
     const Number &lift = found.lift, &drag = found.drag;
     const Number pressure = (0.5 * around.density * station.chord) * speed_squared;
 
-    const Vector<Number> wind_there =
-        around.wind_at_quarter.cast<Number>() - velocity_at(behind(0.25));
+    const Vector<Number> wind_there = around.wind_at_quarter - velocity_at(behind(0.25));
     Number wc = dot(wind_there, c);
     Number wn = dot(wind_there, n);
     const Number size = sqrt(Number(wc * wc + wn * wn));

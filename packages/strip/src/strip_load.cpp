@@ -69,11 +69,19 @@ SectionVectors<Number> carried(const Columns& values, double factor) {
   return result;
 }
 
-// What the vectors of a section at the end of the step do for its motion (`StationFlow`) per metre:
-// rows velocity, turning, rotation. With the triad c, g, s of along, across and span, a rotation w
-// has w . s = g . dc, w . g = -s . dc, w . c = s . dg.
+// What the vectors of a section do for a point eta behind its axis, through a matrix.
+Mat<3, 9> by_vectors_of_point(const Mat3& matrix, double eta) {
+  Mat<3, 9> result;
+  result << matrix, eta * matrix, Mat3::Zero();
+  return result;
+}
+
+// What the vectors of a section at the end of the step do for its motion (`StationFlow`) against
+// the wind, which has a gradient there, per metre: rows velocity, turning, rotation. With the triad
+// c, g, s of along, across and span, a rotation w has w . s = g . dc, w . g = -s . dc, w . c = s .
+// dg.
 Mat<9, 9> motion_of_vectors(const Station& station, const Columns& middle, double theta,
-                            double rate) {
+                            double rate, const Mat3& gradient) {
   const double chord = middle.col(1).norm();
   const Vec3 c = middle.col(1) / chord;
   const double leaning = middle.col(2).dot(c);
@@ -82,8 +90,8 @@ Mat<9, 9> motion_of_vectors(const Station& station, const Columns& middle, doubl
   const Vec3 g = upright / height;
   const Vec3 s = c.cross(g);
   Mat<9, 9> result = Mat<9, 9>::Zero();
-  result.block<3, 3>(0, 0).diagonal().setConstant(rate);
-  result.block<3, 3>(0, 3).diagonal().setConstant(rate * (0.25 - station.axis_at) * station.chord);
+  result.topRows<3>() = by_vectors_of_point(rate * Mat3::Identity() - theta * gradient,
+                                            (0.25 - station.axis_at) * station.chord);
   result.block<3, 3>(3, 3).diagonal().setConstant(rate * 0.5 * station.chord);
   result.block<3, 3>(6, 3) =
       theta / chord * (s * g.transpose() - Vec3(g + leaning / height * c) * s.transpose());
@@ -210,24 +218,34 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   motion.velocity = carried<Number>(rate * moved, rate);
   motion.acceleration = carried<Number>(acceleration, mass ? 1.0 : stencil.inertia);
 
-  Surroundings around;
+  Surroundings<Number> around;
   around.density = flow_->density();
   // where there is no inertia, a linearisation asks: lags have ended
   around.step = moves && stencil.inertia > 0.0 ? stencil.step : 0.0;
   around.memory = accepted_[station_number].memory;
   around.follow = follow;
   const Columns middle = (1.0 - theta) * prev + theta * next;
-  const std::array<Vec3, 2> places = {
-      middle.col(0) + (0.25 - station.axis_at) * station.chord * middle.col(1),
-      middle.col(0) + (0.75 - station.axis_at) * station.chord * middle.col(1)};
+  const std::array<double, 2> behind = {(0.25 - station.axis_at) * station.chord,
+                                        (0.75 - station.axis_at) * station.chord};
+  const std::array<Vec3, 2> places = {middle.col(0) + behind[0] * middle.col(1),
+                                      middle.col(0) + behind[1] * middle.col(1)};
+  const double time = load::time_of(state, stencil);
   std::array<Vec3, 2> winds;
-  flow_->velocities(places, load::time_of(state, stencil), winds);
-  around.wind_at_quarter = winds[0];
-  around.wind_at_three_quarters = winds[1];
+  flow_->velocities(places, time, winds);
+  const double moves_places = mass ? 0.0 : theta;
+  for (const std::size_t k : {0U, 1U}) {
+    Vector<Number>& wind = k == 0 ? around.wind_at_quarter : around.wind_at_three_quarters;
+    wind.setConstant(Number(0.0));
+    const auto by_vectors = [&] {
+      return by_vectors_of_point(moves_places * flow_->gradient(places[k], time), behind[k]);
+    };
+    add_velocity(winds[k], by_vectors, wind);
+  }
   // to the section it is as if it moved against what is induced
   const InducedVelocity& induced = induced_[station_number];
   const auto by_vectors = [&]() -> Mat<3, 9> {
-    return -induced.slope.lazyProduct(motion_of_vectors(station, middle, theta, rate));
+    return -induced.slope.lazyProduct(
+        motion_of_vectors(station, middle, theta, rate, flow_->gradient(places[0], time)));
   };
   if (!mass) add_velocity(-induced.velocity, by_vectors, motion.velocity.axis);
 

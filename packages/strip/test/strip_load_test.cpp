@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace culm::strip {
 namespace {
@@ -50,6 +51,52 @@ TEST(StripLoad, TangentIsDerivativeOfResidual) {
     kit::expect_tangent_is_derivative([&](model::Model& model) { fill(model, with_slave); }, effect,
                                       1e-4);
   }
+}
+
+// As in a wind with shear in all directions, which carries what is induced with it.
+TEST(StripLoad, TangentKnowsTheGradientOfTheWind) {
+  class Sheared final : public flow::Flow {
+   public:
+    Sheared() : Flow(1.2) { gradient_ << 0.4, -1.0, 0.7, 0.9, 0.3, -0.5, -0.8, 0.6, 1.1; }
+    void velocities(std::span<const Vec3> places, double,
+                    std::span<Vec3> velocities) const override {
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        velocities[i] = Vec3(3.0, 7.0, -2.0) + gradient_ * places[i];
+      }
+    }
+    Mat3 gradient(const Vec3&, double) const override { return gradient_; }
+
+   private:
+    Mat3 gradient_;
+  };
+  // induces a share of what the section feels
+  class Slows final : public Inducer {
+   public:
+    explicit Slows(StripLoad& load) : load_(load) {}
+    void induce(const model::State& state, const Stencil& stencil) override {
+      InducedVelocity induced;
+      const Mat3 share = Vec3(-0.3, -0.2, -0.1).asDiagonal();
+      induced.velocity = share * load_.flow_at(0, state, stencil).relative();
+      induced.slope.leftCols<3>() = -share;
+      load_.set_induced(0, induced);
+    }
+
+   private:
+    StripLoad& load_;
+  };
+  std::vector<std::unique_ptr<Slows>> inducers;
+  const auto fill_sheared = [&](model::Model& model) {
+    for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
+    auto load =
+        std::make_unique<StripLoad>(effect, model.nodes(), model::Amplitude::constant(),
+                                    std::make_shared<Sheared>(), StripModel{Lag::jones(), true});
+    load->add(station({{0, 1}, {0.3, 0.7}, Vec3(0.1, -0.2, 0.0)}));
+    inducers.push_back(std::make_unique<Slows>(*load));
+    load->set_inducer(inducers.back().get());
+    model.add_load(std::move(load));
+  };
+  kit::expect_tangent_is_derivative(fill_sheared, effect, 1e-4);
+  kit::expect_no_allocation(fill_sheared, effect);
 }
 
 TEST(StripLoad, NullSpaceResidualIsProjected) {

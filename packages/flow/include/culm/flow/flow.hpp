@@ -21,6 +21,9 @@ class Flow {
   /// Velocities at places, one each [m/s]. May throw InputError where the flow is not known.
   virtual void velocities(std::span<const Vec3> places, double time,
                           std::span<Vec3> velocities) const = 0;
+  /// Derivative of the velocity by the place [1/s]; of one side where it has a kink. It only serves
+  /// the tangent: zero of a flow that does not know it.
+  virtual Mat3 gradient(const Vec3& /*place*/, double /*time*/) const { return Mat3::Zero(); }
   /// The velocity at one place.
   Vec3 velocity(const Vec3& place, double time) const {
     Vec3 result;
