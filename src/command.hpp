@@ -66,7 +66,8 @@ struct CoupleArguments : RunArguments {
   bool record = false;
 };
 
-/// A record of a coupling, and the deck that takes its loads again.
+/// A record of a coupling, or the folder with those of all partners, and the deck that takes its
+/// loads again.
 struct ReplayArguments : RunArguments {
   std::filesystem::path record;
 };
@@ -85,7 +86,8 @@ struct ServeArguments : RunArguments {
 };
 
 /// Runs a deck.
-/// @param replay  a record whose loads act in place of those of the partner; empty for none
+/// @param replay  a record, or a folder of them, whose loads act in place of those of the partners;
+/// empty for none
 /// @param serve   another program that leads; nobody if it has no address
 void run(const parallel::Comm& comm, RunArguments& arguments,
          const std::filesystem::path& replay = {}, const simulation::ServeSettings& serve = {});

@@ -168,7 +168,10 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
       [&] { action = [&](const Comm& comm) { culm::app::couple(comm, arguments.couple); }; });
   CLI::App* replay = app.add_subcommand(
       "replay", "Run a deck with the loads of a recorded coupling, and compare how it moves");
-  replay->add_option("record", arguments.replay.record, "What a coupling wrote")->required();
+  replay
+      ->add_option("record", arguments.replay.record,
+                   "What a coupling wrote, or the folder with the records of all partners")
+      ->required();
   add_run_options(*replay, arguments.replay);
   replay->callback(
       [&] { action = [&](const Comm& comm) { culm::app::replay(comm, arguments.replay); }; });

@@ -327,6 +327,30 @@ class Programs(CouplingTest):
         errors = self.culm("replay", self.deck, self.deck, "--output", "none", "--quiet", code=6)
         self.assertIn("is no record of a coupling: what came is no frame of culm", errors)
 
+    def test_replay_of_several_partners(self):
+        self.culm("run", DECK, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
+        self.culm("replay", self.folder / "here", DECK, "--output", "again", "--quiet")
+        self.same("here", "again")
+        errors = self.culm("replay", self.folder / "here/coupling_water.record", DECK, "--output", "one", "--quiet",
+                           code=2)
+        self.assertIn("the deck has 2 partners; its replay needs the folder with the records of all of them", errors)
+        (self.folder / "here/coupling_damper.record").unlink()
+        errors = self.culm("replay", self.folder / "here", DECK, "--output", "one", "--quiet", code=6)
+        self.assertIn("coupling_damper.record", errors)
+
+    def test_replay_in_other_windows(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
+        record = self.folder / "here/coupling_water.record"
+        # each window in two: the same steps under the same loads
+        self.culm("replay", record, self.deck, "--output", "halves", "--quiet", "--set", "Coupling/Window=0.01")
+        rows = [(self.folder / run / "history.csv").read_text().splitlines() for run in ("here", "halves")]
+        self.assertEqual(rows[0], rows[1][:1] + rows[1][1::2])
+        self.culm("replay", record, self.deck, "--output", "longer", "--quiet", "--set", "Coupling/Window=0.03")
+        self.same("here", "longer")
+        errors = self.culm("replay", record, self.deck, "--output", "late", "--quiet", "--set",
+                           "Analyses/motion/Start Time=0.1", code=FAILED_PARTNER)
+        self.assertIn("the record goes on at 0 s, the motion at 0.1 s", errors)
+
     def test_goes_on_from_a_checkpoint(self):
         settings = ["--quiet", "--set", "Output/Checkpoint Interval=0", "--set", "Coupling/Record=true"]
         self.start_partner()

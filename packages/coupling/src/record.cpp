@@ -134,6 +134,13 @@ void ReplayedPartner::begin(const Beginning& beginning) {
   }
 }
 
+namespace {
+
+// Of a window: how near two times may be to count as one.
+constexpr double same_time = 1e-6;
+
+}  // namespace
+
 double ReplayedPartner::latest_end(double start) const {
   (void)start;
   return next_ < record_.windows.size() ? record_.windows[next_].end
@@ -145,22 +152,37 @@ Eigen::VectorXd ReplayedPartner::loads(const Window& window) {
     throw PartnerError(
         fmt::format("{}: the record ends at {:g} s, the motion goes on", file_, window.start));
   }
-  const std::vector<double>& loads = record_.windows[next_].loads;
+  const Window& then = record_.windows[next_];
+  const double expected = moved_.empty() ? then.start : reached_;
+  if (std::abs(window.start - expected) > same_time * then.length()) {
+    throw PartnerError(fmt::format("{}: the record goes on at {:g} s, the motion at {:g} s", file_,
+                                   expected, window.start));
+  }
+  const std::vector<double>& loads = then.loads;
   return Eigen::Map<const Eigen::VectorXd>(loads.data(), static_cast<Eigen::Index>(loads.size()));
 }
 
 void ReplayedPartner::accept(const Window& window) {
   const std::vector<double>& now = window.of(Quantity::motion);
-  const std::vector<double>& then = record_.windows[next_].of(Quantity::motion);
+  if (moved_.empty()) {
+    moved_ = now;
+  } else {
+    for (std::size_t i = 0; i < now.size(); ++i) moved_[i] += now[i];
+  }
+  reached_ = window.end;
+  const Window& recorded = record_.windows[next_];
+  if (recorded.end - window.end > same_time * recorded.length()) return;  // a part of it
+  const std::vector<double>& then = recorded.of(Quantity::motion);
   double difference = 0.0, size = 0.0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    difference = std::max(difference, std::abs(now[i] - then[i]));
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    difference = std::max(difference, std::abs(moved_[i] - then[i]));
     size = std::max(size, std::abs(then[i]));
   }
   if (difference > worst_ * size) {
     worst_ = size > 0.0 ? difference / size : std::numeric_limits<double>::infinity();
-    worst_window_ = window.number;
+    worst_window_ = recorded.number;
   }
+  moved_.clear();
   ++next_;
 }
 

@@ -67,10 +67,20 @@ const port::Port& find_port(const Options& entry, const Ports& ports) {
                    "there is no port '" + name + "'" + did_you_mean(name, names));
 }
 
-std::unique_ptr<coupling::Partner> record(std::unique_ptr<coupling::Partner> partner,
-                                          const std::string& name, const CoupledFiles& files) {
-  return std::make_unique<coupling::RecordedPartner>(
-      std::move(partner), files.folder / ("coupling_" + output::file_part(name) + ".record"));
+std::filesystem::path record_in(const std::filesystem::path& folder, const std::string& partner) {
+  return folder / ("coupling_" + output::file_part(partner) + ".record");
+}
+
+std::unique_ptr<coupling::Partner> replay(const std::filesystem::path& records,
+                                          const std::string& partner, std::size_t partners) {
+  const bool is_folder = std::filesystem::is_directory(records);
+  if (!is_folder && partners > 1) {
+    throw UsageError(fmt::format(
+        "{}: the deck has {} partners; its replay needs the folder with the records of all of them",
+        records.string(), partners));
+  }
+  const std::filesystem::path file = is_folder ? record_in(records, partner) : records;
+  return std::make_unique<coupling::ReplayedPartner>(coupling::read_record(file), file.string());
 }
 
 }  // namespace
@@ -82,10 +92,6 @@ std::vector<CoupledSide> make_sides(const Options& settings, const coupling::Par
   const bool is_replay = !files.replay.empty();
   if (partners.empty()) {
     throw InputError(settings.list("Partners").where(), "must hold at least one partner");
-  }
-  if (is_replay && partners.size() > 1) {
-    throw UsageError(
-        fmt::format("a replay needs a deck with one partner; it has {}", partners.size()));
   }
   std::vector<CoupledSide> sides;
   for (const Options& entry : partners) {
@@ -102,13 +108,14 @@ std::vector<CoupledSide> make_sides(const Options& settings, const coupling::Par
     std::string objection;
     on_root(comm, [&] {
       if (is_replay) {
-        side.partner = std::make_unique<coupling::ReplayedPartner>(
-            coupling::read_record(files.replay), files.replay.string());
+        side.partner = replay(files.replay, side.name, partners.size());
         return;
       }
       side.partner = known.make(entry.text("Type"), entry);
       objection = side.partner->objection(port.reference());
-      if (settings.flag("Record")) side.partner = record(std::move(side.partner), side.name, files);
+      if (!settings.flag("Record")) return;
+      side.partner = std::make_unique<coupling::RecordedPartner>(
+          std::move(side.partner), record_in(files.folder, side.name));
     });
     if (comm.size() > 1) objection = comm.broadcast(objection);
     if (!objection.empty()) throw InputError(entry.where(), objection);

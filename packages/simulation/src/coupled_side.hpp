@@ -23,7 +23,8 @@ using coupling::translations;
 /// Where a coupling of a deck writes, and what it hears again.
 struct CoupledFiles {
   std::filesystem::path folder;
-  std::filesystem::path replay = {};  ///< a record; its loads act in place of the only partner's
+  std::filesystem::path replay =
+      {};  ///< a record, or a folder with those of all partners, whose loads act instead
 };
 
 using Ports = std::vector<std::unique_ptr<port::Port>>;

@@ -48,7 +48,9 @@ struct Record {
 /// Throws FileError for what is no record.
 Record read_record(const std::filesystem::path& file);
 
-/// Gives the loads of a record again, whatever the structure does, and compares how it moves.
+/// Gives the loads of a record again, whatever the structure does, and compares how it moves. The
+/// structure may take several windows for a recorded one: the same loads act in all of them, and
+/// their motions add up.
 class ReplayedPartner final : public Partner {
  public:
   /// @param file  for messages
@@ -68,8 +70,10 @@ class ReplayedPartner final : public Partner {
  private:
   Record record_;
   std::string file_;
-  std::size_t next_ = 0;
-  double worst_ = 0.0;  ///< difference of a motion, over the largest in its window
+  std::size_t next_ = 0;       ///< window of the record, perhaps begun already
+  std::vector<double> moved_;  ///< in it so far; empty if it has not begun
+  double reached_ = 0.0;       ///< how far it has come, if it has begun [s]
+  double worst_ = 0.0;         ///< difference of a motion, over the largest in its window
   int worst_window_ = 0;
 };
 

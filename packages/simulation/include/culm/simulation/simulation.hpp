@@ -38,10 +38,11 @@ struct ServeSettings {
 struct RunSettings {
   std::filesystem::path folder;  ///< for results
   bool quiet = false;
-  bool terminal = false;              ///< standard output is a terminal
-  bool strict = false;                ///< warnings count as broken promises
-  std::filesystem::path replay = {};  ///< record of a coupling, whose loads act instead
-  ServeSettings serve = {};           ///< whom the run follows
+  bool terminal = false;  ///< standard output is a terminal
+  bool strict = false;    ///< warnings count as broken promises
+  std::filesystem::path replay =
+      {};                    ///< record of a coupling, or folder of such, whose loads act instead
+  ServeSettings serve = {};  ///< whom the run follows
 };
 
 /// Builds the model of a deck and runs its analyses. The same on all ranks.
