@@ -350,6 +350,23 @@ CASES = [
         check=has_findings("gravity", grade=False),
     ),
     Case(
+        "two loads of the air on one section",
+        3,
+        args=RUN,
+        change=[
+            (
+                '<ParameterList name="Loads">',
+                f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
+                f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")}</ParameterList>'
+                '<ParameterList name="Loads">'
+                + entry("air", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="0.25", Airfoil="thin")
+                + entry("tail", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="-2", Airfoil="thin")
+                + entry("more air", Type="Strip", Structure="beam", Flow="wind", Chord="0.2", Axis_At="0.5", Airfoil="thin"),
+            ),
+        ],
+        says=["'beam' has the strips 'air' in the same place: the air would act on it twice"],
+    ),
+    Case(
         "air on what a rotating frame turns",
         0,
         args=RUN,
