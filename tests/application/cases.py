@@ -331,6 +331,22 @@ CASES = [
         check=has_findings(),
     ),
     Case(
+        "one over what is zero, on the rank that has it",
+        5,
+        args=RUN,
+        change=[
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Signals">'
+                + entry("height", Type="Displacement", Node="beam/last", Direction="{0, 0, 1}")
+                + entry("inverse", Type="Product", Signals="{height}", Powers="{-1}")
+                + '</ParameterList><ParameterList name="Loads">',
+            ),
+        ],
+        says=["Product 'inverse' has no finite value at time"],
+        results="out",
+    ),
+    Case(
         "weight and a sea of another world",
         0,
         args=RUN,

@@ -320,6 +320,9 @@ class Programs(CouplingTest):
         errors = self.culm("replay", record, self.deck, "--output", "other", "--quiet", "--set",
                            "Sections/pole/Density=2701", code=8)
         self.assertIn("the structure moves differently, in window", errors)
+        errors = self.culm("replay", record, self.deck, "--output", "early", "--quiet", "--set",
+                           "Analyses/motion/End Time=0.1", code=8)
+        self.assertIn("compared to 0.1 s only, the record goes on to", errors)
         short = self.write("short.record", "")
         short.write_bytes(record.read_bytes()[:5000])
         errors = self.culm("replay", short, self.deck, "--output", "cut", "--quiet", code=FAILED_PARTNER)

@@ -79,7 +79,7 @@ void Certificate::finish(double change, double velocity) {
 template <class Self>
 auto Certificate::memory(Self& self) {
   std::vector<decltype(&self.energy_drift_)> places;
-  places.reserve(64);
+  places.reserve(64);  // all but many accounts
   places.insert(places.end(),
                 {&self.largest_kinetic_, &self.largest_strain_, &self.largest_work_,
                  &self.largest_linear_, &self.largest_angular_, &self.energy_drift_,

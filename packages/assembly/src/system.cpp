@@ -1,5 +1,6 @@
 #include <culm/assembly/system.hpp>
 #include <culm/model/delayed.hpp>
+#include <culm/parallel/shared_failure.hpp>
 
 #include "block_values.hpp"
 #include "column_import.hpp"
@@ -88,12 +89,16 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
 System::~System() = default;
 
 void System::prepare(const model::State& state, const Stencil& stencil) {
-  for (model::Batch* batch : batches_) batch->prepare(state, stencil);
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : batches_) batch->prepare(state, stencil);
+  });
 }
 
 void System::accept(model::State& state) {
   if (carries_residuals_) carry_residual(state.time - state.time_prev);
-  for (model::Batch* batch : batches_) batch->accept(state);
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : batches_) batch->accept(state);
+  });
   state.prev = state.next;
   state.multipliers_prev = state.multipliers;
   state.own_prev = state.own;
@@ -113,7 +118,9 @@ void System::carry_residuals(bool wanted) {
 }
 
 void System::change_level(const model::State& state, const Stencil& stencil) {
-  for (model::Batch* batch : driven_) batch->prepare(state, stencil);
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : driven_) batch->prepare(state, stencil);
+  });
 }
 
 void System::level_gradient(model::State& state, const Stencil& stencil, double step,
@@ -127,10 +134,12 @@ void System::level_gradient(model::State& state, const Stencil& stencil, double 
   for (const double end : {level, level + step}) {
     state.time = end;
     gradient.scale(-1.0);
-    for (model::Batch* batch : driven_) {
-      batch->prepare(state, stencil);
-      batch->assemble(state, stencil, Want::residual, target);
-    }
+    parallel::together(comm_, [&] {
+      for (model::Batch* batch : driven_) {
+        batch->prepare(state, stencil);
+        batch->assemble(state, stencil, Want::residual, target);
+      }
+    });
   }
   gradient.scale(1.0 / step);
   state.time = level;
@@ -194,11 +203,13 @@ std::vector<double> System::delays(const model::State& state) const {
 Verdict System::evaluate_delayed(const model::State& state, const Stencil& stencil, double delay) {
   model::Target target = target_with_matrix();
   Verdict verdict = Verdict::ok;
-  for (model::Batch* batch : batches_) {
-    if (auto* delayed = dynamic_cast<model::Delayed*>(batch)) {
-      verdict = worse(verdict, delayed->assemble_delayed(state, stencil, delay, target));
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : batches_) {
+      if (auto* delayed = dynamic_cast<model::Delayed*>(batch)) {
+        verdict = worse(verdict, delayed->assemble_delayed(state, stencil, delay, target));
+      }
     }
-  }
+  });
   return static_cast<Verdict>(comm_.max(static_cast<int>(verdict)));
 }
 
@@ -207,14 +218,17 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   if (watches_tangents_ && want != Want::residual) tangent_point_ = state.next;
   Verdict verdict = Verdict::ok;
   std::optional<Ledger::Scope> scope;
-  for (std::size_t b = 0; b < batches_.size(); ++b) {
-    if (scope) {
-      scope->pass_to(effects_[b]);
-    } else {
-      scope.emplace(ledger_, effects_[b]);
+  parallel::SharedFailure failure;
+  failure.watch([&] {
+    for (std::size_t b = 0; b < batches_.size(); ++b) {
+      if (scope) {
+        scope->pass_to(effects_[b]);
+      } else {
+        scope.emplace(ledger_, effects_[b]);
+      }
+      verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
     }
-    verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
-  }
+  });
   scope.reset();
   if (stencil.inertia != 0.0 && carried_) {
     for (std::size_t row = 0; row < carried_->size(); ++row) {
@@ -229,9 +243,10 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   }
   // items are finite one by one, their sum may not be
   if (!std::isfinite(sum)) verdict = worse(verdict, Verdict::not_finite);
-  double found[4] = {static_cast<double>(verdict), largest, target.force_scale,
-                     target.constraint_violation};
+  double found[5] = {static_cast<double>(verdict), largest, target.force_scale,
+                     target.constraint_violation, failure.is_here() ? 1.0 : 0.0};
   comm_.max(found);
+  if (found[4] != 0.0) failure.throw_everywhere(comm_);
   return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3]};
 }
 

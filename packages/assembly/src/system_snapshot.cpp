@@ -1,4 +1,5 @@
 #include <culm/assembly/system.hpp>
+#include <culm/parallel/shared_failure.hpp>
 
 #include "block_values.hpp"
 
@@ -101,10 +102,12 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
     carried_.emplace(carried.begin(), carried.end());
   }
   std::span<const double> memory = snapshot.numbers("system/batches", memory_size());
-  for (model::Batch* batch : batches_) {
-    batch->restore(memory.first(batch->memory_size()));
-    memory = memory.subspan(batch->memory_size());
-  }
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : batches_) {
+      batch->restore(memory.first(batch->memory_size()));
+      memory = memory.subspan(batch->memory_size());
+    }
+  });
 }
 
 // By global row, so that it does not depend on the number of ranks.

@@ -76,24 +76,18 @@ std::span<const double> Snapshot::numbers_of(const Entry& entry) const {
   return std::span(small_).subspan(entry.first, entry.count);
 }
 
-// Who writes and reads does so in the same order, mostly.
-const Snapshot::Entry* Snapshot::find(std::string_view name) const {
+std::size_t Snapshot::find(std::string_view name) const {
   const std::uint64_t mark = mark_of(name);
-  if (!has_bit(seen_, mark)) return nullptr;
-  const auto is_at = [&](std::size_t place) {
-    return marks_[place] == mark && name_of(entries_[place]) == name;
-  };
-  if (next_ < marks_.size() && is_at(next_)) return &entries_[next_++];
-  for (std::size_t place = 0; place < marks_.size(); ++place) {
-    if (!is_at(place)) continue;
-    next_ = place + 1;
-    return &entries_[place];
+  std::size_t place = has_bit(seen_, mark) ? 0 : marks_.size();
+  while (place < marks_.size() && (marks_[place] != mark || name_of(entries_[place]) != name)) {
+    ++place;
   }
-  return nullptr;
+  return place;
 }
 
 Snapshot::Entry& Snapshot::make(std::string_view name) {
-  if (const Entry* known = find(name)) return const_cast<Entry&>(*known);
+  const std::size_t known = find(name);
+  if (known < entries_.size()) return entries_[known];
   if (entries_.empty()) {  // enough for a step of a small model
     entries_.reserve(48);
     marks_.reserve(48);
@@ -149,9 +143,9 @@ void Snapshot::set_text(std::string_view name, std::string text) {
 }
 
 std::span<const double> Snapshot::numbers(std::string_view name) const {
-  const Entry* entry = find(name);
-  if (entry == nullptr) miss(name);
-  return numbers_of(*entry);
+  const std::size_t place = find(name);
+  if (place == entries_.size()) miss(name);
+  return numbers_of(entries_[place]);
 }
 
 std::span<const double> Snapshot::numbers(std::string_view name, std::size_t count) const {
@@ -187,7 +181,7 @@ const std::string& Snapshot::text(std::string_view name) const {
 }
 
 bool Snapshot::has(std::string_view name) const {
-  return find(name) != nullptr || texts_.contains(name);
+  return find(name) < entries_.size() || texts_.contains(name);
 }
 
 std::string Snapshot::encode() const {

@@ -1,6 +1,8 @@
 #include <culm/contact/cylinder_contact.hpp>
 #include <culm/load/slot_kernel.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -140,6 +142,17 @@ Touch CylinderContact::touch(const model::Coordinates& q) const {
     if (pressure > 0.0) touch.area += item.area;
   }
   return touch;
+}
+
+// Near the axis the way out is that of a digit, and whoever begins there is shot away by an energy
+// that nobody has put in.
+std::string CylinderContact::objection(const model::Coordinates& q) const {
+  for (const Item& item : items_) {
+    const double depth = item.reach - distance(forms(item, q));
+    if (depth <= 0.5 * item.reach) continue;
+    return fmt::format("lies {:.3g} m deep in the bar, more than half of both radii", depth);
+  }
+  return {};
 }
 
 Verdict CylinderContact::assemble(const model::State& state, const Stencil& stencil, Want want,

@@ -4,8 +4,6 @@
 #include "contact_fields.hpp"
 #include "types.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -54,20 +52,6 @@ std::optional<Cylinder> read_cylinder(const Options& options, model::BuildContex
   return cylinder;
 }
 
-// Near the axis of the bar the way out is that of a digit, and whoever begins deep inside is shot
-// away by an energy that nobody asked for.
-void refuse_overlap(const CylinderContact& load, const Options& options,
-                    model::BuildContext& context) {
-  const double depth = load.touch(context.model.nodes().reference()).depth;
-  const double most = 0.5 * (options.number("Bar Radius") + options.number("Radius"));
-  if (depth <= most) return;
-  context.issues.add(
-      options.where("Bar Radius"),
-      fmt::format("overlaps what it shall touch by {:.3g} m in the reference; contact "
-                  "begins with half of both radii, {:.3g} m, at most",
-                  depth, most));
-}
-
 void build(const Options& options, model::BuildContext& context) {
   const std::vector<ContactPoint> points = read_points(options, context);
   const std::optional<Cylinder> cylinder = read_cylinder(options, context);
@@ -82,7 +66,6 @@ void build(const Options& options, model::BuildContext& context) {
     }
     load->add(point);
   }
-  refuse_overlap(*load, options, context);
   context.model.add_load(std::move(load));
 }
 

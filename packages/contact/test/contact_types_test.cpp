@@ -102,11 +102,13 @@ TEST_F(ContactTypes, BarCannotTouchItsOwnBody) {
   EXPECT_THAT(messages(), ElementsAre("is a node of what it shall touch"));
 }
 
-TEST_F(ContactTypes, NothingBeginsDeepInsideABar) {
-  build("Cylinder Contact", bar({{"Offset", Numbers{0.0, -4.0, 0.5}}}));
-  EXPECT_THAT(messages(),
-              ElementsAre("overlaps what it shall touch by 4 m in the reference; contact begins "
-                          "with half of both radii, 2.25 m, at most"));
+TEST_F(ContactTypes, NothingShouldBeginDeepInsideABar) {
+  const auto objection = [this](const Numbers& offset) {
+    build("Cylinder Contact", bar({{"Offset", offset}}));
+    return dynamic_cast<const Contact&>(*model.loads().back()).objection(model.nodes().reference());
+  };
+  EXPECT_EQ(objection({0.0, -4.0, 0.5}), "lies 4 m deep in the bar, more than half of both radii");
+  EXPECT_EQ(objection({0.0, -1.7, 1.0}), "");
 }
 
 TEST_F(ContactTypes, LineMustBeALine) {

@@ -96,12 +96,12 @@ void BlockBatch::refuse(const Item& item, const model::State& state, double thet
                         const char* what) const {
   const auto number = static_cast<std::size_t>(item.unknowns.front().block);
   const Block::Inputs u = values_of(item.inputs, state, theta);
-  throw NonFiniteError(
-      fmt::format("{} has {} at time {:.6g}, where its signals are {:.6g}.\n"
-                  "What is measured of velocities is 0 before the first step: a 'Lag' with "
-                  "'Initial' starts elsewhere.",
-                  model_.own_blocks()[number].name, what, state.time,
-                  fmt::join(u.data(), u.data() + u.size(), ", ")));
+  constexpr const char* hint =
+      "\nWhat is measured of velocities is 0 before the first step: a 'Lag' with 'Initial' starts "
+      "elsewhere.";
+  throw NonFiniteError(fmt::format(
+      "{} has {} at time {:.6g}, where its signals are {:.6g}.{}", model_.own_blocks()[number].name,
+      what, state.time, fmt::join(u.data(), u.data() + u.size(), ", "), u.all() ? "" : hint));
 }
 
 // Rows over the scales of their unknowns; what an equation with a rate is out of balance by makes

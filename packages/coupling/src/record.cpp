@@ -14,6 +14,13 @@ namespace culm::coupling {
 
 using port::Quantity;
 
+namespace {
+
+// Of a window: how near two times may be to count as one.
+constexpr double same_time = 1e-6;
+
+}  // namespace
+
 void RecordedPartner::write(const Frame& frame) {
   const std::string bytes = encode(frame);
   stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -134,13 +141,6 @@ void ReplayedPartner::begin(const Beginning& beginning) {
   }
 }
 
-namespace {
-
-// Of a window: how near two times may be to count as one.
-constexpr double same_time = 1e-6;
-
-}  // namespace
-
 double ReplayedPartner::latest_end(double start) const {
   (void)start;
   return next_ < record_.windows.size() ? record_.windows[next_].end
@@ -198,6 +198,13 @@ std::string ReplayedPartner::complaint() const {
       "{}: with the recorded loads the structure moves differently, in window {} by {:.2g} of its "
       "motion",
       file_, worst_window_, worst_);
+}
+
+std::string ReplayedPartner::left_over() const {
+  if (next_ == record_.windows.size()) return {};
+  const double compared = next_ > 0 ? record_.windows[next_ - 1].end : record_.beginning.time;
+  return fmt::format("{}: compared to {:g} s only, the record goes on to {:g} s", file_, compared,
+                     record_.windows.back().end);
 }
 
 }  // namespace culm::coupling

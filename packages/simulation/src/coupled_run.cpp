@@ -395,6 +395,15 @@ void CoupledRun::save(Snapshot& snapshot) {
   }
 }
 
+void CoupledRun::report_left_over(double time) {
+  for (const CoupledSide& side : sides_) {
+    std::string words;
+    on_root(comm_, [&] { words = side.partner->left_over(); });
+    if (comm_.size() > 1) words = comm_.broadcast(words);
+    if (!words.empty()) findings_.broken("coupling", words, time);
+  }
+}
+
 void CoupledRun::end(const std::string& why) {
   if (!comm_.is_root() || !has_begun_) return;
   for (CoupledSide& side : sides_) side.partner->end(why);

@@ -35,6 +35,9 @@ class CoupledRun {
   void restore(const Snapshot& snapshot) { resumed_ = &snapshot; }
   /// Says good-bye to all partners. @param why  the run failed; empty if it did not
   void end(const std::string& why);
+  /// Says what partners hold that the motion has not come to, before the end of a run that did not
+  /// fail. Collective.
+  void report_left_over(double time);
 
  private:
   void begin(const model::State& state);

@@ -40,10 +40,12 @@ std::string objection(const Options& load, const Options& sea) {
 
 }  // namespace
 
-std::vector<std::string> weights_that_miss_seas(const Options& deck) {
+std::vector<std::string> weights_that_miss_seas(const Options& deck, const Options& analysis) {
+  const std::vector<std::string>& inactive = analysis.texts("Inactive");
   std::vector<std::string> sentences;
   for (const Options& load : deck.list("Loads").entries()) {
     if (load.text("Type") != "Gravity") continue;
+    if (std::ranges::find(inactive, load.name()) != inactive.end()) continue;
     for (const Options& flow : deck.list("Flows").entries()) {
       if (!is_sea(flow)) continue;
       std::string sentence = objection(load, flow);

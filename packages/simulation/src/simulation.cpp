@@ -10,6 +10,7 @@
 #include <culm/simulation/simulation.hpp>
 #include <culm/solver/fill.hpp>
 
+#include "deep_contacts.hpp"
 #include "gravity_and_sea.hpp"
 #include "model_picture.hpp"
 #include "model_report.hpp"
@@ -190,7 +191,10 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
       if (coupled != nullptr) coupled->restore(*from);
     }
     run_analyses(state, observer, files, coupled.get(), served.get(), from);
-    if (coupled != nullptr) coupled->end("");
+    if (coupled != nullptr) {
+      coupled->report_left_over(state.time);
+      coupled->end("");
+    }
     if (served != nullptr) served->end("");
   } catch (const Error& error) {
     if (coupled != nullptr) coupled->end(error.what());
@@ -223,12 +227,12 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     if (!resumes) phase.system->forget_reactions();
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
-    for (const std::string& sentence : strips_that_miss_rotation(*phase.model)) {
-      p.findings.warn("rotating frame", sentence, state.time);
-    }
-    for (const std::string& sentence : weights_that_miss_seas(p.deck)) {
-      p.findings.warn("gravity", sentence, state.time);
-    }
+    const auto warn = [&](const char* kind, const std::vector<std::string>& sentences) {
+      for (const std::string& sentence : sentences) p.findings.warn(kind, sentence, state.time);
+    };
+    warn("rotating frame", strips_that_miss_rotation(*phase.model));
+    warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
+    warn("overlap", deep_contacts(*phase.model, state.next));
     const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
                                      resumes ? from : nullptr);
     p.imperfections.keep(entries[i].name(), *phase.model, report);

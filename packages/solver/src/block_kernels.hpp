@@ -17,13 +17,13 @@ using Fixed = std::integral_constant<int, size>;
 /// with the diagonal does not depend on how rows are scaled.
 constexpr double preferred_pivot = 1e-3;
 
-/// Largest entry of each row of a block; 1 where there is none.
+/// One over the largest entry of each row of a block; 1 where there is none.
 template <class Size>
-void find_row_sizes(const double* D, int stride, Size size, double* row_size) {
+void find_row_weights(const double* D, int stride, Size size, double* weight) {
   for (int r = 0; r < size; ++r) {
     double largest = 0.0;
     for (int k = 0; k < size; ++k) largest = std::max(largest, std::abs(D[r * stride + k]));
-    row_size[r] = largest > 0.0 ? largest : 1.0;
+    weight[r] = largest > 0.0 ? 1.0 / largest : 1.0;
   }
 }
 
@@ -46,20 +46,20 @@ int find_pivot(const double* D, int stride, Size size, int column, const Weight&
 /// @param before     largest size of each diagonal entry so far
 /// @param least      of which each pivot must exceed so much
 /// @param exchanged  of each row, the one it was exchanged with
-/// @param row_size   room for a number of each row. Rows of multipliers have another scale than
+/// @param weight     room for a number of each row. Rows of multipliers have another scale than
 ///                   those of nodes, so pivots are compared with the largest entries of their rows
 /// @return false if a pivot is too small or not a number
 template <class Size, class Columns>
 bool factor_panel(double* D, Size size, Columns columns, const double* before, double least,
-                  int* exchanged, double* row_size) {
+                  int* exchanged, double* weight) {
   const int stride = size + columns;
-  find_row_sizes(D, stride, size, row_size);
+  find_row_weights(D, stride, size, weight);
   for (int c = 0; c < size; ++c) {
     double* row_c = D + c * stride;
-    const int best = find_pivot(D, stride, size, c, [&](int row) { return 1.0 / row_size[row]; });
+    const int best = find_pivot(D, stride, size, c, [&](int row) { return weight[row]; });
     if (best != c) {
       std::swap_ranges(row_c, row_c + stride, D + best * stride);
-      std::swap(row_size[c], row_size[best]);
+      std::swap(weight[c], weight[best]);
     }
     exchanged[c] = best;
     if (!(std::abs(row_c[c]) > least * before[c])) return false;

@@ -135,7 +135,7 @@ void BlockLu::plan() {
     tallest = std::max(tallest, panel.size);
   }
   beside_.assign(index(widest), 0.0);
-  row_size_.assign(index(tallest), 0.0);
+  row_weight_.assign(index(tallest), 0.0);
 }
 
 void BlockLu::copy(const double* values) {
@@ -200,8 +200,9 @@ double BlockLu::largest_behind_joints(int row) const {
   for_entries(row, [&](int joint, double here) {
     const std::size_t diagonal = diagonal_[index(place_[index(joint)])];
     if (diagonal != none && local_.values(diagonal) != 0.0) return;
+    const double least = smallest_share * largest_in_row(joint);
     for_entries(joint, [&](int other, double there) {
-      const double ratio = here / std::max(there, smallest_share * largest_in_row(joint));
+      const double ratio = here / std::max(there, least);
       largest = std::max(largest, ratio * ratio * before_[index(place_[index(other)])]);
     });
   });
@@ -213,7 +214,7 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
-                        least, exchanged_.data() + panel.first, row_size_.data());
+                        least, exchanged_.data() + panel.first, row_weight_.data());
   });
   if (!is_sound) {
     failed_ = &panel;

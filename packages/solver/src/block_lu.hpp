@@ -64,11 +64,11 @@ class BlockLu {
   std::vector<std::size_t> diagonal_;         ///< by place: its entry of the matrix; `none`
   std::vector<int> place_;                    ///< of each row
   std::vector<double> values_;
-  std::vector<double> before_;    ///< by place: largest size of the diagonal so far
-  std::vector<int> exchanged_;    ///< by place: the row of the block it was exchanged with
-  std::vector<double> x_;         ///< by place
-  std::vector<double> beside_;    ///< of one panel
-  std::vector<double> row_size_;  ///< of one panel
+  std::vector<double> before_;      ///< by place: largest size of the diagonal so far
+  std::vector<int> exchanged_;      ///< by place: the row of the block it was exchanged with
+  std::vector<double> x_;           ///< by place
+  std::vector<double> beside_;      ///< of one panel
+  std::vector<double> row_weight_;  ///< of one panel
 };
 
 }  // namespace culm::solver

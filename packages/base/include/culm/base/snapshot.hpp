@@ -59,7 +59,8 @@ class Snapshot {
   };
   std::string_view name_of(const Entry& entry) const;
   std::span<const double> numbers_of(const Entry& entry) const;
-  const Entry* find(std::string_view name) const;
+  /// Its number; that of all entries if there is none.
+  std::size_t find(std::string_view name) const;
   Entry& make(std::string_view name);
 
   Use use_;
@@ -69,7 +70,6 @@ class Snapshot {
   std::string names_;
   std::vector<double> small_;
   std::map<std::string, std::string, std::less<>> texts_;
-  mutable std::size_t next_ = 0;  ///< the entry after the last one that was found
 };
 
 }  // namespace culm

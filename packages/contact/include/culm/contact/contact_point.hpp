@@ -4,6 +4,8 @@
 #include <culm/model/state.hpp>
 #include <culm/model/structure.hpp>
 
+#include <string>
+
 namespace culm::contact {
 
 /// A point with a round surface, which stands for an area.
@@ -26,6 +28,11 @@ class Contact {
   virtual ~Contact() = default;
   /// Of all points, where they are at q.
   virtual Touch touch(const model::Coordinates& q) const = 0;
+  /// Why no analysis should begin at q, as what follows the name of what touches; empty if it may.
+  virtual std::string objection(const model::Coordinates& q) const {
+    (void)q;
+    return {};
+  }
 };
 
 /// The place of a marker.

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,7 @@ class CylinderContact final : public model::MemorylessBatch, public Contact, pub
   void add(const ContactPoint& point);
 
   Touch touch(const model::Coordinates& q) const override;
+  std::string objection(const model::Coordinates& q) const override;
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }

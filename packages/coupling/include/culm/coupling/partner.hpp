@@ -44,6 +44,8 @@ class Partner {
   virtual void end(const std::string& why) { (void)why; }
   /// What does not hold that it has promised, in a sentence; empty if all does.
   virtual std::string complaint() const { return {}; }
+  /// What it holds that no window has come to, in a sentence; for when the run is over.
+  virtual std::string left_over() const { return {}; }
 };
 
 }  // namespace culm::coupling

@@ -66,6 +66,8 @@ class ReplayedPartner final : public Partner {
   void restore(const std::string&, const Snapshot&) override {}
   /// Where the structure moves differently by more than rounding.
   std::string complaint() const override;
+  /// What is not compared, because the motion ends before.
+  std::string left_over() const override;
 
  private:
   Record record_;
