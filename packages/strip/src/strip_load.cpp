@@ -232,20 +232,23 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   const double time = load::time_of(state, stencil);
   std::array<Vec3, 2> winds;
   flow_->velocities(places, time, winds);
-  const double moves_places = mass ? 0.0 : theta;
+  std::array<Mat3, 2> gradients = {Mat3::Zero(), Mat3::Zero()};
+  if (want == Want::residual_and_tangent) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      gradients[k] = flow_->gradient(places[k], time);
+    }
+  }
   for (const std::size_t k : {0U, 1U}) {
     Vector<Number>& wind = k == 0 ? around.wind_at_quarter : around.wind_at_three_quarters;
     wind.setConstant(Number(0.0));
-    const auto by_vectors = [&] {
-      return by_vectors_of_point(moves_places * flow_->gradient(places[k], time), behind[k]);
-    };
+    const auto by_vectors = [&] { return by_vectors_of_point(theta * gradients[k], behind[k]); };
     add_velocity(winds[k], by_vectors, wind);
   }
   // to the section it is as if it moved against what is induced
   const InducedVelocity& induced = induced_[station_number];
   const auto by_vectors = [&]() -> Mat<3, 9> {
     return -induced.slope.lazyProduct(
-        motion_of_vectors(station, middle, theta, rate, flow_->gradient(places[0], time)));
+        motion_of_vectors(station, middle, theta, rate, gradients[0]));
   };
   if (!mass) add_velocity(-induced.velocity, by_vectors, motion.velocity.axis);
 
