@@ -46,12 +46,15 @@ std::string_view take_text(std::string_view& bytes) {
 // What is longer has memory of its own.
 constexpr std::size_t most_small = 256;
 
-// Its length and its last letters.
+// Its length and its last letters, read at once where there are eight.
 std::uint64_t mark_of(std::string_view name) {
   std::uint64_t mark = 0;
-  const std::size_t letters = std::min<std::size_t>(name.size(), 7);
-  std::memcpy(&mark, name.data() + name.size() - letters, letters);
-  return mark | std::uint64_t{name.size()} << 56;
+  if (name.size() >= sizeof mark) {
+    std::memcpy(&mark, name.data() + name.size() - sizeof mark, sizeof mark);
+  } else {
+    for (const char letter : name) mark = mark << 8 | static_cast<unsigned char>(letter);
+  }
+  return mark ^ std::uint64_t{name.size()} << 56;
 }
 
 using Bits = std::array<std::uint64_t, 4>;
