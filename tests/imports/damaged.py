@@ -66,7 +66,7 @@ def damage(format, name, files, whole, count, complaints, outcomes):
 def main():
     warnings.simplefilter("error")  # numbers that are none must be found before they are used
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--only")
     arguments = parser.parse_args()
     complaints, outcomes = [], [0, 0]

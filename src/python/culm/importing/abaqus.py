@@ -24,7 +24,17 @@ WITHOUT_DATA = {"END STEP", "MATERIAL", "ASSEMBLY", "END ASSEMBLY", "COUPLING"}
 MESHING = {
     "NFILL", "NCOPY", "NMAP", "ELCOPY", "SYSTEM", "SUBSTRUCTURE PROPERTY", "UEL PROPERTY", "USER ELEMENT",
     "SOLID SECTION", "MEMBRANE SECTION", "SHELL GENERAL SECTION", "SPRING", "DASHPOT", "CONNECTOR SECTION",
-    "TRUSS SECTION", "NODAL THICKNESS", "SUBMODEL", "RELEASE", "PRE-TENSION SECTION", "GAP",
+    "TRUSS SECTION", "NODAL THICKNESS", "SUBMODEL", "RELEASE", "PRE-TENSION SECTION", "GAP", "EQUATION", "TIE", "EMBEDDED ELEMENT",
+}  # fmt: skip
+
+FILES = {"INPUT", "FILE"}
+# Parameters that say how a program computes or names, not what.
+HARMLESS = {
+    "NAME", "INC", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION", "SOLVER", "CONVERT SDI", "DIRECT", "EIGENSOLVER", "NORMALIZATION",
+    "STORAGE", "GLOBAL", "ACOUSTIC COUPLING", "ACCURACY", "POISSON", "TEMPERATURE", "SECTION INTEGRATION", "STACK DIRECTION",
+    "CONTROLS", "LAYUP", "SYMMETRIC", "INTERNAL", "UNSORTED", "REGION TYPE", "CONSTRAINT NAME", "FREQUENCY", "TOTALS",
+    "DEPENDENCIES", "RESIDUAL MODES", "SIM", "PROPERTY EVALUATION", "NSET", "ELSET", "TRIM", "TIME RESET", "TOTAL TIME AT START",
+    "SUMMARY", "GENERATE", "ISOTHERMAL", "ALLSDI", "REBAR", "COMBINE", "INFLUENCE",
 }  # fmt: skip
 
 
@@ -50,10 +60,12 @@ class Reader:
         self.elements = {}  # number -> its type and nodes
         self.surfaces = {}
         self.orientations = {}
+        self.axes = {}  # node -> rows of *TRANSFORM
         self.assignments = []  # sections of elements, resolved at the end
         self.material = None  # the one whose properties are read
         self.coupling = None
         self.step = None
+        self.known = []  # blocks that were understood
 
     def read(self, blocks):
         parts, part = {}, None
@@ -74,6 +86,7 @@ class Reader:
             refuse(blocks[0].place if blocks else self.model.title, "the file has no elements")
         resolve_sections(self)
         finish_steps(self)
+        self._tell_unread()
 
     def _instance(self, block, parts):
         name = block.required("NAME")
@@ -95,11 +108,21 @@ class Reader:
         if block.keyword == "HEADING" and block.lines:
             self.model.title = ", ".join(block.lines[0][1]).strip() or self.model.title
         if read_mesh_block(self, block) or read_property_block(self, block) or read_step_block(self, block):
+            self.known.append(block)
             return
         if block.keyword in MESHING:
             refuse(block.place, f"*{block.keyword} is not read, and without it the model would be another one")
         if block.keyword not in SILENT:
             self.findings.leave_out(f"*{block.keyword}", block.place)
+
+    def _tell_unread(self):
+        """Parameters that nobody asked for, of blocks that were read."""
+        for block in self.known:
+            for name in block.unread():
+                if name in FILES:
+                    refuse(block.place, f"*{block.keyword} with {name}: data in a file of its own are not read; *INCLUDE is")
+                if name not in HARMLESS:
+                    self.findings.leave_out(f"{name} of *{block.keyword}", block.place)
 
     # names of the file
 

@@ -4,7 +4,7 @@ import numpy
 
 from .findings import refuse
 from .keyword_file import integer, number
-from .model import BeamElement, Coupling, PointMass, ShellElement
+from .model import BeamElement, Coupling, PointMass, ShellElement, cylinder_axes
 
 SHELLS = {
     "S3": 3, "S3R": 3, "S3RS": 3, "STRI3": 3, "S4": 4, "S4R": 4, "S4RS": 4, "S4RSW": 4, "S4R5": 4, "S6": 6,
@@ -24,6 +24,7 @@ def read_mesh_block(reader, block):
         "NGEN": _generate_nodes,
         "ELEMENT": _elements,
         "ELGEN": _generate_elements,
+        "TRANSFORM": _transform,
         "NSET": _node_set,
         "ELSET": _element_set,
         "SURFACE": _surface,
@@ -53,6 +54,36 @@ def _nodes(reader, block):
         found.append(key)
     reader.findings.count("nodes", len(found))
     _add_to_set(reader.model.node_sets, reader, block.get("NSET"), found)
+
+
+def _transform(reader, block):
+    """Axes of the forces and supports at nodes."""
+    kind = block.get("TYPE") or "R"
+    if kind not in ("R", "C"):
+        refuse(block.place, f"*TRANSFORM of TYPE {kind} is not read; R and C are")
+    if reader.transform is not None and reader.transform[0]:
+        refuse(block.place, "*TRANSFORM in an instance that is moved is not read")
+    if not block.lines:
+        refuse(block.place, "*TRANSFORM needs two points")
+    place, cells = block.lines[0]
+    values = _numbers(cells, 6, place)
+    a, b = values[:3], values[3:]
+    for node in reader.find_nodes(block.required("NSET"), block.place):
+        if kind == "C":
+            if numpy.linalg.norm(b - a) == 0.0:
+                refuse(place, "the two points of the axis are one")
+            reader.axes[node] = cylinder_axes(a, b - a, reader.model.nodes[node], place)
+        else:
+            reader.axes[node] = triad(a, b, place)
+
+
+def triad(a, b, place):
+    """Rows x through a, y in the plane of a and b, z."""
+    third = numpy.cross(a, b)
+    if numpy.linalg.norm(third) <= 1e-9 * numpy.linalg.norm(a) * numpy.linalg.norm(b):
+        refuse(place, "the two points of a system are on one line with its origin")
+    x, z = a / numpy.linalg.norm(a), third / numpy.linalg.norm(third)
+    return numpy.array([x, numpy.cross(z, x), z])
 
 
 def _placed(reader, position):

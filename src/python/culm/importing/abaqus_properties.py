@@ -7,7 +7,7 @@ import numpy
 from .findings import did_you_mean, refuse
 from .keyword_file import NUMBER, number
 from .model import Layer, Material, Section, Wall
-from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, point_mass
+from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, point_mass, triad
 from .profiles import i_section
 
 DEFAULT_UP = (0.0, 0.0, -1.0)  # the first axis of beam sections where the file has none
@@ -102,36 +102,38 @@ def _density(reader, block):
 
 
 def _orientation(reader, block):
-    """The first two axes of a rectangular system, as directions."""
+    """The axes of a rectangular system, as rows."""
     name = reader.prefix + block.required("NAME")
     system = block.get("SYSTEM") or "RECTANGULAR"
-    values = _values(block, 6, "two points")
+    if block.get("DEFINITION") not in (None, "COORDINATES"):
+        refuse(block.place, f"*ORIENTATION with DEFINITION={block.get('DEFINITION')} is not read; COORDINATES is")
     if not system.startswith("R"):
         reader.orientations[name] = (None, system, block.place)
         return
-    a, b = numpy.array(values[:3]), numpy.array(values[3:])
-    triad = _triad(a, b, block.place)
+    if not block.lines:
+        refuse(block.place, "*ORIENTATION needs two points")
+    place, cells = block.lines[0]
+    values = [number(cell, place, "a coordinate") for cell in cells if cell]
+    if len(values) not in (6, 9):
+        refuse(place, f"expected two points, or three with the origin, found {len(values)} numbers")
+    origin = numpy.array(values[6:] or (0.0, 0.0, 0.0))
+    axes = triad(numpy.array(values[:3]) - origin, numpy.array(values[3:6]) - origin, block.place)
     if len(block.lines) > 1:
         place, cells = block.lines[1]
         axis = int(number(cells[0], place))
         angle = numpy.radians(number(cells[1], place)) if len(cells) > 1 and cells[1] else 0.0
         if axis not in (1, 2, 3):
             refuse(place, f"the axis of the rotation must be 1, 2 or 3, got {axis}")
-        triad = _turned(triad, triad[axis - 1], angle)
-    reader.orientations[name] = (triad, system, block.place)
+        if axis != 3:  # for one program the axis that is normal to the shell, for the other one to turn about
+            reader.orientations[name] = (None, f"RECTANGULAR about its axis {axis}", block.place)
+            return
+        axes = _turned(axes, axes[axis - 1], angle)
+    reader.orientations[name] = (axes, system, block.place)
 
 
-def _triad(a, b, place):
-    third = numpy.cross(a, b)
-    if numpy.linalg.norm(third) <= 1e-9 * numpy.linalg.norm(a) * numpy.linalg.norm(b):
-        refuse(place, "the two points of the orientation are on one line with the origin")
-    x, z = a / numpy.linalg.norm(a), third / numpy.linalg.norm(third)
-    return numpy.array([x, numpy.cross(z, x), z])
-
-
-def _turned(triad, axis, angle):
-    cross = numpy.cross(axis, triad)
-    return triad * numpy.cos(angle) + cross * numpy.sin(angle) + numpy.outer(triad @ axis, axis) * (1 - numpy.cos(angle))
+def _turned(axes, axis, angle):
+    cross = numpy.cross(axis, axes)
+    return axes * numpy.cos(angle) + cross * numpy.sin(angle) + numpy.outer(axes @ axis, axis) * (1 - numpy.cos(angle))
 
 
 def _assignment(reader, block):
@@ -182,6 +184,8 @@ def _find_orientation(reader, name, place):
 def _shell_section(reader, block, keys):
     if block.get("OFFSET") not in (None, "0", "0.", "0.0", "MIDDLE"):
         reader.findings.leave_out("OFFSET of a shell section: the nodes are in its middle", block.place)
+    if block.has("NODAL THICKNESS"):
+        refuse(block.place, "*SHELL SECTION with NODAL THICKNESS is not read: walls have one thickness")
     if not block.lines:
         refuse(block.place, "*SHELL SECTION without a thickness")
     axis, fallback = DEFAULT_AXIS, FALLBACK_AXIS
@@ -196,8 +200,8 @@ def _shell_section(reader, block, keys):
         layers = [(_thickness(cells[0], place), material, 0.0)]
     isotropic = all(reader.model.materials[m].type == "Isotropic" for _, m, _ in layers)
     if block.get("ORIENTATION") and not isotropic:
-        triad, system, place = _find_orientation(reader, block.get("ORIENTATION"), block.place)
-        axis, fallback = _axis_of(triad, system, place), None
+        axes, system, place = _find_orientation(reader, block.get("ORIENTATION"), block.place)
+        axis, fallback = _axis_of(axes, system, place), None
     if block.get("SYMMETRIC") is not None or block.has("SYMMETRIC"):
         layers += layers[::-1]
     name = (block.get("ELSET") or "wall").lower()
@@ -212,10 +216,10 @@ def _shell_section(reader, block, keys):
         reader.model.shells.append(element_of(reader, key, wall, None, None))
 
 
-def _axis_of(triad, system, place):
-    if triad is None:
-        refuse(place, f"orientations of SYSTEM {system} on shells that are not isotropic are not read; RECTANGULAR is")
-    return tuple(triad[0])
+def _axis_of(axes, system, place):
+    if axes is None:
+        refuse(place, f"orientations of SYSTEM {system} on shells that are not isotropic are not read; RECTANGULAR about 3 is")
+    return tuple(axes[0])
 
 
 def _thickness(cell, place):
@@ -235,8 +239,8 @@ def _layer(reader, place, cells):
         if re.fullmatch(NUMBER, cells[3].upper()):
             angle = number(cells[3], place)
         else:
-            triad, system, there = _find_orientation(reader, cells[3], place)
-            angle = numpy.array(_axis_of(triad, system, there))
+            axes, system, there = _find_orientation(reader, cells[3], place)
+            angle = numpy.array(_axis_of(axes, system, there))
     return _thickness(cells[0], place), material, angle
 
 

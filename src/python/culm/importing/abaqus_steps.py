@@ -5,13 +5,14 @@ the reference with all loads that act in it, which is the same as long as what i
 """
 
 import collections
+import dataclasses
 
 import numpy
 
 from .abaqus_mesh import BEAMS, SHELLS
 from .findings import did_you_mean, refuse
 from .keyword_file import integer, is_integer, number
-from .model import ElementLoad, NodeLoad, Step, Support
+from .model import ElementLoad, NodeLoad, Step, Support, supports_along
 
 NAMED_SUPPORTS = {
     "ENCASTRE": {1, 2, 3, 4, 5, 6},
@@ -49,9 +50,21 @@ class Acting:
     """What acts in the step that is read, and what each step had: loads by what they act on."""
 
     def __init__(self):
-        self.nodes = {}  # (node, direction) -> (value, place)
-        self.elements = {}  # (elements, label) -> (value, place)
+        self.nodes = {}  # (node, direction) -> (value, place, number of the step that gave it)
+        self.elements = []  # ElementEntry
         self.history = []  # (step, nodes, elements)
+
+
+@dataclasses.dataclass(frozen=True)
+class ElementEntry:
+    """A load on elements. Loads of one step add up, even on the same elements; one of a later step replaces those of its
+    label there."""
+
+    label: str
+    members: tuple
+    values: tuple
+    place: object
+    step: int
 
 
 def read_step_block(reader, block):
@@ -109,7 +122,7 @@ def _end_step(reader, block):
     if reader.step is None:
         refuse(block.place, "*END STEP without *STEP before it")
     acting = _acting(reader)
-    acting.history.append((reader.step, dict(acting.nodes), dict(acting.elements)))
+    acting.history.append((reader.step, dict(acting.nodes), list(acting.elements)))
     reader.step = None
 
 
@@ -148,8 +161,28 @@ def _boundary(reader, block):
     for key, held in groups.items():
         nodes, held = _by_rotation_node(reader, reader.find_nodes(key, places[key]), held)
         if held:
+            _end_supports(reader, nodes, held, step.number if step is not None else 0)
             reader.model.supports.append(Support(nodes, held, places[key], _support_name(key), steps))
     reader.findings.count("lines of supports", len(block.lines))
+
+
+def _end_supports(reader, nodes, held, now):
+    """What is given another value from a step on ends there."""
+    taken, kept = set(nodes), []
+    for one in reader.model.supports:
+        other = {i for i in held if i in one.held and one.held[i] != held[i]}
+        common = [node for node in one.nodes if node in taken] if other else []
+        if not common:
+            kept.append(one)
+            continue
+        steps = set(range(now)) & (set(range(now)) if one.steps is None else one.steps)
+        parts = [
+            dataclasses.replace(one, nodes=[node for node in one.nodes if node not in taken]),
+            dataclasses.replace(one, nodes=common, held={i: value for i, value in one.held.items() if i not in other}),
+            dataclasses.replace(one, nodes=common, held={i: one.held[i] for i in other}, steps=steps),
+        ]
+        kept += [part for part in parts if part.nodes and part.held and (part.steps is None or part.steps)]
+    reader.model.supports[:] = kept
 
 
 def _support_name(key):
@@ -172,7 +205,7 @@ def _watch(reader, block):
 def _in_step(reader, block):
     if reader.step is None:
         refuse(block.place, f"*{block.keyword} outside a step")
-    for name in ("AMPLITUDE", "FOLLOWER", "TIME DELAY", "LOAD CASE", "SECTOR"):
+    for name in ("AMPLITUDE", "FOLLOWER", "TIME DELAY", "LOAD CASE", "SECTOR", "OMEGA0", "SUBMODEL"):
         if block.has(name):
             reader.findings.leave_out(f"{name} of *{block.keyword}", block.place)
 
@@ -182,7 +215,7 @@ def _node_loads(reader, block):
     acting = _acting(reader).nodes
     if block.get("OP") == "NEW":
         acting.clear()
-    fresh = set()
+    now = reader.step.number
     for place, cells in block.lines:
         if len(cells) < 3:
             refuse(place, "expected node or set, direction, value")
@@ -194,18 +227,16 @@ def _node_loads(reader, block):
             nodes, turned = _by_rotation_node(reader, [node], {direction: value})
             for i, one in turned.items():
                 key = (nodes[0], i)
-                # loads of one block on one node add up, those of an earlier step are replaced
-                before = acting[key][0] if key in fresh else 0.0
-                acting[key] = (before + one, place)
-                fresh.add(key)
+                # loads of one step on one node add up, those of an earlier step are replaced
+                before = acting[key][0] if key in acting and acting[key][2] == now else 0.0
+                acting[key] = (before + one, place, now)
     reader.findings.count("lines of node loads", len(block.lines))
 
 
 def _element_loads(reader, block):
     _in_step(reader, block)
-    acting = _acting(reader).elements
     if block.get("OP") == "NEW":
-        acting.clear()
+        _acting(reader).elements.clear()
     for place, cells in block.lines:
         if len(cells) < 3:
             refuse(place, "expected element or set, kind of load, value")
@@ -215,13 +246,25 @@ def _element_loads(reader, block):
         values = [number(cell, place) for cell in cells[2:] if cell]
         if not values:
             refuse(place, f"{label} without a value")
-        acting[(members, label)] = (values, place)
+        _add_element_load(reader, label, members, values, place)
     reader.findings.count("lines of element loads", len(block.lines))
+
+
+def _add_element_load(reader, label, members, values, place):
+    acting, now, taken = _acting(reader), reader.step.number, set(members)
+    kept = []
+    for entry in acting.elements:
+        if entry.label == label and entry.step != now and not taken.isdisjoint(entry.members):
+            entry = dataclasses.replace(entry, members=tuple(one for one in entry.members if one not in taken))
+        if entry.members:
+            kept.append(entry)
+    acting.elements[:] = [*kept, ElementEntry(label, tuple(members), tuple(values), place, now)]
 
 
 def _surface_loads(reader, block):
     _in_step(reader, block)
-    acting = _acting(reader).elements
+    if block.get("OP") == "NEW":
+        _acting(reader).elements.clear()
     for place, cells in block.lines:
         name = cells[0].strip('"').upper()
         if name not in reader.surfaces:
@@ -234,7 +277,7 @@ def _surface_loads(reader, block):
             side = {"SPOS": -1.0, "SNEG": 1.0}.get(face)
             if side is None:
                 refuse(place, f"pressure on the face {face or 'none'} of surface '{name}': SPOS or SNEG is read")
-            acting[(tuple(members), f"P {face}")] = ([side * number(cells[2], place)], place)
+            _add_element_load(reader, f"P {face}", members, [side * number(cells[2], place)], place)
 
 
 def finish_steps(reader):
@@ -242,6 +285,7 @@ def finish_steps(reader):
     if reader.step is not None:
         refuse(reader.step.place, "the file ends within this step: *END STEP is missing")
     history = _acting(reader).history
+    reader.model.supports = [part for one in reader.model.supports for part in supports_along(reader.axes, one)]
     kept = [entry for entry in history if entry[0].kind in KINDS.values()]
     for step, _, _ in history:
         if step.kind is None:
@@ -261,12 +305,11 @@ def finish_steps(reader):
             continue
         if step.kind == "buckling" and model.steps[number_].preloaded:
             continue
-        _collect_node_loads(nodes, number_, node_loads)
-        _collect_element_loads(elements, number_, element_loads)
+        _collect_node_loads(reader, nodes, number_, node_loads)
+        _collect_element_loads(reader, elements, number_, element_loads)
     model.node_loads += node_loads.values()
-    for (members, label), entries in element_loads.items():
-        for values, (place, steps) in entries.items():
-            _make_element_load(reader, members, label, list(values), place, steps)
+    for entry, steps in element_loads.items():
+        _make_element_load(reader, entry, steps)
 
 
 def _make_steps(reader, kept):
@@ -292,14 +335,17 @@ def _make_steps(reader, kept):
                 support.steps = {new for old, new in numbers.items() if old in support.steps}
 
 
-def _collect_node_loads(nodes, number_, found):
+def _collect_node_loads(reader, nodes, number_, found):
     """One load for all nodes with the same force."""
     vectors, places = collections.defaultdict(lambda: numpy.zeros(6)), {}
-    for (node, direction), (value, place) in nodes.items():
+    for (node, direction), (value, place, _) in nodes.items():
         vectors[node][direction - 1] += value
         places.setdefault(node, place)
     groups = collections.defaultdict(list)
     for node, vector in vectors.items():
+        axes = reader.axes.get(node)
+        if axes is not None:
+            vector = numpy.concatenate([vector[:3] @ axes, vector[3:] @ axes])
         if vector.any():
             groups[tuple(vector)].append(node)
     for vector, members in groups.items():
@@ -309,21 +355,52 @@ def _collect_node_loads(nodes, number_, found):
         found[key].steps.add(number_)
 
 
-def _collect_element_loads(elements, number_, found):
-    for key, (values, place) in elements.items():
-        entries = found.setdefault(key, {})
-        entries.setdefault(tuple(values), (place, set()))[1].add(number_)
+def _collect_element_loads(reader, elements, number_, found):
+    for entry in elements:
+        if entry.label != "GRAV":
+            found.setdefault(entry, set()).add(number_)
+    _collect_gravity(reader, [entry for entry in elements if entry.label == "GRAV"], number_)
 
 
-def _make_element_load(reader, members, label, values, place, steps):
-    model = reader.model
-    if not any(values):
+def _collect_gravity(reader, entries, number_):
+    """culm's gravity acts on everything that has mass, so what the file says of sets must come to that."""
+    if not entries:
         return
-    if label == "GRAV":
-        direction = numpy.array([*values[1:4], 0.0, 0.0, 0.0][:3])
-        if set(members) != {key for key, (type, _, _) in reader.elements.items()}:
-            reader.findings.assume("gravity acts on everything, not only on the elements named", place)
-        model.element_loads.append(ElementLoad("gravity", [], values[0] * direction, place, "gravity", steps))
+    on_each = {key: numpy.zeros(3) for key, (type, _, _) in reader.elements.items() if type in SHELLS or type in BEAMS}
+    on_points = {key: numpy.zeros(3) for key, (type, _, _) in reader.elements.items() if type == "MASS"}
+    for entry in entries:
+        for key in entry.members:
+            (on_each if key in on_each else on_points).setdefault(key, numpy.zeros(3))[:] += _acceleration(reader, entry)
+    last = entries[-1].place
+    values = {tuple(numpy.round(value, 9)): value for value in (*on_each.values(), *on_points.values())}
+    pulling = [value for value in values.values() if value.any()]
+    if len(pulling) > 1:
+        refuse(last, "gravity that is another one on other elements is not read: culm has one for everything")
+    if not pulling:
+        return
+    if len(values) > 1:
+        reader.findings.assume("gravity acts on everything, not only on the elements named", last)
+    value = pulling[0]
+    for load in reader.model.element_loads:
+        if load.kind == "gravity" and numpy.allclose(load.value, value, rtol=1e-12, atol=0.0):
+            load.steps.add(number_)
+            return
+    reader.model.element_loads.append(ElementLoad("gravity", [], value, entries[0].place, "gravity", {number_}))
+
+
+def _acceleration(reader, entry):
+    direction = numpy.array([*entry.values[1:4], 0.0, 0.0, 0.0][:3])
+    length = numpy.linalg.norm(direction)
+    if entry.values[0] and not length:
+        refuse(entry.place, "GRAV needs a direction")
+    if abs(length - 1.0) > 1e-6 and length:
+        reader.findings.assume("of the direction of GRAV the length does not count, as in CalculiX", entry.place)
+    return entry.values[0] * direction / (length or 1.0)
+
+
+def _make_element_load(reader, entry, steps):
+    model, members, label, values, place = reader.model, entry.members, entry.label, entry.values, entry.place
+    if not any(values):
         return
     shells = [key for key in members if reader.elements[key][0] in SHELLS]
     beams = [key for key in members if reader.elements[key][0] in BEAMS]

@@ -20,6 +20,7 @@ from .model import (
     Step,
     Support,
     Wall,
+    supports_along,
 )
 from .profiles import i_section
 
@@ -38,9 +39,9 @@ SILENT = {
     "/GOPR", "/GST", "/NOLIST", "/NOPR", "/POST1", "/PREP7", "/SOLU", "/UNITS", "/WB", "/XML", "/NERR", "/VIEW", "/ANG", "/CLEAR",
     "AUTOTS", "CDWRITE", "CEWRITE", "CM", "CNTR", "CNVTOL", "CSYS", "DMPOPT", "DMPOPTION", "DOF", "EMUNIT", "EQSL", "EQSLV", "ERESX",
     "ETCON", "EXTOPT", "FINI", "FINISH", "IRLF", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
-    "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "PSTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "SOLVE", "STEF",
+    "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "PSTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
     "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "BFUNIF", "MPDELE", "TBDELE",
-    "SECFUNCTION", "RESUME", "SAVE", "ESYS", "LSWRITE", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
+    "SECFUNCTION", "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
     "CRPLIM", "TRNOPT", "RATE", "UIMP", "BUCOPT",
 }  # fmt: skip
 # What does nothing with zeros.
@@ -50,6 +51,9 @@ ZERO = {
 }  # fmt: skip
 TABLES = {"BISO", "MISO", "BKIN", "KINH", "MKIN", "NLISO", "CHAB", "HYPE", "ANEL", "PLAS", "CREE", "PRON", "VISC", "AHYPER"}
 KINDS = {"0": "static", "STATIC": "static", "STAT": "static", "1": "buckling", "BUCKLE": "buckling", "2": "modal", "MODAL": "modal"}
+
+# Commands whose values are told if they are not read.
+BY_VALUE = {"MP", "ET", "SECOFFSET", "SECOFF", "ANTYPE"}
 
 
 def read(path, arguments):
@@ -73,16 +77,20 @@ class Reader:
         self.material_places = {}
         self.sections = {}
         self.systems = {0: numpy.eye(3)}
+        self.curved = set()  # systems that are not Cartesian
+        self.axes = {}  # rows of the systems of nodes that are turned
         self.current = None  # the section that SECDATA adds to
         self.components = {}  # name -> nodes or elements
         self.selected = None  # nodes that ALL means; None for all
+        self.beam_places = {}  # number of a beam element -> its place in the model
         self.elements = []  # [number, material, type, real, section, system, nodes, place]
         self.supports = collections.defaultdict(dict)
         self.forces = collections.defaultdict(lambda: numpy.zeros(6))
         self.places = {}
-        self.pressures = []
+        self.pressures = {}  # (element, face) -> the command that stands
         self.gravity = numpy.zeros(3)
         self.kind, self.modes, self.nonlinear = None, 10, False
+        self.solutions = 0  # SOLVE, or LSWRITE
         self.kind_place = self.commands[0].place if self.commands else None
 
     def read(self):
@@ -94,17 +102,31 @@ class Reader:
             "LOCAL": self._local, "D": self._support, "F": self._force, "SFE": self._pressure, "ACEL": self._gravity,
             "ANTYPE": self._analysis, "NLGEOM": self._large, "MODOPT": self._count, "BUCOPT": self._count,
             "/TITLE": self._title, "TB": self._table, "CMBLOCK": self._component, "CMSEL": self._select,
+            "SOLVE": self._solve, "LSWRITE": self._solve,
             "NSEL": self._select_nodes, "ALLSEL": self._select_nodes, "EMOD": self._modify, "EMODIF": self._modify,
         }  # fmt: skip
         for command in self.commands:
             if command.name in actions:
                 actions[command.name](command)
+                self._tell_unread(command)
             elif not self._is_silent(command):
                 self.findings.leave_out(f"the command {command.name[:20]}", command.place)
         self._make_materials()
         self._make_elements()
         self._make_loads()
         return self.model
+
+    def _tell_unread(self, command):
+        """Values that nobody asked for, of commands that are read value by value."""
+        if command.name in BY_VALUE:
+            for i in command.unread():
+                if command.text(i).strip("0.+-"):
+                    self.findings.leave_out(f"field {i} of {command.name}", command.place)
+
+    def _solve(self, command):
+        self.solutions += 1
+        if self.solutions == 2:
+            self.findings.leave_out("load steps before the last one: one analysis is read, with what acts at the end", command.place)
 
     def _is_silent(self, command):
         """Whether a command says nothing about the model, or nothing but zeros."""
@@ -115,24 +137,23 @@ class Reader:
     # blocks and commands
 
     def _nodes(self, command):
-        for place, cells in command.rows:
-            self._add_node(whole(cells[0], place, "the number of a node"), self._after_integers(command, cells), place)
-
-    def _after_integers(self, command, cells):
-        """Coordinates follow three numbers, or one where NBLOCK has three fields."""
+        # coordinates follow three numbers, or one where NBLOCK has three fields, and angles of the system of the node follow them
         first = 1 if command.text(1) == "3" else 3
-        return cells[first : first + 3]
+        for place, cells in command.rows:
+            self._add_node(whole(cells[0], place, "the number of a node"), cells[first:], place)
 
     def _node(self, command):
         if command.text(1).upper().startswith("R"):
             return  # the end of a block
-        self._add_node(command.integer(1), [command.text(i) for i in (2, 3, 4)], command.place)
+        self._add_node(command.integer(1), [command.text(i) for i in range(2, 8)], command.place)
 
     def _add_node(self, number_, cells, place):
-        values = [number(cell, place, "a coordinate") if cell else 0.0 for cell in cells]
+        values = [number(cell, place, "a coordinate") if cell else 0.0 for cell in cells[:6]]
         if number_ in self.model.nodes:
             refuse(place, f"node {number_} is there twice")
         self.model.nodes[number_] = numpy.array([*values, 0.0, 0.0, 0.0][:3])
+        if any(values[3:]):
+            self.axes[number_] = self._turned([*values[3:], 0.0, 0.0][:3])
         self.findings.count("nodes")
 
     def _elements(self, command):
@@ -226,9 +247,11 @@ class Reader:
             if len(fields) > 1 and fields[1] == "ANG":
                 self.systems[command.integer(3)] = self._turned([command.real(i, default=0.0) for i in (4, 5, 6)])
             elif len(fields) > 3 and fields[3].strip("0"):
-                self.findings.leave_out("systems of coordinates that are not Cartesian", command.place)
+                self.curved.add(command.integer(3))
         else:
             self.systems[command.integer(1)] = self._turned([command.real(i, default=0.0) for i in (6, 7, 8)])
+            if command.text(2).strip("0"):
+                self.curved.add(command.integer(1))
 
     def _turned(self, degrees):
         """Rows of axes, turned about z, then the new x, then the new y."""
@@ -329,7 +352,7 @@ class Reader:
         if command.text(3).upper() != "PRES" or command.text(4) not in ("0", "", "1"):
             self.findings.leave_out(f"SFE of {command.text(3)}", command.place)
             return
-        self.pressures.append(command)
+        self.pressures[(command.integer(1), command.integer(2))] = command
         self.findings.count("lines of pressure")
 
     def _gravity(self, command):
@@ -341,6 +364,8 @@ class Reader:
         kind = command.text(1).upper()
         if kind not in KINDS:
             self.findings.leave_out(f"ANTYPE,{kind}", command.place)
+        elif self.kind not in (None, KINDS[kind]):
+            self.findings.leave_out(f"the {self.kind} analysis before: one is read, the last", self.kind_place)
         self.kind, self.kind_place = KINDS.get(kind), command.place
 
     def _large(self, command):
@@ -408,8 +433,10 @@ class Reader:
             if len(nodes) < least or 0 in nodes[:least]:
                 refuse(place, f"element {number_} of type {kind} has fewer than {least} nodes")
             if kind in SHELLS:
-                if self.keys.get((type, 1), 0) not in (0, 2) and kind in (181, 281, 63):
+                if self.keys.get((type, 1), 0) not in (0, 2) and kind in (181, 281):
                     refuse(place, f"elements SHELL{kind} with KEYOPT(1) = {self.keys[(type, 1)]} have no bending or no membrane")
+                if self.keys.get((type, 1), 0) != 0 and kind == 63:
+                    refuse(place, f"elements SHELL63 with KEYOPT(1) = {self.keys[(type, 1)]} have no bending or no membrane")
                 seen[number_] = len(self.model.shells)
                 wall = self._wall(kind, material, real, section, place)
                 axis = self._axis(nodes, system, place)
@@ -430,6 +457,8 @@ class Reader:
     def _axis(self, nodes, system, place):
         """Axis 1: x of the system of the element, or from side to side."""
         if system:
+            if system in self.curved:
+                refuse(place, f"directions in the system {system}, which is not Cartesian, are not read")
             if system not in self.systems:
                 refuse(place, f"there is no system of coordinates {system}")
             return tuple(self.systems[system][0])
@@ -490,6 +519,7 @@ class Reader:
                 up = numpy.array([0.0, 1.0, 0.0])
         up = tuple(numpy.round(up / (numpy.linalg.norm(up) or 1.0), 12))
         name = self._profile(kind, material, real, section, place)
+        self.beam_places[number_] = len(self.model.beams)
         self.model.beams.append(BeamElement(number_, tuple(nodes[:size]), name, up, place))
 
     def _profile(self, kind, material, real, section, place):
@@ -582,7 +612,7 @@ class Reader:
         for node, held in self.supports.items():
             groups[tuple(sorted(held.items()))].append(node)
         for held, nodes in groups.items():
-            self.model.supports.append(Support(nodes, dict(held), self.places[("D", nodes[0])], "support"))
+            self.model.supports += supports_along(self.axes, Support(nodes, dict(held), self.places[("D", nodes[0])], "support"))
         name = self.kind or "modal"
         if self.kind is None:
             self.findings.leave_out("the file has no ANTYPE that is read: the deck finds modes")
@@ -595,6 +625,8 @@ class Reader:
             return
         by_force = collections.defaultdict(list)
         for node, vector in self.forces.items():
+            if node in self.axes:
+                vector = numpy.concatenate([vector[:3] @ self.axes[node], vector[3:] @ self.axes[node]])
             if vector.any():
                 by_force[tuple(vector)].append(node)
         for vector, nodes in by_force.items():
@@ -607,13 +639,15 @@ class Reader:
         """On face 1, the lower one, pressure is along the normal; on face 2 against it."""
         groups = collections.defaultdict(list)
         places = {}
-        for command in self.pressures:
-            element, face = command.integer(1), command.integer(2)
+        for (element, face), command in self.pressures.items():
             if element not in self.numbers:
                 refuse(command.place, f"there is no element {element}")
             values = [command.real(i) for i in range(5, len(command.fields) + 1) if command.text(i)]
+            if element in self.beam_places and values:
+                self._add_line_load(self.beam_places[element], face, values, command)
+                continue
             if face not in (1, 2) or self.numbers[element] is None or not values:
-                self.findings.leave_out("SFE on edges or beams", command.place)
+                self.findings.leave_out("SFE on edges", command.place)
                 continue
             if any(value not in (0.0, values[0]) for value in values[1:]):
                 self.findings.assume("pressure that varies over an element is that of its first node", command.place)
@@ -622,3 +656,15 @@ class Reader:
             places.setdefault(value, command.place)
         for value, elements in groups.items():
             self.model.element_loads.append(ElementLoad("pressure", elements, value, places[value], "pressure", {0}))
+
+    def _add_line_load(self, beam, face, values, command):
+        """Force per length: face 1 pushes against z of the section, face 2 against y, face 3 along the axis."""
+        if face not in (1, 2, 3) or any(value != values[0] for value in values[1:]) or len(values) > 2:
+            self.findings.leave_out("SFE on beams that varies, or on their ends", command.place)
+            return
+        element = self.model.beams[beam]
+        x = self.model.nodes[element.nodes[1]] - self.model.nodes[element.nodes[0]]
+        x = x / numpy.linalg.norm(x)
+        z = numpy.cross(x, element.up) / numpy.linalg.norm(numpy.cross(x, element.up))
+        force = values[0] * {1: -z, 2: -numpy.cross(z, x), 3: x}[face]
+        self.model.element_loads.append(ElementLoad("line", [beam], force, command.place, "line load", {0}))

@@ -19,8 +19,14 @@ class Command:
     fields: list
     place: Place
     rows: list
+    asked: set = dataclasses.field(default_factory=set)  # numbers of fields that were asked for
+
+    def unread(self):
+        """Numbers of fields that hold something and that nobody asked for."""
+        return [i for i, text in enumerate(self.fields, 1) if text.strip() and i not in self.asked]
 
     def text(self, i):
+        self.asked.add(i)
         return self.fields[i - 1].strip() if 0 < i <= len(self.fields) else ""
 
     def integer(self, i, what="a whole number"):
@@ -40,7 +46,7 @@ def whole(text, place, what):
 
 def read_commands(path):
     """@return commands in their order, and whether they end as a file does"""
-    lines = [(Place(str(path), i), line.rstrip("\r")) for i, line in enumerate(read_text(pathlib.Path(path)).split("\n"), 1)]
+    lines = [(Place(str(path), i), line) for i, line in enumerate(read_text(pathlib.Path(path)).split("\n"), 1)]
     commands, at = [], 0
     while at < len(lines):
         place, raw = lines[at]

@@ -14,15 +14,18 @@ NUMBER = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?"
 
 @dataclasses.dataclass
 class Block:
-    """@param lines  (place, cells) of each line of data"""
+    """@param lines  (place, cells) of each line of data
+    @param asked  names of parameters that were asked for"""
 
     keyword: str
     parameters: dict  # upper case; values as they stand, None for flags
     place: Place
     lines: list
+    asked: set = dataclasses.field(default_factory=set)
 
     def get(self, name):
         """A parameter in upper case without quotation marks; None if it is not there."""
+        self.asked.add(name)
         value = self.parameters.get(name)
         return None if value is None else value.strip('"').upper()
 
@@ -33,7 +36,12 @@ class Block:
         return value
 
     def has(self, name):
+        self.asked.add(name)
         return name in self.parameters
+
+    def unread(self):
+        """Parameters that nobody asked for."""
+        return [name for name in self.parameters if name not in self.asked]
 
 
 def read_blocks(path, depth=0):
@@ -61,7 +69,8 @@ def read_blocks(path, depth=0):
 
 
 def read_text(path):
-    """The text of a file; what is not UTF-8 is taken as Latin-1."""
+    """The text of a file, with lines that end in "\\n", whichever way the file ends them; what is not UTF-8 is
+    taken as Latin-1."""
     path = pathlib.Path(path)
     if not path.is_file():
         raise CulmError(f"{path}: is not there, or no regular file", FILE_ERROR)
@@ -72,9 +81,10 @@ def read_text(path):
         line = data[: data.index(b"\0")].count(b"\n") + 1
         refuse(Place(str(path), line), "holds a zero byte, so it is no text file")
     try:
-        return data.decode("utf-8")
+        text = data.decode("utf-8-sig")  # the mark of editors of Windows is no character
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        text = data.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def number(cell, place, what="a number"):

@@ -9,7 +9,7 @@ import typing
 
 import numpy
 
-from .findings import Findings, Place
+from .findings import Findings, Place, refuse
 
 
 @dataclasses.dataclass
@@ -87,13 +87,37 @@ class PointMass:
 @dataclasses.dataclass
 class Support:
     """@param held   degrees of freedom 1 to 6 with their prescribed value
-    @param steps  numbers of the steps it holds in; None for all"""
+    @param steps  numbers of the steps it holds in; None for all
+    @param axes   rows that the degrees of freedom are along; those of space if None"""
 
     nodes: list
     held: dict
     place: Place
     name: str = "support"
     steps: typing.Optional[set] = None
+    axes: typing.Optional[numpy.ndarray] = None
+
+
+def supports_along(axes, support):
+    """The support as several, each along the axes of its nodes. @param axes  rows by node, where they are not those
+    of space"""
+    groups = {}
+    for node in support.nodes:
+        own = axes.get(node)
+        key = None if own is None else tuple(float(x) + 0.0 for x in numpy.round(own, 9).ravel())
+        groups.setdefault(key, (own, []))[1].append(node)
+    return [dataclasses.replace(support, nodes=nodes, axes=own) for own, nodes in groups.values()]
+
+
+def cylinder_axes(origin, along, place_of_node, place):
+    """Rows radial, tangential, axial at a node; `along` is the direction of the axis."""
+    z = along / numpy.linalg.norm(along)
+    arm = place_of_node - origin
+    radial = arm - (arm @ z) * z
+    if numpy.linalg.norm(radial) <= 1e-9 * max(1.0, float(numpy.linalg.norm(arm))):
+        refuse(place, "a node on the axis of a cylindrical system has no directions in it")
+    radial = radial / numpy.linalg.norm(radial)
+    return numpy.array([radial, numpy.cross(z, radial), z])
 
 
 @dataclasses.dataclass

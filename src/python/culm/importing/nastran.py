@@ -20,6 +20,8 @@ from .model import (
     Step,
     Support,
     Wall,
+    cylinder_axes,
+    supports_along,
 )
 from .nastran_file import read_deck
 
@@ -60,6 +62,7 @@ class Reader:
         for card in self.deck.cards:
             self.by_name[card.name].append(card)
         self.masses_by = 1.0  # PARAM WTMASS
+        self.offset_nodes = {}  # (node, offset) -> the end of a beam beside it
 
     def read(self):
         for name in self.by_name:
@@ -80,7 +83,17 @@ class Reader:
         for name in set(self.by_name) - READ - SILENT:
             for card in self.by_name[name]:
                 self.findings.leave_out(name, card.place)
+        self._tell_unread()
         return self.model
+
+    def _tell_unread(self):
+        """Fields that hold something and that nobody asked for, of cards that were read beyond their number."""
+        for name in READ:
+            harmless = HARMLESS.get(name, ())
+            for card in self.by_name[name]:
+                for i in card.unread() if card.asked - {1} else ():
+                    if i != 1 and i not in harmless:
+                        self.findings.leave_out(f"field {i} of {name}", card.place)
 
     def _cards(self, *names):
         for name in names:
@@ -152,18 +165,26 @@ class Reader:
         return numpy.array([card.real(first + k, default=0.0) for k in range(3)]) @ axes
 
     def _nodes(self):
-        self.turned = {}  # nodes whose degrees of freedom are those of a system
+        self.axes = {}  # rows of the system of a node's degrees of freedom
         self.held = {}  # by the cards of the nodes
         for card in self._cards("GRID"):
             number = self._unique(self.model.nodes, card, "node")
             self.model.nodes[number] = self._position(card, 2)
             if card.integer(6, default=0) > 0:
-                self._find(self.systems, card.integer(6), card, "coordinate system")
-                self.turned[number] = card
+                self.axes[number] = self._axes_at(self.model.nodes[number], card, 6)
             if card.text(7).strip("0"):
                 self.held[number] = (card.text(7), card)
         if not self.model.nodes:
             refuse(self.deck.cards[0].place if self.deck.cards else self.path, "the file has no GRID")
+
+    def _axes_at(self, position, card, i):
+        number = card.integer(i)
+        origin, axes = self._find(self.systems, number, card, "coordinate system")
+        if number not in self.curved:
+            return axes
+        if self.curved[number].name == "CORD2S":
+            refuse(card.place, f"directions in the system {number}, CORD2S, are not read")
+        return cylinder_axes(origin, axes[2], position, card.place)
 
     def _materials(self):
         for card in self._cards("MAT1"):
@@ -198,17 +219,16 @@ class Reader:
             number = self._unique(self.properties, card, "property")
             name = self._material(card, 2)
             thickness = self._thickness(card, 3)
+            self._tell_bending(card)
             for i, usual, what in ((5, 1.0, "12 I/T^3"), (7, 0.8333, "TS/T")):
                 if abs(card.real(i, default=usual) - usual) > 0.01 * usual:
                     self.findings.leave_out(f"{what} of PSHELL", card.place)
-            if card.real(8, default=0.0):
-                self.findings.leave_out("mass per area (NSM) of PSHELL", card.place)
-            self._wall(number, [Layer(thickness, name)], card)
+            self._wall(number, self._loaded([Layer(thickness, name)], card.real(8, default=0.0)), card)
         for card in self._cards("PCOMP"):
             number = self._unique(self.properties, card, "property")
             layers = []
             for i in range(9, len(card.fields) + 1, 4):
-                if any(card.text(k) for k in (i, i + 1, i + 2)):
+                if any(card.text(k) for k in range(i, i + 4)):
                     before = layers[-1] if layers else None
                     name = self._material(card, i) if card.text(i) else before and before.material
                     thickness = self._thickness(card, i + 1) if card.text(i + 1) else before and before.thickness
@@ -219,12 +239,12 @@ class Reader:
                 refuse(card.place, "PCOMP without layers")
             if card.text(8).upper() == "SYM":
                 layers += layers[::-1]
+            elif card.text(8):
+                refuse(card.place, f"PCOMP with LAM = {card.text(8)[:10]} is not read; SYM and none are")
             total = sum(layer.thickness for layer in layers)
             if card.text(2) and abs(card.real(2) + 0.5 * total) > 1e-6 * total:
                 self.findings.leave_out("Z0 of PCOMP: the nodes are in the middle of the layers", card.place)
-            if card.real(3, default=0.0):
-                self.findings.leave_out("mass per area (NSM) of PCOMP", card.place)
-            self._wall(number, layers, card)
+            self._wall(number, self._loaded(layers, card.real(3, default=0.0)), card)
         for card in self._cards("PBAR"):
             self._bar(card, *(card.real(i, default=0.0) for i in (3, 4, 5, 6, 19)), card.real(7, default=0.0))
             if not any(card.text(i) for i in (17, 18)):
@@ -233,6 +253,32 @@ class Reader:
             self._profile(card)
         for card in self._cards("PBEAM"):
             self._constant_beam(card)
+
+    def _tell_bending(self, card):
+        """A shell of culm bends, by the material of its membrane, and shears."""
+        bending = card.text(4)
+        if not bending or bending.startswith("-"):
+            self.findings.leave_out("PSHELL without bending or in plane strain (MID2): shells of culm bend", card.place)
+        elif bending != card.text(2):
+            refuse(card.place, "PSHELL with another material for bending (MID2) is not read")
+        if not card.text(6):
+            self.findings.assume("PSHELL without MID3 does not shear across; culm's shells do", card.place)
+        elif card.text(6) != card.text(2):
+            self.findings.leave_out("another material for shear across (MID3 of PSHELL)", card.place)
+
+    def _loaded(self, layers, per_area):
+        """Layers with what is not structural, spread over their thickness."""
+        if not per_area:
+            return layers
+        denser = per_area * self.masses_by / sum(layer.thickness for layer in layers)
+        found = []
+        for layer in layers:
+            bare = self.model.materials[layer.material]
+            name = f"{layer.material} with {denser:.6g} kg per m3"
+            values = {**bare.values, "Density": bare.values["Density"] + denser}
+            self.model.materials.setdefault(name, Material(bare.type, values, bare.place))
+            found.append(Layer(layer.thickness, name, layer.angle))
+        return found
 
     def _thickness(self, card, i):
         value = card.real(i, "a thickness")
@@ -284,7 +330,6 @@ class Reader:
         rest = [card.text(i) for i in range(9 + needed[shape], len(card.fields) + 1)]
         if card.name == "PBEAML" and any(rest[1:]):
             self.findings.leave_out("stations of PBEAML: the section of its first end is taken all along", card.place)
-        density = solid["Density"]
         if shape == "ROD":
             type, values, area = "Circle", {"Radius": sizes[0]}, numpy.pi * sizes[0] ** 2
         elif shape == "TUBE":
@@ -298,14 +343,20 @@ class Reader:
             type = "Box"
             values = {"Width": up, "Height": across, "Flange Thickness": web, "Web Thickness": flange}
             area = across * up - (across - 2 * web) * (up - 2 * flange)
-        self._section(number, type, {**solid, **values}, density * area, card)
+        if card.real(9 + needed[shape], default=0.0):  # what is not structural, spread over the section
+            solid = {**solid, "Density": solid["Density"] + card.real(9 + needed[shape]) * self.masses_by / area}
+        self._section(number, type, {**solid, **values}, solid["Density"] * area, card)
 
     def _constant_beam(self, card):
-        stations = [card.text(i).upper() for i in range(17, len(card.fields) + 1, 8)]
-        if any(station in ("YES", "YESA", "NO") for station in stations):
+        i = 17
+        while card.text(i).upper() in ("YES", "YESA", "NO"):
             self.findings.leave_out("stations of PBEAM: the section of its first end is taken all along", card.place)
+            i += 16 if card.text(i).upper() == "YES" else 8
+        factors = (card.real(i, default=1.0), card.real(i + 1, default=1.0))
+        if any(card.real(k, default=0.0) for k in range(i + 8, i + 16)):
+            self.findings.leave_out("centres of mass and neutral axes beside the axis (PBEAM)", card.place)
         A, I1, I2, I12, J, mass = (card.real(i, default=0.0) for i in (3, 4, 5, 6, 7, 8))
-        self._bar(card, A, I1, I2, J or I1 + I2, I12, mass, (1.0, 1.0))
+        self._bar(card, A, I1, I2, J or I1 + I2, I12, mass, factors)
         if not J:
             self.findings.assume("PBEAM without J: J = I1 + I2", card.place)
 
@@ -353,18 +404,36 @@ class Reader:
         for card in self._cards("CBAR", "CBEAM"):
             number = self._unique(self.places, card, "element")
             a, b = self._node(card, 3), self._node(card, 4)
+            systems = card.text(8).upper() or "GGG"
+            if not re.fullmatch("[BG][GEO]{2}", systems):
+                refuse(card.place, f"{card.name} with OFFT = {systems[:8]} is not read")
             if card.text(6) or card.text(7) or not re.fullmatch("[0-9]+", card.text(5)):
-                if a in self.turned:
-                    refuse(card.place, "the direction of a beam in the system of its node is not read")
                 up = numpy.array([card.real(5 + i, default=0.0) for i in range(3)])
+                up = up @ self.axes[a] if a in self.axes and systems[0] == "G" else up
             else:
                 up = self.model.nodes[self._node(card, 5)] - self.model.nodes[a]
             if any(card.text(i).strip("0") for i in (9, 10)):
                 self.findings.leave_out("pins of beams: their ends are held fast", card.place)
-            if any(card.real(i, default=0.0) for i in range(11, 17)):
-                self.findings.leave_out("offsets of beams: their axes run through the nodes", card.place)
+            ends = tuple(self._beside(node, card, 11 + 3 * i, systems[1 + i]) for i, node in enumerate((a, b)))
             self.places[number] = ("beam", len(self.model.beams))
-            self.model.beams.append(BeamElement(number, (a, b), self._property(card, "beam"), tuple(up), card.place))
+            self.model.beams.append(BeamElement(number, ends, self._property(card, "beam"), tuple(up), card.place))
+
+    def _beside(self, node, card, field, system):
+        """The end of a beam: the node, or one that an arm holds beside it."""
+        offset = numpy.array([card.real(field + i, default=0.0) for i in range(3)])
+        if not offset.any():
+            return node
+        if system != "G":
+            refuse(card.place, f"offsets in the axes of the element (OFFT {card.text(8)}) are not read")
+        offset = offset @ self.axes[node] if node in self.axes else offset
+        key = (node, tuple(numpy.round(offset, 9)))
+        if key not in self.offset_nodes:
+            end = f"{node} offset {len(self.offset_nodes) + 1}"
+            self.offset_nodes[key] = end
+            self.model.nodes[end] = self.model.nodes[node] + offset
+            self.model.couplings.append(Coupling(node, [end], card.place, "offset"))
+            self.findings.assume("offsets of beams are rigid arms", card.place)
+        return self.offset_nodes[key]
 
     def _masses(self):
         for card in self._cards("CONM2"):
@@ -523,19 +592,14 @@ class Reader:
     def _support(self, nodes, freedoms, value, card, name, steps):
         if not re.fullmatch("[1-6]+", freedoms):
             refuse(card.place, f"expected degrees of freedom, digits 1 to 6, found '{freedoms}'")
-        turned = [node for node in nodes if node in self.turned]
         held = {int(one): value for one in freedoms}
-        if turned and not set(held) >= {1, 2, 3, 4, 5, 6}:
-            for i in (0, 3):
-                if set(held) & {i + 1, i + 2, i + 3} and not set(held) >= {i + 1, i + 2, i + 3}:
-                    refuse(card.place, f"node {turned[0]} is held in a system of coordinates of its own, which is not read")
-        self.model.supports.append(Support(list(nodes), held, card.place, name, steps))
+        self.model.supports += supports_along(self.axes, Support(list(nodes), held, card.place, name, steps))
 
     def _read_loads(self):
         """Load cards by the number of their set."""
         self.loads = []
         self.reached = set()
-        for name in ("FORCE", "MOMENT", "PLOAD4", "PLOAD2", "GRAV"):
+        for name in ("FORCE", "MOMENT", "PLOAD4", "PLOAD2", "PLOAD1", "GRAV"):
             for card in self._cards(name):
                 self.loads.append((card.integer(1, "the number of a load set"), card))
 
@@ -577,6 +641,9 @@ class Reader:
             value = factor * card.real(3) * self._vector(card, 2, 4)
             self.model.element_loads.append(ElementLoad("gravity", [], value, card.place, name, {step}))
             return
+        if card.name == "PLOAD1":
+            self._add_line_load(card, factor, step, name)
+            return
         if card.name == "PLOAD4":
             values = [card.real(3)] + [card.real(i) for i in (4, 5, 6) if card.text(i)]
             if max(values) != min(values):
@@ -595,8 +662,45 @@ class Reader:
         chosen = [self.places[e][1] for e in elements if self.places.get(e, ("",))[0] == "shell"]
         self.model.element_loads.append(ElementLoad("pressure", chosen, factor * value, card.place, name, {step}))
 
+    def _add_line_load(self, card, factor, step, name):
+        """A force per length that is the same all along an element."""
+        kind, element = self._find(self.places, card.integer(2), card, "element")
+        direction, scale = card.text(3).upper(), card.text(4).upper()
+        first, last = card.real(5, default=0.0), card.real(7, default=-1.0)
+        if kind != "beam" or direction not in LINE_LOADS or scale not in ("LE", "FR"):
+            self.findings.leave_out(f"PLOAD1 of {direction or 'no direction'}, {scale or 'no scale'}", card.place)
+            return
+        beam = self.model.beams[element]
+        axis = self.model.nodes[beam.nodes[1]] - self.model.nodes[beam.nodes[0]]
+        length = float(numpy.linalg.norm(axis))
+        values = (card.real(6), card.real(8, default=card.real(6)))
+        whole = 1.0 if scale == "FR" else length
+        if first != 0.0 or abs(last - whole) > 1e-6 * whole or values[0] != values[1]:
+            self.findings.leave_out("PLOAD1 on a part of an element, at a point of it, or that varies", card.place)
+            return
+        x = axis / length
+        z = numpy.cross(x, beam.up)
+        z = z / (numpy.linalg.norm(z) or 1.0)
+        of_element = numpy.array([x, numpy.cross(z, x), z])
+        axes = of_element if direction.endswith("E") else numpy.eye(3)
+        force = factor * values[0] * axes["XYZ".index(direction[1])]
+        self.model.element_loads.append(ElementLoad("line", [element], force, card.place, name, {step}))
 
+
+LINE_LOADS = ("FX", "FY", "FZ", "FXE", "FYE", "FZE")
+# Fields that say nothing about the mechanics: names, points for stresses, temperatures, strengths.
+HARMLESS = {
+    "GRID": (8,),
+    "MAT1": range(6, 13),
+    "MAT8": range(9, 20),
+    "PBAR": range(9, 17),
+    "PBARL": (3,),
+    "PBEAML": (3,),
+    "PBEAM": range(9, 17),
+    "PSHELL": (9, 10),
+    "PCOMP": (4, 5, 6, 7, *range(12, 1000, 4)),
+}
 READ = {
     "GRID", "MAT1", "MAT8", "PSHELL", "PCOMP", "PBAR", "PBARL", "PBEAML", "PBEAM", "CBAR", "CBEAM", "CONM2", "RBE2", "RBE3",
-    "SPC", "SPC1", "FORCE", "MOMENT", "PLOAD4", "PLOAD2", "GRAV", *SHELLS,
+    "SPC", "SPC1", "FORCE", "MOMENT", "PLOAD4", "PLOAD2", "PLOAD1", "GRAV", *SHELLS,
 }  # fmt: skip

@@ -17,9 +17,11 @@ class Card:
     name: str
     fields: list
     place: Place
+    asked: set = dataclasses.field(default_factory=set)  # numbers of fields that were asked for
 
     def text(self, i):
         """Field i, from 1; empty if it is not there."""
+        self.asked.add(i)
         return self.fields[i - 1].strip() if 0 < i <= len(self.fields) else ""
 
     def integer(self, i, what="a whole number", default=None):
@@ -63,6 +65,10 @@ class Card:
                 found.append(self._whole(words[i]))
                 i += 1
         return found
+
+    def unread(self):
+        """Numbers of fields that hold something and that nobody asked for."""
+        return [i for i, text in enumerate(self.fields, 1) if text.strip() and i not in self.asked]
 
     def has_thru(self, first):
         return any(self.text(i).upper() == "THRU" for i in range(first, len(self.fields) + 1))
@@ -116,27 +122,37 @@ def _lines(path, depth):
 
 
 def _cards(lines):
-    cards = []
+    cards, mark = [], ""
     for place, text in lines:
-        name, fields = _fields(text)
-        if name == "":
+        name, fields, next_mark = _fields(text, place)
+        if name[:1] in ("", "+", "*"):
             if not cards:
                 refuse(place, "a line that goes on, without a card before it")
+            own = name.strip("+*")
+            if own and mark and own != mark:
+                refuse(place, f"goes on a card that calls its next line '{mark}', not '{own}': such lines must follow their card")
+            if len(fields) == 8:  # after half a line of wide fields
+                cards[-1].fields += [""] * (-len(cards[-1].fields) % 8)
             cards[-1].fields += fields
         else:
             cards.append(Card(name, fields, place))
+        mark = next_mark.strip("+*")
     return cards
 
 
-def _fields(text):
-    """(name or empty, fields) of a line."""
+def _fields(text, place):
+    """(name, or what calls a line that goes on; fields; what calls the next line)"""
     if "," in text:
         first, *rest = [cell.strip() for cell in text.split(",")]
-        size = 4 if first.endswith("*") else 8
+        size = 4 if first.startswith("*") or first.endswith("*") else 8
+        mark = rest[size] if len(rest) > size else ""
+        if any(rest[size + 1 :]) or re.fullmatch(REAL, mark.upper()):
+            refuse(place, f"a line has more than {size} values: they go on in a line that begins with +")
         rest = rest[:size] + [""] * (size - len(rest))
     else:
         first = text[:8].strip()
         width, size = (16, 4) if first.endswith("*") or first.startswith("*") else (8, 8)
         rest = [text[8 + i * width : 8 + (i + 1) * width].strip() for i in range(size)]
-    name = first.rstrip("*").upper()
-    return ("" if not name or name[0] in "+*" else name), rest
+        mark = text[72:80].strip()
+    name = first.upper()
+    return (name if name[:1] in "+*" else name.rstrip("*")), rest, mark.upper()

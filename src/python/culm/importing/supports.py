@@ -29,7 +29,7 @@ def _add_support(support, model, places, quads, constraints):
     others = [node for node in nodes if not places.leader(node).is_shell]
     made = []
     if others:
-        made += _hold(others, _of_triads(support.held), support, places, constraints)
+        made += _hold(others, _of_triads(support.held, _axes(support)), support, places, constraints)
     groups = collections.defaultdict(list)
     for node in shells:
         groups[_of_shell(support, node, places, model)].append(node)
@@ -63,12 +63,16 @@ def _free_name(name, constraints):
     return f"{name} {number}"
 
 
+def _axes(support):
+    return UNIT if support.axes is None else support.axes
+
+
 def _entry(kind):
     type, values, only = kind
     return type, dict(values), only
 
 
-def _of_triads(held):
+def _of_triads(held, axes):
     """Entries for nodes with a triad: beams and bodies."""
     moving = any(held.values())
     at = set(held)
@@ -77,32 +81,32 @@ def _of_triads(held):
             return [("Rigid Support", {}, None)]
         if at >= TRANSLATIONS and len(at & ROTATIONS) == 2:
             (free,) = ROTATIONS - at
-            return [("Revolute Support", {"Axis": UNIT[free - 4]}, None)]
+            return [("Revolute Support", {"Axis": axes[free - 4]}, None)]
     entries = []
     left = dict(held)
     for i in (1, 2, 3):
         across = ROTATIONS - {i + 3}
         if not moving and i in left and across <= set(left) and not TRANSLATIONS <= at:
-            entries.append(("Symmetry", {"Normal": UNIT[i - 1]}, None))
+            entries.append(("Symmetry", {"Normal": axes[i - 1]}, None))
             for one in (i, *across):
                 del left[one]
-    entries += _translations(left)
+    entries += _translations(left, axes)
     for i in sorted(ROTATIONS & set(left)):
-        values = {"Axis": UNIT[i - 4]}
+        values = {"Axis": axes[i - 4]}
         if left[i]:
             values["Angle"] = left[i]
         entries.append(("Rotation", values, None))
     return entries
 
 
-def _translations(held):
+def _translations(held, axes):
     at = TRANSLATIONS & set(held)
     if at == TRANSLATIONS:
-        motion = numpy.array([held[i] for i in (1, 2, 3)])
+        motion = numpy.array([held[i] for i in (1, 2, 3)]) @ axes
         return [("Spherical Support", {"Translation": motion} if motion.any() else {}, None)]
     entries = []
     for i in sorted(at):
-        values = {"Direction": UNIT[i - 1]}
+        values = {"Direction": axes[i - 1]}
         if held[i]:
             values["Translation"] = held[i]
         entries.append(("Simple Support", values, None))
@@ -121,8 +125,8 @@ def _of_shell(support, node, places, model):
     rotations = sorted(ROTATIONS & set(held) - set(turned))
     if set(held) >= TRANSLATIONS and rotations == [4, 5, 6] and not any(held.values()):
         return _frozen([("Rigid Support", {}, None)])
-    entries = _translations(held)
-    kept = [_held_directions(rotations, director) for director in at]
+    entries = _translations(held, _axes(support))
+    kept = [_held_directions(rotations, director, _axes(support)) for director in at]
     if rotations and not any(len(one) for one in kept):
         model.findings.assume(
             "supports against turning about the normal of a shell hold nothing: its nodes have no such rotation",
@@ -137,9 +141,9 @@ def _of_shell(support, node, places, model):
     return _frozen(entries)
 
 
-def _held_directions(rotations, director):
+def _held_directions(rotations, director, axes):
     """An orthonormal basis of all a × d, with axes of space where they fit."""
-    moves = numpy.array([numpy.cross(UNIT[i - 4], director) for i in rotations]).reshape(-1, 3)
+    moves = numpy.array([numpy.cross(axes[i - 4], director) for i in rotations]).reshape(-1, 3)
     moves = moves[numpy.linalg.norm(moves, axis=1) > DRILLING]
     if not len(moves):
         return []

@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""What files of users have: marks and line ends of other systems, systems of nodes, loads given twice, masses that are not
+structural, offsets, lines that go on. Beside numbers counted here; what is not read is told by name or refused."""
+
+import sys
+
+import numpy
+from reading import made_of_text
+from culm.errors import CulmError
+
+INP = """*Heading
+ a plate, one element
+*node, nset=all
+1,0,0,0
+2,1,0,0
+3,1,1,0
+4,0,1,0
+9,5,5,5
+*element,type=s4r,elset=e
+1,1,2,3,4
+*material,name=m
+*elastic
+2e11,0.3
+*density
+1000.,
+*shell section,elset=e,material=m
+0.01,5
+*boundary
+1,1,6
+"""
+STEP = "*step\n*static\n{}*end step\n"
+BDF = "SOL 101\nCEND\nSPC=1\nLOAD=2\nBEGIN BULK\nMAT1,1,2.+11,,.3,1000.\nSPC1,1,123456,1\n{}ENDDATA\n"
+SQUARE = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nCQUAD4,1,1,1,2,3,4\nFORCE,2,3,,1.,1.,0.,0.\n"
+BARS = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\nCBAR,1,1,1,2,0.,0.,1.\nCBAR,2,1,2,3,0.,0.,1.{}\nFORCE,2,3,,1.,1.,0.,0.\n"
+CDB = """/PREP7
+ET,1,181
+ET,2,188
+NBLOCK,6,SOLID,5,5
+(3i9,6e21.13e3)
+        1        0        0
+        2        0        0 1.0000000000000E+000
+        3        0        0 1.0000000000000E+000 1.0000000000000E+000 0.0000000000000E+000 90.
+        4        0        0 0.0000000000000E+000 1.0000000000000E+000
+        5        0        0 3.0000000000000E+000 1.0000000000000E+000
+N,R5.3,LOC,       -1,
+EBLOCK,19,SOLID,2,2
+(19i9)
+        1        1        1        1        0        0        0        0        4        0        1        1        2        3        4
+        1        2        1        2        0        0        0        0        2        0        2        3        5
+       -1
+MP,EX,1,2e11
+MP,PRXY,1,0.3
+MP,DENS,1,1000
+SECTYPE,1,SHELL
+SECDATA,0.01,1
+SECTYPE,2,BEAM,RECT
+SECDATA,0.1,0.2
+/SOLU
+ANTYPE,0
+D,1,ALL,0
+"""
+
+
+def inp(*blocks, base=INP):
+    return made_of_text("abaqus", base + "".join(STEP.format(block) for block in blocks))
+
+
+def bdf(cards):
+    return made_of_text("nastran", BDF.format(cards), "model.bdf")
+
+
+def cdb(lines):
+    return made_of_text("ansys", CDB + lines + "SOLVE\nFINISH\n", "model.cdb")
+
+
+def node_force(made, step=0):
+    return sum(len(load.nodes) * load.vector for load in made.made.node_loads if step in load.steps)
+
+
+def pressures(made, step=0):
+    return [load.value for load in made.made.element_loads if load.kind == "pressure" and step in load.steps]
+
+
+def one(made, kind):
+    (found,) = [load for load in made.made.element_loads if load.kind == kind]
+    return found
+
+
+def directions(made):
+    """Along which supports hold, but for full clamps."""
+    turned = [support for support in made.made.supports if support.axes is not None and set(support.held) <= {1, 2, 3}]
+    return [support.axes[[i - 1 for i in sorted(support.held)]] for support in turned]
+
+
+def of_abaqus():
+    """Sums as CalculiX 2.20 has them: loads of one step add up, those of later steps replace, element by element."""
+    twice = inp("*cload\n3,1,10\n*cload\n3,1,10\n*dload\ne,p,5\ne,p,5\n", "*cload\n3,1,4\n*dload\n1,p,3\n")
+    other_system = made_of_text(
+        "abaqus", ("\ufeff" + INP + STEP.format("*cload\n3,1,10\n")).replace("\n", "\r\n").replace(",0,0", ",\t0,0")
+    )
+    turned = inp("*cload\n3,1,10\n", base=INP + "*transform,nset=all,type=c\n0.5,0.5,-1,0.5,0.5,1\n*boundary\n2,2\n")
+    pulled = inp("*dload\n1,grav,9.81,0,0,-2\n,grav,5,1,0,0\n")
+    moved = inp("*boundary\n3,3,3,0.01\n", "*boundary\n3,3,3,0.02\n")
+    at_3 = {step: [s.held[3] for s in moved.made.supports if s.nodes == [3] and step in s.steps] for step in (0, 1)}
+    yield "forces of one step add up", numpy.allclose(node_force(twice), [20, 0, 0, 0, 0, 0])
+    yield "a force of a later step replaces", numpy.allclose(node_force(twice, 1), [4, 0, 0, 0, 0, 0])
+    yield "pressures of one step add up, of a later one replace", pressures(twice) == [5, 5] and pressures(twice, 1) == [3]
+    yield "marks and line ends of Windows, tabs", other_system.mass == 10 and node_force(other_system)[0] == 10
+    yield "forces along a cylinder", numpy.allclose(node_force(turned), numpy.array([1, 1, 0, 0, 0, 0]) * 10 / 2**0.5)
+    yield "supports along a cylinder", any(numpy.allclose(x, [[0.5**0.5, 0.5**0.5, 0]]) for x in directions(turned))
+    yield "gravities add up, by direction", numpy.allclose(one(pulled, "gravity").value, [5, 0, -9.81])
+    yield "what is moved anew is moved once", at_3 == {0: [0.01], 1: [0.02]}
+    yield "a density of a section is told", "DENSITY of *SHELL SECTION" in inp(
+        "", base=INP.replace("e,material", "e,density=3,material")
+    ).findings.left_out
+
+
+def of_nastran():
+    shell = "PSHELL,1,1,.01,1,,1,,2.5\n"
+    cylinder = bdf(shell + SQUARE.replace("0.,1.,0.\n", "0.,1.,0.,5\n") + "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nSPC1,1,1,4\n")
+    loaded = bdf("PCOMP,1,,4.\n,1,.01,0.,YES,1,.02,90.\n" + SQUARE)
+    rod = bdf("PBARL,1,1,,ROD\n,.1,3.\n" + BARS.format("\n,,,0.,0.,.2,0.,0.,.2") + "PLOAD1,2,2,FYE,FR,0.,5.,1.,5.\n")
+    beams = BARS.replace("CBAR", "CBEAM").format("")
+    shearing = bdf("PBEAM,1,1,.01,1.-5,2.-5,,3.-5\n,,,,,,,,\n,.5,.6\n" + beams)
+    membrane = bdf("PSHELL,1,1,.01\n" + SQUARE.replace("3,4\n", "3,4\n,,.01,.01,.02,.02\n"))
+    G = 2e11 / 2.6
+    arm = rod.made.couplings[0]
+    yield "mass that is not structural, of shells", cylinder.mass == 12.5 and abs(loaded.mass - 34) < 1e-12
+    yield "mass that is not structural, of bars", abs(rod.mass - (1000 * numpy.pi * 0.1**2 + 3) * 2) < 1e-9
+    yield "supports along a cylinder", any(numpy.allclose(x, [[0, 1, 0]]) for x in directions(cylinder))
+    yield "arms to a beam beside its nodes", numpy.allclose(rod.made.nodes[arm.followers[0]] - rod.made.nodes[arm.reference], [0, 0, 0.2])
+    yield "a load along a line", numpy.allclose(one(rod, "line").value, [0, 0, 5])
+    yield "shear of PBEAM", numpy.isclose(shearing.made.sections["beam 1"].values["GA1"], 0.5 * G * 0.01)
+    yield "thicknesses of an element and a membrane are told", {"field 10 of CQUAD4"} < set(membrane.findings.left_out)
+
+
+def of_ansys():
+    turned = cdb("F,3,FX,10\nD,3,UX,0\nSFE,1,1,PRES,0,5\nSFE,1,1,PRES,0,7\nSFE,2,1,PRES,0,4,4\nMP,EX,1,2e11,1e6\n")
+    both = cdb("SOLVE\nFINISH\n/SOLU\nANTYPE,2\n")
+    yield "a force in the system of its node", numpy.allclose(node_force(turned), [0, 10, 0, 0, 0, 0])
+    yield "a support in the system of its node", any(numpy.allclose(x, [[0, 1, 0]]) for x in directions(turned))
+    yield "the last pressure on a face stands", pressures(turned) == [7]
+    # the beam lies along x, z of its section is up
+    yield "a load along a line", numpy.allclose(one(turned, "line").value, [0, 0, -4])
+    yield "a modulus that depends on temperature is told", "field 4 of MP" in turned.findings.left_out
+    yield "the first of two analyses is told", any("static analysis before" in text for text in both.findings.left_out)
+
+
+REFUSED = {
+    "data in a file of its own": ("abaqus", INP.replace("*node,", "*node,input=x.inp,"), "*NODE with INPUT"),
+    "a tie": ("abaqus", INP + "*tie,name=t\na,b\n", "*TIE is not read"),
+    "an orientation with another origin is not one about it": (
+        "abaqus",
+        INP.replace("*shell section,", "*orientation,name=o\n1,0,0,1,0,0,1,1,1\n*shell section,orientation=o,"),
+        "the two points of a system are on one line",
+    ),
+    "a line of another card": ("nastran", BDF.format("PCOMP   1" + " " * 63 + "+A\n+B      1       .1      0.\n"), "calls its next line 'A'"),
+    "more values than a line has": ("nastran", BDF.format("SPC1,1,123,1,2,3,4,5,6,7,8\n"), "more than 8 values"),
+    "layers that do not bend": ("nastran", BDF.format("PCOMP,1,,,,,,,MEM\n,1,.1,0.\n" + SQUARE), "LAM = MEM"),
+    "directions on a cylinder": (
+        "ansys",
+        CDB.replace("        1        1        1        1        0        0", "        1        1        1        1        9        0")
+        + "LOCAL,9,1\n",
+        "which is not Cartesian",
+    ),
+}
+
+
+def main():
+    complaints = []
+    for facts in (of_abaqus, of_nastran, of_ansys):
+        complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
+    for name, (format, text, words) in REFUSED.items():
+        try:
+            made_of_text(format, text)
+            complaints.append(f"{name}: is not refused")
+        except CulmError as error:
+            if words not in str(error):
+                complaints.append(f"{name}: {error}")
+    sys.exit("\n".join(complaints) or 0)
+
+
+if __name__ == "__main__":
+    main()
