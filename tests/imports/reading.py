@@ -43,7 +43,9 @@ def made_of_text(format, data, name="sample.inp"):
     with tempfile.TemporaryDirectory() as folder:
         for one, content in files.items():
             content = content.encode() if isinstance(content, str) else content
-            (pathlib.Path(folder) / one).write_bytes(content)
+            path = pathlib.Path(folder) / one
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
         made = Made(format, pathlib.Path(folder) / next(iter(files)))
         made.text = made.text.replace(folder, "")  # in the places of comments
         return made

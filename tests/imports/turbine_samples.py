@@ -1,6 +1,7 @@
 """A blade in the forms of windIO and HAWC2 and a bar as a table, written by hand."""
 
 import numpy
+import yaml
 
 UPPER = numpy.triu_indices(6)
 GRID = [0.0, 0.3, 1.0]
@@ -49,6 +50,26 @@ def windio():
         text += "    internal_structure_2d_fem:\n      outfitting_factor: 1.1\n      layers:\n        - name: wall\n"
         text += "          material: steel\n          thickness:\n" + table(" " * 12, [0.0, 1.0], [0.05, 0.03])
     return text + "materials:\n  - name: steel\n    orth: 0\n    rho: 7800\n    E: 200.e+9\n    nu: 0.3\n    G: 79.3e+9\n"
+
+
+def windio_2():
+    """The same in the second form of the ontology."""
+    root = yaml.safe_load(windio())
+    parts = root["components"]
+    six = parts["blade"].pop("elastic_properties_mb")["six_x_six"]
+    parts["blade"]["reference_axis"] = six["reference_axis"]
+    parts["blade"]["outer_shape"] = {"twist": {"grid": GRID, "values": numpy.degrees(six["twist"]["values"]).tolist()}}
+    columns = {f"K{i + 1}{j + 1}": [float(matrix[i, j]) for matrix in STIFF] for i, j in zip(*UPPER)}
+    mass = {"mass": MASSES, "cm_x": [0.1] * 3, "cm_y": [-0.05] * 3}
+    mass |= {name: [factor * m for m in MASSES] for name, factor in (("i_edge", 0.4), ("i_flap", 0.2), ("i_plr", 0.6), ("i_cp", -0.01))}
+    elastic = {"stiffness_matrix": {"grid": GRID, **columns}, "inertia_matrix": {"grid": GRID, **mass}}
+    parts["blade"]["structure"] = {"elastic_properties": elastic}
+    for name in ("monopile", "tower"):
+        shape = parts[name].pop("outer_shape_bem")
+        parts[name]["reference_axis"] = shape.pop("reference_axis")
+        parts[name]["outer_shape"] = shape
+        parts[name]["structure"] = parts[name].pop("internal_structure_2d_fem")
+    return yaml.safe_dump({"windIO_version": "2.0", **root}, sort_keys=False)
 
 
 # r, m, x_cg, y_cg, ri_x, ri_y, x_sh, y_sh, E, G, I_x, I_y, I_p, k_x, k_y, A, pitch, x_e, y_e

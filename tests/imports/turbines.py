@@ -56,6 +56,25 @@ def windio_is_whole(complaints):
         complaints.append("the twist turns about -z")
 
 
+def both_forms_of_windio_are_alike(complaints):
+    first, second = (made_of_text("windio", text, "turbine.yaml") for text in (samples.windio(), samples.windio_2()))
+    for one, other in zip(entries(first, "Sections").values(), entries(second, "Sections").values()):
+        if not all(numpy.allclose(values(one[name]), values(other[name]), rtol=1e-12) for name in ("Stiffness", "Mass")):
+            complaints.append("sections of windIO 2 are not those of the first form")
+    twists = [values(curve_of(made, "blade")["Pre-Twist"]) for made in (first, second)]
+    if not numpy.allclose(*twists) or abs(second.mass / first.mass - 1.0) > 1e-12:
+        complaints.append(f"the blade of windIO 2 is another one: {twists}, {second.mass} kg")
+
+
+def hawc2_finds_its_files(complaints):
+    """From the folder that HAWC2 is started in, which is above that of the htc file."""
+    files = samples.hawc2()
+    htc = files["blade.htc"].replace("./blade.st", "./data/blade.st").replace("type timo", "concentrated_mass 1 0 0 0 50 1 1 1 ;\n    type timo")
+    made = made_of_text("hawc2", {"model/htc/blade.htc": htc, "model/data/blade.st": files["blade.st"]})
+    if made.mass != made_of_text("hawc2", files).mass or "concentrated_mass of the body" not in made.findings.left_out:
+        complaints.append("a body of HAWC2 with files beside the folder of its htc file is another one, or its mass is lost in silence")
+
+
 def tower_weighs(program, complaints):
     """culm's mass of the imported tower, by its own integration of the deck."""
     with tempfile.TemporaryDirectory() as folder:
@@ -131,6 +150,8 @@ def main():
     program = Program(parser.parse_args().culm)
     complaints = []
     windio_is_whole(complaints)
+    both_forms_of_windio_are_alike(complaints)
+    hawc2_finds_its_files(complaints)
     tower_weighs(program, complaints)
     hawc2_has_its_centres(complaints)
     bar_vibrates(program, complaints)

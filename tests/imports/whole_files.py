@@ -15,6 +15,7 @@ WHOLE_FILES = {
     "panel.bdf": ("nastran", {"panel.bdf": nastran_samples.panel()}),
     "frame.bdf": ("nastran", {"frame.bdf": nastran_samples.frame()}),
     "turbine of windIO": ("windio", {"turbine.yaml": turbine_samples.windio()}),
+    "turbine of windIO 2": ("windio", {"turbine.yaml": turbine_samples.windio_2()}),
     "blade of HAWC2": ("hawc2", turbine_samples.hawc2()),
     "table of sections": ("csv", {"bar.csv": turbine_samples.table()}),
     "cantilever of DeSiO": ("desio", desio_samples.cantilever()),

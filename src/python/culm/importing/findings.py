@@ -21,9 +21,9 @@ class Place:
         return f"{self.file}:{self.line}"
 
 
-def refuse(place, text):
+def refuse(place, text, code=DECK_ERROR):
     """Ends the import: the file is wrong, or holds what would make a wrong deck."""
-    raise CulmError(f"{place}: {text}", DECK_ERROR)
+    raise CulmError(f"{place}: {text}", code)
 
 
 def did_you_mean(name, names):

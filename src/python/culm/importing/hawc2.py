@@ -7,7 +7,7 @@ in principal axes, turned by `pitch` from x; here they are brought to the axis.
 import numpy
 
 from .findings import Findings, Place, did_you_mean, refuse
-from .hawc2_files import read_htc, read_stations
+from .hawc2_files import find_file, read_htc, read_stations
 from .keyword_file import integer, number
 from .line_deck import LineDeck, stations_in_order
 from .ready_deck import ReadyDeck
@@ -15,6 +15,7 @@ from .ready_deck import ReadyDeck
 FILE = "st file with sections, or .htc"
 UPPER = numpy.triu_indices(6)
 FARTHEST = 1e100  # m, and degrees; squares of more would leave the range of numbers
+HARMLESS = ("name", "type", "nbodies", "node_distribution", "damping", "damping_posdef", "damping_aniso", "damping_file")
 
 
 def declare(parser):
@@ -130,6 +131,9 @@ def _body(path, name, findings):
     if name.lower() not in bodies:
         refuse(root.place, f"there is no main body '{name}'{did_you_mean(name, bodies)}")
     body = bodies[name.lower()]
+    for place, words in body.lines:
+        if words[0] not in HARMLESS:
+            findings.leave_out(f"{words[0]} of the body", place)
     sections, axis = body.all("timoschenko_input"), body.all("c2_def")
     if len(sections) != 1 or len(axis) != 1:
         refuse(body.place, f"the body {name} needs one timoschenko_input and one c2_def")
@@ -153,7 +157,7 @@ def _body(path, name, findings):
         refuse(axis[0].place, f"c2_def has a place or a twist beyond {FARTHEST:g}")
     if len(table) < 2 or (numpy.diff(table[:, :3], axis=0) == 0.0).all(axis=1).any():
         refuse(axis[0].place, "c2_def needs at least two places, each elsewhere than the one before")
-    st_path = path.parent / file[1][1].replace("\\", "/")
+    st_path = find_file(path, file[1][1], file[0])
     stations = read_stations(st_path, *numbers)
     findings.look_at_end(st_path)
     return name, stations, table[:, :3], table[:, 3]

@@ -6,12 +6,14 @@ import re
 
 import numpy
 
-from .findings import Place, refuse
+from .findings import FILE_ERROR, Place, refuse
 from .keyword_file import DEEPEST, number, read_text
 
 CLASSIC = ("r", "m", "x_cg", "y_cg", "ri_x", "ri_y", "x_sh", "y_sh", "E", "G", "I_x", "I_y", "I_p", "k_x", "k_y", "A",
            "pitch", "x_e", "y_e")  # fmt: skip
 FULL = ("r", "m", "x_cg", "y_cg", "ri_x", "ri_y", "pitch", "x_e", "y_e")  # and the upper triangle of 6x6
+
+HIGHEST = 3  # folders above that of a htc file, in which files that it names are looked for
 
 
 @dataclasses.dataclass
@@ -88,11 +90,21 @@ class Block:
 
 def read_htc(path):
     root = Block("file", Place(str(path), 1), [], [])
-    _read_into([root], pathlib.Path(path), 0)
+    _read_into([root], pathlib.Path(path), pathlib.Path(path), 0)
     return root
 
 
-def _read_into(stack, path, depth):
+def find_file(htc, name, place):
+    """A file that a htc file names. HAWC2 counts from the folder that it is started in, mostly the one above that of the file."""
+    name = pathlib.PureWindowsPath(name).as_posix()
+    tried = [htc.parent / name, *(htc.parent / ("../" * up + name) for up in range(1, HIGHEST + 1))]
+    for one in tried:
+        if one.is_file():
+            return one
+    refuse(place, f"the file {name} is not there, from the folder of {htc.name} or up to {HIGHEST} above it", FILE_ERROR)
+
+
+def _read_into(stack, htc, path, depth):
     opened = len(stack)
     for i, raw in enumerate(read_text(path).split("\n"), 1):
         words = raw.split(";")[0].lower().split()
@@ -113,7 +125,7 @@ def _read_into(stack, path, depth):
         elif words[0] == "continue_in_file" and len(words) > 1:
             if depth == DEEPEST:
                 refuse(place, f"files include each other more than {DEEPEST} deep")
-            _read_into(stack, path.parent / original[1], depth + 1)
+            _read_into(stack, htc, find_file(htc, original[1], place), depth + 1)
         else:
             # names of files keep their capitals
             stack[-1].lines.append((place, [words[0], *original[1:]]))

@@ -114,15 +114,43 @@ def _distinct(grid, points, path):
     return grid[keep], points[keep]
 
 
+def _tables_1(blade, path):
+    """Axis, stiffness, inertia and twist [rad], each as places and values, in the first form of the ontology."""
+    where = ("components", "blade", "elastic_properties_mb", "six_x_six")
+    six = _mapping(_mapping(blade, where[2], path, *where[:2]), where[3], path, *where[:3])
+    return _axis(six, path, *where), *(_table(six, name, path, *where) for name in ("stiff_matrix", "inertia_matrix", "twist"))
+
+
+def _tables_2(blade, path):
+    """The same in the second form: entries of the stiffness one by one, mass by its centre and moments, twist in degrees."""
+    where = ("components", "blade", "structure", "elastic_properties")
+    elastic = _mapping(_mapping(blade, where[2], path, *where[:2]), where[3], path, *where[:3])
+    pairs = [(i, j) for i in range(1, 7) for j in range(i, 7)]
+    grid, entries = _columns(elastic, "stiffness_matrix", [f"K{i}{j}" for i, j in pairs], path, *where)
+    mass_grid, columns = _columns(elastic, "inertia_matrix", ["mass", "cm_x", "cm_y", "i_edge", "i_flap", "i_plr", "i_cp"], path, *where)
+    m, x, y, edge, flap, polar, product = columns.T
+    matrix = {(1, 1): m, (2, 2): m, (3, 3): m, (1, 6): -m * y, (2, 6): m * x, (3, 4): m * y, (3, 5): -m * x}
+    matrix |= {(4, 4): edge, (5, 5): flap, (6, 6): polar, (4, 5): -product}
+    mass = numpy.stack([matrix.get(pair, 0.0 * m) for pair in pairs], axis=1)
+    shape = _mapping(blade, "outer_shape", path, *where[:2])
+    twist_grid, twist = _table(shape, "twist", path, *where[:2], "outer_shape")
+    return _axis(blade, path, *where[:2]), (grid, entries), (mass_grid, mass), (twist_grid, numpy.radians(twist))
+
+
+def _columns(parent, name, columns, path, *before):
+    """A grid and the values of each column on it: (n), (n, columns)."""
+    table = _mapping(parent, name, path, *before)
+    found = [_table({key: {"grid": table.get("grid"), "values": table.get(key)}}, key, path, *before, name) for key in columns]
+    return found[0][0], numpy.stack([values for _, values in found], axis=1)
+
+
 def _blade(root, parts, path, findings):
     blade = _mapping(parts, "blade", path, "components")
-    matrices = _mapping(blade, "elastic_properties_mb", path, "components", "blade")
-    where = ("components", "blade", "elastic_properties_mb", "six_x_six")
-    six = _mapping(matrices, "six_x_six", path, *where[:-1])
-    grid, points = _distinct(*_axis(six, path, *where), path)
+    is_new = "structure" in blade and "elastic_properties_mb" not in blade
+    tables = _tables_2(blade, path) if is_new else _tables_1(blade, path)
+    (axis_grid, axis), (stiff_grid, stiffness), (mass_grid, mass), (twist_grid, twist) = tables
+    grid, points = _distinct(axis_grid, axis, path)
     share, length = _arc(points)
-    stiff_grid, stiffness = _table(six, "stiff_matrix", path, *where)
-    mass_grid, mass = _table(six, "inertia_matrix", path, *where)
     place = Place(str(path), 1)
     for name, values in (("stiff_matrix", stiffness), ("inertia_matrix", mass)):
         if values.ndim != 2 or values.shape[1] != SYMMETRY:
@@ -130,7 +158,6 @@ def _blade(root, parts, path, findings):
     if len(stiff_grid) != len(mass_grid) or abs(stiff_grid - mass_grid).max() > 1e-9:
         mass = numpy.stack([numpy.interp(stiff_grid, mass_grid, column) for column in mass.T], axis=1)
         findings.assume("the inertia is interpolated to the places of the stiffness")
-    twist_grid, twist = _table(six, "twist", path, *where)
     # places of the grid are fractions of the arc length of the axis in the ontology
     stations = [
         (at, "Stiffness Matrix", {"Stiffness": k, "Mass": m}, m[0])
@@ -139,6 +166,7 @@ def _blade(root, parts, path, findings):
     deck = LineDeck(f"{root.get('name', path.stem)}: blade")
     weight = deck.add_beam("blade", points, stations, (numpy.interp(twist_grid, grid, share), -twist), place=place)
     deck.clamp("blade/first", "the root; hub and pitch are not in the deck")
+    findings.read["form"] = "windIO 2" if is_new else "windIO 1"
     findings.read["blade"] = f"{len(stations)} stations, {length:.6g} m, {weight:.6g} kg"
     findings.assume("axes and twist are those of BeamDyn: x to the suction side, z to the tip, twist about -z")
     findings.leave_out("everything of the turbine but the blade")
@@ -183,9 +211,10 @@ def _tower(root, parts, path, findings):
 def _tube(root, parts, name, path, deck, findings):
     part = _mapping(parts, name, path, "components")
     where = ("components", name)
-    shape = _mapping(part, "outer_shape_bem", path, *where)
-    inside = _mapping(part, "internal_structure_2d_fem", path, *where)
-    grid, points = _distinct(*_axis(shape, path, *where, "outer_shape_bem"), path)
+    is_new = "structure" in part and "internal_structure_2d_fem" not in part
+    shape = _mapping(part, "outer_shape" if is_new else "outer_shape_bem", path, *where)
+    inside = _mapping(part, "structure" if is_new else "internal_structure_2d_fem", path, *where)
+    grid, points = _distinct(*_axis(part if is_new else shape, path, *where), path)
     share, length = _arc(points)
     if numpy.linalg.norm(points[-1] - points[0]) < length * (1.0 - 1e-9):
         refuse(Place(str(path), 1), f"{name}: the reference axis must be straight")
