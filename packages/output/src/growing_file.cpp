@@ -8,7 +8,7 @@
 namespace culm::output {
 
 GrowingFile::GrowingFile(std::filesystem::path path, std::string head, std::string tail)
-    : path_(std::move(path)), text_(std::move(head)), tail_(std::move(tail)) {
+    : path_(std::move(path)), head_(std::move(head)), tail_(std::move(tail)) {
   write();
 }
 
@@ -28,6 +28,13 @@ void GrowingFile::add(const std::string& entry) {
   if (is_due()) write();
 }
 
+void GrowingFile::replace(const std::vector<std::string>& entries) {
+  text_.clear();
+  for (const std::string& entry : entries) text_ += entry;
+  entries_ = entries.size();
+  write();
+}
+
 bool GrowingFile::is_due() const {
   return entries_ > written_entries_ + written_entries_ / 8 ||
          Clock::now() - written_at_ > std::chrono::seconds(10);
@@ -35,7 +42,7 @@ bool GrowingFile::is_due() const {
 
 void GrowingFile::write() {
   if (identity_) identity_->check_whole(path_);
-  replace_file(path_, text_ + tail_);
+  replace_file(path_, head_ + text_ + tail_);
   identity_.emplace(path_);
   written_entries_ = entries_;
   written_at_ = Clock::now();

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace culm::output {
@@ -22,18 +23,25 @@ GrowingFile make_collection(const std::filesystem::path& path) {
           "</Collection>\n</VTKFile>\n"};
 }
 
-std::string collection_entry(double time, std::size_t part, const std::string& file) {
-  return fmt::format("<DataSet timestep=\"{:.17g}\" part=\"{}\" file=\"{}\"/>\n", time, part,
-                     xml_escape(file));
+std::vector<std::string> collection_entries(
+    double time, const std::vector<std::pair<std::size_t, std::string>>& files) {
+  std::vector<std::string> entries;
+  for (const auto& [part, file] : files) {
+    entries.push_back(fmt::format("<DataSet timestep=\"{:.17g}\" part=\"{}\" file=\"{}\"/>\n", time,
+                                  part, xml_escape(file)));
+  }
+  return entries;
 }
 
 }  // namespace
 
 Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
-                   std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses)
+                   std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses,
+                   std::size_t most)
     : folder_(folder),
       vtu_folder_(stem + "_vtu"),
       meshes_(std::move(meshes)),
+      most_(most),
       centres_(begin(stem)) {
   if (analyses.size() > 1) {
     for (const std::string& name : analyses) analyses_.push_back(file_part(name));
@@ -52,16 +60,33 @@ Pictures::Collections Pictures::begin(const std::string& stem) const {
   return {stem, std::make_unique<GrowingFile>(make_collection(folder_ / (stem + ".pvd"))), {}};
 }
 
-void Pictures::list(Collections& collections, int analysis, const std::string& entry) {
-  collections.whole->add(entry);
-  if (analyses_.empty()) return;
+void Pictures::list(Collections& collections, int analysis, const Step& step, const Files& files) {
+  const std::vector<std::string> entries = collection_entries(step.time, files);
+  for (const std::string& entry : entries) collections.whole->add(entry);
+  if (analyses_.empty() || entries.empty()) return;
   auto part = collections.parts.find(analysis);
   if (part == collections.parts.end()) {
     const std::string& name = analyses_.at(static_cast<std::size_t>(analysis));
     const std::string file = collections.stem + "." + name + ".pvd";
     part = collections.parts.emplace(analysis, make_collection(folder_ / file)).first;
   }
-  part->second.add(entry);
+  for (const std::string& entry : entries) part->second.add(entry);
+}
+
+void Pictures::list_anew(Collections& collections, Files Step::*files) {
+  std::vector<std::string> all;
+  for (const auto& [analysis, sequence] : sequences_) {
+    std::vector<std::string> own;
+    for (const Step& step : sequence.shown) {
+      for (std::string& entry : collection_entries(step.time, step.*files)) {
+        own.push_back(std::move(entry));
+      }
+    }
+    all.insert(all.end(), own.begin(), own.end());
+    const auto part = collections.parts.find(analysis);
+    if (part != collections.parts.end()) part->second.replace(own);
+  }
+  collections.whole->replace(all);
 }
 
 void Pictures::make_skins() {
@@ -91,6 +116,88 @@ void Pictures::make_groups() {
 
 void Pictures::add(const Picture& picture) {
   check_picture(meshes_, picture);
+  Step step;
+  step.time = picture.time;
+  add(picture.analysis, std::move(step), &picture);
+}
+
+void Pictures::add_earlier(int index, double time, int analysis) {
+  Step step;
+  step.time = time;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::string file = stem(groups_[g], index);
+    const auto add_existing = [&](Files& files, const std::string& name) {
+      if (std::filesystem::exists(folder_ / name)) files.emplace_back(g, name);
+    };
+    add_existing(step.centres, file + ".vtu");
+    if (!groups_[g].skinned.empty()) add_existing(step.skins, file + "_skin.vtu");
+  }
+  add(analysis, std::move(step), nullptr);
+}
+
+// @param picture  none where the files are there
+void Pictures::add(int analysis, Step step, const Picture* picture) {
+  if (waiting_ && waiting_->analysis != analysis) settle();
+  if (waiting_) remove_files(waiting_->step);
+  waiting_.reset();
+  Sequence& sequence =
+      sequences_.try_emplace(analysis, Sequence{Thinning(most_), {}}).first->second;
+  step.number = sequence.thinning.count();
+  const std::size_t stride = sequence.thinning.stride();
+  const bool is_shown = sequence.thinning.choose_next();
+  if (sequence.thinning.stride() != stride) thin_out(sequence);
+  if (!is_shown) {
+    waiting_ = {analysis, std::move(step), {}};
+    if (picture != nullptr) waiting_->picture = *picture;
+    return;
+  }
+  if (picture != nullptr) write_files(*picture, step);
+  show(analysis, std::move(step));
+}
+
+void Pictures::show(int analysis, Step step) {
+  list(centres_, analysis, step, step.centres);
+  if (skins_listed_) list(*skins_listed_, analysis, step, step.skins);
+  sequences_.at(analysis).shown.push_back(std::move(step));
+}
+
+void Pictures::secure() {
+  if (!waiting_ || !waiting_->picture) return;
+  write_files(*waiting_->picture, waiting_->step);
+  waiting_->picture.reset();
+}
+
+// The last step of an analysis is shown whatever its number.
+void Pictures::settle() {
+  if (!waiting_) return;
+  secure();
+  show(waiting_->analysis, std::move(waiting_->step));
+  waiting_.reset();
+}
+
+// No collection ever names a file that is gone.
+void Pictures::thin_out(Sequence& sequence) {
+  std::vector<Step> kept, gone;
+  for (Step& step : sequence.shown) {
+    (sequence.thinning.keeps(step.number) ? kept : gone).push_back(std::move(step));
+  }
+  sequence.shown = std::move(kept);
+  list_anew(centres_, &Step::centres);
+  if (skins_listed_) list_anew(*skins_listed_, &Step::skins);
+  for (const Step& step : gone) remove_files(step);
+}
+
+void Pictures::remove_files(const Step& step) {
+  for (const Files* files : {&step.centres, &step.skins}) {
+    for (const auto& [part, file] : *files) {
+      std::error_code ignored;  // whoever took it away already
+      std::filesystem::remove(folder_ / file, ignored);
+      written_.erase(file);
+    }
+  }
+}
+
+void Pictures::write_files(const Picture& picture, Step& step) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     std::vector<VtuGrid> centres;
@@ -104,28 +211,16 @@ void Pictures::add(const Picture& picture) {
     }
     const std::string file = stem(group, picture.index);
     write_picture(file + ".vtu", vtu_text(merge(centres), picture.time, names_));
-    list(centres_, picture.analysis, collection_entry(picture.time, g, file + ".vtu"));
+    step.centres.emplace_back(g, file + ".vtu");
     if (skins.empty()) continue;
     write_picture(file + "_skin.vtu", vtu_text(merge(skins), picture.time, names_));
-    list(*skins_listed_, picture.analysis, collection_entry(picture.time, g, file + "_skin.vtu"));
+    step.skins.emplace_back(g, file + "_skin.vtu");
   }
 }
 
 void Pictures::write_picture(const std::string& file, const std::string& text) {
   replace_file(folder_ / file, text);
-  written_.emplace_back(file, folder_ / file);
-}
-
-void Pictures::add_earlier(int index, double time, int analysis) {
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const std::string file = stem(groups_[g], index);
-    if (std::filesystem::exists(folder_ / (file + ".vtu"))) {
-      list(centres_, analysis, collection_entry(time, g, file + ".vtu"));
-    }
-    if (!groups_[g].skinned.empty() && std::filesystem::exists(folder_ / (file + "_skin.vtu"))) {
-      list(*skins_listed_, analysis, collection_entry(time, g, file + "_skin.vtu"));
-    }
-  }
+  written_.insert_or_assign(file, FileIdentity(folder_ / file));
 }
 
 std::string Pictures::stem(const Group& group, int index) const {
@@ -133,12 +228,25 @@ std::string Pictures::stem(const Group& group, int index) const {
 }
 
 void Pictures::write() {
+  settle();
   for (const auto& [file, identity] : written_) identity.check_whole(folder_ / file);
   for (Collections* collections : {&centres_, skins_listed_ ? &*skins_listed_ : nullptr}) {
     if (collections == nullptr) continue;
     collections->whole->write();
     for (auto& [analysis, file] : collections->parts) file.write();
   }
+}
+
+std::size_t Pictures::shown() const {
+  std::size_t shown = 0;
+  for (const auto& [analysis, sequence] : sequences_) shown += sequence.shown.size();
+  return shown;
+}
+
+std::size_t Pictures::added() const {
+  std::size_t added = 0;
+  for (const auto& [analysis, sequence] : sequences_) added += sequence.thinning.count();
+  return added;
 }
 
 }  // namespace culm::output

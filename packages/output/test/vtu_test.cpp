@@ -7,8 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace culm::output {
 namespace {
@@ -173,6 +178,68 @@ TEST(Vtu, EachOfSeveralAnalysesHasCollectionsOfItsOwn) {
   write(
       [](Pictures& pictures, int i, int analysis) { pictures.add_earlier(i, 1.0 * i, analysis); });
   check();
+}
+
+std::vector<int> listed_in(const std::filesystem::path& collection) {
+  std::set<int> found;
+  const std::string text = read_text_file(collection);
+  const std::regex name("run_vtu/\\w+_(\\d+)\\.vtu");
+  for (std::sregex_iterator i(text.begin(), text.end(), name), end; i != end; ++i) {
+    found.insert(std::stoi((*i)[1]));
+    EXPECT_TRUE(std::filesystem::exists(collection.parent_path() / i->str()));
+  }
+  return {found.begin(), found.end()};
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder),
+                                                std::filesystem::directory_iterator()));
+}
+
+TEST(Vtu, OfManyStepsSomeThatLieEvenlyAreShownAndTheLastOfEachAnalysis) {
+  const TemporaryFolder folder;
+  const StructureState state{{Vec3::Zero()}, {Mat3::Identity()}, {}, {}};
+  const auto picture = [&](int i) {
+    return Picture{.index = i,
+                   .time = 1.0 * i,
+                   .analysis = i < 3 ? 0 : 1,
+                   .structures = {state},
+                   .arrays = {}};
+  };
+  const auto open = [&] {
+    return Pictures(folder.path(), "run", {body_mesh()}, {"first", "second"}, 4);
+  };
+  {
+    Pictures pictures = open();
+    for (int i = 0; i < 16; ++i) pictures.add(picture(i));
+    pictures.secure();  // changes nothing that is shown
+    pictures.write();
+    EXPECT_EQ(pictures.added(), 16);
+    EXPECT_EQ(pictures.shown(), 7);
+  }
+  // of the second analysis, whose steps are 3 to 15, every fourth
+  EXPECT_THAT(listed_in(folder / "run.pvd"), ::testing::ElementsAre(0, 1, 2, 3, 7, 11, 15));
+  EXPECT_THAT(listed_in(folder / "run.second.pvd"), ::testing::ElementsAre(3, 7, 11, 15));
+  EXPECT_EQ(files_in(folder / "run_vtu"), 7) << "nothing that no collection names";
+  {
+    // as where a run goes on after its 15th step
+    Pictures pictures = open();
+    for (int i = 0; i < 15; ++i) pictures.add_earlier(i, 1.0 * i, i < 3 ? 0 : 1);
+    for (int i = 15; i < 22; ++i) pictures.add(picture(i));
+    pictures.write();
+  }
+  EXPECT_THAT(listed_in(folder / "run.pvd"), ::testing::ElementsAre(0, 1, 2, 3, 11, 19, 21));
+  EXPECT_EQ(files_in(folder / "run_vtu"), 7);
+  // as where a run is killed behind the last step of an analysis, and goes on from there
+  {
+    Pictures pictures = open();
+    for (int i = 0; i < 11; ++i) pictures.add(picture(i));
+    pictures.secure();
+  }
+  Pictures pictures = open();
+  for (int i = 0; i < 11; ++i) pictures.add_earlier(i, 1.0 * i, i < 3 ? 0 : 1);
+  pictures.write();
+  EXPECT_THAT(listed_in(folder / "run.pvd"), ::testing::ElementsAre(0, 1, 2, 3, 5, 7, 9, 10));
 }
 
 TEST(Vtu, WithoutOutlinesThereIsNoSkinCollection) {

@@ -123,6 +123,12 @@ Schema output_schema(const QuantityRegistry& quantities) {
   return Schema("Output", "What is written.")
       .add(integer("Every", "Steps from one recorded state to the next.").at_least(1).optional(1))
       .add(flag("Pictures", "Write VTU files beside run.h5.").optional(true))
+      .add(integer("Most Pictures",
+                   "Of the recorded states of an analysis, beside the last one: if there are more, "
+                   "every "
+                   "second, fourth, … has VTU files. All are in run.h5.")
+               .at_least(2)
+               .optional(100))
       .add(flag("Velocities",
                 "Record velocities of nodes, and angular velocities of those with directors, with "
                 "each state.")

@@ -38,6 +38,13 @@ LayerSettings read_layer_settings(const Options& shell, const model::Model& mode
 
 namespace {
 
+// What a collection of pictures lacks.
+std::string remark_on(const output::Pictures& pictures) {
+  if (pictures.shown() == pictures.added()) return {};
+  return fmt::format(" ({} of {} states, see 'Most Pictures'; run.xdmf has all)", pictures.shown(),
+                     pictures.added());
+}
+
 // A checkpoint holds doubles, which have fewer digits than a checksum.
 void save_mark(const output::RecordMark& mark, Snapshot& snapshot) {
   const auto set = [&](const std::string& name, std::uint64_t sum) {
@@ -111,7 +118,10 @@ void ResultFiles::save(Snapshot& snapshot) const {
   snapshot.set_text("run/id", settings_.info.run);
   snapshot.set_text("run/deck", settings_.info.deck);
   snapshot.set_text("run/model", settings_.info.model);
-  if (files_ != nullptr) save_mark(files_->recorder.commit(), snapshot);
+  if (files_ != nullptr) {
+    save_mark(files_->recorder.commit(), snapshot);
+    if (files_->pictures) files_->pictures->secure();
+  }
   std::vector<double> memories;
   for (const WatchedQuantity& watched : *watched_) {
     const std::vector<double> memory = watched.quantity->memory();
@@ -135,6 +145,11 @@ std::optional<output::Pictures> ResultFiles::open_fluid() const {
   return output::Pictures(settings_.folder, "run_fluid", std::move(meshes));
 }
 
+output::Pictures ResultFiles::open_pictures(
+    const std::vector<output::StructureMesh>& meshes) const {
+  return {settings_.folder, "run", meshes, settings_.analyses, settings_.most_pictures};
+}
+
 std::vector<output::StructureMesh> ResultFiles::meshes_in(const model::Model& model) const {
   std::vector<output::StructureMesh> meshes = meshes_of(model, settings_.layers);
   if (settings_.velocities) show_velocities(meshes);
@@ -152,7 +167,7 @@ void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
   std::optional<output::Pictures> pictures;
-  if (settings_.pictures) pictures.emplace(folder, "run", meshes, settings_.analyses);
+  if (settings_.pictures) pictures = open_pictures(meshes);
   files_ = std::make_unique<Files>(Files{std::move(recorder), std::move(xdmf), std::move(history),
                                          std::move(pictures), open_fluid()});
 }
@@ -166,7 +181,7 @@ void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
   output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
   std::optional<output::Pictures> pictures;
-  if (settings_.pictures) pictures.emplace(folder, "run", meshes, settings_.analyses);
+  if (settings_.pictures) pictures = open_pictures(meshes);
   std::optional<output::Pictures> fluid = open_fluid();
   for (const auto& step : recorded.steps) {
     xdmf.add_step(step.index, step.time);
@@ -248,17 +263,20 @@ void ResultFiles::finish(const std::string& report, const std::vector<output::Na
   });
 }
 
-std::vector<std::filesystem::path> ResultFiles::paths() const {
-  std::vector<std::filesystem::path> paths;
+std::string ResultFiles::listing() const {
+  std::string text;
+  if (!system_->comm().is_root()) return text;
   std::vector<std::filesystem::path> names = {"run.h5",  "run.xdmf",     "history.csv",
                                               "run.pvd", "run_skin.pvd", "run_fluid.pvd"};
   names.insert(names.end(), analysis_files_.begin(), analysis_files_.end());
   for (const auto& name : names) {
     const std::filesystem::path path = settings_.folder / name;
     // pictures are written on demand, and skins only where there are outlines
-    if (system_->comm().is_root() && std::filesystem::exists(path)) paths.push_back(path);
+    if (!std::filesystem::exists(path)) continue;
+    text += "\n  " + path.string();
+    if (name == "run.pvd" && files_->pictures) text += remark_on(*files_->pictures);
   }
-  return paths;
+  return text;
 }
 
 }  // namespace culm::simulation

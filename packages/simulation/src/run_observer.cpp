@@ -365,9 +365,8 @@ std::string RunObserver::convergence() const {
 }
 
 std::string RunObserver::closing_words() const {
-  std::string text = "\n" + ledger_.report() + "\n" + certificates_ + convergence() + "results:";
-  for (const auto& path : files_.paths()) text += "\n  " + path.string();
-  return text;
+  return "\n" + ledger_.report() + "\n" + certificates_ + convergence() +
+         "results:" + files_.listing();
 }
 
 }  // namespace culm::simulation

@@ -157,11 +157,12 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
           : std::make_unique<ServedRun>(p.deck, settings.serve, phase.ports, p.comm);
   // from here on there is something on the disk
   const auto lock = take_folder(p.comm, settings.folder, p.log);
-  ResultFiles files(*phase.system, *p.phases.of(0).model,
-                    {settings.folder, info, names_of(p.deck.list("Analyses").entries()),
-                     output.integer("Every"), output.flag("Pictures"), layers,
-                     output.flag("Velocities"), output.flag("Constraint Forces")},
-                    phase.watched, from);
+  ResultFiles files(
+      *phase.system, *p.phases.of(0).model,
+      {settings.folder, info, names_of(p.deck.list("Analyses").entries()), output.integer("Every"),
+       output.flag("Pictures"), static_cast<std::size_t>(output.integer("Most Pictures")), layers,
+       output.flag("Velocities"), output.flag("Constraint Forces")},
+      phase.watched, from);
   RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
                        p.imperfections, p.reference_turn,
                        Progress(p.log, settings.quiet, settings.terminal));

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace culm::output {
 
@@ -25,6 +26,9 @@ class GrowingFile {
   /// Adds an entry. Throws FileError.
   void add(const std::string& entry);
 
+  /// Puts others in the place of all entries, and writes the file. Throws FileError.
+  void replace(const std::vector<std::string>& entries);
+
   /// Brings the file up to date. Throws FileError, also if somebody removed or changed it.
   void write();
 
@@ -35,7 +39,8 @@ class GrowingFile {
 
   std::filesystem::path path_;
   std::optional<FileIdentity> identity_;  // since it was written first
-  std::string text_;                      // head and entries
+  std::string head_;
+  std::string text_;  // of the entries
   std::string tail_;
   std::size_t entries_ = 0;
   std::size_t written_entries_ = 0;

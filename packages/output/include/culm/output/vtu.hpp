@@ -3,6 +3,7 @@
 #include <culm/output/growing_file.hpp>
 #include <culm/output/picture_mesh.hpp>
 #include <culm/output/skin.hpp>
+#include <culm/output/thinning.hpp>
 
 #include <filesystem>
 #include <map>
@@ -16,12 +17,15 @@ namespace culm::output {
 
 /// Pictures for ParaView and VTK. In the given folder
 ///
-///     <stem>.pvd         all steps: centre lines, nodes and mid-surfaces
-///     <stem>_skin.pvd    all steps: surface of structures with outlines; only if there are any
+///     <stem>.pvd         steps: centre lines, nodes and mid-surfaces
+///     <stem>_skin.pvd    steps: surface of structures with outlines; only if there are any
 ///     <stem>.<analysis>.pvd, <stem>_skin.<analysis>.pvd   the same of each analysis that has
 ///     steps,
 ///                        if there are several in the deck: their times may overlap
 ///     <stem>_vtu/        per step and structure type one file of each kind
+///
+/// Of many steps every second, fourth, … of an analysis is shown, and its last one: files are many
+/// times slower to write than numbers.
 ///
 /// Point data: displacement, director1..3, node arrays. Cell data: structure (its number; the names
 /// are in the field data), every resultant, and vectors as in StructureMesh::resultant_names.
@@ -30,21 +34,31 @@ class Pictures {
  public:
   /// Throws FileError; InternalError if a mesh contradicts itself.
   /// @param analyses  names of those of the deck; none where collections of each are not wanted
+  /// @param most      of the steps of an analysis, beside its last one, at least 2; 0 for all
   Pictures(const std::filesystem::path& folder, const std::string& stem,
-           std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses = {});
+           std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses = {},
+           std::size_t most = 0);
 
-  /// Writes the files of one step. The collections may lag behind, see GrowingFile. Throws
-  /// FileError.
+  /// Shows a step, if it is one of those that are shown. The collections may lag behind, see
+  /// GrowingFile. Throws FileError.
   void add(const Picture& picture);
 
-  /// Lists a step of an earlier run whose files are there; those that are not are left out. Throws
-  /// FileError.
+  /// The same for a step of an earlier run, whose files are there; those that are not are left out.
+  /// Throws FileError.
   /// @param analysis  its number in the deck
   void add_earlier(int index, double time, int analysis = 0);
 
-  /// Brings the collections up to date, as at the end of a run. Throws FileError, also if somebody
-  /// removed or replaced a file that was written.
+  /// Writes the files of the last step, shown or not: who goes on from here, with add_earlier,
+  /// finds them. Throws FileError.
+  void secure();
+
+  /// Shows the last step and brings the collections up to date, as at the end of a run. Throws
+  /// FileError, also if somebody removed or replaced a file that was written.
   void write();
+
+  /// How many steps are shown, of all that were added.
+  std::size_t shown() const;
+  std::size_t added() const;
 
  private:
   // All structures of one type.
@@ -61,9 +75,37 @@ class Pictures {
     std::map<int, GrowingFile> parts;  ///< by the number of the analysis
   };
 
+  /// Files of a step, each with the number of its group.
+  using Files = std::vector<std::pair<std::size_t, std::string>>;
+  struct Step {
+    std::size_t number = 0;  ///< in its analysis
+    double time = 0.0;
+    Files centres;
+    Files skins;
+  };
+  /// An analysis: its steps that are shown.
+  struct Sequence {
+    Thinning thinning;
+    std::vector<Step> shown;
+  };
+  /// The last step, as long as it is none of those that are shown.
+  struct Waiting {
+    int analysis = 0;
+    Step step;
+    std::optional<Picture> picture;  ///< none where the files are there
+  };
+
   std::string stem(const Group& group, int index) const;
   Collections begin(const std::string& stem) const;
-  void list(Collections& collections, int analysis, const std::string& entry);
+  Sequence& sequence_of(int analysis);
+  void add(int analysis, Step step, const Picture* picture);
+  void show(int analysis, Step step);
+  void settle();
+  void remove_files(const Step& step);
+  void thin_out(Sequence& sequence);
+  void list(Collections& collections, int analysis, const Step& step, const Files& files);
+  void list_anew(Collections& collections, Files Step::*files);
+  void write_files(const Picture& picture, Step& step);
   void write_picture(const std::string& file, const std::string& text);
   void make_groups();
   void make_skins();
@@ -75,8 +117,11 @@ class Pictures {
   std::vector<Skin> skins_;
   std::vector<std::vector<Vec3>> reference_skins_;
   std::vector<Group> groups_;
-  std::vector<std::pair<std::string, FileIdentity>> written_;  ///< pictures, in the folder
-  std::vector<std::string> analyses_;                          ///< parts of file names
+  std::map<std::string, FileIdentity> written_;  ///< pictures, in the folder
+  std::vector<std::string> analyses_;            ///< parts of file names
+  std::size_t most_;
+  std::map<int, Sequence> sequences_;  ///< by the number of the analysis
+  std::optional<Waiting> waiting_;
   Collections centres_;
   std::optional<Collections> skins_listed_;
 };

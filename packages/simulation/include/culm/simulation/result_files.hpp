@@ -9,6 +9,7 @@
 #include <culm/output/xdmf.hpp>
 #include <culm/simulation/quantity.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ struct ResultSettings {
   std::vector<std::string> analyses;  ///< their names
   int every = 1;
   bool pictures = true;
+  std::size_t most_pictures = 0;  ///< of an analysis, beside its last; 0 for all
   LayerSettings layers = {};
   bool velocities = false;         ///< in each recorded state
   bool constraint_forces = false;  ///< likewise, of steps
@@ -81,8 +83,8 @@ class ResultFiles {
   /// Ends the files with the report of the run.
   void finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,
               const std::vector<output::NamedTable>& tables, const std::vector<Finding>& findings);
-  /// Paths of the files that a user opens.
-  std::vector<std::filesystem::path> paths() const;
+  /// Paths of the files that a user opens, a line each, and what is not in them.
+  std::string listing() const;
 
  private:
   /// The files; on rank 0 only.
@@ -96,6 +98,7 @@ class ResultFiles {
 
   std::vector<output::StructureMesh> meshes_in(const model::Model& model) const;
   void restore_counts(const Snapshot& saved);
+  output::Pictures open_pictures(const std::vector<output::StructureMesh>& meshes) const;
   std::optional<output::Pictures> open_fluid() const;
   void add_fluid(int index, double time, const model::State& state);
   void open(const std::vector<output::StructureMesh>& meshes);
@@ -106,7 +109,7 @@ class ResultFiles {
   ResultSettings settings_;
   const std::vector<WatchedQuantity>* watched_;
   std::unique_ptr<Files> files_;
-  std::vector<std::filesystem::path> analysis_files_;  ///< for paths(); on rank 0
+  std::vector<std::filesystem::path> analysis_files_;  ///< for listing(); on rank 0
   std::size_t frames_ = 0;
   std::size_t rows_ = 0;  ///< of the history
 };
