@@ -18,6 +18,13 @@ Mat3 shortest_rotation(const Vec3& a, const Vec3& b) {
   return cosine > 0.0 ? Mat3::Identity() : exp_rotation(std::numbers::pi * any_normal(a));
 }
 
+// R^-T, without the transposed inverse.
+Mat3 inverse_transposed(const Mat3& R) {
+  Mat3 cofactors;
+  cofactors << R.col(1).cross(R.col(2)), R.col(2).cross(R.col(0)), R.col(0).cross(R.col(1));
+  return cofactors / cofactors.col(0).dot(R.col(0));
+}
+
 // The nearest rotation by Newton's method, which few steps from a triad need; else as
 // nearest_rotation() finds it. @source Higham, SIAM J. Sci. Stat. Comput. 7 (1986) 1160-1174
 Mat3 quick_nearest_rotation(const Mat3& D) {
@@ -25,7 +32,7 @@ Mat3 quick_nearest_rotation(const Mat3& D) {
   constexpr double settled = 1e-20;  // the next step changes the last digit at most
   Mat3 R = D;
   for (int i = 0; i < most; ++i) {
-    const Mat3 next = 0.5 * (R + R.inverse().transpose());
+    const Mat3 next = 0.5 * (R + inverse_transposed(R));
     const double moved = (next - R).squaredNorm();
     R = next;
     if (moved < settled && R.determinant() > 0.0) return R;
@@ -52,19 +59,6 @@ Mat3 directors(const model::Marker& point, const model::Coordinates& q) {
   return d;
 }
 
-Change change(const model::Marker& point, const model::Coordinates& from,
-              const model::Coordinates& to) {
-  Change sum{Vec3::Zero(), Mat3::Zero()};
-  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
-    const auto before = model::NodeTable::slots(from, point.nodes[a]);
-    const auto after = model::NodeTable::slots(to, point.nodes[a]);
-    const Mat3 turned = after.rightCols<3>() - before.rightCols<3>();
-    sum.x += point.weights[a] * (after.col(0) - before.col(0) + turned * point.offset);
-    sum.d += point.weights[a] * turned;
-  }
-  return sum;
-}
-
 NodeKind kind_of(const model::Marker& point, const model::NodeTable& nodes) {
   const NodeKind kind = nodes.kind(point.nodes.front());
   for (const int node : point.nodes) {
@@ -73,16 +67,26 @@ NodeKind kind_of(const model::Marker& point, const model::NodeTable& nodes) {
   return kind;
 }
 
-Mat3 rotation(NodeKind kind, const Mat3& before, const Mat3& after) {
-  if (kind == NodeKind::node6) return shortest_rotation(before.col(0), after.col(0));
-  return quick_nearest_rotation(after) * quick_nearest_rotation(before).transpose();
+FlatPoint::FlatPoint(const model::Marker& point, const model::NodeTable& nodes)
+    : kind_(kind_of(point, nodes)),
+      count_(static_cast<int>(point.nodes.size())),
+      offset_(point.offset) {
+  internal_check(count_ <= max_nodes, "a point lies between more nodes than ports provide for");
+  for (std::size_t a = 0; a < point.nodes.size(); ++a) {
+    firsts_[a] = model::NodeTable::offset(point.nodes[a]);
+    weights_[a] = point.weights[a];
+  }
+  const Mat3 directors = slots(nodes.reference()).rightCols<3>();
+  reference_ = kind_ == NodeKind::node6 ? directors : quick_nearest_rotation(directors);
 }
 
-PointMotion motion(const model::Marker& point, NodeKind kind, const model::Coordinates& prev,
-                   const model::Coordinates& next) {
-  const Change moved = change(point, prev, next);
-  const Mat3 middle = directors(point, prev) + 0.5 * moved.d;
-  return {moved.x, load::Couple(middle, kind).rotation(moved.d)};
+Mat3 FlatPoint::rotation(const Mat3& directors) const {
+  if (kind_ == NodeKind::node6) return shortest_rotation(reference_.col(0), directors.col(0));
+  return quick_nearest_rotation(directors) * reference_.transpose();
+}
+
+Vec3 FlatPoint::turn(const Mat3& middle, const Mat3& change) const {
+  return load::Couple(middle, kind_).rotation(change);
 }
 
 }  // namespace culm::port

@@ -1,27 +1,19 @@
 #include <culm/base/error.hpp>
-#include <culm/load/couple.hpp>
-#include <culm/port/point_motion.hpp>
 #include <culm/port/port.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace culm::port {
 namespace {
 
-using model::Coordinates;
+using model::NodeSlots;
 
-Coordinates mean(const model::State& state) {
-  Coordinates result = state.next;
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = 0.5 * (state.prev[i] + result[i]);
-  return result;
-}
-
-void append(std::vector<double>& values, const Vec3& v) {
-  values.insert(values.end(), v.begin(), v.end());
+void put(const Vec3& first, const Vec3& second, double* at) {
+  Vec3::Map(at) = first;
+  Vec3::Map(at + 3) = second;
 }
 
 }  // namespace
@@ -34,68 +26,68 @@ Port::Port(std::string name, const model::NodeTable& nodes, std::vector<Place> p
       load_(load),
       forces_(places_.size(), Vec3::Zero()),
       moments_(forces_) {
-  for (const Place& place : places_) kinds_.push_back(kind_of(place.marker, nodes));
+  for (const Place& place : places_) points_.emplace_back(place.marker, nodes);
 }
 
 std::vector<double> Port::reference() const {
-  std::vector<double> values;
-  for (const Place& place : places_) append(values, position(place.marker, nodes_.reference()));
+  std::vector<double> values(3 * points_.size());
+  double* at = values.data();
+  for (const FlatPoint& point : points_) {
+    Vec3::Map(at) = point.place(point.slots(nodes_.reference()));
+    at += 3;
+  }
   return values;
 }
 
 std::vector<double> Port::read(Quantity quantity, const model::State& state) const {
-  std::vector<double> values;
-  values.reserve(places_.size() * static_cast<std::size_t>(components(quantity)));
-  const auto each = [&](auto append_one) {
-    for (std::size_t p = 0; p < places_.size(); ++p) append_one(places_[p].marker, kinds_[p]);
+  std::vector<double> values = zeros(quantity);
+  const auto each = [&](auto read_one) {
+    double* at = values.data();
+    for (const FlatPoint& point : points_) {
+      read_one(point, at);
+      at += components(quantity);
+    }
   };
-  // rates of a point, and of its directors as the rotation that loads work on
-  const auto append_rates = [&](const Vec3& rate, const Mat3& director_rates, const Mat3& at,
-                                NodeKind kind) {
-    append(values, rate);
-    append(values, load::Couple(at, kind).rotation(director_rates));
+  // of slots and of directors at the same time, as the rotation that loads work on
+  const auto put_rates = [](const FlatPoint& point, const NodeSlots& rates, const NodeSlots& slots,
+                            double* at) {
+    put(point.place(rates), point.turn(slots.rightCols<3>(), rates.rightCols<3>()), at);
   };
   const bool has_rates = !state.velocity.empty();
   const double h = has_rates ? state.time - state.time_prev : 0.0;
   switch (quantity) {
     case Quantity::position:
-      each([&](const model::Marker& point, NodeKind) {
-        append(values, position(point, state.next));
+      each([&](const FlatPoint& point, double* at) {
+        Vec3::Map(at) = point.place(point.slots(state.next));
       });
       break;
     case Quantity::rotation:
-      each([&](const model::Marker& point, NodeKind kind) {
-        const Mat3 R =
-            rotation(kind, directors(point, nodes_.reference()), directors(point, state.next));
-        for (int i = 0; i < 3; ++i) append(values, R.row(i));
+      each([&](const FlatPoint& point, double* at) {
+        Mat3::Map(at) = point.rotation(point.slots(state.next).rightCols<3>()).transpose();
       });
       break;
     case Quantity::velocity:
-      if (!has_rates) return zeros(quantity);
+      if (!has_rates) break;
       // at the end of the open step 2 Dq / h - v, or now
-      each([&](const model::Marker& point, NodeKind kind) {
-        const Vec3 v = position(point, state.velocity);
-        const Mat3 w = directors(point, state.velocity), at = directors(point, state.next);
-        if (h <= 0.0) return append_rates(v, w, at, kind);
-        const Change moved = change(point, state.prev, state.next);
-        append_rates(2.0 / h * moved.x - v, 2.0 / h * moved.d - w, at, kind);
+      each([&](const FlatPoint& point, double* at) {
+        NodeSlots rates = point.slots(state.velocity);
+        if (h > 0.0) rates = 2.0 / h * point.change(state.prev, state.next) - rates;
+        put_rates(point, rates, point.slots(state.next), at);
       });
       break;
     case Quantity::acceleration:
-      if (h <= 0.0) return zeros(quantity);
+      if (h <= 0.0) break;
       // Dv / h = 2 (Dq / h - v) / h
-      each([&](const model::Marker& point, NodeKind kind) {
-        const Change moved = change(point, state.prev, state.next);
-        append_rates(2.0 / h * (moved.x / h - position(point, state.velocity)),
-                     2.0 / h * (moved.d / h - directors(point, state.velocity)),
-                     directors(point, state.prev) + 0.5 * moved.d, kind);
+      each([&](const FlatPoint& point, double* at) {
+        const NodeSlots moved = point.change(state.prev, state.next);
+        put_rates(point, 2.0 / h * (moved / h - point.slots(state.velocity)),
+                  point.slots(state.prev) + 0.5 * moved, at);
       });
       break;
     case Quantity::motion:
-      each([&](const model::Marker& point, NodeKind kind) {
-        const PointMotion moved = motion(point, kind, state.prev, state.next);
-        append(values, moved.displacement);
-        append(values, moved.turn);
+      each([&](const FlatPoint& point, double* at) {
+        const NodeSlots moved = point.change(state.prev, state.next);
+        put_rates(point, moved, point.slots(state.prev) + 0.5 * moved, at);
       });
       break;
   }
@@ -138,15 +130,16 @@ void Port::take_loads(const Port& other) {
 
 Exchange Port::exchange(const model::State& state) const {
   Exchange sum;
-  const Coordinates middle = mean(state);
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    const model::Marker& point = places_[p].marker;
-    const PointMotion moved = motion(point, kinds_[p], state.prev, state.next);
-    sum.work += forces_[p].dot(moved.displacement) + moments_[p].dot(moved.turn);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const FlatPoint& point = points_[p];
+    const NodeSlots moved = point.change(state.prev, state.next);
+    const NodeSlots middle = point.slots(state.prev) + 0.5 * moved;
+    sum.work += forces_[p].dot(point.place(moved)) +
+                moments_[p].dot(point.turn(middle.rightCols<3>(), moved.rightCols<3>()));
     sum.force += forces_[p];
-    sum.moment += position(point, middle).cross(forces_[p]) + moments_[p];
-    if (kinds_[p] == NodeKind::node12) continue;
-    const Vec3 director = directors(point, middle).col(0);
+    sum.moment += point.place(middle).cross(forces_[p]) + moments_[p];
+    if (point.kind() == NodeKind::node12) continue;
+    const Vec3 director = middle.col(1);
     const Vec3 along = moments_[p].dot(director) / director.squaredNorm() * director;
     sum.moment -= along;
     sum.not_carried += along.norm();

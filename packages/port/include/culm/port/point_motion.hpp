@@ -5,6 +5,8 @@
 #include <culm/model/node_table.hpp>
 #include <culm/model/structure.hpp>
 
+#include <array>
+
 namespace culm::port {
 
 /// x = sum_a N_a (x_a + sum_k offset_k d_k,a), linear in the coordinates: of rates the velocity.
@@ -14,27 +16,53 @@ Vec3 position(const model::Marker& point, const model::Coordinates& q);
 /// they change. Of a shell the first column is its director and the others are zero.
 Mat3 directors(const model::Marker& point, const model::Coordinates& q);
 
-/// How a point and its directors change from one configuration to another, without loss of digits.
-struct Change {
-  Vec3 x;
-  Mat3 d;
-};
-Change change(const model::Marker& point, const model::Coordinates& from,
-              const model::Coordinates& to);
-
 /// Kind of the nodes of a point. @pre all are of one kind
 NodeKind kind_of(const model::Marker& point, const model::NodeTable& nodes);
 
-/// The rotation of a point from some directors to others: between the triads nearest to them; of a
-/// shell the one that turns the director on the shortest way.
-Mat3 rotation(NodeKind kind, const Mat3& before, const Mat3& after);
+/// A point as plain numbers, for passes over many.
+class FlatPoint {
+ public:
+  static constexpr int max_nodes = 4;
 
-/// What loads at a point work on in a step: how it moves, and the rotation vector of its moments,
-/// |tau| = 2 tan(angle / 2). @see load::Couple
-struct PointMotion {
-  Vec3 displacement, turn;
+  FlatPoint(const model::Marker& point, const model::NodeTable& nodes);
+
+  NodeKind kind() const { return kind_; }
+  /// sum_a N_a (x, d1, d2, d3)_a, shape (3, 4).
+  model::NodeSlots slots(const model::Coordinates& q) const {
+    model::NodeSlots sum = weights_[0] * at(q, 0);
+    for (int a = 1; a < count_; ++a) sum += weights_[static_cast<std::size_t>(a)] * at(q, a);
+    return sum;
+  }
+  /// The same of the difference of two configurations, without loss of digits.
+  model::NodeSlots change(const model::Coordinates& from, const model::Coordinates& to) const {
+    model::NodeSlots sum = weights_[0] * (at(to, 0) - at(from, 0));
+    for (int a = 1; a < count_; ++a) {
+      sum += weights_[static_cast<std::size_t>(a)] * (at(to, a) - at(from, a));
+    }
+    return sum;
+  }
+  /// Where the point is if its slots are these; of rates its velocity.
+  Vec3 place(const model::NodeSlots& slots) const {
+    return slots.col(0) + slots.rightCols<3>() * offset_;
+  }
+  /// The rotation from the reference to these directors: between the triads nearest to them; of a
+  /// shell the one that turns the director on the shortest way.
+  Mat3 rotation(const Mat3& directors) const;
+  /// The rotation vector of moments, |tau| = 2 tan(angle / 2), of a change of the directors, or the
+  /// angular velocity of their rates. @param middle  the directors there @see load::Couple
+  Vec3 turn(const Mat3& middle, const Mat3& change) const;
+
+ private:
+  Eigen::Map<const model::NodeSlots> at(const model::Coordinates& q, int a) const {
+    return Eigen::Map<const model::NodeSlots>(q.data() + firsts_[static_cast<std::size_t>(a)]);
+  }
+
+  NodeKind kind_;
+  int count_;
+  std::array<int, max_nodes> firsts_ = {};  // coordinates of the nodes
+  std::array<double, max_nodes> weights_ = {};
+  Vec3 offset_;
+  Mat3 reference_;  // triad there, of a shell its director
 };
-PointMotion motion(const model::Marker& point, NodeKind kind, const model::Coordinates& prev,
-                   const model::Coordinates& next);
 
 }  // namespace culm::port

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/port/place.hpp>
+#include <culm/port/point_motion.hpp>
 #include <culm/port/port_load.hpp>
 
 #include <span>
@@ -72,7 +73,7 @@ class Port {
   std::string name_;
   const model::NodeTable& nodes_;
   std::vector<Place> places_;
-  std::vector<NodeKind> kinds_;
+  std::vector<FlatPoint> points_;
   PortLoad& load_;
   std::vector<Vec3> forces_;
   std::vector<Vec3> moments_;
