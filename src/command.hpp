@@ -45,7 +45,10 @@ struct ResumeArguments {
   std::string walltime;
   bool strict = false;  ///< warnings count as broken promises
   bool quiet = false;
-  int ranks = 0;  ///< so many of the processes are ours; all if zero
+  int ranks = 0;        ///< so many of the processes are ours; all if zero
+  std::string address;  ///< where a program comes to that leads; nobody does if empty
+  std::string port;     ///< at which it does; the only one of the deck if empty
+  double patience = 600.0;
 };
 
 /// Files of another program, and the deck to make of them.
@@ -63,13 +66,16 @@ struct CoupleArguments : RunArguments {
   std::string mass, damping, stiffness, address;
   std::string port;
   std::string scheme, window, tolerance;
+  bool parallel = false;
   bool record = false;
 };
 
 /// A record of a coupling, or the folder with those of all partners, and the deck that takes its
-/// loads again.
+/// loads again, or a partner that is asked again.
 struct ReplayArguments : RunArguments {
   std::filesystem::path record;
+  std::string partner;  ///< where it comes to, in place of a deck
+  double patience = 600.0;
 };
 
 /// What to print of the input reference.
@@ -97,7 +103,8 @@ void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
 void check(const parallel::Comm& comm, CheckArguments& arguments);
 /// Runs a deck together with a partner.
 void couple(const parallel::Comm& comm, CoupleArguments& arguments);
-/// Runs a deck with the loads of a record, and compares how it moves.
+/// Runs a deck with the loads of a record, and compares how it moves; or asks a partner what the
+/// record says, and compares what it answers.
 void replay(const parallel::Comm& comm, ReplayArguments& arguments);
 /// Runs a deck as another program asks for it.
 void serve(const parallel::Comm& comm, ServeArguments& arguments);

@@ -38,6 +38,7 @@ void couple(const parallel::Comm& comm, CoupleArguments& arguments) {
   add("Coupling/Scheme", in_deck(arguments.scheme));
   add("Coupling/Window", arguments.window);
   add("Coupling/Tolerance", arguments.tolerance);
+  if (arguments.parallel) settings.emplace_back("Coupling/Parallel=true");
   if (arguments.record) settings.emplace_back("Coupling/Record=true");
   arguments.overrides.insert(arguments.overrides.begin(), settings.begin(), settings.end());
   run(comm, arguments);

@@ -54,7 +54,7 @@ struct Arguments {
   const RunArguments& any_run() const {
     if (!couple.deck.empty()) return couple;
     if (!serve.deck.empty()) return serve;
-    return replay.deck.empty() ? run : replay;
+    return replay.record.empty() ? run : replay;
   }
 
   ResumeArguments resume;
@@ -93,10 +93,22 @@ void add_partner_options(CLI::App& verb, CoupleArguments& arguments) {
   verb.add_option("--port", arguments.port, "Its port; the only one of the deck if not given");
   verb.add_option("--scheme", arguments.scheme,
                   "quasi-newton, aitken, constant, explicit or one-way");
+  verb.add_flag("--parallel", arguments.parallel,
+                "Structure and partner work at the same time, on guesses of each other");
   verb.add_option("--window", arguments.window,
                   "From exchange to exchange [s]; a step if not given");
   verb.add_option("--tolerance", arguments.tolerance, "Of the loads, relative");
   verb.add_flag("--record", arguments.record, "Write all that is said beside the results");
+}
+
+// Where a program comes to that leads.
+template <class VerbArguments>
+CLI::Option* add_leader(CLI::App& verb, VerbArguments& arguments, const std::string& whence) {
+  verb.add_option("--port", arguments.port, "The only port of the deck if not given");
+  verb.add_option("--patience", arguments.patience, "How long it may be silent [s]; 600")
+      ->check(CLI::PositiveNumber);
+  return verb.add_option("--at", arguments.address,
+                         whence + " comes to: unix:PATH, tcp:PORT, tcp:ADDRESS:PORT, or mpi:RANK");
 }
 
 void add_walltime(CLI::App& verb, std::string& walltime) {
@@ -147,6 +159,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                      "Deck in place of that of the run; the model must be the same");
   add_common_options(*resume, arguments.resume);
   add_ranks(*resume, arguments.resume.ranks);
+  add_leader(*resume, arguments.resume, "Of a run that was led: where the other program");
   add_walltime(*resume, arguments.resume.walltime);
   add_ending(*resume, arguments.resume.strict);
   resume->callback(
@@ -167,24 +180,25 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   couple->callback(
       [&] { action = [&](const Comm& comm) { culm::app::couple(comm, arguments.couple); }; });
   CLI::App* replay = app.add_subcommand(
-      "replay", "Run a deck with the loads of a recorded coupling, and compare how it moves");
+      "replay",
+      "Run a deck with the loads of a recorded coupling, or ask a partner again, and compare");
   replay
       ->add_option("record", arguments.replay.record,
                    "What a coupling wrote, or the folder with the records of all partners")
       ->required();
   add_run_options(*replay, arguments.replay);
+  replay->get_option("deck")->required(false);
+  replay->add_option("--partner", arguments.replay.partner,
+                     "In place of a deck, a partner: unix:PATH, tcp:PORT, tcp:ADDRESS:PORT or "
+                     "mpi:RANK");
+  replay->add_option("--patience", arguments.replay.patience, "How long it may be silent [s]; 600")
+      ->check(CLI::PositiveNumber);
   replay->callback(
       [&] { action = [&](const Comm& comm) { culm::app::replay(comm, arguments.replay); }; });
   CLI::App* serve = app.add_subcommand(
       "serve", "Run a deck whose steps another program makes, by the loads at a port");
   add_run_options(*serve, arguments.serve);
-  serve
-      ->add_option("--at", arguments.serve.address,
-                   "Where it comes to: unix:PATH, tcp:PORT, tcp:ADDRESS:PORT, or mpi:RANK")
-      ->required();
-  serve->add_option("--port", arguments.serve.port, "The only port of the deck if not given");
-  serve->add_option("--patience", arguments.serve.patience, "How long it may be silent [s]; 600")
-      ->check(CLI::PositiveNumber);
+  add_leader(*serve, arguments.serve, "Where it")->required();
   serve->callback(
       [&] { action = [&](const Comm& comm) { culm::app::serve(comm, arguments.serve); }; });
   CLI::App* import = app.add_subcommand("import", "Make a deck from files of another program");

@@ -13,9 +13,12 @@ void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const auto found = simulation::find_checkpoint(comm, arguments.run, log);
-  const simulation::RunSettings settings{found.folder, arguments.quiet,
+  const simulation::RunSettings settings{found.folder,
+                                         arguments.quiet,
                                          comm.is_root() && isatty(STDOUT_FILENO) != 0,
-                                         arguments.strict};
+                                         arguments.strict,
+                                         {},
+                                         {arguments.address, arguments.port, arguments.patience}};
   const simulation::Catalogue catalogue;
   auto source = arguments.deck.empty() ? simulation::DeckSource::restore(found.snapshot)
                                        : simulation::read_source(comm, arguments.deck, {});

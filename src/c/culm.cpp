@@ -107,6 +107,7 @@ struct culm_simulation {
   std::ostringstream said;
   std::string messages;
   std::string broken;
+  std::string port_name;
   std::string error;
   Simulation simulation;
   Stepper* open_stepper = nullptr;
@@ -185,6 +186,20 @@ void culm_close(culm_simulation* simulation) { delete simulation; }
 
 void culm_end(void) {
   guarded(error_without_simulation(), [] { start().reset(); });
+}
+
+int culm_write_results(culm_simulation* simulation, const char* folder) {
+  return with(simulation, [&](culm_simulation& s) {
+    require(folder != nullptr, "there is no folder: it is NULL");
+    s.simulation.write_results(folder);
+  });
+}
+
+int culm_close_results(culm_simulation* simulation) {
+  return with(simulation, [](culm_simulation& s) {
+    if (s.simulation.writes_results()) s.open_stepper = nullptr;
+    s.simulation.close_results();
+  });
 }
 
 int culm_begin(culm_simulation* simulation, const char* analysis) {
@@ -279,6 +294,24 @@ int culm_add_port(culm_simulation* simulation, const char* port, const double* x
     if (reach > 0.0) cloud.reach = reach;
     if (smooth != 0) cloud.weights = culm::port::Weights::smooth;
     s.simulation.add_port(port, std::move(cloud));
+  });
+}
+
+int culm_port_count(culm_simulation* simulation, int* count) {
+  return with(simulation, [&](culm_simulation& s) {
+    *count = static_cast<int>(s.simulation.port_names().size());
+  });
+}
+
+int culm_port_name(culm_simulation* simulation, int number, const char** name) {
+  return with(simulation, [&](culm_simulation& s) {
+    const std::vector<std::string> names = s.simulation.port_names();
+    if (number < 0 || number >= static_cast<int>(names.size())) {
+      throw UsageError("there is no port of number " + std::to_string(number) + ", there are " +
+                       std::to_string(names.size()));
+    }
+    s.port_name = names[static_cast<std::size_t>(number)];
+    *name = s.port_name.c_str();
   });
 }
 

@@ -20,7 +20,7 @@ extern "C" {
 #endif
 
 /* What this header describes: major * 1000 + minor. culm_open compares it with the library. */
-#define CULM_API_VERSION 1002
+#define CULM_API_VERSION 1003
 
 /* The communicator of all ranks, for culm_open. */
 #define CULM_WORLD (-1)
@@ -73,6 +73,12 @@ CULM_API void culm_end(void);
 
 /* --- steps; the verbs of doc/developer/life_of_a_step.md ---------------------------------------- */
 
+/* Writes results into a folder as culm run does: of each step when it is accepted, cut back by culm_restore. Before the
+ * first culm_begin; without it nothing is written. Since 1003. */
+CULM_API int culm_write_results(culm_simulation* simulation, const char* folder);
+/* Ends the analysis that was taken up, and the files with a report; what was written before is sound without it. Since
+ * 1003. */
+CULM_API int culm_close_results(culm_simulation* simulation);
 /* Takes up an analysis of the deck that makes steps, the first one if `analysis` is NULL. */
 CULM_API int culm_begin(culm_simulation* simulation, const char* analysis);
 /* Time [s] or level of the accepted state. */
@@ -115,6 +121,9 @@ CULM_API int culm_set_load(culm_simulation* simulation, const char* load, const 
 CULM_API int culm_add_port(culm_simulation* simulation, const char* port, const double* xyz,
                            int points, const char* const* structures, int count, double reach,
                           int smooth);
+/* How many ports there are, and their names by number from 0, valid until the next call of this. Since 1003. */
+CULM_API int culm_port_count(culm_simulation* simulation, int* count);
+CULM_API int culm_port_name(culm_simulation* simulation, int number, const char** name);
 /* The number of points of a port. */
 CULM_API int culm_port_size(culm_simulation* simulation, const char* port, int* points);
 /* Positions in the reference. `size` values, 3 per point. */

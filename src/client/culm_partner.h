@@ -457,6 +457,10 @@ static int culm_structure_fail(culm_partner* it) { return culm_structure_do(it, 
 static int culm_structure_save(culm_partner* it, uint32_t number) { return culm_structure_do(it, 6, number); }
 static int culm_structure_restore(culm_partner* it, uint32_t number) { return culm_structure_do(it, 15, number); }
 
+/* Lets culm write a checkpoint, from which `culm resume` goes on; keep yourself under the same number, above 0. In a run
+ * that goes on the number is `window` of culm_partner, else 0. */
+static int culm_structure_keep(culm_partner* it, uint32_t number) { return culm_structure_do(it, 18, number); }
+
 /* The end; then culm_partner_close. */
 static int culm_structure_end(culm_partner* it) { return culm_partner_send(it, 9, NULL, 0); }
 

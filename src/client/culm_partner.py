@@ -35,6 +35,7 @@ import numpy
 QUANTITIES = (("position", 3), ("rotation", 9), ("velocity", 6), ("acceleration", 6), ("motion", 6))
 HELLO, ATTEMPT, ANSWER, ACCEPT, ACCEPTED, SAVE, SAVED, ALIVE, BYE, ERROR = range(1, 11)
 DISCARD, DISCARDED, FAIL, FAILED, RESTORE, RESTORED = range(11, 17)  # of programs that lead
+KEEP, KEPT = 18, 19  # as well
 HEADER = struct.Struct("<4sHHIIddQI20x")  # magic, version, kind, window, attempt, start, end, payload, checksum
 CHECKED = 40  # bytes of the header that the checksum covers
 VERSION = 1
@@ -187,6 +188,7 @@ class Structure:
     accepted; each attempt begins from the last accepted state, whatever was tried before.
 
     port, points, reference, final_time   the port, its points [m], where the analysis ends [s]
+    kept               the number of its last checkpoint if a run goes on, else 0
     time, proposal     of the accepted state, and where culm would go next [s]
     work, step_work    of the loads on the structure: so far, and in the last step [J]
     position, …        what `wants` names, of the attempt that converged last: arrays with a row for each point
@@ -196,11 +198,11 @@ class Structure:
         self._wanted = _bits(wants)
         self._connection = Connection(address, patience)
         self._step, self._attempts = 0, 0
-        kind, _, _, start, end, payload = self._connection.receive()
+        kind, window, _, start, end, payload = self._connection.receive()
         if kind != HELLO or end <= start:
             raise PartnerError("culm leads here: start it by 'culm serve'")
         self.port, self.reference, self.velocity = _hello(payload)
-        self.points, self.final_time = len(self.reference), end
+        self.points, self.final_time, self.kept = len(self.reference), end, window
         hello = struct.pack("<IId", self.points, self._wanted, math.inf) + name.encode()
         self._connection.send(HELLO, payload=hello)
         self._take(self._connection.receive(), ACCEPTED)
@@ -256,6 +258,10 @@ class Structure:
     def restore(self, number):
         """Goes back to what was saved under this number, with results as they were then."""
         self._do(RESTORE, RESTORED, number)
+
+    def keep(self, number):
+        """Lets culm write a checkpoint, from which `culm resume` goes on; keep yourself under the same number, above 0."""
+        self._do(KEEP, KEPT, number)
 
     def close(self):
         """The end: culm closes its results."""

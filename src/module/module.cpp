@@ -68,6 +68,12 @@ class Live {
     stepper_ = nullptr;
     stepper_ = &simulation_.begin(analysis);
   }
+  std::vector<std::string> close_results() {
+    if (simulation_.writes_results()) stepper_ = nullptr;
+    std::vector<std::string> names;
+    for (const auto& path : simulation_.close_results()) names.push_back(path.string());
+    return names;
+  }
   long taken_up() const { return taken_up_; }
   Stepper* stepper() const { return stepper_; }
 
@@ -86,7 +92,7 @@ class Handle {
 
   Stepper& get() const {
     if (live_.taken_up() != number_ || live_.stepper() == nullptr) {
-      throw culm::UsageError("this analysis has ended: another one was taken up");
+      throw culm::UsageError("this analysis has ended");
     }
     return *live_.stepper();
   }
@@ -346,6 +352,14 @@ PYBIND11_MODULE(_culm, module) {
       .def(py::init<const std::string&, std::vector<std::string>>(), py::arg("deck"),
            py::arg("overrides") = std::vector<std::string>{},
            "Builds the model of a deck. Overrides are such as 'Structures/beam/Curve/Elements=32'.")
+      .def(
+          "write_results",
+          [](Live& live, const std::string& folder) { live.simulation().write_results(folder); },
+          py::arg("folder"),
+          "Writes results of each step when it is accepted, as culm run does; cut back by restore. "
+          "Before the first begin.")
+      .def("close_results", &Live::close_results,
+           "Ends the analysis and the files, with a report; returns the names of the files.")
       .def(
           "begin",
           [](Live& live, const std::string& analysis) {

@@ -12,11 +12,13 @@ import os
 import pathlib
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 import numpy
 
@@ -97,6 +99,8 @@ class Dying(Water):
 
     def accept(self, window):
         energy, heat = super().accept(window)
+        if self.way == "energy":
+            return energy + 1.0, heat
         return (numpy.inf if self.way == "infinite" and window.number == 5 else energy), heat
 
 
@@ -143,6 +147,10 @@ def answer_no_number(partner, loads):
     return loads
 
 
+def answer_double(partner, loads):
+    return 2.0 * loads
+
+
 def be_slow(partner, loads):
     time.sleep(3.0)
     return loads
@@ -170,6 +178,7 @@ WAYS = {
     "silence": fall_silent,
     "alive": stay_alive,
     "slow": be_slow,
+    "double": answer_double,
 }
 SAID = {
     "kill": "it is gone without a word",
@@ -184,6 +193,28 @@ SAID = {
     "alive": "it says that it is alive, and has not answered for 2 s",
     "infinite": "its energy is inf J, its heat 0 J",
 }
+
+
+def every_frame(record):
+    """Place, kind, window and length of each frame of a record."""
+    at = 0
+    while at + 64 <= len(record):
+        kind, window = struct.unpack_from("<HI", record, at + 6)
+        size, = struct.unpack_from("<Q", record, at + 32)
+        yield at, kind, window, 64 + size
+        at += 64 + size
+
+
+def with_a_moved_step(record):
+    """A record in which the structure is elsewhere after the second step of the fourth window, and back after the third."""
+    record = bytearray(record)
+    steps = [(at, size) for at, kind, window, size in every_frame(record) if kind == 17 and window == 3]
+    for (at, size), sign in zip(steps[1:3], (1.0, -1.0), strict=True):
+        moved, = struct.unpack_from("<d", record, at + 64)
+        struct.pack_into("<d", record, at + 64, moved + sign * 1e-6)
+        check = zlib.crc32(record[at + 64:at + size], zlib.crc32(record[at:at + 40]))
+        struct.pack_into("<I", record, at + 40, check)
+    return record
 
 
 def be_partner(address, folder, way):
@@ -340,6 +371,71 @@ class Programs(CouplingTest):
         (self.folder / "here/coupling_damper.record").unlink()
         errors = self.culm("replay", self.folder / "here", DECK, "--output", "one", "--quiet", code=6)
         self.assertIn("coupling_damper.record", errors)
+
+    def test_in_parallel_as_in_the_same_process(self):
+        settings = ["--quiet", "--set", "Coupling/Parallel=true", "--set", "Output/Checkpoint Interval=0"]
+        self.culm("run", self.deck, "--output", "here", *settings)
+        partner = self.start_partner()
+        self.culm("run", self.remote, "--output", "there", *settings)
+        self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
+        self.same("here", "there")
+        self.start_partner("kill")
+        self.culm("run", self.remote, "--output", "killed", *settings, code=FAILED_PARTNER)
+        self.start_partner()
+        self.culm("resume", "killed", "--quiet")
+        self.same("here", "killed")
+
+    def test_replay_of_a_partner(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
+        record = self.folder / "here/coupling_water.record"
+        partner = self.start_partner()
+        output, errors = self.start("replay", record, "--partner", self.address).communicate(timeout=TIME_LIMIT)
+        self.assertRegex(output + errors, r"25 windows, (\d+) attempts, \1 answered with the same bits")
+        self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
+        for way, said, code in (("double", "the partner answers differently, in window 5, attempt 1 by 1 of its loads", 8),
+                                ("energy", "the partner keeps other books", 8),
+                                ("nan", "it answered nan for component 1 at point 3", FAILED_PARTNER)):
+            partner = self.start_partner(way)
+            self.assertIn(said, self.culm("replay", record, "--partner", self.address, code=code))
+            partner.wait(TIME_LIMIT)
+        self.assertIn("either a deck", self.culm("replay", record, code=2))
+
+    def test_replay_of_what_couple_recorded(self):
+        """The deck that was coupled by words of the command line has no list of partners."""
+        bare = self.write("bare.xml", re.sub(r'  <ParameterList name="Coupling">.*?\n  </ParameterList>\n', "",
+                                             self.deck.read_text(), flags=re.S))
+        self.culm("couple", bare, "--partner", "added-mass", "--mass", "20", "--port", "wet", "--window", "0.02", "--record",
+                  "--output", "here", "--quiet")
+        for what in ("here/coupling_partner.record", "here"):
+            self.culm("replay", self.folder / what, bare, "--output", "again", "--quiet")
+            self.same("here", "again")
+        errors = self.culm("replay", self.folder / "here", bare, "--output", "other", "--quiet", "--set",
+                           "Sections/pole/Density=2701", code=8)
+        self.assertIn("the structure moves differently, in window", errors)
+        self.assertIn("holds no record of a coupling", self.culm("replay", self.folder, bare, "--output", "no", code=6))
+
+    def test_replay_compares_the_steps_within_windows(self):
+        """A load that comes and goes within a window moves the structure there and hardly at its end."""
+        self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
+        record = self.folder / "here/coupling_water.record"
+        frames = record.read_bytes()
+        self.assertEqual(sum(frame[1] == 17 for frame in every_frame(frames)), 100)  # four steps in each window
+        damaged = self.write("damaged.record", "")
+        damaged.write_bytes(with_a_moved_step(frames))
+        errors = self.culm("replay", damaged, self.deck, "--output", "again", "--quiet", code=8)
+        self.assertIn("the structure moves differently, in window 3", errors)
+
+    def test_replay_of_one_way(self):
+        one_way = ["--quiet", "--set", "Coupling/Scheme=One Way", "--set", "Coupling/Partners/water/Type=Random",
+                   "--set", "Coupling/Partners/water/Force=100"]
+        deck = self.write("noise.xml", self.deck.read_text().replace('<Parameter name="Mass" value="20"/>', ""))
+        self.culm("run", deck, "--output", "here", *one_way, "--set", "Coupling/Record=true")
+        record = self.folder / "here/coupling_water.record"
+        self.culm("replay", record, deck, "--output", "again", *one_way)
+        self.same("here", "again")
+        errors = self.culm("replay", record, deck, "--output", "other", *one_way, "--set", "Sections/pole/Density=2701",
+                           code=8)
+        self.assertIn("the structure moves differently", errors)
 
     def test_replay_in_other_windows(self):
         self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
@@ -514,6 +610,30 @@ class Leaders(CouplingTest):
         self.finish(process)
         self.same("here", "there")
 
+    def test_that_are_resumed(self):
+        """culm and the leader keep themselves at the same time, are both stopped later, and go on from there."""
+        process = self.serve()
+        with self.assertRaises(KeyboardInterrupt):
+            with culm_partner.Structure(self.address, patience=20.0) as mast:
+                self.assertEqual(mast.kept, 0)
+                loads, velocity = numpy.zeros((5, 6)), mast.velocity[:, :3].copy()
+                for step in range(50):
+                    loads, velocity = self.step(mast, loads, velocity)
+                    if step in (20, 30):
+                        mast.keep(step)
+                        there = loads, velocity
+                raise KeyboardInterrupt("no more wind")
+        self.finish(process, FAILED_PARTNER)
+        self.assertIn("this run was led by another program: say by --at", self.culm("resume", "there", "--quiet", code=2))
+        process = self.start("resume", "there", "--at", self.address, "--port", "wet", "--quiet")
+        with culm_partner.Structure(self.address, patience=20.0) as mast:
+            self.assertEqual(mast.kept, 30)
+            self.assertLess(abs(mast.time - 0.155), 1e-9)
+            while not mast.is_at_end:
+                there = self.step(mast, *there)
+        self.finish(process)
+        self.same("here", "there")
+
     def test_in_c(self):
         process = self.serve()
         leader = subprocess.run([os.path.abspath(OPTIONS.socket_leader), self.address], timeout=TIME_LIMIT)
@@ -556,6 +676,8 @@ class Leaders(CouplingTest):
     def test_that_ask_what_makes_no_sense(self):
         self.fails("it asked for 'accept'", lambda mast: mast.accept())
         self.fails("nothing was saved under the number 3", lambda mast: mast.restore(3))
+        self.fails("checkpoints have numbers above zero", lambda mast: mast.keep(0))
+        self.fails("the deck wants no checkpoints", lambda mast: mast.keep(1), "--set", "Output/Checkpoints=false")
         self.fails("it answered nan for component 0 at point 0", lambda mast: mast.attempt(numpy.full((5, 6), numpy.nan), 1.0))
         self.fails("cannot end at 0 s", lambda mast: mast.attempt(numpy.zeros((5, 6)), 0.0))
 
@@ -596,23 +718,48 @@ class Decks(CouplingTest):
         self.says("face 0 names point 9; there are 1, from 0", self.deck, gas + "Type=Pressure", gas + "Port=top",
                   gas + "Pressure=1", gas + "Triangles={9, 0, 0}")
 
+    def fault(self, name, code, *settings, more=()):
+        words = [word for setting in settings for word in ("--set", "Coupling/Partners/fault/" + setting)]
+        words += [word for setting in more for word in ("--set", setting)]
+        errors = self.culm("run", self.deck, "--output", "fault", "--quiet", "--set", "Coupling/Partners/fault/Type=Faulty",
+                           "--set", "Coupling/Partners/fault/Port=top", "--set", "Coupling/Partners/fault/Window=3",
+                           "--set", f"Coupling/Partners/fault/Fault={name}", *words, code=code)
+        return re.sub(r"\s+", " ", errors)
+
     def test_with_partners_that_fail(self):
-        fault = ["--set", "Coupling/Partners/fault/Type=Faulty", "--set", "Coupling/Partners/fault/Port=top",
-                 "--set", "Coupling/Partners/fault/Window=3", "--quiet"]
-        errors = self.culm("run", self.deck, "--output", "dead", *fault, code=FAILED_PARTNER)
-        self.assertIn("the partner at port 'top' failed in window 3", errors)
-        self.assertEqual(self.rows("dead"), 3)
-        errors = self.culm("run", self.deck, "--output", "nan", *fault, "--set",
-                           "Coupling/Partners/fault/Fault=No Number", code=FAILED_PARTNER)
-        said = "the partner 'fault' at port 'top' failed in window 3, attempt 0, from 0.06 s to 0.08 s: it answered "
-        self.assertIn(said + "nan for component 0 at point 0", errors)
-        errors = self.culm("run", self.deck, "--output", "count", *fault, "--set",
-                           "Coupling/Partners/fault/Fault=Wrong Count", code=FAILED_PARTNER)
-        self.assertIn(said + "0 numbers; six for each of 1 points are 6", errors)
-        self.assertEqual(self.rows("count"), 3)
-        errors = self.culm("run", self.deck, "--output", "energy", *fault, "--set",
-                           "Coupling/Partners/fault/Fault=Wrong Energy", code=8)
+        said = "the partner 'fault' at port 'top' failed in window 3, attempt "
+        for name, words in (("Death", "as the deck wants it"), ("No Number", "it answered nan for component 0 at point 0"),
+                            ("Infinite", "it answered inf for component 0 at point 0"),
+                            ("Wrong Count", "it answered 0 numbers; six for each of 1 points are 6"),
+                            ("Infinite Energy", "its energy is inf J, its heat 0 J")):
+            with self.subTest(fault=name):
+                errors = self.fault(name, FAILED_PARTNER)
+                self.assertIn(said.replace(" 'fault'", "") if name == "Death" else said, errors)
+                self.assertIn(f"from 0.06 s to 0.08 s: {words}", errors)
+                self.assertEqual(self.rows("fault"), 3)
+
+    def test_with_partners_that_lie(self):
+        """Their forces are wrong and their books right, or the other way round: results are whole, the promise is broken."""
+        errors = self.fault("Wrong Energy", 8)
         self.assertIn("the partner 'fault' books 1 J, and nothing went through its port", errors)
+        for name in ("Scaled", "Turned", "Old", "Wrong Energy"):
+            with self.subTest(fault=name):
+                errors = self.fault(name, 8, "Mass=5")
+                self.assertRegex(errors, "the interface 'fault' (makes|loses) ")
+                self.assertIn("the partner answers or books", errors)
+                self.assertEqual(self.rows("fault"), 25)
+
+    def test_with_a_lie_in_one_window_of_many(self):
+        """Over the run it is little: what counts is the window."""
+        errors = self.fault("Wrong Energy", 8, "Mass=5", "Window=7", more=["Loads/push/Force={6000, 1000, 0}"])
+        self.assertRegex(errors, "the interface 'fault' makes from 0.14 s to 0.16 s 1 J, .* % of the most that is exchanged in a "
+                         "window")
+
+    def test_with_partners_that_are_slow(self):
+        self.assertEqual(self.fault("Slow", 0, "Mass=5", "Window=23"), "")
+        self.culm("run", self.deck, "--output", "quick", "--quiet", "--set", "Coupling/Partners/fault/Type=Added Mass",
+                  "--set", "Coupling/Partners/fault/Port=top", "--set", "Coupling/Partners/fault/Mass=5")
+        self.same("fault", "quick")
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ int main(int argc, char **argv) {
   culm_snapshot *start = NULL;
   if (argc < 2) return 1;
 
-  EXPECT(culm_open(CULM_API_VERSION + 1000, CULM_WORLD, argv[1], NULL, 0, &mast), CULM_USAGE, "version 2002");
+  EXPECT(culm_open(CULM_API_VERSION + 1000, CULM_WORLD, argv[1], NULL, 0, &mast), CULM_USAGE, "version 2003");
   EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, "missing.xml", NULL, 0, &mast), CULM_FILE, "missing.xml");
   EXPECT(culm_begin(NULL, NULL), CULM_USAGE, "NULL");
   EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, argv[1], overrides, 1, &mast), CULM_OK, "");
@@ -43,6 +43,9 @@ int main(int argc, char **argv) {
 
   EXPECT(culm_begin(mast, "gast"), CULM_USAGE, "gust");
   EXPECT(culm_begin(mast, "gust"), CULM_OK, "");
+  EXPECT(culm_write_results(mast, "late"), CULM_USAGE, "before the first 'begin'");
+  EXPECT(culm_close_results(mast), CULM_USAGE, "no results are written");
+  EXPECT(culm_write_results(mast, NULL), CULM_USAGE, "NULL");
   EXPECT(culm_is_at_end(mast, &over), CULM_OK, "");
   EXPECT(culm_proposal(mast, &end), CULM_OK, "");
   if (over || fabs(end - 0.05) > 1e-15) return 5;

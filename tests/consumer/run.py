@@ -12,6 +12,8 @@ import re
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as ElementTree
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
@@ -103,11 +105,33 @@ def check_coupling(culm):
         sys.exit("the programs do not agree, or the wind did not push the mast")
     print(run(culm.build_c((HERE / "errors.c").read_text(), "errors"), deck), end="")
     print(culm.run_python((HERE / "arrays.py").read_text(), "arrays", deck), end="")
+    print(culm.run_python((HERE / "results.py").read_text(), "results", deck, culm.prefix / "bin/culm", culm.folder), end="")
     check_couple(culm, deck)
     check_socket(culm, deck, work)
     check_wing(culm)
     check_leader(culm, deck, texts[0])
+    check_fmu(culm, deck, texts[0])
     culm.check_symbols()
+
+
+def check_fmu(culm, deck, text):
+    """The mast as an FMU, blown at by an importer in C, which repeats steps from a state that it keeps."""
+    fmu, folder = culm.folder / "mast.fmu", culm.folder / "fmu"
+    run(culm.prefix / "bin/culm", "export", "fmu", deck, "--output", fmu)
+    with zipfile.ZipFile(fmu) as packed:
+        packed.extractall(folder)
+    description = ElementTree.parse(folder / "modelDescription.xml").getroot()
+    variables = {one.get("name"): one for one in description.iter("Float64")}
+    sizes = [int(one.get("start")) for one in variables["skin.motion"].findall("Dimension")]
+    if sizes != [6, 6] or variables["skin.force"].get("valueReference") != "16":
+        sys.exit("the description of the FMU has other ports")
+    identifier = description.find("CoSimulation").get("modelIdentifier")
+    run(*C, HERE / "importer.c", f"-I{culm.prefix}/share/culm/fmu", "-ldl", "-lm", "-o", culm.folder / "importer")
+    found = run(culm.folder / "importer", folder, identifier, "0.02", culm.folder / "blown_fmu")
+    print(f"FMU: {found}", end="")
+    rows = len((culm.folder / "blown_fmu/history.csv").read_text().splitlines())
+    if found != text or rows != 52:
+        sys.exit("the FMU does something else than the programs")
 
 
 def check_couple(culm, deck):

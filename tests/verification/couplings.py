@@ -145,6 +145,36 @@ def verify_identity(culm, mast, report):
         report.holds("energy balance", run.drift("energy balance"), 1e-11)
 
 
+def verify_parallel(culm, mast, report):
+    report.title("Structure and partner at the same time: the mass in the model again, balance, and two partners")
+    for mass in (4.5, 45.0, 4500.0):
+        together = culm.history(mast.deck(masses=[mass]))
+        run = culm.run(mast.deck(water(mass), Tolerance=1e-11, Parallel="true"), quiet=False)
+        report.holds(f"{mass:g} kg, {attempts(run):.1f} attempts per window: top, m",
+                     largest_difference(run.history, together), 1e-10)
+        report.holds("gap of the interface", abs(gap(run)), 1e-8)
+        report.holds("energy balance", run.drift("energy balance"), 1e-11)
+    for own, other in ((1, 8), (8, 1), (8, 8)):
+        run = culm.run(mast.deck(swing(other), Tolerance=1e-12, Window=0.02, Parallel="true"),
+                       [f"Analyses/motion/Step={0.02 / own}"], quiet=False)
+        report.holds(f"{own}:{other}, gap over what was exchanged", abs(gap(run)), 1e-12)
+    two = {**water(20.0, "wet"), **swing(3)}
+    serial, parallel = (culm.run(mast.deck(two, Tolerance=1e-11, Parallel=how), quiet=False) for how in ("false", "true"))
+    report.holds(f"two partners, {attempts(serial):.1f} and {attempts(parallel):.1f} attempts per window: top, m",
+                 largest_difference(serial.history, parallel.history), 1e-10)
+    for scheme in ("Aitken", "Quasi Newton"):
+        found = {}
+        for how in ("false", "true"):
+            run = culm.run(mast.deck(water(2.0, "wet"), Scheme=scheme, Parallel=how, **{"Most Attempts": 400}), quiet=False)
+            report.check(f"{scheme}: exit code", run.exit, 0, 0)
+            found[how] = attempts(run)
+        report.note(f"{scheme}, 2 kg at five points: serial {found['false']:.1f}, parallel {found['true']:.1f}")
+    for mass, exit in ((0.1, 8), (200.0, 4)):
+        run = culm.run(mast.deck(water(mass), Scheme="Explicit", Parallel="true"), quiet=False)
+        report.check(f"explicit, {mass:g} kg: exit code", run.exit, exit, 0)
+        report.check("it is foreseen", "times that of the structure" in run.errors, mass > 1.0, 0)
+
+
 def verify_sub_cycling(culm, mast, report):
     report.title("Steps of the structure and of the partner in a window: energy is kept")
     for own, other in ((1, 1), (1, 8), (8, 1), (8, 8)):
@@ -217,9 +247,10 @@ def verify_limit(culm, report):
                 report.check("and that was foreseen", "times that of the structure" in run.errors, True, 0)
 
 
-def verify_closed_form(culm, folder, report):
+def verify_closed_form(culm, folder, report, parallel=False):
     """A body on a spring with an oscillator behind its port: two masses, two springs, in closed form."""
-    report.title("Two masses on springs, one of them behind the port: order of the window, both sides with steps of their own")
+    report.title("Two masses on springs, one of them behind the port: order of the window, both sides with steps of their own"
+                 + (", at the same time" if parallel else ""))
     deck = pathlib.Path(folder) / "two_masses.xml"
     deck.write_text(TWO_MASSES)
     own, other = 2.0, 0.5  # kg
@@ -236,7 +267,8 @@ def verify_closed_form(culm, folder, report):
 
     errors = []
     for window in (0.04, 0.02, 0.01):
-        run = culm.run(deck, [f"Coupling/Window={window}", f"Analyses/motion/Step={window / 4}"], quiet=False)
+        run = culm.run(deck, [f"Coupling/Window={window}", f"Analyses/motion/Step={window / 4}",
+                              f"Coupling/Parallel={str(parallel).lower()}"], quiet=False)
         report.holds(f"window {window} s: gap over what was exchanged", abs(gap(run)), 1e-12)
         history = run.history
         errors.append(math.dist([history.column("body ux [m]")[history.row(t)] for t in (0.4, 0.8, 1.2)],
@@ -305,11 +337,12 @@ def verify_noise(culm, mast, report):
 def verify(culm, report):
     with tempfile.TemporaryDirectory(prefix="culm") as folder:
         mast = Mast(folder)
-        for part_of_it in (verify_identity, verify_sub_cycling, verify_order, verify_schemes, verify_loose,
+        for part_of_it in (verify_identity, verify_parallel, verify_sub_cycling, verify_order, verify_schemes, verify_loose,
                            verify_pressure, verify_last_window, verify_noise):
             part_of_it(culm, mast, report)
         verify_limit(culm, report)
         verify_closed_form(culm, folder, report)
+        verify_closed_form(culm, folder, report, parallel=True)
 
 
 main(verify)

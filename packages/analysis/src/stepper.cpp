@@ -64,6 +64,7 @@ void Stepper::accept() {
   report_.is_last = reaches_end();
   newton().keep();
   stage_ = Stage::resting;
+  if (observer_ != nullptr) observer_->step(report_, state_);
 }
 
 void Stepper::go_back() {
@@ -87,6 +88,7 @@ void Stepper::fail() {
   newton().keep();
   const bool not_finite = report_.outcome.end == solver::StepEnd::not_finite;
   is_exhausted_ = do_fail(report_) || not_finite;  // no nearer target will make it finite
+  if (observer_ != nullptr) observer_->step(report_, state_);
 }
 
 void Stepper::give_up() {
@@ -98,8 +100,11 @@ void Stepper::give_up() {
 AnalysisReport Stepper::finish() {
   if (stage_ == Stage::tried) discard();
   require(stage_ != Stage::unbegun, "end");
+  const bool is_told = observer_ != nullptr && stage_ != Stage::ended;
   stage_ = Stage::ended;
-  return do_finish();
+  AnalysisReport report = do_finish();
+  if (is_told) observer_->finish(report, state_);
+  return report;
 }
 
 void Stepper::save(Snapshot& snapshot) {
@@ -110,12 +115,14 @@ void Stepper::save(Snapshot& snapshot) {
   do_save(snapshot);
   newton_->save(snapshot);
   post_mortem_->save(snapshot);
+  if (observer_ != nullptr && snapshot.is_for_memory()) observer_->keep(snapshot);
 }
 
 void Stepper::restore(const Snapshot& snapshot) {
   if (stage_ == Stage::tried) discard();
   require(stage_ == Stage::resting, "be restored");
   refuse_foreign(snapshot);
+  if (observer_ != nullptr && snapshot.is_for_memory()) observer_->go_back(snapshot);
   system().restore(snapshot, state_);
   steps_ = snapshot.integer("steps");
   do_restore(snapshot);

@@ -65,13 +65,16 @@ Frame Conversation::listen() {
   return frame;
 }
 
-Frame Conversation::ask(const Frame& question, FrameKind expected) {
+void Conversation::pose(const Frame& question) {
   try {
     say(question);
   } catch (const PartnerError&) {
     listen();  // its last word may say why it is gone
     throw;
   }
+}
+
+Frame Conversation::answer(const Frame& question, FrameKind expected) {
   Frame frame = listen();
   if (frame.kind != expected) {
     throw PartnerError(fmt::format("it answered '{}' with '{}' instead of '{}'",
@@ -84,6 +87,11 @@ Frame Conversation::ask(const Frame& question, FrameKind expected) {
                     frame.window, frame.attempt, question.window, question.attempt));
   }
   return frame;
+}
+
+Frame Conversation::ask(const Frame& question, FrameKind expected) {
+  pose(question);
+  return answer(question, expected);
 }
 
 }  // namespace culm::coupling

@@ -88,10 +88,10 @@ Frame decode(std::string_view bytes) {
 }
 
 std::string_view name_of(FrameKind kind) {
-  constexpr std::array<std::string_view, 17> names = {
-      "nothing",   "hello", "attempt", "answer",  "accept",  "accepted",
-      "save",      "saved", "alive",   "bye",     "error",   "discard",
-      "discarded", "fail",  "failed",  "restore", "restored"};
+  constexpr std::array<std::string_view, 20> names = {
+      "nothing", "hello",   "attempt",  "answer", "accept",  "accepted",  "save",
+      "saved",   "alive",   "bye",      "error",  "discard", "discarded", "fail",
+      "failed",  "restore", "restored", "step",   "keep",    "kept"};
   const auto number = static_cast<std::size_t>(kind);
   return number < names.size() ? names[number] : "what is unknown";
 }

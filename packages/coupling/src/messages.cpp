@@ -90,6 +90,7 @@ Window read_motion(const Frame& frame, Quantities wanted, int points) {
                 frame.start,
                 frame.end,
                 {},
+                {},
                 {}};
   Reader reader(frame.payload);
   for (const port::Quantity q : all_quantities) {
@@ -101,6 +102,23 @@ Window read_motion(const Frame& frame, Quantities wanted, int points) {
   }
   expect_end(reader, frame);
   return window;
+}
+
+Frame step(const Window& window, const WindowStep& step) {
+  Frame frame = about(FrameKind::step, window);
+  frame.start = step.start;
+  frame.end = step.end;
+  Writer writer;
+  writer.add(std::span(step.motion));
+  frame.payload = writer.take();
+  return frame;
+}
+
+WindowStep read_step(const Frame& frame, int points) {
+  Reader reader(frame.payload);
+  WindowStep step{frame.start, frame.end, reader.numbers(6 * static_cast<std::size_t>(points))};
+  expect_end(reader, frame);
+  return step;
 }
 
 Frame answer(const Window& window, const Eigen::VectorXd& loads) {
@@ -121,6 +139,11 @@ std::string objection_to(const Eigen::VectorXd& answer, int points) {
     return fmt::format("it answered {} for component {} at point {}", answer[i], i % 6, i / 6);
   }
   return {};
+}
+
+std::string objection_to(const Books& books) {
+  if (!std::isinf(books.energy) && !std::isinf(books.dissipated)) return {};
+  return fmt::format("its energy is {} J, its heat {} J", books.energy, books.dissipated);
 }
 
 Eigen::VectorXd read_answer(const Frame& frame, int points) {
@@ -164,10 +187,8 @@ Books read_accepted(const Frame& frame) {
   books.energy = reader.number();
   books.dissipated = reader.number();
   expect_end(reader, frame);
-  if (std::isinf(books.energy) || std::isinf(books.dissipated)) {
-    throw PartnerError(
-        fmt::format("its energy is {} J, its heat {} J", books.energy, books.dissipated));
-  }
+  const std::string objection = objection_to(books);
+  if (!objection.empty()) throw PartnerError(objection);
   return books;
 }
 

@@ -3,13 +3,18 @@
 #include <culm/coupling/pressure_partner.hpp>
 #include <culm/coupling/register_coupling.hpp>
 #include <culm/coupling/remote_partner.hpp>
+#include <culm/coupling/replay.hpp>
 #include <culm/coupling/scheme.hpp>
 #include <culm/coupling/test_partners.hpp>
 #include <culm/joint/marker_pair.hpp>
 #include <culm/model/vector_field.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace culm::coupling {
 namespace {
@@ -61,10 +66,38 @@ Schema channel_schema() {
   return schema;
 }
 
-Fault fault_of(const std::string& name) {
-  if (name == "No Number") return Fault::no_number;
-  if (name == "Wrong Count") return Fault::wrong_count;
-  return name == "Wrong Energy" ? Fault::wrong_energy : Fault::death;
+// As the deck names them.
+const std::vector<std::pair<std::string, Fault>>& faults() {
+  static const std::vector<std::pair<std::string, Fault>> all = {
+      {"Death", Fault::death},
+      {"No Number", Fault::no_number},
+      {"Infinite", Fault::infinite},
+      {"Wrong Count", Fault::wrong_count},
+      {"Scaled", Fault::scaled},
+      {"Turned", Fault::turned},
+      {"Old", Fault::old},
+      {"Wrong Energy", Fault::wrong_energy},
+      {"Infinite Energy", Fault::infinite_energy},
+      {"Slow", Fault::slow}};
+  return all;
+}
+
+Schema faulty_schema() {
+  std::vector<std::string> names;
+  for (const auto& [name, fault] : faults()) names.push_back(name);
+  return partner("Faulty", "A mass at each point that fails, to see what becomes of a run then.")
+      .add(choice("Fault", names,
+                  "Scaled answers half of the right forces, Turned the opposite, Old those of the "
+                  "last window that was right; Slow is a tenth of a second late.")
+               .optional("Death"))
+      .add(number("Mass", "kg", "At each point.").at_least(0.0).optional(0.0))
+      .add(integer("Window", "From which window on, the first one 0.").at_least(0));
+}
+
+std::unique_ptr<Partner> make_faulty(const Options& o) {
+  const auto named = std::find_if(faults().begin(), faults().end(),
+                                  [&](const auto& one) { return one.first == o.text("Fault"); });
+  return std::make_unique<FaultyPartner>(named->second, o.integer("Window"), o.number("Mass"));
 }
 
 Schema socket_schema() {
@@ -138,14 +171,17 @@ void register_partners(PartnerRegistry& registry) {
             o.number("Pressure"),
             read_faces(o.integers("Triangles"), o.integers("Quadrilaterals")));
       });
+  registry.add("Faulty", faulty_schema(), make_faulty);
   registry.add(
-      "Faulty",
-      partner("Faulty", "Fails, to see what becomes of a run then.")
-          .add(choice("Fault", {"Death", "No Number", "Wrong Count", "Wrong Energy"}, "How.")
-                   .optional("Death"))
-          .add(integer("Window", "From which window on, the first one 0.").at_least(0)),
+      "Recorded",
+      partner("Recorded",
+              "The loads of a record, whatever the structure does; how it moves is "
+              "compared.")
+          .add(text("File Name", "What a coupling with 'Record' wrote, relative to the deck.")),
       [](const Options& o) {
-        return std::make_unique<FaultyPartner>(fault_of(o.text("Fault")), o.integer("Window"));
+        const std::filesystem::path deck = o.where("File Name").file;
+        const std::filesystem::path file = deck.parent_path() / o.text("File Name");
+        return std::make_unique<ReplayedPartner>(read_record(file), file.string());
       });
   registry.add("Socket", socket_schema(), [](const Options& o) {
     const double patience = o.number("Patience");

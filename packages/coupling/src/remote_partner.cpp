@@ -43,11 +43,20 @@ void RemotePartner::begin(const Beginning& beginning) {
   });
 }
 
+void RemotePartner::pose(const Window& window) {
+  posed_ = motion(FrameKind::attempt, window, partner_.wanted);
+  speak(window, [&] {
+    conversation_->pose(*posed_);
+    return 0;
+  });
+}
+
 Eigen::VectorXd RemotePartner::loads(const Window& window) {
+  if (!posed_) pose(window);
+  const Frame question = std::move(*posed_);
+  posed_.reset();
   return speak(window, [&] {
-    return read_answer(
-        conversation_->ask(motion(FrameKind::attempt, window, partner_.wanted), FrameKind::answer),
-        partner_.points);
+    return read_answer(conversation_->answer(question, FrameKind::answer), partner_.points);
   });
 }
 

@@ -19,6 +19,10 @@ VectorXd Aitken::next(const VectorXd& x, const VectorXd& answer) {
   return x + factor_ * residual;
 }
 
+void Aitken::rescale(const VectorXd& factors) {
+  if (before_.size() > 0) before_.array() *= factors.array();
+}
+
 void Aitken::save(Snapshot& snapshot) const { snapshot.set("coupling/scheme/factor", factor_); }
 
 void Aitken::restore(const Snapshot& snapshot) {
@@ -83,6 +87,20 @@ void QuasiNewton::end_window() {
   while (static_cast<int>(windows_.size()) > reuse_ + 1) windows_.pop_front();
 }
 
+void QuasiNewton::rescale(const VectorXd& factors) {
+  const auto scale = [&](VectorXd& v) {
+    if (v.size() > 0) v.array() *= factors.array();
+  };
+  for (Window& window : windows_) {
+    for (Difference& one : window) {
+      scale(one.residual);
+      scale(one.answer);
+    }
+  }
+  scale(residual_);
+  scale(answer_);
+}
+
 void QuasiNewton::save(Snapshot& snapshot) const {
   std::vector<double> counts, numbers;
   for (const Window& window : windows_) {
@@ -121,6 +139,11 @@ void add_scheme_fields(Schema& schema) {
                   "until they do; Explicit takes the answer to the window before; One Way takes "
                   "the answer to points that stand still.")
                .optional("Quasi Newton"))
+      .add(flag("Parallel",
+                "Structure and partners work at the same time, each on a guess of what the other "
+                "does, and loads and motion are found together; else partners answer the motion "
+                "that the structure has made.")
+               .optional(false))
       .add(number("Relaxation", "1",
                   "How much of a first answer is believed: by Constant always, by Aitken and Quasi "
                   "Newton until they know better.")
@@ -133,7 +156,11 @@ void add_scheme_fields(Schema& schema) {
                   "What Quasi Newton leaves out: attempts that show less than this share of "
                   "anything new.")
                .between(0.0, 1.0)
-               .optional(1e-2));
+               .optional(1e-2))
+      .check([](const Options& o, InputIssues& issues) {
+        if (!o.flag("Parallel") || o.text("Scheme") != "One Way") return;
+        issues.add(o.where("Parallel"), "has no meaning where partners do not see the motion");
+      });
 }
 
 std::unique_ptr<Scheme> make_scheme(const Options& options) {

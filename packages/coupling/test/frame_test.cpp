@@ -19,7 +19,7 @@ constexpr int points = 2;
 constexpr Quantities wanted = bit(Quantity::motion) | bit(Quantity::rotation);
 
 Window sample() {
-  Window window{7, 3, 0.7, 0.8, {}, {}};
+  Window window{7, 3, 0.7, 0.8, {}, {}, {}};
   for (int i = 0; i < 6 * points; ++i) window.of(Quantity::motion).push_back(std::sqrt(i));
   for (int i = 0; i < 9 * points; ++i) window.of(Quantity::rotation).push_back(-0.1 * i);
   for (int i = 0; i < 6 * points; ++i) window.loads.push_back(1e9 * i);

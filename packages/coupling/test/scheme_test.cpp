@@ -1,3 +1,4 @@
+#include <culm/coupling/parts.hpp>
 #include <culm/coupling/scheme.hpp>
 
 #include <Eigen/Dense>
@@ -7,6 +8,8 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace culm::coupling {
 namespace {
@@ -107,6 +110,39 @@ TEST(Schemes, GoOnFromWhatTheyHaveLearnt) {
       x = next;
     }
   }
+}
+
+// Structure and partner at once, f from x and x from f: attempts until both fit.
+int parallel_attempts(Scheme& scheme, double unit, VectorXd start) {
+  const Answer partner(1.0);
+  PartScale scale;
+  std::vector<VectorXd> tried = {std::move(start), VectorXd::Zero(5)}, found;
+  for (int attempt = 1; attempt < 200; ++attempt) {
+    found = {partner(tried[1] / unit), unit * tried[0]};
+    if ((found[0] - tried[0]).norm() < 1e-10 && (found[1] - tried[1]).norm() < 1e-10 * unit) {
+      scheme.end_window();
+      return attempt;
+    }
+    tried = scale.next(scheme, tried, found);
+  }
+  return 200;
+}
+
+// Loads and motions have units of their own, which shall not count.
+TEST(Schemes, PartsAreMeasuredByTheirOwnResiduals) {
+  for (const char* name : {"Quasi Newton", "Aitken"}) {
+    const int expected = parallel_attempts(*make(name, 0.1), 1.0, VectorXd::Zero(5));
+    EXPECT_LT(expected, 150) << name;
+    for (const double unit : {1e-9, 1e9}) {
+      EXPECT_NEAR(parallel_attempts(*make(name, 0.1), unit, VectorXd::Zero(5)), expected, 2)
+          << name << unit;
+    }
+  }
+}
+
+TEST(Schemes, PartsAreSolvedInSoManyAttemptsAsUnknowns) {
+  QuasiNewton scheme(0.1, 8, 1e-8);
+  EXPECT_LE(parallel_attempts(scheme, 1e-3, VectorXd::Zero(5)), 13);
 }
 
 }  // namespace

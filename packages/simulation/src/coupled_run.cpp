@@ -38,7 +38,8 @@ CoupledRun::CoupledRun(const Options& deck, const coupling::PartnerRegistry& kno
       findings_(findings),
       scheme_(coupling::make_scheme(settings_)),
       is_one_way_(settings_.text("Scheme") == "One Way"),
-      is_replay_(!files.replay.empty()) {
+      is_replay_(!files.replay.empty()),
+      is_parallel_(settings_.flag("Parallel")) {
   const std::vector<Options>& analyses = deck.list("Analyses").entries();
   if (std::none_of(analyses.begin(), analyses.end(),
                    [](const Options& one) { return one.text("Type") == "Dynamic"; })) {
@@ -66,7 +67,7 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
     system.synchronise(stepper.state());
     begin(stepper.state());
   }
-  for (CoupledSide& side : sides_) side.velocity = window.velocity(side);
+  window.enter();
   while (!stepper.is_at_end()) {
     window.start(windows_, latest_end(stepper.time()));
     try {
@@ -101,6 +102,7 @@ void CoupledRun::begin(const model::State& state) {
     most_attempts_ = static_cast<int>(counts[2]);
     loads_ = as_vector(resumed_->numbers("coupling/loads", static_cast<std::size_t>(count)));
     scheme_->restore(*resumed_);
+    if (is_parallel_) scale_.restore(*resumed_);
   }
   for (CoupledSide& side : sides_) {
     const std::string prefix = "coupling/side " + side.name + "/";
@@ -114,11 +116,9 @@ void CoupledRun::begin(const model::State& state) {
     side.wanted = static_cast<coupling::Quantities>(comm_.max(wanted)) | bit(Quantity::motion);
     if (!scheme_->is_implicit()) side.wanted |= bit(Quantity::velocity);
     if (!goes_on) continue;
-    const std::span<const double> books = resumed_->numbers(prefix + "side", 5);
-    side.work = books[0];
-    side.exchanged = books[1];
-    side.stiffness = books[2];
-    side.books = {books[3], books[4]};
+    side.books.restore(prefix + "interface", *resumed_);
+    side.stiffness = resumed_->number(prefix + "stiffness");
+    if (is_parallel_) side.pace.restore(prefix, *resumed_);
   }
 }
 
@@ -132,202 +132,35 @@ double CoupledRun::latest_end(double start) const {
   return latest;
 }
 
-bool CoupledRun::make_window(CoupledWindow& window) {
-  if (is_one_way_ || is_replay_) {
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      coupling::Window still = window.at_rest(i);
-      ask(still, sides_[i], loads_);
-    }
-  } else if (scheme_->is_implicit()) {
-    return repeat(window);
-  }
-  for (const CoupledSide& side : sides_) side.set(loads_);
-  if (!window.go()) {
-    window.go_back();
-    return false;
-  }
-  if (is_one_way_ || is_replay_) {
-    accept(window, 1);
-    return true;
-  }
-  const VectorXd answer = ask(window, 0);
-  watch(window, answer);
-  accept(window, 1);
-  loads_ = answer;
-  return true;
-}
-
-bool CoupledRun::repeat(CoupledWindow& window) {
-  const int most = settings_.integer("Most Attempts");
-  VectorXd bearable;  // the last loads that the structure converged with
-  for (CoupledSide& side : sides_) side.answer.resize(0);
-  for (int tried = 0; tried < most; ++tried) {
-    for (const CoupledSide& side : sides_) side.set(loads_);
-    if (!window.go()) {
-      if (tried == 0) {
-        window.go_back();
-        return false;
-      }
-      loads_ = 0.5 * (loads_ + bearable);  // a guess that the structure cannot bear
-      continue;
-    }
-    bearable = loads_;
-    const VectorXd answer = ask(window, tried);
-    if (is_enough(answer)) {
-      accept(window, tried + 1);
-      loads_ = answer;
-      scheme_->end_window();
-      return true;
-    }
-    loads_ = scheme_->next(loads_, answer);
-  }
-  give_up(window);
-}
-
-// Puts the loads of a side that answer to a window into those of all.
-void CoupledRun::ask(coupling::Window& about, CoupledSide& side, VectorXd& answer) {
-  VectorXd own(side.count());
-  on_root(comm_, [&] {
-    own = side.partner->loads(about);
-    const std::string objection = coupling::objection_to(own, side.port->size());
-    if (objection.empty()) return;
-    throw PartnerError(fmt::format(
-        "the partner '{}' at port '{}' failed in window {}, attempt {}, from {:g} s to {:g} s: {}",
-        side.name, side.port_name, about.number, about.attempt, about.start, about.end, objection));
-  });
-  if (comm_.size() > 1) comm_.broadcast({own.data(), static_cast<std::size_t>(own.size())});
-  side.put(std::move(own), answer);
-}
-
-VectorXd CoupledRun::ask(const CoupledWindow& window, int attempt) {
-  VectorXd answer(loads_.size());
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    CoupledSide& side = sides_[i];
-    coupling::Window about = window.about(i, attempt);
-    ask(about, side, answer);
-    // how much of a change of motion comes back as load, for what rounding of motion makes of it
-    const VectorXd moved = as_vector(about.of(Quantity::motion));
-    const VectorXd own = answer.segment(side.first, side.count());
-    if (side.answer.size() > 0) {
-      const double change = (moved - side.moved).norm();
-      constexpr double rounding = 1e4 * std::numeric_limits<double>::epsilon();
-      if (change > rounding * as_vector(side.port->reference()).norm()) {
-        side.stiffness = std::max(side.stiffness, (own - side.answer).norm() / change);
-      }
-    }
-    side.acted = loads_.segment(side.first, side.count());
-    side.moved = moved;
-    side.answer = own;
-  }
-  return answer;
-}
-
-// What is asked for, and what rounding of positions makes of loads.
-bool CoupledRun::is_enough(const VectorXd& answer) const {
-  constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
-  return std::all_of(sides_.begin(), sides_.end(), [&](const CoupledSide& side) {
-    const auto own = answer.segment(side.first, side.count());
-    const auto before = loads_.segment(side.first, side.count());
-    const double floor = round_off * as_vector(side.port->reference()).norm() * side.stiffness;
-    return (own - before).norm() <= settings_.number("Tolerance") * own.norm() + floor;
-  });
-}
-
-// Windows of several steps are not probed: they would have to be made once more.
-void CoupledRun::watch(CoupledWindow& window, const VectorXd& answer) {
-  std::vector<VectorXd> acceleration;
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const coupling::Window about = window.about(i, 0);
-    acceleration.emplace_back((translations(about.of(Quantity::velocity)) - sides_[i].velocity) /
-                              window.length());
-  }
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    CoupledSide& side = sides_[i];
-    const VectorXd own = side.loads(answer);
-    side.loose.add(translations({own.begin(), own.end()}), acceleration[i]);
-    const VectorXd probe = window.has_steps() ? VectorXd() : side.loose.probe();
-    if (probe.size() > 0) {
-      VectorXd loads = loads_;
-      VectorXd more = VectorXd::Zero(side.count());
-      more.reshaped(6, side.count() / 6).topRows<3>() = probe.reshaped(3, side.count() / 6);
-      side.put(side.loads(loads_) + more, loads);
-      side.set(loads);
-      const double end = window.end();
-      if (window.go() && window.end() == end) {
-        const VectorXd faster =
-            (translations(window.about(i, 0).of(Quantity::velocity)) - side.velocity) /
-                window.length() -
-            acceleration[i];
-        side.loose.measure(probe, faster);
-      }
-      side.set(loads_);
-      window.go();  // as it was, bit by bit
-    }
-    if (const std::string danger = side.loose.warning(); !danger.empty()) {
-      findings_.warn("loose coupling", "partner '" + side.name + "': " + danger, window.start());
-    }
-  }
-}
-
 void CoupledRun::accept(CoupledWindow& window, int attempts) {
+  std::vector<coupling::Window> motions = window.about(attempts - 1);
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     CoupledSide& side = sides_[i];
-    coupling::Window about = window.about(i, attempts - 1);
+    coupling::Window& about = motions[i];
     const VectorXd acted = side.loads(loads_);
     about.loads.assign(acted.begin(), acted.end());
     const double work = acted.dot(as_vector(about.of(Quantity::motion)));
-    side.work += work;
-    side.exchanged += std::abs(work);
     if (!scheme_->is_implicit()) side.velocity = translations(about.of(Quantity::velocity));
-    if (is_one_way_)
-      std::fill(about.of(Quantity::motion).begin(), about.of(Quantity::motion).end(), 0.0);
+    if (is_parallel_) side.pace.add(about);
+    if (is_one_way_) {
+      std::vector<double>& motion = about.of(Quantity::motion);
+      if (about.steps.empty()) about.steps = {{about.start, about.end, motion}};  // for a record
+      std::fill(motion.begin(), motion.end(), 0.0);
+    }
     std::array<double, 2> books = {};
     on_root(comm_, [&] {
       side.partner->accept(about);
       const coupling::Books own = side.partner->books();
+      side.expect(coupling::objection_to(own), about);
       books = {own.energy, own.dissipated};
     });
     if (comm_.size() > 1) comm_.broadcast(books);
-    side.books = {books[0], books[1]};
+    side.books.add(about, work, {books[0], books[1]});
   }
   window.accept();
   ++windows_;
   attempts_ += attempts;
   most_attempts_ = std::max(most_attempts_, attempts);
-}
-
-// Where loads and answer differ most.
-std::string CoupledRun::worst_point() const {
-  const CoupledSide* worst = nullptr;
-  Eigen::Index place = 0;
-  double most = -1.0;
-  for (const CoupledSide& side : sides_) {
-    if (side.answer.size() == 0) continue;
-    const VectorXd miss = side.answer - side.acted;
-    Eigen::Index i = 0;
-    const double size = miss.cwiseAbs().maxCoeff(&i);
-    if (size > most) {
-      most = size;
-      place = i;
-      worst = &side;
-    }
-  }
-  if (worst == nullptr) return "there was no answer";
-  return fmt::format("'{}' answers {:.3g} for {:.3g} at point {} of port '{}', component {}",
-                     worst->name, worst->answer[place], worst->acted[place], place / 6,
-                     worst->port_name, place % 6);
-}
-
-void CoupledRun::give_up(const CoupledWindow& window) const {
-  const bool is_robust = settings_.text("Scheme") == "Quasi Newton";
-  throw NumericalError(fmt::format(
-      "Structure and partners did not agree in {} attempts of the window from {:g} s to {:g} s; "
-      "{}.\n"
-      "Try: {}more 'Most Attempts', a larger 'Tolerance', a smaller 'Step' or 'Window'; or the "
-      "loads "
-      "grow with the motion, as in flutter.",
-      settings_.integer("Most Attempts"), window.start(), window.end(), worst_point(),
-      is_robust ? "" : "'Scheme' = Quasi Newton, which is the most robust one, "));
 }
 
 void CoupledRun::close_books(analysis::AnalysisReport& report, double time) {
@@ -339,44 +172,62 @@ void CoupledRun::close_books(analysis::AnalysisReport& report, double time) {
   for (CoupledSide& side : sides_) {
     report.text += fmt::format(
         "interface '{}' at port '{}'\n  work on the structure             {:>20.12g} J\n",
-        side.name, side.port_name, side.work);
-    report.numbers.emplace_back("work of partner " + side.name, side.work);
+        side.name, side.port_name, side.books.work);
+    report.numbers.emplace_back("work of partner " + side.name, side.books.work);
     std::string complaint;
     on_root(comm_, [&] { complaint = side.partner->complaint(); });
     if (comm_.size() > 1) complaint = comm_.broadcast(complaint);
     if (!complaint.empty()) findings_.broken("coupling", complaint, time);
-    const double gap = side.work + side.books.energy + side.books.dissipated;
-    if (is_one_way_ || !std::isfinite(gap)) {
-      report.text += is_one_way_ ? "  the partner does not see the motion: no balance\n"
-                                 : "  the partner keeps no books: no balance\n";
-      continue;
+    balance(side, report, time);
+  }
+}
+
+// What one side of an interface got and the other one gave.
+void CoupledRun::balance(const CoupledSide& side, analysis::AnalysisReport& report, double time) {
+  const InterfaceBooks& books = side.books;
+  const double gap = books.gap();
+  if (is_one_way_ || !std::isfinite(gap)) {
+    report.text += is_one_way_ ? "  the partner does not see the motion: no balance\n"
+                               : "  the partner keeps no books: no balance\n";
+    return;
+  }
+  report.text += fmt::format(
+      "  energy that the partner gained    {:>20.12g} J\n"
+      "  energy that it turned into heat   {:>20.12g} J\n"
+      "  gap                               {:>20.2g} J, ",
+      books.partner.energy, books.partner.dissipated, gap);
+  report.numbers.emplace_back("gap of partner " + side.name, gap);
+  if (books.exchanged == 0.0) {
+    report.text += "and nothing was exchanged\n";
+    if (gap != 0.0) {
+      findings_.broken("interface",
+                       fmt::format("the partner '{}' books {:.3g} J, and nothing went through "
+                                   "its port: what it says of its energy is wrong",
+                                   side.name, gap),
+                       time);
     }
-    report.text += fmt::format(
-        "  energy that the partner gained    {:>20.12g} J\n"
-        "  energy that it turned into heat   {:>20.12g} J\n"
-        "  gap                               {:>20.2g} J, ",
-        side.books.energy, side.books.dissipated, gap);
-    report.numbers.emplace_back("gap of partner " + side.name, gap);
-    if (side.exchanged == 0.0) {
-      report.text += "and nothing was exchanged\n";
-      if (gap != 0.0) {
-        findings_.broken("interface",
-                         fmt::format("the partner '{}' books {:.3g} J, and nothing went through "
-                                     "its port: what it says of its energy is wrong",
-                                     side.name, gap),
-                         time);
-      }
-      continue;
-    }
-    const double share = std::abs(gap) / side.exchanged;
-    report.text += fmt::format("{:.1e} of all that was exchanged\n", share);
-    if (share <= notable_gap) continue;
+    return;
+  }
+  const double share = std::abs(gap) / books.exchanged;
+  report.text += fmt::format("{:.1e} of all that was exchanged\n", share);
+  const std::string worst = fmt::format("from {:g} s to {:g} s {:.3g} J", books.worst_start,
+                                        books.worst_end, std::abs(books.worst_gap));
+  if (share > notable_gap) {
     findings_.broken(
         "interface",
-        fmt::format("the interface '{}' {} {:.2g} % of the energy that is exchanged: results are "
-                    "those of a coupling that is too loose; take a 'Scheme' that repeats windows, "
-                    "a smaller 'Tolerance', or means over windows as loads",
-                    side.name, gap < 0.0 ? "loses" : "makes", 100.0 * share),
+        fmt::format("the interface '{}' {} {:.2g} % of the energy that is exchanged, {}: results "
+                    "are those of a coupling that is too loose; take a 'Scheme' that repeats "
+                    "windows, a smaller 'Tolerance', or means over windows as loads; or the "
+                    "partner answers or books what is wrong",
+                    side.name, gap < 0.0 ? "loses" : "makes", 100.0 * share, worst),
+        time);
+  } else if (scheme_->is_implicit() && std::abs(books.worst_gap) > notable_gap * books.largest) {
+    findings_.broken(
+        "interface",
+        fmt::format("the interface '{}' {} {}, {:.2g} % of the most that is exchanged in a window, "
+                    "though little over the run: the partner answers or books there what is wrong",
+                    side.name, books.worst_gap < 0.0 ? "loses" : "makes", worst,
+                    100.0 * std::abs(books.worst_gap) / books.largest),
         time);
   }
 }
@@ -387,10 +238,12 @@ void CoupledRun::save(Snapshot& snapshot) {
                                    static_cast<double>(most_attempts_)});
   snapshot.set("coupling/loads", {loads_.begin(), loads_.end()});
   scheme_->save(snapshot);
+  if (is_parallel_) scale_.save(snapshot);
   for (CoupledSide& side : sides_) {
     const std::string prefix = "coupling/side " + side.name + "/";
-    snapshot.set(prefix + "side", {side.work, side.exchanged, side.stiffness, side.books.energy,
-                                   side.books.dissipated});
+    side.books.save(prefix + "interface", snapshot);
+    snapshot.set(prefix + "stiffness", side.stiffness);
+    if (is_parallel_) side.pace.save(prefix, snapshot);
     on_root(comm_, [&] { side.partner->save(prefix, snapshot); });
   }
 }

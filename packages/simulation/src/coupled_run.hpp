@@ -4,6 +4,7 @@
 #include <culm/analysis/stepper.hpp>
 #include <culm/coupling/scheme.hpp>
 
+#include "coupled_guess.hpp"
 #include "coupled_side.hpp"
 #include "coupled_window.hpp"
 
@@ -41,16 +42,25 @@ class CoupledRun {
 
  private:
   void begin(const model::State& state);
+  /// Whether partners answer what the structure does now: not to motions of a record or of points
+  /// at rest.
+  bool sees_motion() const { return !is_one_way_ && !is_replay_; }
   /// @return false if the structure did not converge with the loads that it began with
   bool make_window(CoupledWindow& window);
   bool repeat(CoupledWindow& window);
-  void ask(coupling::Window& about, CoupledSide& side, Eigen::VectorXd& answer);
-  Eigen::VectorXd ask(const CoupledWindow& window, int attempt);
+  bool repeat_in_parallel(CoupledWindow& window);
+  void pose(const std::vector<coupling::Window>& asked);
+  Eigen::VectorXd collect(const std::vector<coupling::Window>& asked);
+  Eigen::VectorXd ask(const std::vector<coupling::Window>& asked);
   bool is_enough(const Eigen::VectorXd& answer) const;
-  void watch(CoupledWindow& window, const Eigen::VectorXd& answer);
+  bool is_foreseen(const CoupledWindow& window, const CoupledGuess& guess,
+                   const CoupledGuess& found) const;
+  void watch(CoupledWindow& window, const std::vector<coupling::Window>& asked,
+             const Eigen::VectorXd& answer);
   void accept(CoupledWindow& window, int attempts);
   std::string worst_point() const;
   [[noreturn]] void give_up(const CoupledWindow& window) const;
+  void balance(const CoupledSide& side, analysis::AnalysisReport& report, double time);
   void close_books(analysis::AnalysisReport& report, double time);
   double latest_end(double start) const;
 
@@ -59,8 +69,10 @@ class CoupledRun {
   Findings& findings_;
   std::vector<CoupledSide> sides_;
   std::unique_ptr<coupling::Scheme> scheme_;
+  coupling::PartScale scale_;  ///< of loads and motions, where both are guessed
   bool is_one_way_ = false;
   bool is_replay_ = false;
+  bool is_parallel_ = false;
   const Snapshot* resumed_ = nullptr;
 
   bool has_begun_ = false;

@@ -2,7 +2,8 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
-#include <culm/coupling/record.hpp>
+#include <culm/coupling/partner_error.hpp>
+#include <culm/coupling/replay.hpp>
 #include <culm/output/file_part.hpp>
 
 #include "on_root.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace culm::simulation {
@@ -34,6 +36,66 @@ void set_loads(port::Port& port, const VectorXd& loads) {
                  {moments.data(), static_cast<std::size_t>(moments.size())});
 }
 
+void InterfaceBooks::add(const coupling::Window& window, double done, const coupling::Books& now) {
+  const double gained = now.energy - partner.energy + now.dissipated - partner.dissipated;
+  work += done;
+  exchanged += std::abs(done);
+  largest = std::max(largest, std::abs(done));
+  partner = now;
+  if (!(std::abs(done + gained) > std::abs(worst_gap))) return;
+  worst_gap = done + gained;
+  worst_start = window.start;
+  worst_end = window.end;
+}
+
+void InterfaceBooks::save(const std::string& name, Snapshot& snapshot) const {
+  snapshot.set(name, {work, exchanged, largest, partner.energy, partner.dissipated, worst_gap,
+                      worst_start, worst_end});
+}
+
+void InterfaceBooks::restore(const std::string& name, const Snapshot& snapshot) {
+  const std::span<const double> kept = snapshot.numbers(name, 8);
+  work = kept[0];
+  exchanged = kept[1];
+  largest = kept[2];
+  partner = {kept[3], kept[4]};
+  worst_gap = kept[5];
+  worst_start = kept[6];
+  worst_end = kept[7];
+}
+
+void Pace::start(const std::vector<double>& velocity) {
+  last_ = as_vector(velocity);
+  before_.resize(0);
+  last_length_ = length_before_ = 0.0;
+}
+
+void Pace::add(const coupling::Window& window) {
+  before_ = std::move(last_);
+  length_before_ = last_length_;
+  last_length_ = window.length();
+  last_ = as_vector(window.of(port::Quantity::motion)) / last_length_;
+}
+
+VectorXd Pace::guess(double length) const {
+  if (before_.size() == 0) return last_;
+  return last_ + (length + last_length_) / (last_length_ + length_before_) * (last_ - before_);
+}
+
+void Pace::save(const std::string& prefix, Snapshot& snapshot) const {
+  snapshot.set(prefix + "pace/lengths", {last_length_, length_before_});
+  snapshot.set(prefix + "pace/last", {last_.begin(), last_.end()});
+  snapshot.set(prefix + "pace/before", {before_.begin(), before_.end()});
+}
+
+void Pace::restore(const std::string& prefix, const Snapshot& snapshot) {
+  const std::span<const double> lengths = snapshot.numbers(prefix + "pace/lengths", 2);
+  last_length_ = lengths[0];
+  length_before_ = lengths[1];
+  last_ = as_vector(snapshot.numbers(prefix + "pace/last"));
+  before_ = as_vector(snapshot.numbers(prefix + "pace/before"));
+}
+
 VectorXd CoupledSide::loads(const VectorXd& all) const {
   VectorXd own = all.segment(first, count());
   own.reshaped(6, count() / 6).bottomRows<3>() *= size;
@@ -43,6 +105,13 @@ VectorXd CoupledSide::loads(const VectorXd& all) const {
 void CoupledSide::put(VectorXd own, VectorXd& all) const {
   own.reshaped(6, count() / 6).bottomRows<3>() /= size;
   all.segment(first, count()) = own;
+}
+
+void CoupledSide::expect(const std::string& objection, const coupling::Window& about) const {
+  if (objection.empty()) return;
+  throw PartnerError(fmt::format(
+      "the partner '{}' at port '{}' failed in window {}, attempt {}, from {:g} s to {:g} s: {}",
+      name, port_name, about.number, about.attempt, about.start, about.end, objection));
 }
 
 void CoupledSide::set(const VectorXd& all) const { set_loads(*port, loads(all)); }

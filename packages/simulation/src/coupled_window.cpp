@@ -1,6 +1,9 @@
 #include "coupled_window.hpp"
 
+#include <culm/math/rotation.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace culm::simulation {
@@ -12,6 +15,35 @@ using port::Quantity;
 
 // Of a window: how near two ends of it may be to count as one.
 constexpr double same_end = 1e-9;
+
+// The rotation by a vector |tau| = 2 tan(angle / 2).
+Mat3 rotation_of(const Vec3& tau) {
+  const double half = 0.5 * tau.norm();
+  return exp_rotation(half > 0.0 ? Vec3(std::atan(half) / half * tau) : Vec3(tau));
+}
+
+// What a step of culm's own scheme that goes straight makes of the quantities at its start.
+void foresee(const Pace& pace, const std::vector<double>& velocity, coupling::Window& window) {
+  const double h = window.length();
+  const VectorXd mean = pace.guess(h);
+  for (Eigen::Index p = 0; p < mean.size() / 6; ++p) {
+    const Vec6 rate = mean.segment<6>(6 * p);
+    const Eigen::Map<const Vec6> before(velocity.data() + 6 * p);
+    const auto six = [&](Quantity q, const Vec6& value) {
+      std::vector<double>& values = window.of(q);
+      if (!values.empty()) Eigen::Map<Vec6>(values.data() + 6 * p) = value;
+    };
+    six(Quantity::motion, h * rate);
+    six(Quantity::velocity, 2.0 * rate - before);
+    six(Quantity::acceleration, 2.0 / h * (rate - before));
+    std::vector<double>& position = window.of(Quantity::position);
+    if (!position.empty()) Eigen::Map<Vec3>(position.data() + 3 * p) += h * rate.head<3>();
+    std::vector<double>& rotation = window.of(Quantity::rotation);
+    if (rotation.empty()) continue;
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(rotation.data() + 9 * p);
+    R = (rotation_of(h * rate.tail<3>()) * R).eval();
+  }
+}
 
 }  // namespace
 
@@ -52,32 +84,59 @@ void CoupledWindow::fail() {
   if (stepper_.is_exhausted()) stepper_.give_up();
 }
 
-coupling::Window CoupledWindow::about(std::size_t side, int attempt) const {
-  coupling::Window window = motions_[side];
-  window.number = number_;
-  window.attempt = attempt;
-  window.start = start_;
-  window.end = end_;
-  return window;
-}
-
-coupling::Window CoupledWindow::at_rest(std::size_t side) {
-  coupling::Window window;
-  window.number = number_;
-  window.start = start_;
-  window.end = proposal();
-  complete();
-  for (const Quantity q : coupling::all_quantities) {
-    if ((sides_[side].wanted & bit(q)) == 0) continue;
-    std::vector<double>& values = window.of(q) = sides_[side].port->read(q, stepper_.state());
-    if (q == Quantity::velocity) std::fill(values.begin(), values.end(), 0.0);
+std::vector<coupling::Window> CoupledWindow::about(int attempt) const {
+  std::vector<coupling::Window> windows = motions_;
+  for (coupling::Window& window : windows) {
+    window.number = number_;
+    window.attempt = attempt;
+    window.start = start_;
+    window.end = end_;
   }
-  return window;
+  return windows;
 }
 
-VectorXd CoupledWindow::velocity(const CoupledSide& side) {
+// With the velocities of the start.
+std::vector<coupling::Window> CoupledWindow::unmoved() {
   complete();
-  return translations(side.port->read(Quantity::velocity, stepper_.state()));
+  std::vector<coupling::Window> windows;
+  for (const CoupledSide& side : sides_) {
+    coupling::Window& window = windows.emplace_back();
+    window.number = number_;
+    window.start = start_;
+    window.end = proposal();
+    for (const Quantity q : coupling::all_quantities) {
+      if ((side.wanted & bit(q)) != 0) window.of(q) = side.port->read(q, stepper_.state());
+    }
+  }
+  return windows;
+}
+
+std::vector<coupling::Window> CoupledWindow::at_rest() {
+  std::vector<coupling::Window> windows = unmoved();
+  for (coupling::Window& window : windows) {
+    std::vector<double>& velocity = window.of(Quantity::velocity);
+    std::fill(velocity.begin(), velocity.end(), 0.0);
+  }
+  return windows;
+}
+
+std::vector<coupling::Window> CoupledWindow::foreseen() {
+  std::vector<coupling::Window> windows = unmoved();
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const port::Port& port = *sides_[i].port;
+    const std::vector<double> velocity = port.read(Quantity::velocity, stepper_.state());
+    foresee(sides_[i].pace, velocity, windows[i]);
+  }
+  return windows;
+}
+
+void CoupledWindow::enter() {
+  complete();
+  for (CoupledSide& side : sides_) {
+    const std::vector<double> velocity = side.port->read(Quantity::velocity, stepper_.state());
+    side.velocity = translations(velocity);
+    if (stepper_.steps() == 0) side.pace.start(velocity);
+  }
 }
 
 double CoupledWindow::proposal() const {
@@ -91,6 +150,7 @@ bool CoupledWindow::go_in_one() {
   is_open_ = false;
   report_ = stepper_.attempt(end_);
   is_open_ = true;
+  shortest_step_ = end_ - start_;
   if (report_.accepted) read(true);
   return report_.accepted;
 }
@@ -100,12 +160,14 @@ bool CoupledWindow::go_in_steps() {
   const double tolerance = same_end * (end - start_);
   is_ahead_ = true;
   bool has_cut = false;
+  shortest_step_ = end - start_;
   while (stepper_.time() < end - tolerance && !stepper_.is_at_end()) {
     const double step = stepper_.proposal();
     const double target = step > end + tolerance ? end : step;
     report_ = stepper_.attempt(target);
     if (report_.accepted) {
       read(target >= end - tolerance);
+      shortest_step_ = std::min(shortest_step_, target - stepper_.time());
       stepper_.accept();
       report_.is_last = stepper_.is_at_end();
     } else {
@@ -128,12 +190,16 @@ void CoupledWindow::complete() {
 // Motions add up over the steps; all else is that of the last one.
 void CoupledWindow::read(bool is_last) {
   complete();
+  const model::State& state = stepper_.state();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     coupling::Window& window = motions_[i];
     for (const Quantity q : coupling::all_quantities) {
       if ((sides_[i].wanted & bit(q)) == 0 || (!is_last && q != Quantity::motion)) continue;
-      std::vector<double> values = sides_[i].port->read(q, stepper_.state());
+      std::vector<double> values = sides_[i].port->read(q, state);
       std::vector<double>& sum = window.of(q);
+      if (q == Quantity::motion && length_) {
+        window.steps.push_back({state.time_prev, state.time, values});
+      }
       if (q != Quantity::motion || sum.empty()) {
         sum = std::move(values);
         continue;

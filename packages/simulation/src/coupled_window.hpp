@@ -22,6 +22,8 @@ class CoupledWindow {
                 std::vector<CoupledSide>& sides, std::optional<double> length)
       : stepper_(stepper), system_(system), sides_(sides), length_(length) {}
 
+  /// Before the first window of an analysis, or of what is left of it.
+  void enter();
   /// Begins the next one. @param latest  where it must end [s]
   void start(int number, double latest);
   /// Goes to its end with the loads as they are, from its start. @return whether the structure
@@ -36,16 +38,17 @@ class CoupledWindow {
   /// The structure does not converge, whatever the partners say: gives up, or tries less.
   void fail();
 
-  /// How the points of a side moved.
-  coupling::Window about(std::size_t side, int attempt) const;
-  /// The same if they stood still.
-  coupling::Window at_rest(std::size_t side);
-  /// Of the points of a side, without rotation, in the present state.
-  Eigen::VectorXd velocity(const CoupledSide& side);
+  /// How the points of each side moved.
+  std::vector<coupling::Window> about(int attempt) const;
+  /// The same if they stood still; before the first attempt.
+  std::vector<coupling::Window> at_rest();
+  /// The same if their motion changes as it did in the windows before; before the first attempt.
+  std::vector<coupling::Window> foreseen();
 
   double start() const { return start_; }
   double end() const { return end_; }
   double length() const { return end_ - start_; }
+  double shortest_step() const { return shortest_step_; }
   bool has_steps() const { return length_.has_value(); }
   const analysis::StepReport& report() const { return report_; }
 
@@ -55,6 +58,7 @@ class CoupledWindow {
   bool go_in_steps();
   void complete();
   void read(bool is_last);
+  std::vector<coupling::Window> unmoved();
 
   analysis::Stepper& stepper_;
   assembly::System& system_;
@@ -70,6 +74,7 @@ class CoupledWindow {
   double start_ = 0.0;
   double end_ = 0.0;
   double latest_ = 0.0;
+  double shortest_step_ = 0.0;  ///< of the last attempt [s]
   analysis::StepReport report_;
   std::vector<coupling::Window> motions_;
 };

@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
+#include <culm/simulation/input_files.hpp>
 #include <culm/simulation/simulation.hpp>
 
 #include "simulation_parts.hpp"
@@ -29,11 +30,7 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
                      did_you_mean(analysis, names));
   }
   if (p.state.next.empty()) p.state = p.phases.of(p.present).model->initial_state();
-  if (p.stepper != nullptr) {
-    p.stepper->finish();
-    p.stepper.reset();
-    keep_state(entries[p.present].name(), p.state);
-  }
+  end_analysis();
   if (p.deck.has_list("Coupling")) {
     p.findings.warn("coupling", "the partners of the deck do not act: a program makes the steps",
                     0.0);
@@ -48,10 +45,51 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
       analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});
   auto stepper =
       known.steppers.make(entries[number].text("Type"), entries[number], *p.context, p.state);
+  if (p.results != nullptr) {
+    p.results->files.use(*phase.system, phase.watched);
+    p.results->observer.begin(entries[number], number, false, *p.context, phase.linear);
+    p.results->observer.follow(stepper.get(), nullptr, nullptr);
+    stepper->tell(&p.results->observer);
+  }
   stepper->fit();
+  if (p.results != nullptr) p.results->observer.start(p.state);
   stepper->begin();
   p.stepper = std::move(stepper);
   return *p.stepper;
+}
+
+void Simulation::end_analysis() {
+  Parts& p = *parts_;
+  if (p.stepper == nullptr) return;
+  p.stepper->finish();
+  p.stepper.reset();
+  keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state);
+}
+
+void Simulation::write_results(const std::filesystem::path& folder) {
+  Parts& p = *parts_;
+  if (p.results != nullptr) throw UsageError("results are written already");
+  if (!p.state.next.empty()) throw UsageError("results are wanted before the first 'begin'");
+  refuse_overwriting_by_run(p.comm, find_input_files(p.deck, p.source), folder);
+  RunSettings settings;
+  settings.folder = folder;
+  settings.quiet = true;
+  p.results = open_results(settings, nullptr, nullptr);
+}
+
+bool Simulation::writes_results() const { return parts_->results != nullptr; }
+
+std::vector<std::filesystem::path> Simulation::close_results() {
+  Parts& p = *parts_;
+  if (p.results == nullptr) throw UsageError("no results are written");
+  const bool is_done = p.stepper != nullptr && p.stepper->is_at_end();
+  end_analysis();
+  if (!p.state.next.empty()) {
+    p.results->observer.end(p.state, is_done ? "done" : "ended by the program that made the steps");
+  }
+  std::vector<std::filesystem::path> paths = p.results->files.paths();
+  p.results.reset();
+  return paths;
 }
 
 void Simulation::set_load(const std::string& name, const std::vector<double>& values) {

@@ -78,6 +78,19 @@ std::unique_ptr<coupling::Channel> open_mpi_channel(int rank) {
   return std::make_unique<MpiChannel>(rank);
 }
 
+std::unique_ptr<coupling::Channel> open_channel(const std::string& address, double patience) {
+  const std::string mpi = "mpi:";
+  if (!address.starts_with(mpi)) {
+    return coupling::listen(address, patience);
+  }
+  const std::string rank = address.substr(mpi.size());
+  if (rank.empty() || rank.size() > 6 ||
+      rank.find_first_not_of("0123456789") != std::string::npos) {
+    throw UsageError("'" + address + "' is no address: 'mpi:RANK', such as 'mpi:1'");
+  }
+  return open_mpi_channel(std::stoi(rank));
+}
+
 void register_mpi_partner(coupling::PartnerRegistry& registry) {
   Schema schema("MPI", "Another program in the same mpiexec, which speaks the wire format.");
   schema.add(text("Port", "Where it acts; the only port of the deck if absent.").optional())

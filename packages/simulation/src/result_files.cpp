@@ -104,6 +104,10 @@ void ResultFiles::restore_counts(const Snapshot& saved) {
   }
 }
 
+bool ResultFiles::has_saved(const Snapshot& snapshot) const {
+  return snapshot.has("run/id") && snapshot.text("run/id") == settings_.info.run;
+}
+
 void ResultFiles::go_back(const Snapshot& saved) {
   restore_counts(saved);
   on_root(system_->comm(), [&] {

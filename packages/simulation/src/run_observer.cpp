@@ -8,6 +8,7 @@
 #include "coupled_run.hpp"
 #include "finite.hpp"
 #include "other_run.hpp"
+#include "served_run.hpp"
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ output::NamedTable effects_table(const Ledger& ledger) {
 }  // namespace
 
 RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
-                         Checkpoints& checkpoints, const DeckSource& source,
+                         Checkpoints* checkpoints, const DeckSource& source,
                          const EarlierStates& earlier, const Imperfections& imperfections,
                          const analysis::ElementTurn& reference_turn, Progress progress)
     : ledger_(ledger),
@@ -53,7 +54,8 @@ RunObserver::RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files,
       quantities_effect_(ledger.add("Quantities")),
       history_effect_(ledger.add("Output, history")),
       states_effect_(ledger.add("Output, states")) {
-  if (checkpoints_.are_active()) checkpoint_effect_ = ledger.add("Checkpoints");
+  if (checkpoints_ != nullptr && checkpoints_->are_active())
+    checkpoint_effect_ = ledger.add("Checkpoints");
 }
 
 void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
@@ -146,11 +148,12 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   has_stepped_ = true;
   iterations_ += outcome.iterations;
   progress_.show(report);
-  const Checkpoints::Demand demand = checkpoints_.demand();
+  if (checkpoints_ == nullptr) return;
+  const Checkpoints::Demand demand = checkpoints_->demand();
   const bool ends = is_last_ && report.is_last;
   if (demand == Checkpoints::Demand::none && !ends) return;
-  write_checkpoint();
-  if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_.farewell());
+  if (served_ == nullptr) write_checkpoint();
+  if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_->farewell());
 }
 
 void RunObserver::add_held(const analysis::StepReport& report) {
@@ -182,15 +185,17 @@ void RunObserver::watch_turns(double time, const model::State& state) {
   turn_.place = fmt::format("at {:.6g} of '{}'", time, name_);
 }
 
-void RunObserver::write_checkpoint() {
-  if (!checkpoints_.are_active() || !has_stepped_) return;
+bool RunObserver::write_checkpoint() {
+  if (checkpoints_ == nullptr || !checkpoints_->are_active() || !has_stepped_) return false;
   const Ledger::Scope scope(ledger_, checkpoint_effect_);
   Snapshot snapshot;
   save(snapshot);
   stepper_->save(snapshot);
   if (coupled_ != nullptr) coupled_->save(snapshot);
+  if (served_ != nullptr) served_->save(snapshot);
   files_.save(snapshot);
-  checkpoints_.write(snapshot);
+  checkpoints_->write(snapshot);
+  return true;
 }
 
 void RunObserver::save(Snapshot& snapshot) const {
@@ -232,6 +237,9 @@ void RunObserver::keep(Snapshot& snapshot) const {
 }
 
 void RunObserver::go_back(const Snapshot& kept) {
+  if (!files_.has_saved(kept)) {
+    throw UsageError("the snapshot knows nothing of the results that are written here");
+  }
   steps_.rows.clear();
   numbers_.clear();
   restore(kept);
@@ -266,8 +274,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
   }
 }
 
-void RunObserver::finish_analysis(const analysis::AnalysisReport& report,
-                                  const model::State& state) {
+void RunObserver::finish(const analysis::AnalysisReport& report, const model::State& state) {
   refuse_infinite(name_, report);
   loads_.report(state, findings_);
   report_rounding();

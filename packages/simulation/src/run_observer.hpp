@@ -19,6 +19,7 @@
 namespace culm::simulation {
 
 class CoupledRun;
+class ServedRun;
 
 /// How well the steps of an analysis are in balance, beside the largest force of any of them: the
 /// first steps may be all but unloaded.
@@ -34,7 +35,8 @@ class RunObserver final : public analysis::Observer {
   /// Version of what a checkpoint holds.
   static constexpr int checkpoint_format = 6;
 
-  RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints& checkpoints,
+  /// @param checkpoints  null: there are none, and nobody stops the run
+  RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints* checkpoints,
               const DeckSource& source, const EarlierStates& earlier,
               const Imperfections& imperfections, const analysis::ElementTurn& reference_turn,
               Progress progress);
@@ -53,22 +55,24 @@ class RunObserver final : public analysis::Observer {
   void begin(const Options& entry, std::size_t number, bool is_last, analysis::Context& context,
              const solver::ChosenSolver& linear_solver);
   /// What makes the steps from now on, and what its checkpoints hold; none: nothing does.
-  /// @param coupled  what else they hold; null if nothing does
-  void follow(analysis::Stepper* stepper, CoupledRun* coupled) {
+  /// @param coupled, served  what else they hold; null if nothing does. A run that is led writes
+  /// checkpoints when it is asked to.
+  void follow(analysis::Stepper* stepper, CoupledRun* coupled, ServedRun* served) {
     stepper_ = stepper;
     coupled_ = coupled;
+    served_ = served;
   }
   /// Goes on within an analysis that has begun before.
   void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
-  /// What has been seen so far, for go_back; between steps.
-  void keep(Snapshot& snapshot) const;
-  /// Forgets what was seen since, also in the files. But findings stay.
-  void go_back(const Snapshot& kept);
+  void keep(Snapshot& snapshot) const override;
+  /// Also in the files. But findings stay.
+  void go_back(const Snapshot& kept) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
-  void write_checkpoint();
-  void finish_analysis(const analysis::AnalysisReport& report, const model::State& state);
+  /// @return whether it did
+  bool write_checkpoint();
+  void finish(const analysis::AnalysisReport& report, const model::State& state) override;
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
   /// Results, ledger and convergence of the run, for the user.
@@ -89,7 +93,7 @@ class RunObserver final : public analysis::Observer {
   Ledger& ledger_;
   Findings& findings_;
   ResultFiles& files_;
-  Checkpoints& checkpoints_;
+  Checkpoints* checkpoints_;
   const DeckSource& source_;
   const EarlierStates& earlier_;
   const Imperfections& imperfections_;
@@ -103,6 +107,7 @@ class RunObserver final : public analysis::Observer {
   Ledger::Id checkpoint_effect_ = 0;
   analysis::Stepper* stepper_ = nullptr;
   CoupledRun* coupled_ = nullptr;
+  ServedRun* served_ = nullptr;
   analysis::Context* context_ = nullptr;  // of the analysis
   std::string name_;                      // of the analysis
   std::size_t number_ = 0;

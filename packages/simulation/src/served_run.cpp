@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 namespace culm::simulation {
@@ -20,19 +21,6 @@ using coupling::bit;
 using coupling::Frame;
 using coupling::FrameKind;
 using Eigen::VectorXd;
-
-std::unique_ptr<coupling::Channel> open_channel(const ServeSettings& settings) {
-  const std::string mpi = "mpi:";
-  if (!settings.address.starts_with(mpi)) {
-    return coupling::listen(settings.address, settings.patience);
-  }
-  const std::string rank = settings.address.substr(mpi.size());
-  if (rank.empty() || rank.size() > 6 ||
-      rank.find_first_not_of("0123456789") != std::string::npos) {
-    throw UsageError("'" + settings.address + "' is no address: 'mpi:RANK', such as 'mpi:1'");
-  }
-  return open_mpi_channel(std::stoi(rank));
-}
 
 }  // namespace
 
@@ -105,12 +93,13 @@ void ServedRun::greet(Course& course) {
   course.system.synchronise(course.stepper.state());
   const model::State& state = course.stepper.state();
   coupling::Beginning beginning{settings_.port, course.stepper.time(), course.port.reference(),
-                                course.port.read(port::Quantity::velocity, state), 0};
+                                course.port.read(port::Quantity::velocity, state),
+                                static_cast<int>(number_)};
   Frame hello = coupling::hello(beginning);
   hello.end = course.stepper.final_time();  // it is the other one that leads
   double wanted = 0.0;
   speak([&] {
-    conversation_.emplace(open_channel(settings_), settings_.patience);
+    conversation_.emplace(open_channel(settings_.address, settings_.patience), settings_.patience);
     conversation_->say(hello);
     const Frame frame = conversation_->listen();
     if (frame.kind != FrameKind::hello) {
@@ -176,6 +165,10 @@ bool ServedRun::follow(const Frame& asked, Course& course) {
         restore(asked.window, course);
         answer(asked, FrameKind::restored, course);
         return true;
+      case FrameKind::keep:
+        keep(asked.window, course);
+        answer(asked, FrameKind::kept, course);
+        return true;
       case FrameKind::bye:
         return false;
       case FrameKind::error:
@@ -238,6 +231,28 @@ void ServedRun::restore(std::uint32_t number, Course& course) {
   course.observer.go_back(kept->second.results);
   work_ = kept->second.work;
   accepted_ = course.stepper.steps();
+}
+
+void ServedRun::keep(std::uint32_t number, Course& course) {
+  if (number == 0) throw UsageError("checkpoints have numbers above zero");
+  number_ = number;
+  if (course.observer.write_checkpoint()) return;
+  throw UsageError("nothing has been accepted yet, or the deck wants no checkpoints");
+}
+
+bool ServedRun::has_led(const Snapshot& snapshot) { return snapshot.has("served/counts"); }
+
+void ServedRun::save(Snapshot& snapshot) const {
+  snapshot.set("served/counts", {static_cast<double>(number_), static_cast<double>(accepted_),
+                                 static_cast<double>(attempts_), work_});
+}
+
+void ServedRun::restore(const Snapshot& snapshot) {
+  const std::span<const double> counts = snapshot.numbers("served/counts", 4);
+  number_ = static_cast<std::uint32_t>(counts[0]);
+  accepted_ = static_cast<int>(counts[1]);
+  attempts_ = static_cast<int>(counts[2]);
+  work_ = counts[3];
 }
 
 // Where the run is now: the accepted time, and where it would go next.

@@ -18,7 +18,8 @@ namespace culm::simulation {
 
 /// Follows another program over the wire format: it says where steps shall end and under which
 /// loads at a port, and culm answers how the port moves. Steps are tried as often as it likes, and
-/// any accepted state that it had saved can be gone back to, with results as they were then. The
+/// any accepted state that it had saved can be gone back to, with results as they were then.
+/// Checkpoints are written when it says so, for it must keep itself at the same time. The
 /// conversation is the root's; all ranks take the same way. doc/developer/wire_format.md
 class ServedRun {
  public:
@@ -27,6 +28,12 @@ class ServedRun {
   ServedRun(const Options& deck, ServeSettings settings, const Ports& ports,
             const parallel::Comm& comm);
 
+  /// Of a run that goes on; before run().
+  void restore(const Snapshot& snapshot);
+  /// Whether a checkpoint is one of a run that was led.
+  static bool has_led(const Snapshot& snapshot);
+  /// For a checkpoint; between steps.
+  void save(Snapshot& snapshot) const;
   bool serves(const std::string& port) const { return port == settings_.port; }
   /// Waits for the other program and follows it until it says good-bye. Throws PartnerError where
   /// it leaves, is silent for too long, or asks for what makes no sense.
@@ -60,6 +67,7 @@ class ServedRun {
   void accept(Course& course);
   void save(std::uint32_t number, Course& course);
   void restore(std::uint32_t number, Course& course);
+  void keep(std::uint32_t number, Course& course);
   void answer(const coupling::Frame& asked, coupling::FrameKind kind, const Course& course);
   template <class Talk>
   void speak(Talk talk);
@@ -72,6 +80,7 @@ class ServedRun {
   double work_ = 0.0;  // on the structure [J]
   int accepted_ = 0;
   int attempts_ = 0;
+  std::uint32_t number_ = 0;  ///< that the other program gave the last checkpoint
 };
 
 }  // namespace culm::simulation

@@ -148,24 +148,19 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     p.imperfections.restore(*from, *p.phases.of(p.present).model);
   }
   Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);
-  const LayerSettings layers = read_layer_settings(output.list("Shell"), *phase.model);
-  const output::RunInfo info = describe_run(p.deck, *p.phases.of(0).model, p.comm, from);
   const std::unique_ptr<CoupledRun> coupled = p.make_coupling({settings.folder, settings.replay});
   const std::unique_ptr<ServedRun> served =
       settings.serve.address.empty()
           ? nullptr
           : std::make_unique<ServedRun>(p.deck, settings.serve, phase.ports, p.comm);
+  if (from != nullptr && ServedRun::has_led(*from) != (served != nullptr)) {
+    throw UsageError(served == nullptr
+                         ? "this run was led by another program: say by --at where it comes to"
+                         : "this run was led by nobody, and cannot follow another program now");
+  }
   // from here on there is something on the disk
-  const auto lock = take_folder(p.comm, settings.folder, p.log);
-  ResultFiles files(
-      *phase.system, *p.phases.of(0).model,
-      {settings.folder, info, names_of(p.deck.list("Analyses").entries()), output.integer("Every"),
-       output.flag("Pictures"), static_cast<std::size_t>(output.integer("Most Pictures")), layers,
-       output.flag("Velocities"), output.flag("Constraint Forces")},
-      phase.watched, from);
-  RunObserver observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier,
-                       p.imperfections, p.reference_turn,
-                       Progress(p.log, settings.quiet, settings.terminal));
+  const std::unique_ptr<Results> results = open_results(settings, &checkpoints, from);
+  RunObserver& observer = results->observer;
   for (const auto& [name, input] : phase.model->inputs()) {
     p.findings.warn("external load",
                     "load '" + name + "' is zero: only a program that makes the steps can set it",
@@ -190,8 +185,9 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
       observer.restore(*from);
       p.earlier.restore(*from);
       if (coupled != nullptr) coupled->restore(*from);
+      if (served != nullptr) served->restore(*from);
     }
-    run_analyses(state, observer, files, coupled.get(), served.get(), from);
+    run_analyses(state, observer, results->files, coupled.get(), served.get(), from);
     if (coupled != nullptr) {
       coupled->report_left_over(state.time);
       coupled->end("");
@@ -213,6 +209,34 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
   const std::string verdict = p.findings.verdict(settings.strict);
   if (!verdict.empty()) throw PromiseBroken(verdict);
 }
+
+std::unique_ptr<Simulation::Results> Simulation::open_results(const RunSettings& settings,
+                                                              Checkpoints* checkpoints,
+                                                              const Snapshot* from) {
+  Parts& p = *parts_;
+  const Options& output = p.deck.list("Output");
+  const Phase& phase = p.phases.of(p.present);
+  const ResultSettings wanted = {settings.folder,
+                                 describe_run(p.deck, *p.phases.of(0).model, p.comm, from),
+                                 names_of(p.deck.list("Analyses").entries()),
+                                 output.integer("Every"),
+                                 output.flag("Pictures"),
+                                 static_cast<std::size_t>(output.integer("Most Pictures")),
+                                 read_layer_settings(output.list("Shell"), *phase.model),
+                                 output.flag("Velocities"),
+                                 output.flag("Constraint Forces")};
+  auto lock = take_folder(p.comm, settings.folder, p.log);
+  return std::make_unique<Results>(p, settings, wanted, std::move(lock), checkpoints, from);
+}
+
+Simulation::Results::Results(Parts& p, const RunSettings& settings, const ResultSettings& wanted,
+                             std::unique_ptr<output::FolderLock> taken, Checkpoints* checkpoints,
+                             const Snapshot* from)
+    : lock(std::move(taken)),
+      files(*p.phases.of(p.present).system, *p.phases.of(0).model, wanted,
+            p.phases.of(p.present).watched, from),
+      observer(p.ledger, p.findings, files, checkpoints, p.source, p.earlier, p.imperfections,
+               p.reference_turn, Progress(p.log, settings.quiet, settings.terminal)) {}
 
 void Simulation::run_analyses(model::State& state, RunObserver& observer, ResultFiles& files,
                               CoupledRun* coupled, ServedRun* served, const Snapshot* from) {
@@ -256,12 +280,12 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     observer.start_run(state, steps_follow);
     inspection->begin(context, state);
     const analysis::AnalysisReport report = inspection->inspect(context, state);
-    observer.finish_analysis(report, state);
+    observer.finish(report, state);
     return report;
   }
   const auto stepper = known.steppers.make(type, entry, context, state);
   const bool is_motion = dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
-  observer.follow(stepper.get(), coupled);
+  observer.follow(stepper.get(), coupled, is_motion ? served : nullptr);
   if (from != nullptr) {
     stepper->resume(*from);
   } else {
@@ -281,11 +305,11 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
       return analysis::run(*stepper, observer);
     };
     const analysis::AnalysisReport report = make_steps();
-    observer.finish_analysis(report, state);
+    observer.finish(report, state);
     return report;
   } catch (const Error& error) {
     // other tolerances or steps may find the way that these did not
-    if (is_numerical(error)) write_last_checkpoint(observer);
+    if (is_numerical(error) && served == nullptr) write_last_checkpoint(observer);
     throw;
   }
 }

@@ -3,17 +3,30 @@
 
 #include <culm/analysis/element_turns.hpp>
 #include <culm/analysis/stepper.hpp>
+#include <culm/output/folder_lock.hpp>
 #include <culm/simulation/simulation.hpp>
 
 #include "coupled_run.hpp"
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
 #include "phase.hpp"
+#include "run_observer.hpp"
 
 #include <memory>
 #include <optional>
 
 namespace culm::simulation {
+
+/// What a simulation writes while steps are made.
+struct Simulation::Results {
+  Results(Parts& p, const RunSettings& settings, const ResultSettings& wanted,
+          std::unique_ptr<output::FolderLock> taken, Checkpoints* checkpoints,
+          const Snapshot* from);
+
+  std::unique_ptr<output::FolderLock> lock;
+  ResultFiles files;
+  RunObserver observer;
+};
 
 struct Simulation::Parts {
   parallel::Comm comm;
@@ -35,6 +48,7 @@ struct Simulation::Parts {
   // driven from outside, see begin()
   model::State state = {};
   std::optional<analysis::Context> context = {};
+  std::unique_ptr<Results> results = {};  ///< if any are wanted
   std::unique_ptr<analysis::Stepper> stepper = {};
 
   void warn_of_reference();

@@ -72,11 +72,11 @@ def light_nodes(ratio):
     ]
 
 
-def faulty_partner(fault):
+def faulty_partner(fault, **more):
     """A third partner, at a port of its own, that fails from window 9 on."""
     return [
         *parameters("Ports/third", Type="Points", Points="{mast@0.75}"),
-        *parameters("Coupling/Partners/third", Type="Faulty", Port="third", Window=9, Fault=fault),
+        *parameters("Coupling/Partners/third", Type="Faulty", Port="third", Window=9, Fault=fault, **more),
     ]
 
 
@@ -742,6 +742,31 @@ ILL_POSED = [
         "a partner that lies about its energy", "coupling/partners.xml",
         faulty_partner("Wrong Energy"),
         8, "the partner 'third' books 1 J",
+    ),
+    IllPosed(
+        "a partner whose energy has no end", "coupling/partners.xml",
+        faulty_partner("Infinite Energy"),
+        9, "its energy is inf J",
+    ),
+    IllPosed(
+        "a partner that answers for another number of points", "coupling/partners.xml",
+        faulty_partner("Wrong Count"),
+        9, "it answered 0 numbers; six for each of 1 points are 6",
+    ),
+    IllPosed(
+        "a partner that answers half of its forces", "coupling/partners.xml",
+        faulty_partner("Scaled", Mass=5),
+        8, "the interface 'third'",
+    ),
+    IllPosed(
+        "a partner that answers against its forces", "coupling/partners.xml",
+        faulty_partner("Turned", Mass=5),
+        8, "the interface 'third'",
+    ),
+    IllPosed(
+        "a partner that answers forces of long ago", "coupling/partners.xml",
+        faulty_partner("Old", Mass=5),
+        8, "the interface 'third'",
     ),
     IllPosed(
         "steps of many turns", "hard/quick_spin.xml",

@@ -25,18 +25,6 @@ struct StepReport {
   bool is_last = false;  ///< accepted, and the end of the analysis
 };
 
-/// Whoever wants to see each step: results, progress, a coupling harness.
-class Observer {
- public:
-  virtual ~Observer() = default;
-  /// Called where an analysis that was not resumed begins, when positions and velocities fit the
-  /// constraints and before the first step.
-  virtual void start(model::State&) {}
-  /// Called after each attempt. When it was accepted, state.next is the new equilibrium, up to date
-  /// on all ranks only after System::synchronise.
-  virtual void step(const StepReport& report, model::State& state) = 0;
-};
-
 /// What an analysis works on. All borrowed.
 struct Context {
   assembly::System& system;
@@ -71,6 +59,28 @@ struct AnalysisReport {
   std::vector<ReportTable> tables = {};
   std::vector<Shape> shapes = {};  ///< about the state at the end
   std::vector<ReportMatrix> matrices = {};
+};
+
+/// Whoever wants to see each step: results, progress, a coupling harness.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Called where an analysis that was not resumed begins, when positions and velocities fit the
+  /// constraints and before the first step.
+  virtual void start(model::State&) {}
+  /// Called after each attempt. When it was accepted, state.next is the new equilibrium, up to date
+  /// on all ranks only after System::synchronise.
+  virtual void step(const StepReport& report, model::State& state) = 0;
+  /// Called at the end, with what the analysis says.
+  virtual void finish(const AnalysisReport& report, const model::State& state) {
+    (void)report;
+    (void)state;
+  }
+  /// What has been seen so far, for go_back; between steps.
+  virtual void keep(Snapshot& snapshot) const { (void)snapshot; }
+  /// Forgets what was seen since. Throws UsageError, and forgets nothing, where it was kept by
+  /// another observer.
+  virtual void go_back(const Snapshot& kept) { (void)kept; }
 };
 
 /// An analysis that makes no steps: it looks at a state, which it may bring to a level of its own.

@@ -23,6 +23,10 @@ class Stepper {
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
+  /// Whom to tell of steps that others make: of accept, fail and finish, and of save and restore
+  /// with snapshots for memory; null for nobody. run() tells its observer by itself.
+  void tell(Observer* observer) { observer_ = observer; }
+
   /// Brings positions and velocities to where the analysis can begin.
   void fit();
   /// After fit: looks at the state and prepares the first step. Throws NumericalError where none
@@ -125,6 +129,7 @@ class Stepper {
   model::State& state_;
   Stage stage_ = Stage::unbegun;
   bool is_exhausted_ = false;
+  Observer* observer_ = nullptr;
   int steps_ = 0;
   StepReport report_;
   std::optional<solver::NewtonSolver> newton_;

@@ -32,7 +32,11 @@ class Conversation {
   Frame hear();
   /// The same; throws PartnerError where it is the last one.
   Frame listen();
-  /// The answer to a question: of this kind, and about the same window and attempt.
+  /// Says a question; throws with the last word of the other side where it is gone.
+  void pose(const Frame& question);
+  /// The answer to it: of this kind, and about the same window and attempt.
+  Frame answer(const Frame& question, FrameKind expected);
+  /// Both.
   Frame ask(const Frame& question, FrameKind expected);
 
  private:

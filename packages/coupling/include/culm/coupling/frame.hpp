@@ -27,7 +27,12 @@ enum class FrameKind : std::uint16_t {
   fail = 13,  ///< forget it because it was not good
   failed = 14,
   restore = 15,  ///< be again what was saved
-  restored = 16
+  restored = 16,
+  // of records alone
+  step = 17,  ///< motion in one of several steps that the structure made in a window
+  // of programs that lead
+  keep = 18,  ///< write a checkpoint: the run may go on from here one day
+  kept = 19
 };
 
 /// One message.

@@ -25,10 +25,16 @@ Introduction read_introduction(const Frame& frame);
 Frame motion(FrameKind kind, const Window& window, Quantities wanted);
 Window read_motion(const Frame& frame, Quantities wanted, int points);
 
+/// One of the steps of a window; for records.
+Frame step(const Window& window, const WindowStep& step);
+WindowStep read_step(const Frame& frame, int points);
+
 Frame answer(const Window& window, const Eigen::VectorXd& loads);
 /// What is wrong with the loads of an answer, "it answered …": their number, or one that is none;
 /// empty if nothing is.
 std::string objection_to(const Eigen::VectorXd& answer, int points);
+/// What is wrong with what a partner says of its energy; empty if nothing is.
+std::string objection_to(const Books& books);
 /// Throws PartnerError for another number of loads and for what is no number.
 Eigen::VectorXd read_answer(const Frame& frame, int points);
 

@@ -29,6 +29,9 @@ class Partner {
     (void)start;
     return std::numeric_limits<double>::infinity();
   }
+  /// Begins to work on its answer, if it can do so while culm does something else: the next call of
+  /// loads is about this window.
+  virtual void pose(const Window& window) { (void)window; }
   /// Mean loads of the window: three forces and three moments for each point [N, N m]. What the
   /// partner knows is afterwards what it knew before.
   virtual Eigen::VectorXd loads(const Window& window) = 0;

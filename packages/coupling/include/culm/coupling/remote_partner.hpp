@@ -27,6 +27,7 @@ class RemotePartner final : public Partner {
   void begin(const Beginning& beginning) override;
   Quantities wanted() const override { return partner_.wanted | bit(port::Quantity::motion); }
   double latest_end(double start) const override { return start + partner_.longest_window; }
+  void pose(const Window& window) override;
   Eigen::VectorXd loads(const Window& window) override;
   void accept(const Window& window) override;
   Books books() const override { return books_; }
@@ -46,7 +47,8 @@ class RemotePartner final : public Partner {
   std::string port_;
   Introduction partner_;
   Books books_;
-  Window last_;  ///< that was accepted
+  Window last_;                 ///< that was accepted
+  std::optional<Frame> posed_;  ///< what it has been asked and has not answered yet
 };
 
 /// Fields of the deck that say how long it may be silent, and how long it may take.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <culm/coupling/partner.hpp>
+#include <culm/coupling/point_partner.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace culm::coupling {
 
@@ -28,28 +30,38 @@ class RandomPartner final : public Partner {
 
 /// What can go wrong in a window, from there on.
 enum class Fault {
-  death,        ///< PartnerError, as of a program that is gone
-  no_number,    ///< an answer that is no number
-  wrong_count,  ///< loads of one point less than there are
-  wrong_energy  ///< books of an energy that nobody has seen
+  death,            ///< PartnerError, as of a program that is gone
+  no_number,        ///< an answer that is no number
+  infinite,         ///< one that is infinite
+  wrong_count,      ///< loads of one point less than there are
+  scaled,           ///< half of the true forces
+  turned,           ///< the opposite of the true forces
+  old,              ///< the forces of the window before the first wrong one
+  wrong_energy,     ///< books of an energy that nobody has seen
+  infinite_energy,  ///< books that are infinite
+  slow              ///< right answers, a tenth of a second late
 };
 
-/// A partner without loads until something goes wrong with it.
+/// A mass at each point until something goes wrong with it. Wrong forces are what it answers; what
+/// it books are the right ones.
 class FaultyPartner final : public Partner {
  public:
-  FaultyPartner(Fault fault, int window) : fault_(fault), window_(window) {}
-  void begin(const Beginning& beginning) override { port_ = beginning.port; }
+  /// @param mass  [kg]; none: without loads
+  FaultyPartner(Fault fault, int window, double mass);
+  void begin(const Beginning& beginning) override;
   Eigen::VectorXd loads(const Window& window) override;
   void accept(const Window& window) override;
-  Books books() const override { return books_; }
-  void save(const std::string&, Snapshot&) override {}
-  void restore(const std::string&, const Snapshot&) override {}
+  Books books() const override;
+  void save(const std::string& prefix, Snapshot& snapshot) override;
+  void restore(const std::string& prefix, const Snapshot& snapshot) override;
 
  private:
   Fault fault_;
   int window_;
   std::string port_;
-  Books books_;
+  PointPartner truth_;
+  Eigen::VectorXd old_;  ///< forces of the last window that was right
+  bool has_lied_ = false;
 };
 
 }  // namespace culm::coupling

@@ -27,6 +27,13 @@ constexpr int components(Quantities wanted) {
   return count;
 }
 
+/// A step that the structure made within a window.
+struct WindowStep {
+  double start = 0.0;
+  double end = 0.0;            ///< [s]
+  std::vector<double> motion;  ///< as port::Quantity::motion
+};
+
 /// A window of time, from one exchange that counts to the next, and how the points of a port move
 /// in it: position, rotation and velocity at its end, motion over all of it, acceleration of its
 /// last step.
@@ -37,6 +44,7 @@ struct Window {
   double end = 0.0;                           ///< [s]
   std::array<std::vector<double>, 5> motion;  ///< by port::Quantity; empty what nobody wants
   std::vector<double> loads;  ///< that acted in it, mean force and moment of each point [N, N m]
+  std::vector<WindowStep> steps;  ///< of the structure, where it makes several
 
   double length() const { return end - start; }
   std::vector<double>& of(port::Quantity q) { return motion[static_cast<std::size_t>(q)]; }

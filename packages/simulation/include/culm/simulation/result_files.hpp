@@ -60,6 +60,9 @@ class ResultFiles {
   /// How much there is, under "output/" with checksums, and whose it is, under "run/".
   void save(Snapshot& snapshot) const;
 
+  /// Whether a snapshot is one of save(), by this object or one that it goes on from.
+  bool has_saved(const Snapshot& snapshot) const;
+
   /// Cuts the files back to what there was when this was saved, by this object.
   void go_back(const Snapshot& saved);
 

@@ -22,6 +22,7 @@
 namespace culm::simulation {
 
 struct Phase;
+class Checkpoints;
 class CoupledRun;
 class ResultFiles;
 class RunObserver;
@@ -78,7 +79,16 @@ class Simulation {
   /// @param from  checkpoint of an earlier run in this folder, to go on with
   void run(const RunSettings& settings, const StopRequest& request, const Snapshot* from = nullptr);
 
-  // --- step by step, by another program; nothing is written to files ----------------------------
+  // --- step by step, by another program ---------------------------------------------------------
+  /// Writes results of the analyses that begin() takes up, as run() does: of each step when it is
+  /// accepted, and cut back where a snapshot is restored. Nothing is written without it. Before the
+  /// first begin(); collective. Throws UsageError later, FileError as run() does.
+  void write_results(const std::filesystem::path& folder);
+  bool writes_results() const;
+  /// Ends the analysis that was taken up, and the files with a report. Throws UsageError if there
+  /// are none. What was written before is sound without it.
+  /// @return the files for the user
+  std::vector<std::filesystem::path> close_results();
   /// Takes up an analysis of the deck that makes steps, the first one if no name is given: from
   /// where the deck says, ready for its first attempt. What was taken up before ends. Throws
   /// UsageError if there is no such analysis, else what run() throws before a first step.
@@ -156,11 +166,17 @@ class Simulation {
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void keep_state(const std::string& name, model::State& state);
+  /// Of those that begin() takes up.
+  void end_analysis();
   /// state(), with the start of the step as well up to date on all ranks; collective.
   const model::State& both_ends();
   void write_last_checkpoint(RunObserver& observer) const;
 
   struct Parts;
+  struct Results;
+  /// @param checkpoints  null: there are none
+  std::unique_ptr<Results> open_results(const RunSettings& settings, Checkpoints* checkpoints,
+                                        const Snapshot* from);
   static Simulation of(DeckSource source, const Log& log, const parallel::Comm& comm);
   explicit Simulation(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;

@@ -1,0 +1,71 @@
+"""Results of a simulation whose steps this program makes, with detours: those of culm run."""
+
+import pathlib
+import subprocess
+import sys
+
+import culm
+
+deck, program, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+overrides = [
+    "Loads/push/Type=Line Force", "Loads/push/Structure=mast", "Loads/push/Force={57, 10, 0}",
+    "Loads/push/Function=Constant", "Output/Every=5", "Output/History/top/Type=Displacement",
+    "Output/History/top/Node=mast/last", "Output/History/energy/Type=Energy",
+]
+
+
+def make(name):
+    mast = culm.Simulation(deck, overrides)
+    mast.write_results(str(folder / name))
+    return mast, mast.begin()
+
+
+def rows(name):
+    return len((folder / name / "history.csv").read_text().splitlines()) - 1
+
+
+mast, stepper = make("straight")
+stepper.run()
+files = mast.close_results()
+assert [pathlib.Path(name).name for name in files][:3] == ["run.h5", "run.xdmf", "history.csv"], files
+assert mast.broken_promises == ""
+
+mast, stepper = make("detours")
+while not stepper.is_at_end:
+    if stepper.steps == 17:
+        here = stepper.save()
+        for _ in range(9):
+            assert stepper.attempt(stepper.time + 0.003)
+            stepper.accept()
+        assert rows("detours") == 27
+        stepper.restore(here)
+        assert rows("detours") == 18
+    stepper.attempt(stepper.proposal + 0.01)
+    stepper.discard()
+    assert stepper.attempt()
+    stepper.accept()
+mast.close_results()
+
+words = [word for one in overrides for word in ("--set", one)]
+subprocess.run([program, "run", deck, *words, "--output", folder / "run", "--quiet"], check=True)
+run = culm.read(folder / "run")
+for name in ("straight", "detours"):
+    assert (folder / name / "history.csv").read_bytes() == (folder / "run/history.csv").read_bytes(), name
+    mine = culm.read(folder / name)
+    assert len(mine.states) == len(run.states) == 11, (name, len(mine.states))
+
+mast, stepper = make("early")
+stepper.attempt()
+stepper.accept()
+mast.close_results()
+assert rows("early") == 2
+for call, words in ((stepper.attempt, "has ended"), (mast.close_results, "no results are written"),
+                    (lambda: mast.write_results(str(folder / "late")), "before the first 'begin'")):
+    try:
+        call()
+    except culm.UsageError as error:
+        assert words in str(error), error
+    else:
+        raise AssertionError(words)
+assert not (folder / "late").exists()
+print("results step by step: as of culm run")
