@@ -40,6 +40,7 @@ const std::vector<PythonVerb>& python_verbs() {
       {"completion", "Print what bash or zsh needs to complete command lines"},
       {"hard", "Run the hard cases with growing stressors and tell their margins"},
       {"effects", "Tell what the effects of a scene cost, and what changes without each"},
+      {"export", "Write a deck with ports as an FMU, which other programs drive step by step"},
       {"manual", "Write the manual as pages for man"},
       {"report", "Draw the page of a run: report.html in its folder"},
       {"study", "Measure what accuracy costs: vary a deck, compare with a reference, advise"},

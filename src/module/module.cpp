@@ -68,11 +68,9 @@ class Live {
     stepper_ = nullptr;
     stepper_ = &simulation_.begin(analysis);
   }
-  std::vector<std::string> close_results() {
+  std::string close_results() {
     if (simulation_.writes_results()) stepper_ = nullptr;
-    std::vector<std::string> names;
-    for (const auto& path : simulation_.close_results()) names.push_back(path.string());
-    return names;
+    return simulation_.close_results();
   }
   long taken_up() const { return taken_up_; }
   Stepper* stepper() const { return stepper_; }
@@ -359,7 +357,7 @@ PYBIND11_MODULE(_culm, module) {
           "Writes results of each step when it is accepted, as culm run does; cut back by restore. "
           "Before the first begin.")
       .def("close_results", &Live::close_results,
-           "Ends the analysis and the files, with a report; returns the names of the files.")
+           "Ends the analysis and the files, with a report; returns what culm run says at its end.")
       .def(
           "begin",
           [](Live& live, const std::string& analysis) {

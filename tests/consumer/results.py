@@ -26,8 +26,8 @@ def rows(name):
 
 mast, stepper = make("straight")
 stepper.run()
-files = mast.close_results()
-assert [pathlib.Path(name).name for name in files][:3] == ["run.h5", "run.xdmf", "history.csv"], files
+words = mast.close_results()
+assert "50 steps accepted" in words and str(folder / "straight/run.h5") in words, words
 assert mast.broken_promises == ""
 
 mast, stepper = make("detours")

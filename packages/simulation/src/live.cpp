@@ -79,7 +79,7 @@ void Simulation::write_results(const std::filesystem::path& folder) {
 
 bool Simulation::writes_results() const { return parts_->results != nullptr; }
 
-std::vector<std::filesystem::path> Simulation::close_results() {
+std::string Simulation::close_results() {
   Parts& p = *parts_;
   if (p.results == nullptr) throw UsageError("no results are written");
   const bool is_done = p.stepper != nullptr && p.stepper->is_at_end();
@@ -87,9 +87,9 @@ std::vector<std::filesystem::path> Simulation::close_results() {
   if (!p.state.next.empty()) {
     p.results->observer.end(p.state, is_done ? "done" : "ended by the program that made the steps");
   }
-  std::vector<std::filesystem::path> paths = p.results->files.paths();
+  std::string words = p.results->observer.closing_words();
   p.results.reset();
-  return paths;
+  return words;
 }
 
 void Simulation::set_load(const std::string& name, const std::vector<double>& values) {

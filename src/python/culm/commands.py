@@ -7,7 +7,7 @@ import importlib
 import json
 
 
-PYTHON_VERBS = ("completion", "effects", "hard", "import", "manual", "report", "study", "sweep", "view")
+PYTHON_VERBS = ("completion", "effects", "export", "hard", "import", "manual", "report", "study", "sweep", "view")
 
 
 @dataclasses.dataclass

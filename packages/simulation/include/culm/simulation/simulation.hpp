@@ -87,8 +87,8 @@ class Simulation {
   bool writes_results() const;
   /// Ends the analysis that was taken up, and the files with a report. Throws UsageError if there
   /// are none. What was written before is sound without it.
-  /// @return the files for the user
-  std::vector<std::filesystem::path> close_results();
+  /// @return costs, balance and convergence, and which files there are, as a run says them
+  std::string close_results();
   /// Takes up an analysis of the deck that makes steps, the first one if no name is given: from
   /// where the deck says, ready for its first attempt. What was taken up before ends. Throws
   /// UsageError if there is no such analysis, else what run() throws before a first step.
