@@ -1,5 +1,4 @@
 #include <culm/base/error.hpp>
-#include <culm/load/couple.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/port/point_motion.hpp>
 
@@ -18,24 +17,22 @@ Mat3 shortest_rotation(const Vec3& a, const Vec3& b) {
   return cosine > 0.0 ? Mat3::Identity() : exp_rotation(std::numbers::pi * any_normal(a));
 }
 
-// R^-T, without the transposed inverse.
-Mat3 inverse_transposed(const Mat3& R) {
-  Mat3 cofactors;
-  cofactors << R.col(1).cross(R.col(2)), R.col(2).cross(R.col(0)), R.col(0).cross(R.col(1));
-  return cofactors / cofactors.col(0).dot(R.col(0));
-}
-
-// The nearest rotation by Newton's method, which few steps from a triad need; else as
-// nearest_rotation() finds it. @source Higham, SIAM J. Sci. Stat. Comput. 7 (1986) 1160-1174
+// The nearest rotation by Newton's method, R <- (R + R^-T) / 2, which few steps from a triad need;
+// else as nearest_rotation() finds it.
+// @source Higham, SIAM J. Sci. Stat. Comput. 7 (1986) 1160-1174
 Mat3 quick_nearest_rotation(const Mat3& D) {
   constexpr int most = 8;
-  constexpr double settled = 1e-20;  // the next step changes the last digit at most
+  constexpr double settled = 1e-16;  // the next step changes half of this at most
   Mat3 R = D;
   for (int i = 0; i < most; ++i) {
-    const Mat3 next = 0.5 * (R + inverse_transposed(R));
+    Mat3 cofactors;
+    cofactors << R.col(1).cross(R.col(2)), R.col(2).cross(R.col(0)), R.col(0).cross(R.col(1));
+    const double determinant = cofactors.col(0).dot(R.col(0));
+    if (!(determinant > 0.0)) break;
+    const Mat3 next = 0.5 * R + (0.5 / determinant) * cofactors;
     const double moved = (next - R).squaredNorm();
     R = next;
-    if (moved < settled && R.determinant() > 0.0) return R;
+    if (moved < settled) return R;
   }
   return nearest_rotation(D);
 }
@@ -83,10 +80,6 @@ FlatPoint::FlatPoint(const model::Marker& point, const model::NodeTable& nodes)
 Mat3 FlatPoint::rotation(const Mat3& directors) const {
   if (kind_ == NodeKind::node6) return shortest_rotation(reference_.col(0), directors.col(0));
   return quick_nearest_rotation(directors) * reference_.transpose();
-}
-
-Vec3 FlatPoint::turn(const Mat3& middle, const Mat3& change) const {
-  return load::Couple(middle, kind_).rotation(change);
 }
 
 }  // namespace culm::port

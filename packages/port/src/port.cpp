@@ -50,9 +50,7 @@ std::vector<double> Port::read(Quantity quantity, const model::State& state) con
   };
   // of slots and of directors at the same time, as the rotation that loads work on
   const auto put_rates = [](const FlatPoint& point, const NodeSlots& rates, const NodeSlots& slots,
-                            double* at) {
-    put(point.place(rates), point.turn(slots.rightCols<3>(), rates.rightCols<3>()), at);
-  };
+                            double* at) { put(point.place(rates), point.turn(slots, rates), at); };
   const bool has_rates = !state.velocity.empty();
   const double h = has_rates ? state.time - state.time_prev : 0.0;
   switch (quantity) {
@@ -134,8 +132,7 @@ Exchange Port::exchange(const model::State& state) const {
     const FlatPoint& point = points_[p];
     const NodeSlots moved = point.change(state.prev, state.next);
     const NodeSlots middle = point.slots(state.prev) + 0.5 * moved;
-    sum.work += forces_[p].dot(point.place(moved)) +
-                moments_[p].dot(point.turn(middle.rightCols<3>(), moved.rightCols<3>()));
+    sum.work += forces_[p].dot(point.place(moved)) + moments_[p].dot(point.turn(middle, moved));
     sum.force += forces_[p];
     sum.moment += point.place(middle).cross(forces_[p]) + moments_[p];
     if (point.kind() == NodeKind::node12) continue;

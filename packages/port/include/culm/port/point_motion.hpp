@@ -1,6 +1,7 @@
 /// Where material points are and how they move.
 #pragma once
 
+#include <culm/load/couple.hpp>
 #include <culm/mechanics/node.hpp>
 #include <culm/model/node_table.hpp>
 #include <culm/model/structure.hpp>
@@ -48,9 +49,11 @@ class FlatPoint {
   /// The rotation from the reference to these directors: between the triads nearest to them; of a
   /// shell the one that turns the director on the shortest way.
   Mat3 rotation(const Mat3& directors) const;
-  /// The rotation vector of moments, |tau| = 2 tan(angle / 2), of a change of the directors, or the
-  /// angular velocity of their rates. @param middle  the directors there @see load::Couple
-  Vec3 turn(const Mat3& middle, const Mat3& change) const;
+  /// The rotation vector of moments, |tau| = 2 tan(angle / 2), of a change of the slots, or the
+  /// angular velocity of their rates. @param middle  the slots there @see load::Couple
+  Vec3 turn(const model::NodeSlots& middle, const model::NodeSlots& change) const {
+    return load::couple_rotation(middle.rightCols<3>(), change.rightCols<3>(), kind_);
+  }
 
  private:
   Eigen::Map<const model::NodeSlots> at(const model::Coordinates& q, int a) const {
