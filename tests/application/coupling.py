@@ -726,6 +726,12 @@ class Decks(CouplingTest):
                            "--set", f"Coupling/Partners/fault/Fault={name}", *words, code=code)
         return re.sub(r"\s+", " ", errors)
 
+    def test_with_a_window_longer_than_the_motion(self):
+        errors = self.culm("run", self.deck, "--output", "long", "--quiet", "--set", "Coupling/Window=10")
+        self.assertIn("a window of 10 s does not end before the motion, which takes 0.5 s: all of it is one window",
+                      re.sub(r"\s+", " ", errors))
+        self.assertEqual(self.rows("long"), 1)
+
     def test_with_partners_that_fail(self):
         said = "the partner 'fault' at port 'top' failed in window 3, attempt "
         for name, words in (("Death", "as the deck wants it"), ("No Number", "it answered nan for component 0 at point 0"),

@@ -246,7 +246,7 @@ std::string CoupledRun::worst_point() const {
     }
   }
   if (worst == nullptr) return "there was no answer";
-  return fmt::format("'{}' answers {:.3g} for {:.3g} at point {} of port '{}', component {}",
+  return fmt::format("'{}' answers {:.6g} for {:.6g} at point {} of port '{}', component {}",
                      worst->name, worst->answer[place], worst->acted[place], place / 6,
                      worst->port_name, place % 6);
 }

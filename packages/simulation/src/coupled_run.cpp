@@ -62,6 +62,15 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
   }
   std::optional<double> length;
   if (settings_.has("Window")) length = settings_.number("Window");
+  const double whole = stepper.final_time() - stepper.time();
+  constexpr double rounding = 1e-9;
+  if (length && stepper.steps() == 0 && *length > (1.0 + rounding) * whole) {
+    findings_.warn("coupling",
+                   fmt::format("{}: a window of {:g} s does not end before the motion, which takes "
+                               "{:g} s: all of it is one window",
+                               to_string(settings_.where("Window")), *length, whole),
+                   stepper.time());
+  }
   CoupledWindow window(stepper, system, sides_, length);
   if (!has_begun_) {
     system.synchronise(stepper.state());
