@@ -84,6 +84,16 @@ class Removals(unittest.TestCase):
             found = removals.find(ResolvedDeck(f"<ParameterList>{body}{analyses}</ParameterList>"))
             self.assertEqual(settings(found, "rotary inertia"), wanted)
 
+    def test_rotary_inertia_goes_from_mass_matrices(self):
+        matrix = "{3, 0, 0, 0, 0, 0, 3, 0, 0, 0, -0.3, 3, 0, 0.3, 0, 0.05, -0.02, 0, 0.08, 0, 0.13}"
+        heavy = entry("bar", {"Type": "Stiffness Matrix", "Mass": matrix, "rhoA": "0"})
+        massless = entry("rod", {"Type": "Stiffness Matrix", "rhoA": "0"})
+        body = entry("Sections", {}, heavy + massless)
+        body += entry("Structures", {}, entry("a", BEAM) + entry("b", {**BEAM, "Section": "rod"}))
+        body += entry("Analyses", {}, entry("modes", {"Type": "Modal"}))
+        found = removals.find(ResolvedDeck(f"<ParameterList>{body}</ParameterList>"))
+        self.assertEqual(settings(found, "rotary inertia"), [["Structures/a/Rotary Inertia=1e-06"]])
+
     def test_damping_is_offered_where_there_is_some(self):
         beams = entry("a", {**BEAM, "Dissipation": "0.3", "Damping": "0"})
         found = removals.find(deck(entry("Structures", {}, beams)))

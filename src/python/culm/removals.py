@@ -157,7 +157,9 @@ def _alike(deck):
 
 
 def _weighs(section):
-    return float(section.get("Density") or section.get("rhoA") or 0.0) > 0.0
+    """Whether it has mass: per volume, per length, or first in the rows of a matrix."""
+    masses = (section.get("Density"), section.get("rhoA"), *words(section.get("Mass") or "{}")[:1])
+    return any(float(mass or 0.0) > 0.0 for mass in masses)
 
 
 def _stretches_far(deck, shell):
