@@ -1,6 +1,7 @@
 #include <culm/analysis/dynamics.hpp>
 #include <culm/analysis/newton_options.hpp>
 #include <culm/analysis/turning_rotor.hpp>
+#include <culm/assembly/rounding.hpp>
 #include <culm/base/error.hpp>
 
 #include "mirrored_faces.hpp"
@@ -110,6 +111,7 @@ std::string describe_place(const model::Model& model, const assembly::VelocityFi
   if (fit.equation >= 0) cause = &model.equations()[static_cast<std::size_t>(fit.equation)];
   for (const model::Constraint& c : model.constraints()) {
     if (cause == nullptr && c.fix && model.nodes().master(c.fix->node) == fit.node) cause = &c;
+    if (c.link && c.link->slave == fit.node) cause = &c;
   }
   if (cause != nullptr && !cause->name.empty())
     text += fmt::format(", by {} '{}'", cause->type, cause->name);
@@ -274,6 +276,11 @@ bool Dynamics::do_fail(const StepReport& report) {
 
 AnalysisReport Dynamics::do_finish() {
   system().carry_residuals(false);
+  if (!certificate_.broken().empty()) {
+    const model::State& now = state();
+    certificate_.set_rounding(
+        assembly::rounding_energy(system(), {now.prev, now.next, now.multipliers, now.own}));
+  }
   measure_hidden_constraints();
   Findings& findings = context().findings;
   if (const std::string broken = certificate_.broken(); !broken.empty()) {

@@ -98,4 +98,33 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   return {worst[0], comm.max(is_here ? static_cast<int>(global) : -1)};
 }
 
+double rounding_energy(const System& system, const EvaluatedPoint& point) {
+  std::vector<double> sizes = unknown_sizes(system, point);
+  const auto each_block = [&](auto action) {
+    for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
+      const model::Block& block = system.model().unknowns().block(local.block);
+      action(local, block, block.kind == model::BlockKind::node);
+    }
+  };
+  each_block([&](const Layout::LocalBlock& local, const model::Block& block, bool is_node) {
+    if (is_node) return;
+    std::fill_n(sizes.begin() + local.first_column, block.shape.active, 0.0);
+  });
+  const Matrix& matrix = *system.matrix();
+  const auto values = matrix.values();
+  const auto row_begin = matrix.row_begin();
+  const auto column_of = matrix.column_of();
+  double sum = 0.0;
+  each_block([&](const Layout::LocalBlock& local, const model::Block& block, bool is_node) {
+    if (!is_node || !local.owned) return;
+    for (int row = local.first_column; row < local.first_column + block.shape.active; ++row) {
+      for (auto k = row_begin[index(row)]; k < row_begin[index(row) + 1]; ++k) {
+        sum += sizes[index(row)] * std::abs(values[k]) * sizes[index(column_of[k])];
+      }
+    }
+  });
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  return roundings * eps * eps * system.comm().sum(sum);
+}
+
 }  // namespace culm::assembly

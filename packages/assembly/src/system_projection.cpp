@@ -197,6 +197,7 @@ int System::largest_equation(std::span<const double> rows, double largest) const
 
 VelocityFit System::project_velocity(model::State& state, double probe, const Solve& solve_mass) {
   // velocities given to eliminated nodes are those of their masters
+  const model::Coordinates given = state.velocity;
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
   const std::vector<double> speed = drive_speed(state, probe);
   const Evaluation found = evaluate(state, Stencil::statics(), Want::mass);
@@ -257,16 +258,22 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   }
   double largest = 0.0;
   int node = -1;
-  each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
-    if (model_.nodes().is_slave(block.owner)) return;  // its master may be elsewhere
-    const auto first = static_cast<std::size_t>(model::NodeTable::offset(block.owner));
+  const auto compare = [&](int at, const model::Coordinates& wanted) {
+    const auto first = static_cast<std::size_t>(model::NodeTable::offset(at));
     for (std::size_t i = first; i < first + 12; ++i) {
-      const double moved = std::abs(state.velocity[i] - before[i]);
+      const double moved = std::abs(state.velocity[i] - wanted[i]);
       if (!moves_mass[i / 3] || moved <= largest) continue;
       largest = moved;
-      node = block.owner;
+      node = at;
     }
+  };
+  each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
+    if (!model_.nodes().is_slave(block.owner)) compare(block.owner, before);
   });
+  for (int slave : slaves_) {  // where its master is known
+    const bool is_here = layout_.owners()[index(unknowns.node_block(slave))] == comm_.rank();
+    if (is_here && !model::NodeTable::slots(given, slave).isZero(0.0)) compare(slave, given);
+  }
   forget_reactions();
   const auto [most, where] = find_largest(largest, node);
   return {most, where, largest_equation(b, negligible * multiplier_scale_ * most)};

@@ -396,8 +396,9 @@ StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) 
 Vec6 ConstraintBatch::reaction(int node, const State& state, const std::string& constraint) const {
   Vec6 total = Vec6::Zero();
   for (const Item& item : items_) {
-    // as where they are eliminated, rigid connections carry their forces without showing them
-    const bool is_inner = item.constraint.is_structural || item.constraint.link;
+    // a rigid connection holds the node that follows, and hands what holds both to its master
+    const auto& link = item.constraint.link;
+    const bool is_inner = item.constraint.is_structural || (link && link->slave != node);
     const bool counts = constraint.empty() ? !is_inner : item.constraint.name == constraint;
     if (!counts) continue;
     const std::vector<int>& nodes = item.constraint.nodes;

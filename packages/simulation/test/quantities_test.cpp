@@ -130,6 +130,35 @@ TEST(SectionLoads, AxesOfSectionAndFrameAreTurnsOfThoseInSpace) {
   }
 }
 
+// What a rigid connection exerts on the node that follows, and not what it hands to its master.
+TEST(Reaction, OfARigidConnectionIsThatOnTheNodeThatFollows) {
+  const std::string plate =
+      typed("plate", "Rigid Body",
+            set("Position", "{0, 0, 0.5}") + set("Mass", "1") + set("Inertia", "{1, 1, 1}"));
+  const std::string text = list(
+      "culm",
+      list("Sections", bar) +
+          list("Structures", beam("beam", "{0, 0, 0}", "{2, 0, 0}", 4) + plate) +
+          list("Constraints", typed("ground", "Rigid Support", set("Node", "plate")) +
+                                  typed("bolt", "Rigid Connection",
+                                        set("Node", "beam/first") + set("Master", "plate"))) +
+          list("Loads", typed("force", "Force",
+                              set("Node", "beam/last") + set("Force", "{0, 1e-3, -2e-3}"))) +
+          list("Solver", set("Form", "Multipliers")) +
+          list("Analyses", typed("bend", "Static", set("Steps", "1"))) +
+          list("Output", list("History", typed("bolt", "Reaction", set("Node", "beam/first")) +
+                                             typed("ground", "Reaction", set("Node", "plate")))));
+  Watching run(text);
+  run.run("bend", [] {});
+  const Vec3 load(0.0, 1e-3, -2e-3);
+  const auto expect = [&](const std::string& name, const Vec3& arm) {
+    EXPECT_LT((run.vector(name, "F", "xyz") + load).norm(), 1e-9);
+    EXPECT_LT((run.vector(name, "M", "xyz") + arm.cross(load)).norm(), 1e-7);
+  };
+  expect("bolt", Vec3(2.0, 0.0, 0.0));
+  expect("ground", Vec3(2.0, 0.0, -0.5));
+}
+
 constexpr double speed = 2.0;  // [rad/s]
 constexpr double step = 0.02;  // [s]
 

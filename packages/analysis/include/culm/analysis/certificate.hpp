@@ -32,6 +32,11 @@ class Certificate {
   /// @param velocity the largest one [m/s, 1/s]
   void finish(double change, double velocity);
 
+  /// Before the end, if it is asked for: what rounding alone may move in one step [J]. Where
+  /// nothing moves more than that adds up to, drifts are those of rounding over rounding, and not
+  /// judged.
+  void set_rounding(double energy) { rounding_ = energy; }
+
   /// All that was summed and compared so far, as "certificate".
   void save(Snapshot& snapshot) const;
   void restore(const Snapshot& snapshot);
@@ -53,7 +58,7 @@ class Certificate {
     std::string name;
     double drift = 0.0;  ///< relative
     double promise = 0.0;
-    bool is_promised = true;
+    std::string excuse = {};  ///< why it is not promised; empty where it is
   };
 
   /// A row of what flowed in or out, and the shares that are not zero, by account.
@@ -69,6 +74,7 @@ class Certificate {
   std::vector<Line> lines() const;
   void measure(const model::State& state);
   double energy_scale() const;
+  std::string excuse() const;
   double linear_scale() const;
   double angular_scale() const;
 
@@ -88,6 +94,7 @@ class Certificate {
   double angular_drift_ = 0.0;  ///< [N m s]
   double constraint_violation_ = 0.0;
   std::optional<double> hidden_violation_;
+  double rounding_ = 0.0;
   int steps_ = 0;
 };
 

@@ -29,4 +29,8 @@ struct RoundingCheck {
 RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
                              double force_scale);
 
+/// What rounding of the coordinates alone may store or set in motion in one step: eps^2 c |q|^T |J|
+/// |q| over the nodes, with the last tangent J [J]. Collective.
+double rounding_energy(const System& system, const EvaluatedPoint& point);
+
 }  // namespace culm::assembly
