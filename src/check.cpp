@@ -13,11 +13,20 @@
 namespace culm::app {
 namespace {
 
+// A file takes its place as a whole; what is none, such as /dev/stdout, is written to.
 void write_resolved(const Options& deck, const std::filesystem::path& path) {
-  std::ofstream file(path);
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  const bool is_replaced = !std::filesystem::exists(target) || is_regular_file(target, error);
+  const std::filesystem::path written = is_replaced ? target.string() + ".part" : path.string();
+  std::ofstream file(written);
   file << deck::resolved(deck);
   file.close();
-  if (!file) throw FileError("cannot write '" + path.string() + "'");
+  if (file && is_replaced) std::filesystem::rename(written, target, error);
+  if (file && !error) return;
+  std::error_code ignored;
+  if (is_replaced) std::filesystem::remove(written, ignored);
+  throw FileError("cannot write '" + path.string() + "'");
 }
 
 // In a temporary folder one that is named after the deck, as folders of results are. Rank 0 makes

@@ -65,6 +65,11 @@ struct Arguments {
   int ranks() const { return std::max(any_run().ranks, resume.ranks); }
 };
 
+// An empty path is mostly a variable of a script that is not set; it would be taken for none given.
+std::string refuse_empty(const std::string& path) {
+  return path.empty() ? "needs a path, got ''" : "";
+}
+
 template <class VerbArguments>
 void add_common_options(CLI::App& verb, VerbArguments& arguments) {
   verb.add_option("--set", arguments.overrides,
@@ -136,7 +141,8 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
   add_deck_options(verb, arguments);
   add_walltime(verb, arguments.walltime);
   verb.add_option("--output", arguments.folder,
-                  "Folder for results; results/<name of the deck> if not given");
+                  "Folder for results; results/<name of the deck> if not given")
+      ->check(refuse_empty);
   add_ending(verb, arguments.strict);
   add_ranks(verb, arguments.ranks);
   verb.add_flag("--report", arguments.report, "Write report.html beside the results");
@@ -155,8 +161,10 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   resume
       ->add_option("run", arguments.resume.run, "Folder with the results of a run, or a checkpoint")
       ->required();
-  resume->add_option("--deck", arguments.resume.deck,
-                     "Deck in place of that of the run; the model must be the same");
+  resume
+      ->add_option("--deck", arguments.resume.deck,
+                   "Deck in place of that of the run; the model must be the same")
+      ->check(refuse_empty);
   add_common_options(*resume, arguments.resume);
   add_ranks(*resume, arguments.resume.ranks);
   add_leader(*resume, arguments.resume, "Of a run that was led: where the other program");
@@ -166,11 +174,15 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
       [&] { action = [&](const Comm& comm) { culm::app::resume(comm, arguments.resume); }; });
   CLI::App* check = app.add_subcommand("check", "Parse, build and count a deck; do not solve it");
   add_deck_options(*check, arguments.check);
-  check->add_option("--resolved", arguments.check.resolved,
-                    "Write the deck as it is used to this file: without variables, units and "
-                    "includes, with all defaults");
-  check->add_option("--view", arguments.check.view,
-                    "Write a page that shows the model with its supports and loads to this file");
+  check
+      ->add_option("--resolved", arguments.check.resolved,
+                   "Write the deck as it is used to this file: without variables, units and "
+                   "includes, with all defaults")
+      ->check(refuse_empty);
+  check
+      ->add_option("--view", arguments.check.view,
+                   "Write a page that shows the model with its supports and loads to this file")
+      ->check(refuse_empty);
   check->callback(
       [&] { action = [&](const Comm& comm) { culm::app::check(comm, arguments.check); }; });
   CLI::App* couple =

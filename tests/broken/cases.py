@@ -388,6 +388,45 @@ NAMES = [
         ranks=True,
     ),
     wrong(
+        "analysis with a name too long for a folder",
+        ANALYSIS,
+        ANALYSIS + parameters("@@" + 201 * "b", ("Type", "Static")),
+        "Analyses / " + 201 * "b" + ": is part of the name of a file, which may have 200 bytes of it, and has 201",
+    ),
+    wrong(
+        "ports that share a picture",
+        LOADS,
+        '<ParameterList name="Ports">\n'
+        + parameters("skin 1", ("Type", "Points"), ("Points", "{beam/2}"))
+        + parameters("@@skin_1", ("Type", "Points"), ("Points", "{beam/3}"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Ports / skin_1: would share the picture 'port_skin_1.vtu' with 'skin 1'; take another name",
+        ranks=True,
+    ),
+    wrong(
+        "partners that share a record",
+        LOADS,
+        '<ParameterList name="Ports">\n'
+        + parameters("skin", ("Type", "Points"), ("Points", "{beam/2}"))
+        + "</ParameterList>\n"
+        + '<ParameterList name="Coupling">\n<ParameterList name="Partners">\n'
+        + parameters("Wind", ("Type", "Dashpot"), ("Damping", "1"))
+        + parameters("@@wind", ("Type", "Dashpot"), ("Damping", "2"))
+        + "</ParameterList>\n</ParameterList>\n"
+        + LOADS,
+        "Coupling / Partners / wind: would share the record 'coupling_wind.record' with 'Wind'; take another name",
+    ),
+    wrong(
+        "node set named like a point of a beam",
+        LOADS,
+        '<ParameterList name="Node Sets">\n'
+        + parameters("@@beam@0.5", ("Nodes", "{beam/2}"))
+        + "</ParameterList>\n"
+        + LOADS,
+        "Node Sets / beam@0.5: names that begin with 'beam@' stand for parts of the structure 'beam'",
+    ),
+    wrong(
         "analysis named like the reference state",
         ANALYSIS,
         ANALYSIS + parameters("@@Reference", ("Type", "Static")),
@@ -1449,6 +1488,8 @@ COMMANDS = [
         '\n        @@<Parameter name="Station" value="1.5"/>',
         "Output / History / tip / Station: must be between 0 and 1, got 1.5",
     ),
+    usage("empty name of a folder", "run deck.xml --output ''", "--output: needs a path, got ''"),
+    usage("empty name of a file", "check deck.xml --resolved ''", "--resolved: needs a path, got ''"),
     usage("misspelt option", "run deck.xml --stirct", "unknown option '--stirct' – did you mean '--strict'?"),
     usage(
         "misspelt option with a value, and no deck",

@@ -39,9 +39,15 @@ Assignment parse(const std::string& text) {
   }
 }
 
-RawList& find_or_add_list(RawList& parent, const std::string& name) {
+// @param path  of the parent; becomes that of the list
+RawList& find_or_add_list(RawList& parent, const std::string& name, std::string& path) {
+  path = join_path(path, name);
   const auto found = std::ranges::find(parent.lists, name, &RawList::name);
   if (found != parent.lists.end()) return *found;
+  // a list beside it would be overlooked
+  if (std::ranges::find(parent.parameters, name, &RawParameter::name) != parent.parameters.end()) {
+    throw InputError({command_line, 0, path}, "must be a <Parameter>, found a <ParameterList>");
+  }
   RawList list;
   list.file = command_line;
   list.name = name;
@@ -64,7 +70,8 @@ void apply_overrides(const std::vector<std::string>& overrides, RawList& root) {
   for (const std::string& text : overrides) {
     const Assignment assignment = parse(text);
     RawList* list = &root;
-    for (const std::string& name : assignment.lists) list = &find_or_add_list(*list, name);
+    std::string path;
+    for (const std::string& name : assignment.lists) list = &find_or_add_list(*list, name, path);
     RawParameter& parameter = find_or_add_value(*list, assignment.name);
     parameter.file = command_line;
     parameter.line = 0;

@@ -45,7 +45,8 @@ using TextSource = std::function<FileText(const std::string& path)>;
 RawList read_raw(const std::string& text, const std::string& file, const TextSource& includes,
                  InputIssues& issues);
 
-/// Applies assignments from the command line. Throws UsageError if one is no assignment.
+/// Applies assignments from the command line. Throws UsageError if one is no assignment, InputError
+/// if it takes a parameter for a list.
 void apply_overrides(const std::vector<std::string>& overrides, RawList& root);
 
 }  // namespace culm::deck

@@ -48,6 +48,9 @@ TEST(Override, MistakesAreReportedAtTheCommandLine) {
             "command line: Structures / top: unknown name 'Mas' – did you mean 'Mass'?");
   EXPECT_EQ(mistakes(deck_around(body()), {"Strctures/top/Mass=1"}),
             "command line: culm: unknown list 'Strctures' – did you mean 'Structures'?");
+  EXPECT_EQ(mistakes(deck_around(body()), {"Structures/top/Mass/Unit=1"}),
+            "command line: Structures / top / Mass: must be a <Parameter>, found a "
+            "<ParameterList>");
 }
 
 TEST(Override, WhatXmlCannotHoldIsAUsageError) {

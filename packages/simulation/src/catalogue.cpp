@@ -23,6 +23,8 @@
 #include "mpi_partner.hpp"
 #include "sampled_signals.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <string>
 #include <utility>
@@ -203,18 +205,41 @@ void check_functions(const Options& list, InputIssues& issues) {
   }
 }
 
-// Names of analyses become folders, in which capitals and special characters do not count.
+// Names that become those of files or folders, in which capitals and special characters do not
+// count. @param what  "the folder 'analyses/{}'"
+void refuse_shared_files(const Options& list, fmt::string_view what, InputIssues& issues) {
+  constexpr std::size_t longest = 200;  // file systems take 255, with what stands before and after
+  std::map<std::string, std::string> files;
+  for (const Options& entry : list.entries()) {
+    const auto [first, is_new] = files.emplace(output::file_part(entry.name()), entry.name());
+    if (first->first.size() > longest) {
+      issues.add(entry.where(), fmt::format("is part of the name of a file, which may have {} "
+                                            "bytes of it, and has {}",
+                                            longest, first->first.size()));
+    }
+    if (is_new) continue;
+    issues.add(entry.where(), "would share " + fmt::format(fmt::runtime(what), first->first) +
+                                  " with '" + first->second + "'; take another name");
+  }
+}
+
 void check_analyses(const Options& list, InputIssues& issues) {
-  std::map<std::string, std::string> folders;
   for (const Options& entry : list.entries()) {
     if (entry.name() == EarlierStates::reference) {
       issues.add(entry.where(), "is the name of the state at the beginning; take another one");
     }
-    const auto [first, is_new] = folders.emplace(output::file_part(entry.name()), entry.name());
-    if (is_new) continue;
-    issues.add(entry.where(), "would share the folder 'analyses/" + first->first + "' with '" +
-                                  first->second + "'; take another name");
   }
+  refuse_shared_files(list, "the folder 'analyses/{}'", issues);
+}
+
+void check_ports(const Options& list, InputIssues& issues) {
+  refuse_shared_files(list, "the picture 'port_{}.vtu'", issues);
+}
+
+void check_partners(const Options& deck, InputIssues& issues) {
+  if (!deck.has_list("Coupling")) return;
+  refuse_shared_files(deck.list("Coupling").list("Partners"), "the record 'coupling_{}.record'",
+                      issues);
 }
 
 Schema::Check at_least_one(std::string what) {
@@ -287,7 +312,8 @@ Schema Catalogue::deck_schema() const {
             Schema("Ports",
                    "Points by name at which another program sees motion and sets forces and "
                    "moments from step to step.")
-                .entries_by_type(ports.variants()),
+                .entries_by_type(ports.variants())
+                .check(check_ports),
             Presence::defaulted)
       .list("Coupling", coupling::coupling_schema(partners), Presence::optional)
       .list("Initial Conditions",
@@ -300,7 +326,8 @@ Schema Catalogue::deck_schema() const {
                 .entries_by_type(with_common_fields(analyses.variants()))
                 .check(at_least_one("analysis"))
                 .check(check_analyses))
-      .list("Output", output_schema(quantities), Presence::defaulted);
+      .list("Output", output_schema(quantities), Presence::defaulted)
+      .check(check_partners);
 }
 
 }  // namespace culm::simulation

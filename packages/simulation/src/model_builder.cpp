@@ -127,12 +127,13 @@ void refuse_equal_names(const Options& list, const model::BuildContext& context)
 
 // A set must not stand for what has its name already: a structure, its nodes or its edges.
 bool is_free(const Options& entry, const model::BuildContext& context) {
-  const std::string structure = entry.name().substr(0, entry.name().find('/'));
+  const std::string structure = entry.name().substr(0, entry.name().find_first_of("/@"));
   if (context.model.find_structure(structure) == nullptr) return true;
   context.issues.add(entry.where(), structure == entry.name()
                                         ? "there is a structure of this name"
-                                        : "names that begin with '" + structure +
-                                              "/' stand for parts of the structure '" + structure +
+                                        : "names that begin with '" +
+                                              entry.name().substr(0, structure.size() + 1) +
+                                              "' stand for parts of the structure '" + structure +
                                               "'");
   return false;
 }
