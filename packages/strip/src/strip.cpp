@@ -1,6 +1,7 @@
 #include <culm/base/nearest.hpp>
 #include <culm/joint/triad_nodes.hpp>
 #include <culm/strip/register_strip.hpp>
+#include <culm/strip/shared_chord.hpp>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -234,22 +235,20 @@ bool can_stall(const std::vector<SharedAirfoil>& airfoils) {
       airfoils, [](const SharedAirfoil& airfoil) { return airfoil->separation() != nullptr; });
 }
 
-// One chord takes one load of the air; a wing and a tail on the same line do not lie in each other,
-// and loads with functions may take turns.
-void refuse_second_load(const Options& options, const Station& middle, StripContext& context) {
-  if (options.text("Function") != "Constant") return;
-  const char* on = options.has("Structure") ? "Structure" : "Node";
-  const double nose = -middle.axis_at * middle.chord;
-  const CoveredChord chord{options.name(), nose, nose + middle.chord};
-  const auto [first, last] = context.covered.equal_range(options.text(on));
-  for (auto other = first; other != last; ++other) {
-    if (chord.nose >= other->second.tail || other->second.nose >= chord.tail) continue;
-    context.fluids.build.issues.add(
-        options.where(on), "'" + options.text(on) + "' has the strips '" + other->second.strip +
-                               "' in the same place: the air would act on it twice");
+// One chord takes one load of the air; loads with functions may take turns, which a run looks at.
+void refuse_second_load(const Options& options, const StripLoad& load, StripContext& context) {
+  if (!load.amplitude().is_constant()) return;
+  model::BuildContext& build = context.fluids.build;
+  for (const auto& [name, other] : context.strips) {
+    if (!other->amplitude().is_constant() || !count_twice(load, *other, {}, Stencil::statics()) ||
+        !share_chord(load, *other, build.model)) {
+      continue;
+    }
+    const char* on = options.has("Structure") ? "Structure" : "Node";
+    build.issues.add(options.where(on), "'" + options.text(on) + "' has the strips '" + name +
+                                            "' in the same place: the air would act on it twice");
     return;
   }
-  context.covered.emplace(options.text(on), chord);
 }
 
 void make(const Options& options, StripContext& context) {
@@ -298,7 +297,7 @@ void make(const Options& options, StripContext& context) {
     station.next_airfoil = airfoils[std::min(between.index + 1, airfoils.size() - 1)];
     load->add(std::move(station));
   }
-  refuse_second_load(options, load->stations()[load->stations().size() / 2], context);
+  refuse_second_load(options, *load, context);
   context.strips.emplace(options.name(), load.get());
   build.model.add_load(std::move(load));
 }

@@ -10,12 +10,6 @@
 
 namespace culm::strip {
 
-/// Where a strip that always acts has its chord, in the middle of its span.
-struct CoveredChord {
-  std::string strip;              ///< its name
-  double nose = 0.0, tail = 0.0;  ///< behind the axis [m]
-};
-
 /// Where builders of strips add to, and what is there already.
 class StripContext {
  public:
@@ -23,9 +17,8 @@ class StripContext {
       : fluids(context), airfoils(std::move(all_airfoils)) {}
 
   flow::FluidContext& fluids;
-  const std::map<std::string, SharedAirfoil> airfoils;    ///< list "Airfoils"
-  std::map<std::string, StripLoad*> strips = {};          ///< by name, of the model
-  std::multimap<std::string, CoveredChord> covered = {};  ///< by the structure or node
+  const std::map<std::string, SharedAirfoil> airfoils;  ///< list "Airfoils"
+  std::map<std::string, StripLoad*> strips = {};        ///< by name, of the model
 };
 
 /// Types of the deck's list "Loads" that need airfoils: Strip.

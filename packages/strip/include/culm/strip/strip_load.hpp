@@ -155,6 +155,8 @@ class StripLoad final : public model::MemorylessBatch,
   void add(Station station);
 
   const std::vector<Station>& stations() const { return stations_; }
+  /// The share of the air that acts, by time.
+  const model::Amplitude& amplitude() const { return amplitude_; }
   /// Of a station of this rank in the last accepted step; nothing before the first one, on all
   /// ranks alike.
   std::optional<StationState> state(int station) const {
