@@ -181,6 +181,10 @@ PATH = (
 TIP_FORCE = '<Parameter name="Type" value="Force"/>\n      <Parameter name="Node" value="beam/last"/>'
 CLAMP_FORCE = TIP_FORCE.replace("last", "first")
 RUN = "run deck.xml --output out --quiet"
+DYNAMIC = ('<Parameter name="Type" value="Dynamic"/>\n      <Parameter name="Step" value="0.01"/>\n      '
+           '<Parameter name="End Time" value="0.05"/>')
+HEAVY = ('<Parameter name="EI2" value="4e3"/>', '<Parameter name="EI2" value="4e3"/><Parameter name="rhoA" value="1"/>'
+         '<Parameter name="rhoI1" value="1e-3"/><Parameter name="rhoI2" value="1e-3"/>')
 IDLE = "warning: %s moves nothing: all of it acts where supports hold the model and goes straight into them\n"
 
 
@@ -189,6 +193,48 @@ def entry(name, **values):
     lines = "".join(f'<Parameter name="{key.replace("_", " ")}" value="{value}"/>' for key, value in values.items())
     return f'<ParameterList name="{name}">{lines}</ParameterList>'
 
+
+# A square plate that is held along an edge, under loads.
+PLATE = f"""<ParameterList name="culm">
+  <ParameterList name="Materials">{entry("m", Type="Isotropic", Young_Modulus="1e9", Poisson_Ratio="0.3")}</ParameterList>
+  <ParameterList name="Structures">
+    <ParameterList name="plate">
+      <Parameter name="Type" value="Shell"/>
+      <Parameter name="Material" value="m"/>
+      <Parameter name="Thickness" value="0.01"/>
+      {entry("Mesh", Type="Plane", Side_1="{1, 0, 0}", Side_2="{0, 1, 0}", Elements="{2, 2}")}
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Constraints">{entry("clamp", Type="Rigid Support", Node="plate/u0")}</ParameterList>
+  <ParameterList name="Loads">%s</ParameterList>
+  <ParameterList name="Analyses">{entry("bend", Type="Static", Steps="2")}</ParameterList>
+  <ParameterList name="Output">
+    <ParameterList name="History">{entry("tip", Type="Position", Node="plate/8")}</ParameterList>
+  </ParameterList>
+</ParameterList>
+"""
+
+def strip(name, **values):
+    """A load of the air on the beam."""
+    known = {"Type": "Strip", "Structure": "beam", "Flow": "wind", "Chord": "0.1", "Axis_At": "0.25", "Airfoil": "thin"}
+    return entry(name, **{key: value for key, value in (known | values).items() if value != ""})
+
+
+def in_wind(*strips):
+    """The change of the deck that puts it into a wind."""
+    return (
+        '<ParameterList name="Loads">',
+        f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
+        f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")}</ParameterList>'
+        '<ParameterList name="Loads">' + "".join(strips),
+    )
+
+
+HALF = (
+    '<ParameterList name="Solver">',
+    f'<ParameterList name="Functions">{entry("half", Type="Constant", Intensity="0.5")}'
+    f'{entry("fade", Type="Expression", Expression="1 - t")}</ParameterList><ParameterList name="Solver">',
+)
 
 # Two bodies, 2 m from each other along x; the second begins with a velocity.
 HINGED = """<ParameterList name="culm">
@@ -369,18 +415,56 @@ CASES = [
         "two loads of the air on one section",
         3,
         args=RUN,
-        change=[
-            (
-                '<ParameterList name="Loads">',
-                f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
-                f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")}</ParameterList>'
-                '<ParameterList name="Loads">'
-                + entry("air", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="0.25", Airfoil="thin")
-                + entry("tail", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="-2", Airfoil="thin")
-                + entry("more air", Type="Strip", Structure="beam", Flow="wind", Chord="0.2", Axis_At="0.5", Airfoil="thin"),
-            ),
-        ],
+        change=[in_wind(strip("air"), strip("tail", Axis_At="-2"), strip("more air", Chord="0.2", Axis_At="0.5"))],
         says=["'beam' has the strips 'air' in the same place: the air would act on it twice"],
+    ),
+    Case(
+        "a beam, and one of its nodes by two names",
+        3,
+        args=RUN,
+        change=[in_wind(*(strip(name, Structure="", Node=node, Length="0.5")
+                          for name, node in (("air", "beam/last"), ("fin", "beam/3"), ("more air", "beam/4"))))],
+        says=["'beam/4' has the strips 'air' in the same place: the air would act on it twice"],
+    ),
+    Case(
+        "a beam and a node of it",
+        3,
+        args=RUN,
+        change=[in_wind(strip("air"), strip("more air", Structure="", Node="beam/3", Length="0.5"))],
+        says=["'beam/3' has the strips 'air' in the same place: the air would act on it twice"],
+    ),
+    Case(
+        "two halves of the air",
+        0,
+        args=RUN,
+        change=[
+            in_wind(strip("air", Function="half"), strip("more air", Function="half")),
+            HALF,
+        ],
+        results="out",
+        last_level=1.0,
+        check=has_findings(),
+    ),
+    Case(
+        "functions by which the air acts twice",
+        0,
+        args=RUN,
+        change=[in_wind(strip("air", Function="Ramp"), strip("more air", Function="Ramp", Stations="3"))],
+        says=["warning: Strip 'air' and Strip 'more air' lie in the same place and act at the same time, by their "
+              "functions with more than the whole air together: it acts on the structure twice\n"],
+        results="out",
+        last_level=1.0,
+        check=has_findings("air twice", grade=False),
+        ranks=True,
+    ),
+    Case(
+        "functions by which loads of the air take turns",
+        0,
+        args=RUN,
+        change=[in_wind(strip("air", Function="Ramp"), strip("more air", Function="fade")), HALF],
+        results="out",
+        last_level=1.0,
+        check=has_findings(),
     ),
     Case(
         "air on what a rotating frame turns",
@@ -416,6 +500,72 @@ CASES = [
         check=lambda folder, _: has_findings("idle load")(folder, _)
         or ("" if '<p class="broken">idle load (bend, at 1): Force' in (folder / "out/report.html").read_text()
             else "it is not on the page"),
+        ranks=True,
+    ),
+    Case(
+        "a load that is zero in all steps",
+        0,
+        args=RUN,
+        change=[
+            ('<ParameterList name="Loads">', '<ParameterList name="Loads">'
+             + entry("late", Type="Force", Node="beam/last", Force="{0, 0, 1}", Function="fade in later")),
+            ('<ParameterList name="Solver">', f'<ParameterList name="Functions">{entry("fade in later", Type="Table", Times="{0, 10, 20}", Values="{0, 0, 1}")}'
+             '</ParameterList><ParameterList name="Solver">'),
+        ],
+        says=["warning: Force 'late' never acts: it is zero in all steps\n"],
+        results="out",
+        last_level=1.0,
+        check=has_findings("idle load", grade=False),
+        ranks=True,
+    ),
+    Case(
+        "a moment on a shell that turns about its director in part",
+        0,
+        deck=PLATE % entry("twist", Type="Moment", Node="plate/8", Moment="{0, 3, 4}"),
+        args=RUN,
+        says=["warning: Moment 'twist' is not carried as a whole: 80 % of it at 'plate/8' turn about the director of the "
+              "shell, which resists no such moment; take "],
+        leaves=["out"],
+        check=has_findings("lost moment", grade=False),
+    ),
+    Case(
+        "a motion in which nothing moves",
+        0,
+        args="run deck.xml --output out",
+        change=[
+            (STATIC, DYNAMIC),
+            HEAVY,
+            ('value="{0, 0, 100}"/>', 'value="{0, 0, 100}"/><Parameter name="Function" value="late"/>'),
+            ('<ParameterList name="Solver">', f'<ParameterList name="Functions">{entry("late", Type="Table", Times="{0, 10, 20}", Values="{0, 0, 1}")}'
+             '</ParameterList><ParameterList name="Solver">'),
+        ],
+        says=["warning: Force 'tip force' never acts: it is zero in all steps\n"],
+        prints=["not judged: nothing moves but rounding\n"],
+        silent=False,
+        results="out",
+        last_level=0.05,
+        check=has_findings("idle load", grade=False),
+        ranks=True,
+    ),
+    Case(
+        "a velocity of a node that follows another, which stands still",
+        0,
+        args=RUN,
+        change=[
+            (STATIC, DYNAMIC),
+            HEAVY,
+            ('<ParameterList name="Structures">', '<ParameterList name="Structures">'
+             + entry("plate", Type="Rigid Body", Position="{2, 0, 0}", Mass="1", Inertia="{1, 1, 1}")),
+            ('<ParameterList name="Constraints">', '<ParameterList name="Constraints">'
+             + entry("bolt", Type="Rigid Connection", Node="beam/last", Master="plate")),
+            ('<ParameterList name="Solver">', f'<ParameterList name="Initial Conditions">{entry("push", Type="Velocity", Node="beam/last", Velocity="{0, 3, 0}")}'
+             '</ParameterList><ParameterList name="Solver">'),
+        ],
+        says=["warning: initial velocities were made to fit the constraints; largest change 3 at 'beam/4', by Rigid "
+              "Connection 'bolt'\n"],
+        results="out",
+        last_level=0.05,
+        check=has_findings("initial velocities", grade=False),
         ranks=True,
     ),
     Case(

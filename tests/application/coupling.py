@@ -537,6 +537,18 @@ class Partners(CouplingTest):
                            "Coupling/Partners/water/Patience=0.5", code=FAILED_PARTNER)
         self.assertIn("nobody came to", errors)
 
+    def test_whose_port_is_where_a_support_drives(self):
+        settings = ["Ports/top/Points={mast/first}", "Coupling/Partners/damper/Type=Oscillator",
+                    "Coupling/Partners/damper/Port=top", "Coupling/Partners/damper/Mass=10",
+                    "Coupling/Partners/damper/Stiffness=5000", "Functions/shake/Type=Expression",
+                    "Functions/shake/Expression=1 - cos(10*t)", "Constraints/ground/Translation={0.1, 0, 0}",
+                    "Constraints/ground/Function=shake"]
+        words = [word for setting in settings for word in ("--set", setting)]
+        errors = self.culm("run", self.deck, *words, "--output", "driven", "--quiet")
+        self.assertIn("warning: Port 'top' moves nothing: all of it acts where supports hold the model", errors)
+        self.assertNotIn("'wet'", errors)
+        self.culm("run", self.deck, *words, "--output", "strict", "--quiet", "--strict", code=8)
+
     def test_that_die_and_are_resumed(self):
         settings = ["--quiet", "--set", "Output/Checkpoint Interval=0"]
         self.start_partner()

@@ -115,4 +115,23 @@ CASES = [
         leaves=["out"],
         ranks=True,
     ),
+    Case(
+        "a path on which elements bear less and less",
+        8,
+        change=[
+            *under("{0, -5000, 0}"),
+            (
+                '<Parameter name="Type" value="Static"/>\n      <Parameter name="Steps" value="2"/>',
+                '<Parameter name="Type" value="Path"/>\n      <Parameter name="Steps" value="40"/>\n      '
+                '<Parameter name="First Increment" value="0.1"/>',
+            ),
+        ],
+        says=[
+            "beyond 0.785 rad its moment falls, and results mean nothing; take 'Order' = 2 ",
+            "1 of its promises does not hold: turned element (bend); see the warning above",
+        ],
+        silent=False,
+        leaves=["out"],
+        ranks=True,
+    ),
 ]

@@ -65,11 +65,14 @@ std::string ElementTurn::name() const {
                      element, structure, kind.order, turn);
 }
 
+bool ElementTurn::is_meaningless() const {
+  return turn >= model::TurnLaw(kind.order).greatest_moment();
+}
+
 std::string ElementTurn::consequence() const {
-  const model::TurnLaw law(kind.order);
-  if (turn >= law.greatest_moment()) {
+  if (is_meaningless()) {
     return fmt::format("beyond {:.3g} rad its moment falls, and results mean nothing",
-                       law.greatest_moment());
+                       model::TurnLaw(kind.order).greatest_moment());
   }
   const model::TurnErrors e = errors();
   std::string text =

@@ -81,6 +81,7 @@ void PathFollowing::do_begin() {
   condition_.begin(settings_.first_increment);
   const auto [tangent, determinant] = compute_tangent();
   known_.here = {state.time, condition_.watched_displacement(state.next), tangent, determinant};
+  pace_.add(known_.here.level, known_.here.watched);
   known_.is_examined = true;
   if (determinant.sign == 0) {
     context().findings.warn(
@@ -184,9 +185,37 @@ void PathFollowing::report_early_end() const {
   context().findings.broken(
       "path",
       fmt::format("the path ended at level {:.6g} after {} steps, all that 'Steps' allows, before "
-                  "it reached {}",
-                  state().time, steps(), join(targets, " or ")),
+                  "it reached {}{}",
+                  state().time, steps(), join(targets, " or "), missing_steps()),
       state().time);
+}
+
+std::string PathFollowing::missing_steps() const {
+  constexpr double out_of_reach = 100.0;  // times those that the deck allows
+  std::optional<double> missing;
+  if (settings_.final_level) missing = pace_.steps_to_level(*settings_.final_level);
+  if (settings_.final_displacement) {
+    const auto more = pace_.steps_to_displacement(*settings_.final_displacement);
+    missing = missing && more ? std::min(*missing, *more) : more;
+  }
+  if (!missing) return {};
+  if (*missing < out_of_reach * settings_.steps) {
+    return fmt::format("; at the pace of the last {} it takes {:.0f} more", PathPace::steps,
+                       *missing);
+  }
+  std::string text = fmt::format("; the last {} lead no nearer to it", PathPace::steps);
+  constexpr double tiny = 0.1;
+  if (const double length = std::abs(size_ / first_size_); length < tiny) {
+    text += fmt::format(
+        ", and steps are {:.2g} times as long as the first: a path that turns so sharply mostly "
+        "has a mesh too coarse for its waves",
+        length);
+  }
+  if (!known_.events.empty()) {
+    text += fmt::format("; limit points, turning points and bifurcations on the way: {}",
+                        known_.events.size());
+  }
+  return text;
 }
 
 void PathFollowing::land(solver::StepOutcome& outcome) {
@@ -301,6 +330,7 @@ void PathFollowing::do_accept(const StepReport& report) {
   condition_.accept(state);
   known_.behind = known_.here;
   known_.here = {state.time, condition_.watched_displacement(state.next), {}, {}};
+  pace_.add(known_.here.level, known_.here.watched);
   // what lies before a branch is the bifurcation that is known
   known_.has_behind = known_.is_examined && !is_on_branch_;
   known_.is_examined = false;
@@ -394,6 +424,7 @@ void PathFollowing::do_save(Snapshot& snapshot) const {
   }
   snapshot.set("path/events", std::move(events));
   condition_.save(snapshot);
+  pace_.save(snapshot);
 }
 
 void PathFollowing::do_restore(const Snapshot& snapshot) {
@@ -416,6 +447,7 @@ void PathFollowing::do_restore(const Snapshot& snapshot) {
   }
   before_ = known_;
   condition_.restore(snapshot);
+  pace_.restore(snapshot);
 }
 
 }  // namespace culm::analysis

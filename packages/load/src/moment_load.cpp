@@ -27,6 +27,18 @@ bool MomentLoad::has_tangent() const {
                      [this](const Item& item) { return on_shell(item); });
 }
 
+MomentLoad::Lost MomentLoad::lost() const {
+  Lost lost;
+  for (const Item& item : items_) {
+    if (!on_shell(item) || item.components.isZero(0.0)) continue;
+    const int node = item.nodes.front();
+    const Vec3 director = model::NodeTable::slots(nodes_.reference(), node).col(1).normalized();
+    const double share = std::abs(item.components.normalized().dot(director));
+    if (share > lost.share) lost = {share, node};
+  }
+  return lost;
+}
+
 std::vector<int> MomentLoad::blocks(int item, const model::UnknownTable& unknowns) const {
   std::vector<int> result = {
       unknowns.node_block(items_[static_cast<std::size_t>(item)].nodes.front())};

@@ -5,14 +5,33 @@
 #include <culm/simulation/input_files.hpp>
 #include <culm/simulation/simulation.hpp>
 
+#include "load_watch.hpp"
 #include "simulation_parts.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace culm::simulation {
+namespace {
+
+bool any_acts(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return value != 0.0; });
+}
+
+}  // namespace
+
+void Simulation::Parts::hear(const model::Effect& effect) {
+  if (stepper == nullptr || !heard.insert(effect).second) return;
+  for (const auto& load : phases.of(present).model->loads()) {
+    if (load->effect().type != effect.type || load->effect().name != effect.name) continue;
+    const assembly::LoadShare share = context->system.share_of(*load, state);
+    if (share.whole == 0.0 || !goes_into_supports(share)) continue;
+    findings.warn("idle load", idle_warning(*load), state.time);
+  }
+}
 
 analysis::Stepper& Simulation::begin(const std::string& analysis) {
   Parts& p = *parts_;
@@ -55,6 +74,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   if (p.results != nullptr) p.results->observer.start(p.state);
   stepper->begin();
   p.stepper = std::move(stepper);
+  p.heard.clear();
+  for (const auto& port : phase.ports) {
+    if (port->is_loaded()) p.hear({"Port", port->name()});
+  }
   return *p.stepper;
 }
 
@@ -115,6 +138,7 @@ void Simulation::set_load(const std::string& name, const std::vector<double>& va
     const double* v = values.data() + 6 * i;
     input.set(i, Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]));
   }
+  if (any_acts(values)) parts_->hear({"External", name});
 }
 
 void Simulation::set_signal(const std::string& name, double value) {

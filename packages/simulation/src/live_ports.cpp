@@ -69,7 +69,9 @@ std::vector<double> Simulation::read_port(const std::string& name, port::Quantit
 
 void Simulation::set_port(const std::string& name, std::span<const double> forces,
                           std::span<const double> moments) {
-  find_port(parts_->phases.of(parts_->present), name).set_loads(forces, moments);
+  port::Port& port = find_port(parts_->phases.of(parts_->present), name);
+  port.set_loads(forces, moments);
+  if (port.is_loaded()) parts_->hear({"Port", name});
 }
 
 void Simulation::set_port_pressure(const std::string& name, std::span<const port::Face> faces,

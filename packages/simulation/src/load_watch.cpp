@@ -1,12 +1,16 @@
 #include "load_watch.hpp"
 
+#include <culm/base/text.hpp>
+#include <culm/load/field_load.hpp>
 #include <culm/load/moment_load.hpp>
 #include <culm/load/pressure_load.hpp>
 #include <culm/load/slot_load.hpp>
+#include <culm/port/port_load.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace culm::simulation {
 namespace {
@@ -14,27 +18,49 @@ namespace {
 // What is less of a load than this is rounding.
 constexpr double negligible = 1e-12;
 
+// A partner may act on what is driven, as a flow on a body that is made to oscillate.
+bool is_of_partner(const model::Batch& load) {
+  return dynamic_cast<const port::PortLoad*>(&load) != nullptr;
+}
+
+// Loads of ports and programs, which say by themselves that nobody sets them.
+bool is_set_from_outside(const model::Batch& load) {
+  return is_of_partner(load) || load.effect().type == "External";
+}
+
 }  // namespace
 
 bool is_given(const model::Batch& load) {
   return dynamic_cast<const load::SlotLoad*>(&load) != nullptr ||
          dynamic_cast<const load::MomentLoad*>(&load) != nullptr ||
-         dynamic_cast<const load::PressureLoad*>(&load) != nullptr;
+         dynamic_cast<const load::PressureLoad*>(&load) != nullptr ||
+         dynamic_cast<const load::FieldLoad*>(&load) != nullptr || is_of_partner(load);
+}
+
+bool goes_into_supports(const assembly::LoadShare& share) {
+  return share.moving <= negligible * share.whole;
+}
+
+std::string idle_warning(const model::Batch& load) {
+  return load.effect().quoted() +
+         " moves nothing: all of it acts where supports hold the model and goes straight into them";
 }
 
 void LoadWatch::begin(const model::Model& model) {
   loads_.clear();
+  has_stepped_ = false;
   for (const auto& load : model.loads()) {
     if (is_given(*load)) loads_.push_back({load.get()});
   }
 }
 
 void LoadWatch::step(const assembly::System& system, const model::State& state) {
+  has_stepped_ = true;
   for (Load& load : loads_) {
     if (load.seen == Seen::moving) continue;
     const assembly::LoadShare share = system.share_of(*load.batch, state);
     if (share.whole == 0.0) continue;
-    load.seen = share.moving > negligible * share.whole ? Seen::moving : Seen::held;
+    load.seen = goes_into_supports(share) ? Seen::held : Seen::moving;
   }
 }
 
@@ -43,7 +69,31 @@ bool LoadWatch::any_acted() const {
                      [](const Load& load) { return load.seen != Seen::nothing; });
 }
 
-void LoadWatch::report(const model::State& state, Findings& findings) const {
+void LoadWatch::report(const model::State& state, bool is_last, Findings& findings) {
+  report_held(state, findings);
+  if (has_stepped_) {
+    for (const Load& load : loads_) {
+      if (is_set_from_outside(*load.batch)) continue;
+      acted_[load.batch->effect().quoted()] |= load.seen != Seen::nothing;
+    }
+  }
+  if (is_last) report_silent(state.time, findings);
+}
+
+void LoadWatch::report_silent(double time, Findings& findings) const {
+  const auto is_silent = [](const auto& load) { return !load.second; };
+  const auto count = std::ranges::count_if(acted_, is_silent);
+  if (count == 0) return;
+  const std::string& first = std::ranges::find_if(acted_, is_silent)->first;
+  findings.warn("idle load",
+                count == 1 ? first + " never acts: it is zero in all steps"
+                           : fmt::format("{} loads, {} the first of them, never act: they are "
+                                         "zero in all steps",
+                                         count, first),
+                time);
+}
+
+void LoadWatch::report_held(const model::State& state, Findings& findings) const {
   const auto count = [&](Seen seen) {
     return std::count_if(loads_.begin(), loads_.end(),
                          [&](const Load& load) { return load.seen == seen; });
@@ -53,16 +103,16 @@ void LoadWatch::report(const model::State& state, Findings& findings) const {
   const auto first = std::find_if(loads_.begin(), loads_.end(),
                                   [](const Load& load) { return load.seen == Seen::held; });
   const std::string text =
-      held == 1 ? fmt::format(
-                      "{} moves nothing: all of it acts where supports hold the model and "
-                      "goes straight into them",
-                      first->batch->effect().quoted())
+      held == 1 ? idle_warning(*first->batch)
                 : fmt::format(
                       "{} loads, {} the first of them, move nothing: all of them act where "
                       "supports hold the model and go straight into them",
                       held, first->batch->effect().quoted());
+  const bool all_of_partners = std::ranges::all_of(loads_, [](const Load& load) {
+    return load.seen != Seen::held || is_of_partner(*load.batch);
+  });
   // shares that consistent loads have at supports belong to loads that act
-  if (count(Seen::moving) == 0) {
+  if (count(Seen::moving) == 0 && !all_of_partners) {
     findings.broken("idle load", text, state.time);
   } else {
     findings.warn("idle load", text, state.time);
@@ -73,12 +123,25 @@ void LoadWatch::save(Snapshot& snapshot) const {
   std::vector<double> seen;
   for (const Load& load : loads_) seen.push_back(static_cast<double>(load.seen));
   snapshot.set("run/loads", std::move(seen));
+  for (const bool acted : {true, false}) {
+    std::vector<std::string> names;
+    for (const auto& [name, did] : acted_) {
+      if (did == acted) names.push_back(name);
+    }
+    snapshot.set_text(acted ? "run/acted" : "run/silent", join(names, "\n"));
+  }
 }
 
 void LoadWatch::restore(const Snapshot& snapshot) {
   const std::span<const double> seen = snapshot.numbers("run/loads", loads_.size());
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     loads_[i].seen = static_cast<Seen>(static_cast<int>(seen[i]));
+  }
+  has_stepped_ = true;
+  acted_.clear();
+  for (const bool acted : {true, false}) {
+    std::istringstream names(snapshot.text(acted ? "run/acted" : "run/silent"));
+    for (std::string name; std::getline(names, name);) acted_[name] = acted;
   }
 }
 

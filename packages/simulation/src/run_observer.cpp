@@ -65,6 +65,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   findings_.begin(name_);
   loads_.begin(context.system.model());
   ranges_.begin(context.system.model());
+  strips_.begin(context.system.model());
   balance_ = {};
   context_ = &context;
   linear_solver_ = &linear_solver;
@@ -138,8 +139,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
     balance_.scale = std::max(balance_.scale, outcome.last.force_scale);
     if (outcome.held_unknown) add_held(report);
     watch_turns(report.time, state);
-    loads_.step(context_->system, state);
-    ranges_.step(context_->system);
+    watch_loads(report, state);
     is_recorded_ = files_.is_due(accepted_) || report.is_last;
     if (is_recorded_) record(report.time, report.step, state, true);
   } else {
@@ -276,7 +276,8 @@ void RunObserver::restore(const Snapshot& snapshot) {
 
 void RunObserver::finish(const analysis::AnalysisReport& report, const model::State& state) {
   refuse_infinite(name_, report);
-  loads_.report(state, findings_);
+  loads_.report(state, is_last_, findings_);
+  strips_.step(state, findings_);  // of an analysis that makes no steps
   report_rounding();
   {
     const Ledger::Scope scope(ledger_, states_effect_);
@@ -287,6 +288,16 @@ void RunObserver::finish(const analysis::AnalysisReport& report, const model::St
   for (const auto& [name, value] : report.numbers) {
     numbers_.push_back({is_first ? name : name_ + ": " + name, "", value});
   }
+}
+
+// Loads of a step, such as impulses, are asked for by both of its ends.
+void RunObserver::watch_loads(const analysis::StepReport& report, model::State& state) {
+  const double accepted = state.time_prev;
+  state.time_prev = report.time - report.increment;
+  loads_.step(context_->system, state);
+  strips_.step(state, findings_);
+  state.time_prev = accepted;
+  ranges_.step(context_->system);
 }
 
 // Positions are right to the last digit then, forces are not.
@@ -307,7 +318,12 @@ void RunObserver::report_rounding() {
 void RunObserver::report_turns(double time) {
   constexpr double noticeable = 1.05;
   const double told = reference_turn_.share > 1.0 ? noticeable * reference_turn_.share : 1.0;
-  if (turn_.share > told) findings_.warn("turned element", turn_.warning(), time);
+  if (turn_.share <= told) return;
+  if (turn_.is_meaningless()) {
+    findings_.broken("turned element", turn_.warning(), time);
+  } else {
+    findings_.warn("turned element", turn_.warning(), time);
+  }
 }
 
 void RunObserver::end(model::State& state, const std::string& outcome) {

@@ -13,6 +13,7 @@
 #include "imperfections.hpp"
 #include "load_watch.hpp"
 #include "range_watch.hpp"
+#include "strip_watch.hpp"
 
 #include <optional>
 
@@ -33,7 +34,7 @@ struct Balance {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 6;
+  static constexpr int checkpoint_format = 7;
 
   /// @param checkpoints  null: there are none, and nobody stops the run
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints* checkpoints,
@@ -85,6 +86,7 @@ class RunObserver final : public analysis::Observer {
   std::string findings() const;
   /// Says where rounding held a step further out of balance than the deck allows.
   void report_rounding();
+  void watch_loads(const analysis::StepReport& report, model::State& state);
   void watch_turns(double time, const model::State& state);
   void report_turns(double time);
   void add_history(double time, int step, model::State& state);
@@ -118,6 +120,7 @@ class RunObserver final : public analysis::Observer {
   bool has_history_ = false;  // the history has a row
   LoadWatch loads_;
   RangeWatch ranges_;
+  StripWatch strips_;
   Balance balance_;
   std::string certificates_;
   std::optional<analysis::ElementTurns> turns_;  // of the analysis

@@ -12,6 +12,7 @@
 
 #include "deep_contacts.hpp"
 #include "gravity_and_sea.hpp"
+#include "lost_moments.hpp"
 #include "model_picture.hpp"
 #include "model_report.hpp"
 #include "on_root.hpp"
@@ -86,7 +87,12 @@ void Simulation::Parts::warn_of_reference() {
   reference_turn = turns.find(reference, share);
   reference_turn.place = "before any load";
   const Where where = deck.list("Structures").list(reference_turn.structure).where();
-  findings.warn("turned element", to_string(where) + ": " + reference_turn.warning(), 0.0);
+  const std::string text = to_string(where) + ": " + reference_turn.warning();
+  if (reference_turn.is_meaningless()) {
+    findings.broken("turned element", text, 0.0);
+  } else {
+    findings.warn("turned element", text, 0.0);
+  }
 }
 
 void Simulation::Parts::tell_of(const port::Port& port) {
@@ -258,6 +264,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     warn("rotating frame", strips_that_miss_rotation(*phase.model));
     warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
     warn("overlap", deep_contacts(*phase.model, state.next));
+    warn("lost moment", moments_that_are_not_carried(*phase.model));
     const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
                                      resumes ? from : nullptr);
     p.imperfections.keep(entries[i].name(), *phase.model, report);

@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace culm::simulation {
 
@@ -50,9 +51,12 @@ struct Simulation::Parts {
   std::optional<analysis::Context> context = {};
   std::unique_ptr<Results> results = {};  ///< if any are wanted
   std::unique_ptr<analysis::Stepper> stepper = {};
+  std::set<model::Effect> heard = {};  ///< loads from outside that have acted in this analysis
 
   void warn_of_reference();
   void tell_of(const port::Port& port);
+  /// After a load was set that is not zero: says once if supports take all of it.
+  void hear(const model::Effect& effect);
   /// With its partners; null if the deck has none. @param files  for a run
   std::unique_ptr<CoupledRun> make_coupling(const CoupledFiles& files);
 };

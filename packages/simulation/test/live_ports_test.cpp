@@ -77,6 +77,23 @@ TEST(LivePorts, LoadsAtANodeActAsThoseOfADeck) {
   }
 }
 
+TEST(LivePorts, LoadsThatSupportsTakeAreTold) {
+  const std::string ends = with_ports(R"(<ParameterList name="foot">
+  <Parameter name="Type" value="Points"/> <Parameter name="Points" value="{beam/first}"/>
+</ParameterList><ParameterList name="end">
+  <Parameter name="Type" value="Points"/> <Parameter name="Points" value="{beam/last}"/>
+</ParameterList>)");
+  Live live(beam_deck(clamp + ends));
+  live.simulation.set_port("foot", std::vector{0.1, 0.5, -0.2}, {});
+  live.simulation.set_port("end", std::vector{0.1, 0.5, -0.2}, {});
+  live.simulation.begin("bending");
+  live.simulation.set_port("foot", std::vector{0.2, 0.5, -0.2}, {});
+  const std::string said = live.said.str();
+  const std::string warning = "warning: Port 'foot' moves nothing: all of it acts where supports";
+  EXPECT_THAT(said, HasSubstr(warning));
+  EXPECT_EQ(said.find("moves nothing"), said.rfind("moves nothing"));
+}
+
 // In free flight and on a support: what the port books is what the certificate books, and energy
 // and momenta close with it.
 TEST(LivePorts, WorkAndImpulseCloseTheBalance) {

@@ -31,6 +31,8 @@ struct ElementTurn {
   std::string name() const;
   /// The errors that come of it.
   std::string consequence() const;
+  /// Whether the element is turned so far that its moment falls: then results mean nothing.
+  bool is_meaningless() const;
   /// What would help, to follow "take".
   std::string cure() const;
   /// All of it in a sentence.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/path_events.hpp>
+#include <culm/analysis/path_pace.hpp>
 #include <culm/analysis/path_settings.hpp>
 #include <culm/analysis/stepper.hpp>
 
@@ -62,6 +63,8 @@ class PathFollowing final : public Stepper {
   bool passed_limit_points() const;
   /// Says where the number of steps ended the path before it reached what the deck names.
   void report_early_end() const;
+  /// How many more it takes.
+  std::string missing_steps() const;
   solver::StepOutcome go_on(double size);
   /// Where an attempt went beyond the end of the path, goes back to it.
   void land(solver::StepOutcome& outcome);
@@ -77,6 +80,7 @@ class PathFollowing final : public Stepper {
 
   PathSettings settings_;
   PathCondition condition_;
+  PathPace pace_;
   int failures_ = 0;           ///< since the last step that was taken
   double size_ = 0.0;          ///< of the next step [m]
   double attempted_ = 0.0;     ///< of the last attempt [m]

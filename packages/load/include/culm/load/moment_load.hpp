@@ -37,6 +37,14 @@ class MomentLoad final : public model::MemorylessBatch, public model::Booked {
     items_[static_cast<std::size_t>(item)].components = components;
   }
 
+  /// The largest share of a moment that its node does not carry in the reference, and that node:
+  /// the part along the director of a shell. Nothing where all is carried.
+  struct Lost {
+    double share = 0.0;
+    int node = -1;
+  };
+  Lost lost() const;
+
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   /// A moment fixed in space has no stiffness on triads in the null-space form.

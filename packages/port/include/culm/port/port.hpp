@@ -60,6 +60,8 @@ class Port {
   void set_loads(std::span<const double> forces, std::span<const double> moments);
   /// Takes over those of another port with as many points.
   void take_loads(const Port& other);
+  /// Whether any of them is not zero.
+  bool is_loaded() const { return load_.is_loaded(); }
   /// One per point.
   const std::vector<Vec3>& forces() const { return forces_; }
   const std::vector<Vec3>& moments() const { return moments_; }

@@ -5,6 +5,7 @@
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/structure.hpp>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ class PortLoad final : public model::MemorylessBatch {
   const std::vector<model::Marker>& points() const { return points_; }
   /// What acts from now on. @param forces, moments  one per point [N, N m]
   void set(std::span<const Vec3> forces, std::span<const Vec3> moments);
+  /// Whether anything does.
+  bool is_loaded() const {
+    return std::ranges::any_of(items_, [](const Item& item) { return item.is_loaded; });
+  }
 
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
