@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""C22: contact with planes and bars: impacts, friction, a chain, a line on the seabed. Page: doc/verification/contact.md."""
+"""C22: contact with planes, bars and other beams: impacts, friction, a chain, a line on the seabed. Page: doc/verification/contact.md."""
 
 import math
 
@@ -103,7 +103,106 @@ def verify_bars(culm, report):
     report.note(f"iterations per step {run.iterations() / 500:.1f}, at most {run.most_iterations()}")
 
 
+class Lines:
+    """The law of `Beam Contact`: forces of straight lines at a depth."""
+
+    def __init__(self, reach, line_force, depth):
+        self.reach = reach
+        self.strength = 3.0 * line_force / (16.0 * (reach - depth) * (reach**2 - (reach - depth) ** 2) ** 1.5)
+
+    def inside(self, depth):
+        return self.reach**2 - (self.reach - max(depth, 0.0)) ** 2
+
+    def along(self, depth):
+        return 16.0 / 3.0 * self.strength * (self.reach - depth) * self.inside(depth) ** 1.5
+
+    def across(self, depth):
+        return 2.0 * math.pi * self.strength * (self.reach - depth) * self.inside(depth) ** 2
+
+
+EI, GA = 2.4e4, 2e7
+
+
+def verify_crossing(culm, report):
+    report.title("Crossed cantilevers, 200 N at the end of one")
+    length, at = 1.2, 1.0
+    law = Lines(0.06, 2e4, 5e-4)
+    own = at**3 / (3 * EI) + at / GA
+    end = at**2 * (3 * length - at) / (6 * EI) + at / GA
+    low, high = 0.0, 0.01
+    for _ in range(200):  # depth = deflection of the one there less that of the other
+        depth = 0.5 * (low + high)
+        low, high = (low, depth) if depth > 200.0 * end - 2.0 * law.across(depth) * own else (depth, high)
+    run = culm.run("contact/crossed_cantilevers.xml", quiet=False)
+    force = law.across(depth)
+    report.relative("force [N]", last(run.history, "touch F [N]"), force, 1e-3)
+    report.relative("end of the lower [mm]", 1e3 * last(run.history, "lower end z [m]"),
+                    1e3 * (200.0 * (length**3 / (3 * EI) + length / GA) - force * end), 1e-3)
+    report.relative("end of the upper [mm]", 1e3 * (last(run.history, "upper end z [m]") - 0.06), 1e3 * force * end, 1e-3)
+    report.note(f"depth {1e3 * depth:.3f} mm; iterations per step {run.iterations() / 4:.1f}, at most {run.most_iterations()}")
+
+
+def verify_along(culm, report):
+    import numpy as np
+    from scipy.integrate import solve_bvp
+
+    report.title("Cantilevers along each other, 50 N/m on the upper one")
+    law = Lines(0.06, 100.0, 5e-4)
+
+    def slopes(_, y):
+        w, turn, moment, shear, v, other_turn, other_moment, other_shear = y
+        f = np.array([law.along(depth) for depth in v - w])
+        return np.array([turn + shear / GA, moment / EI, -shear, 50.0 - f,
+                         other_turn + other_shear / GA, other_moment / EI, -other_shear, f])
+
+    def ends(a, b):
+        return np.array([a[0], a[1], b[2], b[3], a[4], a[5], b[6], b[7]])
+
+    x = np.linspace(0.0, 2.0, 401)
+    guess = np.zeros((8, x.size))
+    guess[0] = -1e-3 * x**2 - 3e-4
+    guess[4] = -1e-3 * x**2
+    found = solve_bvp(slopes, ends, x, guess, tol=1e-8, max_nodes=100000)
+    run = culm.run("contact/cantilevers_along.xml", quiet=False)
+    report.holds("equations of both beams", max(found.rms_residuals), 1e-7)
+    report.relative("end of the upper [mm]", 1e3 * (last(run.history, "upper end z [m]") - 0.06), 1e3 * found.y[0][-1], 1e-3)
+    report.relative("end of the lower [mm]", 1e3 * last(run.history, "lower end z [m]"), 1e3 * found.y[4][-1], 1e-3)
+    report.note(f"iterations per step {run.iterations() / 4:.1f}, at most {run.most_iterations()}")
+
+
+def verify_impact_of_beams(culm, report):
+    report.title("A rod that falls on a free tube")
+    for settings in ([f"Solver/Form={FORMS[0]}"], [f"Solver/Form={FORMS[1]}"], ["Loads/impact/Line Force=3e7"]):
+        run = culm.run("contact/falling_rod.xml", settings, quiet=False)
+        for what in ("energy balance", "linear momentum", "angular momentum"):
+            report.holds(f"{settings[0].split('/')[-1]}: {what}", run.drift(what), 1e-10)
+        report.note(f"largest force {max(run.history.column('impact F [N]')):.0f} N; iterations per step "
+                    f"{run.iterations() / 600:.1f}, at most {run.most_iterations()}; {run.cut_back()} steps cut back")
+    rough = culm.run("contact/falling_rod.xml", ["Loads/impact/Friction=0.3", "Loads/impact/Slip Speed=0.01", "Loads/impact/Damping=0.3"],
+                     quiet=False)
+    for what in ("energy balance", "linear momentum", "angular momentum"):
+        report.holds(f"friction and damping: {what}", rough.drift(what), 1e-10)
+    report.holds("they take energy", 0.0 if taken(rough) > 0.0 else 1.0, 0.0)
+    report.note(f"they took {taken(rough):.3f} J")
+
+
+def verify_rolling(culm, report):
+    report.title("A rod that slides on rails until it rolls")
+    run = culm.run("contact/rolling_rod.xml", quiet=False)
+    mass, inertia, radius = 2.2, 1.8e-3, 0.03
+    speed = mass * radius**2 / (inertia + mass * radius**2)
+    report.relative("speed [m/s]", last(run.history, "rod vx [m/s]"), speed, 2e-2)
+    report.relative("spin [rad/s]", last(run.history, "spin wy [rad/s]"), speed / radius, 2e-2)
+    report.holds("energy balance", run.drift("energy balance"), 1e-10)
+    report.note(f"friction and damping took {taken(run):.4f} J; iterations per step {run.iterations() / 350:.1f}, "
+                f"at most {run.most_iterations()}; {run.cut_back()} steps cut back")
+
+
 def verify(culm, report):
+    verify_crossing(culm, report)
+    verify_along(culm, report)
+    verify_impact_of_beams(culm, report)
+    verify_rolling(culm, report)
     verify_impacts(culm, report)
     verify_restitution(culm, report)
     verify_friction(culm, report)

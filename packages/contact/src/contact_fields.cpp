@@ -84,4 +84,20 @@ Penalty read_penalty(const Options& options) {
   return {options.number("Stiffness"), options.number("Smoothing"), options.number("Damping")};
 }
 
+Field friction_field() {
+  return number("Friction", "1", "Coefficient of friction, in dynamics.")
+      .at_least(0.0)
+      .optional(0.0);
+}
+
+Field slip_speed_field() {
+  return number("Slip Speed", "m/s", "Speed at which 71 % of the friction is there.")
+      .positive()
+      .optional(1e-3);
+}
+
+Friction read_friction(const Options& options) {
+  return {options.number("Friction"), options.number("Slip Speed")};
+}
+
 }  // namespace culm::contact

@@ -27,12 +27,8 @@ Schema schema() {
                                "Of the plane, to the side of the structure, of any "
                                "length.")
                .optional({0.0, 0.0, 1.0}))
-      .add(number("Friction", "1", "Coefficient of friction, in dynamics.")
-               .at_least(0.0)
-               .optional(0.0))
-      .add(number("Slip Speed", "m/s", "Speed at which 71 % of the friction is there.")
-               .positive()
-               .optional(1e-3))
+      .add(friction_field())
+      .add(slip_speed_field())
       .check(check);
   return fields;
 }
@@ -43,7 +39,7 @@ void build(const Options& options, model::BuildContext& context) {
   auto load = std::make_unique<PlaneContact>(
       model::Effect("Plane Contact", options.name()), context.model.nodes(),
       Plane{model::vector(options, "Point"), model::vector(options, "Normal").normalized()},
-      read_penalty(options), Friction{options.number("Friction"), options.number("Slip Speed")});
+      read_penalty(options), read_friction(options));
   for (ContactPoint& point : points) load->add(std::move(point));
   context.model.add_load(std::move(load));
 }

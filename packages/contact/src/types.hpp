@@ -7,6 +7,7 @@ namespace culm::contact {
 
 /// Every type, one line each: NAME stands for register_NAME.
 #define CULM_CONTACTS(TYPE)                  \
+  TYPE(beam_contact)     /* Beam Contact */  \
   TYPE(plane_contact)    /* Plane Contact */ \
   TYPE(cylinder_contact) /* Cylinder Contact */
 

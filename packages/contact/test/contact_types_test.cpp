@@ -111,6 +111,23 @@ TEST_F(ContactTypes, NothingShouldBeginDeepInsideABar) {
   EXPECT_EQ(objection({0.0, -1.7, 1.0}), "");
 }
 
+TEST_F(ContactTypes, BeamsNeedLinesThatAreApart) {
+  const auto with = [](const std::string& name, const std::string& other) {
+    return kit::GivenValues{{"Structure", name},   {"Other", other},      {"Radius", 0.1},
+                            {"Other Radius", 0.2}, {"Line Force", 100.0}, {"Depth", 0.01}};
+  };
+  EXPECT_THAT(mistakes("Beam Contact", {{"Structure", std::string("a")},
+                                        {"Other", std::string("b")},
+                                        {"Radius", 0.1},
+                                        {"Other Radius", 0.2},
+                                        {"Line Force", 100.0},
+                                        {"Depth", 0.1}}),
+              ElementsAre("must be at most 0.075 m, a quarter of both radii, got 0.1"));
+  build("Beam Contact", with("a", "c"));
+  EXPECT_THAT(messages(), ElementsAre("'a' is no line, nor an element set of lines",
+                                      "'c' is no line, nor an element set of lines"));
+}
+
 TEST_F(ContactTypes, LineMustBeALine) {
   build("Plane Contact", {{"Stiffness", 1.0}, {"Structure", std::string("b")}, {"Width", 0.1}});
   EXPECT_THAT(messages(), ElementsAre("structure 'b' is not a line: name its nodes instead"));

@@ -128,7 +128,7 @@ def ground(deck):
 
 def contacts(deck):
     """Friction, and the loss of what is pressed."""
-    for name in of_types(deck, "Loads", "Plane Contact", "Cylinder Contact"):
+    for name in of_types(deck, "Loads", "Plane Contact", "Cylinder Contact", "Beam Contact"):
         for key, effect in (("Friction", "friction"), ("Damping", "damping of the contact")):
             if float(deck.parameters.get(f"Loads/{name}/{key}") or 0.0) > 0.0:
                 yield Removal(effect, name, [f"Loads/{name}/{key}=0"])

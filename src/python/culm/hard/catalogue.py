@@ -447,6 +447,20 @@ CASES = [
         limit=1e12, growth=100, resolution=ROUNDING,
     ),
     Case(
+        "stiff beams that meet", "ST HF", "contact/falling_rod.xml",
+        "force per length at the depth [N/m]", 1e6,
+        lambda x: parameters("Loads/impact", Line_Force=x),
+        [uncut(), energy(), momenta()],
+        limit=1e12, growth=100, resolution=ROUNDING,
+    ),
+    Case(
+        "thin skin of beams", "HF", "contact/falling_rod.xml",
+        "1 over depth [1/m]", 2e3,
+        lambda x: parameters("Loads/impact", Depth=1 / x),
+        [uncut(), energy(), momenta()],
+        limit=1e6, growth=4,
+    ),
+    Case(
         "sharp friction", "ST", "contact/sliding_ball.xml",
         "1 over slip speed [s/m]", 1e2,
         lambda x: parameters("Loads/ground", Slip_Speed=1 / x),

@@ -5,7 +5,7 @@
 
 namespace culm::contact {
 
-/// Adds "Plane Contact" and "Cylinder Contact" to the types of loads.
+/// Adds "Plane Contact", "Cylinder Contact" and "Beam Contact" to the types of loads.
 void register_contact(model::BuilderRegistry& registry);
 
 }  // namespace culm::contact
