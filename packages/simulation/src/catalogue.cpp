@@ -187,10 +187,11 @@ Variants with_common_fields(Variants analyses) {
 Variants with_account(Variants loads) {
   for (auto& [type, schema] : loads) {
     schema.add(
-        text("Account",
-             "Line of the balance of energy in which its work is shown; loads of one account "
-             "are summed. If absent: air, water, contact and heat have their own, others "
-             "none.")
+        text(
+            "Account",
+            "Line of the balance of energy in which its work is shown; loads of one account "
+            "are summed. If absent: air, water, contact, heat and soil that slides have their own, "
+            "others none.")
             .optional());
   }
   return loads;

@@ -66,6 +66,16 @@ double SandCurve::energy_between(double from, double to) const {
   return limit_ / scale * log_cosh_between(scale * from, scale * to);
 }
 
+// At even steps of the force, and two that come close to the limit.
+std::vector<double> SandCurve::knots() const {
+  constexpr int count = 20;
+  std::vector<double> knots;
+  for (int i = 1; i < count; ++i) knots.push_back(std::atanh(double(i) / count));
+  for (const double share : {0.99, 0.9999}) knots.push_back(std::atanh(share));
+  for (double& knot : knots) knot *= limit_ / stiffness_;
+  return knots;
+}
+
 double ClayCurve::ultimate(const Clay& clay, double X, double D) {
   const double c = clay.strength;
   return std::min(3.0 * c + clay.unit_weight * X + clay.J * c * X / D, 9.0 * c) * D;
@@ -118,6 +128,17 @@ double ClayCurve::energy(double y) const {
   const double t = end_ > peak_ ? way / (end_ - peak_) : 0.0;
   sum += way * (peak_force_ + 0.5 * t * (last_force_ - peak_force_));
   return a <= end_ ? sum : sum + last_force_ * (a - end_);
+}
+
+// At even ratios along the cube root.
+std::vector<double> ClayCurve::knots() const {
+  constexpr int count = 20;
+  std::vector<double> knots;
+  for (int i = 0; i <= count; ++i) {
+    knots.push_back(start_ * std::pow(peak_ / start_, double(i) / count));
+  }
+  if (end_ > peak_) knots.push_back(end_);
+  return knots;
 }
 
 ShaftTable clay_shaft(double D, double residual) {

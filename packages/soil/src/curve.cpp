@@ -49,7 +49,9 @@ Curve::Mean Curve::mean(double from, double to) const {
 }
 
 TableCurve::TableCurve(std::vector<double> displacements, std::vector<double> forces, Sides sides)
-    : table_(extended(displacements, forces, sides)), first_(displacements[1]) {}
+    : table_(extended(displacements, forces, sides)),
+      knots_(displacements.begin() + 1, displacements.end()),
+      first_(displacements[1]) {}
 
 // The integral counts from the end of the table, beside which that of a small way is lost.
 double TableCurve::energy_between(double from, double to) const {

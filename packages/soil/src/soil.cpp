@@ -4,10 +4,13 @@
 #include <culm/soil/register_soil.hpp>
 #include <culm/soil/soil_load.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace culm::soil {
 namespace {
@@ -47,6 +50,10 @@ Schema soil_schema() {
                .between(1, 100000)
                .optional(40))
       .add(flag("Cyclic", "Whether laws of clay and sand are those for cyclic loads.")
+               .optional(false))
+      .add(flag("Hysteresis",
+                "Whether soil slides and loses energy as the pile moves to and fro, or gives back "
+                "all that it takes.")
                .optional(false))
       .list(
           "Layers",
@@ -126,7 +133,29 @@ class PileLine {
   double length_ = 0.0;
 };
 
-void add_stations(const PileLine& line, const Options& options, SoilLoad& load) {
+// Takes the curves of a station for sliders. @return what objects to that, empty if nothing does
+std::string make_remember(Station& station) {
+  for (const bool is_lateral : {true, false}) {
+    SharedCurve& curve = is_lateral ? station.lateral : station.axial;
+    if (curve == nullptr) continue;
+    auto sliders = sliders_of(*curve);
+    if (!sliders) {
+      return is_lateral ? "a lateral curve that falls or becomes stiffer, as that of cyclic clay"
+                        : "a curve of the shaft that falls or becomes stiffer; in clay 'Residual' "
+                          "= 1 does not";
+    }
+    if (sliders->size() > SoilLoad::max_sliders) {
+      return fmt::format("a curve of more than {} points", SoilLoad::max_sliders);
+    }
+    (is_lateral ? station.lateral_sliders : station.axial_sliders) = std::move(*sliders);
+    curve = nullptr;
+  }
+  return {};
+}
+
+// @return whether all is sound; an issue if not
+bool add_stations(const PileLine& line, const Options& options, SoilLoad& load,
+                  InputIssues& issues) {
   const Pile pile{options.number("Diameter"), options.flag("Cyclic")};
   const Ground ground(options.list("Layers"));
   const double deep = line.depth(0.0) > line.depth(1.0) ? 0.0 : 1.0;
@@ -137,14 +166,26 @@ void add_stations(const PileLine& line, const Options& options, SoilLoad& load) 
   for (int i = 0; i < count; ++i) {
     const double s = begin + (i + 0.5) / count * (deep - begin);
     const auto grip = ground.at(line.depth(s), pile);
-    if (grip) load.add({line.point(s), line.along(s), length, grip->lateral, grip->axial});
+    if (!grip) continue;
+    Station station{line.point(s), line.along(s), length, grip->lateral, grip->axial};
+    if (options.flag("Hysteresis")) {
+      const std::string objection = make_remember(station);
+      if (!objection.empty()) {
+        issues.add(
+            options.where("Hysteresis"),
+            fmt::format("cannot be: at a depth of {:.4g} m soil has {}", line.depth(s), objection));
+        return false;
+      }
+    }
+    load.add(std::move(station));
   }
-  if (!options.has_list("Tip")) return;
+  if (!options.has_list("Tip")) return true;
   const Options& list = options.list("Tip");
   const ShaftTable table = tip(pile.diameter);
   load.add({line.point(deep), line.along(deep), 1.0, nullptr,
             fractions_curve(list, table.displacements, table.fractions, list.number("Resistance"),
                             TableCurve::Sides::positive)});
+  return true;
 }
 
 void build(const Options& options, model::BuildContext& context) {
@@ -165,7 +206,8 @@ void build(const Options& options, model::BuildContext& context) {
   }
   auto load =
       std::make_unique<SoilLoad>(model::Effect("Soil", options.name()), context.model.nodes());
-  add_stations(line, options, *load);
+  if (!add_stations(line, options, *load, context.issues)) return;
+  if (options.flag("Hysteresis")) load->book_under("soil");
   if (load->size() == 0) {
     context.issues.add(options.list("Layers").where(),
                        "begin below the tip of '" + structure->name + "'");

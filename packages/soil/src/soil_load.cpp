@@ -1,8 +1,13 @@
 #include <culm/load/slot_kernel.hpp>
 #include <culm/soil/soil_load.hpp>
 
+#include <algorithm>
+#include <array>
+
 namespace culm::soil {
 namespace {
+
+constexpr std::size_t max_sliders = SoilLoad::max_sliders;
 
 using Motion = model::ItemMotion<SoilLoad::max_nodes>;
 
@@ -61,6 +66,11 @@ Resistance over_step(const Curve& curve, const Vec3& prev, const Vec3& next) {
 
 void SoilLoad::add(Station station) {
   reference_.push_back(place_of(station.point, nodes_.reference()));
+  first_slip_.push_back(slips_.size());
+  slips_.resize(slips_.size() + station.lateral_sliders.size() + station.axial_sliders.size(),
+                Vec3::Zero());
+  CULM_ASSERT(station.lateral_sliders.size() <= max_sliders &&
+              station.axial_sliders.size() <= max_sliders);
   stations_.push_back(std::move(station));
 }
 
@@ -72,6 +82,29 @@ Vec3 SoilLoad::displacement(std::size_t station, const model::Coordinates& q) co
   return place_of(stations_[station].point, q) - reference_[station];
 }
 
+std::span<const Vec3> SoilLoad::slips_of(std::size_t number) const {
+  const Station& station = stations_[number];
+  return std::span(slips_).subspan(first_slip_[number],
+                                   station.lateral_sliders.size() + station.axial_sliders.size());
+}
+
+SoilLoad::Answer SoilLoad::slide_station(std::size_t number, const Vec3& prev, const Vec3& next,
+                                         double theta, std::span<Vec3> slips) const {
+  const Station& station = stations_[number];
+  const Mat3 along = station.along * station.along.transpose();
+  const std::size_t lateral = station.lateral_sliders.size();
+  Answer answer;
+  const auto add = [&](std::span<const Slider> sliders, const Mat3& P, std::span<Vec3> own) {
+    const SliderResponse response = slide(sliders, P * prev, P * next, theta, own);
+    answer.force -= station.length * response.force;
+    answer.derivative += station.length * P * response.derivative * P;
+    answer.slid += station.length * response.slid;
+  };
+  add(station.lateral_sliders, Mat3::Identity() - along, slips.first(lateral));
+  add(station.axial_sliders, along, slips.subspan(lateral));
+  return answer;
+}
+
 // The mean of the step at theta = 1/2, its end at 1.
 SoilLoad::Answer SoilLoad::respond(std::size_t number, const Vec3& prev, const Vec3& next,
                                    double theta) const {
@@ -80,6 +113,12 @@ SoilLoad::Answer SoilLoad::respond(std::size_t number, const Vec3& prev, const V
   const Mat3 across = Mat3::Identity() - n * n.transpose();
   const double of_end = 2.0 * theta - 1.0;
   Answer answer;
+  const std::span<const Vec3> accepted = slips_of(number);
+  if (!accepted.empty()) {
+    std::array<Vec3, 2 * max_sliders> trial;
+    std::ranges::copy(accepted, trial.begin());
+    answer = slide_station(number, prev, next, theta, std::span(trial).first(accepted.size()));
+  }
   const auto add = [&](const Resistance& resistance, const Mat3& P, double share) {
     answer.force -= share * station.length * (P * resistance.force);
     answer.derivative += share * station.length * (P * resistance.derivative * P);
@@ -143,6 +182,28 @@ Verdict SoilLoad::assemble_item(std::size_t i, const model::State& state, const 
   return Verdict::ok;
 }
 
+void SoilLoad::accept(model::State& state) {
+  if (slips_.empty()) return;
+  for (const int item : placement().items) {
+    const auto number = static_cast<std::size_t>(item);
+    slide_station(number, displacement(number, state.prev), displacement(number, state.next), 1.0,
+                  std::span(slips_).subspan(first_slip_[number], slips_of(number).size()));
+  }
+}
+
+void SoilLoad::save(model::Items items, std::span<double> numbers) const {
+  for (std::size_t i = 0; i < placement().items.size(); ++i) {
+    if (items == model::Items::owned && !placement().owned[i]) continue;
+    const auto number = static_cast<std::size_t>(placement().items[i]);
+    double* to = numbers.data() + 3 * first_slip_[number];
+    for (const Vec3& slip : slips_of(number)) to = std::ranges::copy(slip, to).out;
+  }
+}
+
+void SoilLoad::restore(std::span<const double> numbers) {
+  for (std::size_t i = 0; i < slips_.size(); ++i) slips_[i] = Vec3(numbers.data() + 3 * i);
+}
+
 double SoilLoad::stored_energy(const model::Coordinates& q) const {
   double energy = 0.0;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
@@ -155,6 +216,11 @@ double SoilLoad::stored_energy(const model::Coordinates& q) const {
       energy += station.length * station.lateral->energy((u - along * station.along).norm());
     }
     if (station.axial) energy += station.length * station.axial->energy(along);
+    const std::span<const Vec3> slips = slips_of(number);
+    const std::size_t lateral = station.lateral_sliders.size();
+    energy += station.length *
+              (energy_of(station.lateral_sliders, u - along * station.along, slips.first(lateral)) +
+               energy_of(station.axial_sliders, along * station.along, slips.subspan(lateral)));
   }
   return energy;
 }
@@ -166,8 +232,9 @@ model::StepWork SoilLoad::step_work(const model::State& state, const Stencil& st
     const auto number = static_cast<std::size_t>(placement().items[i]);
     const model::Marker& point = stations_[number].point;
     const Motion motion(nodes_, point.nodes, state, stencil.theta);
-    const Vec3 force = respond(number, state, stencil.theta).force;
-    load::add_item_work(slot_forces(point, force), motion, point.nodes, state, false, work);
+    const Answer answer = respond(number, state, stencil.theta);
+    load::add_item_work(slot_forces(point, answer.force), motion, point.nodes, state, false, work);
+    work.damping += answer.slid;
   }
   return work;
 }

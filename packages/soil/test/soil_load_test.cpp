@@ -31,9 +31,64 @@ void fill(model::Model& model) {
   model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
 }
 
-TEST(SoilLoad, TangentIsDerivativeOfResidual) { kit::expect_tangent_is_derivative(fill, effect); }
+/// The same as springs that slide.
+void fill_with_sliders(model::Model& model) {
+  for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
+  auto load = std::make_unique<SoilLoad>(effect, model.nodes());
+  const std::vector<Slider> soft = {{1.0, 0.2}, {2.0, 1.1}, {0.5, 100.0}}, stiff = {{3.0, 0.4}};
+  const Vec3 along = Vec3(0.2, -0.3, 0.9).normalized();
+  load->add({{{0, 1}, {0.3, 0.7}, Vec3::Zero()}, along, 1.7, {}, {}, soft, stiff});
+  load->add({model::marker_at(1), Vec3::UnitX(), 0.6, {}, {}, stiff, soft});
+  model.add_load(std::move(load));
+  model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
+}
+
+TEST(SoilLoad, TangentIsDerivativeOfResidual) {
+  kit::expect_tangent_is_derivative(fill, effect);
+  kit::expect_tangent_is_derivative(fill_with_sliders, effect, 3e-4);
+}
+TEST(SoilLoad, AttemptsLeaveNoTrace) {
+  kit::expect_attempts_leave_no_trace(fill_with_sliders, effect);
+}
+
+// Two steps, with what the first one slid kept through a save and a restore.
+TEST(SoilLoad, WorkIsStoredOrSlid) {
+  model::Model model;
+  fill_with_sliders(model);
+  model.freeze(model::Form::multipliers);
+  kit::DenseAssembly dense(model);
+  model::Batch* batch = kit::find_batch(model, effect);
+  model::State state = kit::random_state(model, 3);
+  const Stencil stencil{0.4, 0.5, 0.5, 0.0};
+  double stored = batch->stored_energy(model.nodes().reference());
+  EXPECT_EQ(stored, 0.0);
+  state.prev = model.nodes().reference();
+  for (const int seed : {3, 4}) {
+    state.next = kit::random_state(model, seed).next;
+    dense.prepare(state, stencil);
+    const Eigen::VectorXd force = kit::node_rows(model, dense.residual(state, stencil, {batch}));
+    double work = 0.0;
+    for (std::size_t i = 0; i < state.next.size(); ++i) {
+      work += force[static_cast<Eigen::Index>(i)] * (state.next[i] - state.prev[i]);
+    }
+    const double slid = batch->step_work(state, stencil).damping;
+    dense.accept(state);
+    std::vector<double> memory(batch->memory_size());
+    batch->save(model::Items::owned, memory);
+    batch->restore(memory);
+    const double now = batch->stored_energy(state.next);
+    EXPECT_GT(slid, 1e-3);
+    EXPECT_NEAR(work, now - stored + slid, 1e-13 * (1.0 + now + slid));
+    stored = now;
+    state.prev = state.next;
+  }
+}
+
 TEST(SoilLoad, NullSpaceResidualIsProjected) { kit::expect_residual_is_projected(fill, effect); }
-TEST(SoilLoad, AssemblesWithoutHeap) { kit::expect_no_allocation(fill, effect); }
+TEST(SoilLoad, AssemblesWithoutHeap) {
+  kit::expect_no_allocation(fill, effect);
+  kit::expect_no_allocation(fill_with_sliders, effect);
+}
 
 TEST(SoilLoad, WorkIsTheChangeOfThePotential) {
   model::Model model;

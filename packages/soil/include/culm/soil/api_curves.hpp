@@ -38,6 +38,7 @@ class SandCurve final : public Curve {
   double force(double y) const override;
   double slope(double y) const override;
   double energy(double y) const override;
+  std::vector<double> knots() const override;
 
   /// p_u [N/m]
   static double ultimate(const Sand& sand, double depth, double diameter);
@@ -59,6 +60,7 @@ class ClayCurve final : public Curve {
   double force(double y) const override;
   double slope(double y) const override;
   double energy(double y) const override;
+  std::vector<double> knots() const override;
 
   static double ultimate(const Clay& clay, double depth, double diameter);
 

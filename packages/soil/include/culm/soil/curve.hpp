@@ -17,6 +17,9 @@ class Curve {
   virtual double slope(double displacement) const = 0;
   /// Integral of the force from zero.
   virtual double energy(double displacement) const = 0;
+  /// Displacements, rising from above zero, between which lines are close to the curve, which is
+  /// nearly constant beyond the last one; none of a line without end.
+  virtual std::vector<double> knots() const = 0;
 
   /// Mean of the force over a way from `from` to `to`, and its derivative by `to`.
   struct Mean {
@@ -41,11 +44,13 @@ class TableCurve final : public Curve {
   double force(double displacement) const override { return table_.value(displacement); }
   double slope(double displacement) const override { return table_.slope(displacement); }
   double energy(double displacement) const override { return table_.integral(displacement); }
+  std::vector<double> knots() const override { return knots_; }
 
  private:
   double energy_between(double from, double to) const override;
 
   load::PiecewiseLinear table_;
+  std::vector<double> knots_;
   double first_ = 0.0;  // up to which displacement it is a line from zero
 };
 
@@ -56,6 +61,7 @@ class LinearCurve final : public Curve {
   double force(double y) const override { return stiffness_ * y; }
   double slope(double) const override { return stiffness_; }
   double energy(double y) const override { return 0.5 * stiffness_ * y * y; }
+  std::vector<double> knots() const override { return {}; }
 
  private:
   double energy_between(double from, double to) const override {

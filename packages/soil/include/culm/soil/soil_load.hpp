@@ -1,10 +1,14 @@
 /// Soil around a line of points.
 #pragma once
 
+#include <culm/model/booked.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/structure.hpp>
 #include <culm/soil/curve.hpp>
+#include <culm/soil/sliders.hpp>
 
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,15 +21,19 @@ struct Station {
   double length = 0.0;         ///< [m]; 1 of a tip
   SharedCurve lateral = {};    ///< by the distance that the point moves across; none if null
   SharedCurve axial = {};      ///< by how far it moves along; none if null
+  /// Instead of a curve, where soil remembers.
+  std::vector<Slider> lateral_sliders = {}, axial_sliders = {};
 };
 
-/// Soil as springs that remember nothing: with the displacement u of a station, in space,
+/// Soil as springs: with the displacement u of a station, in space,
 ///   W = length (P(|u - n n . u|) + T(n . u))
 /// of which the force of the conserving step is the discrete derivative, so that the work is the
-/// change of the potential exactly. @source formulation 3.6
-class SoilLoad final : public model::MemorylessBatch {
+/// change of the potential exactly; or as springs that slide, with what they slid as memory.
+/// @source formulation 3.6
+class SoilLoad final : public model::MemorylessBatch, public model::Booked {
  public:
   static constexpr int max_nodes = 4;
+  static constexpr std::size_t max_sliders = 64;  ///< of a station across, and along
 
   SoilLoad(model::Effect effect, const model::NodeTable& nodes)
       : MemorylessBatch(std::move(effect)), nodes_(nodes) {}
@@ -38,6 +46,10 @@ class SoilLoad final : public model::MemorylessBatch {
   bool has_tangent() const override { return true; }
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
+  void accept(model::State& state) override;
+  std::size_t memory_size() const override { return 3 * slips_.size(); }
+  void save(model::Items items, std::span<double> numbers) const override;
+  void restore(std::span<const double> numbers) override;
   double stored_energy(const model::Coordinates& q) const override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
@@ -53,7 +65,13 @@ class SoilLoad final : public model::MemorylessBatch {
   struct Answer {
     Vec3 force = Vec3::Zero();       ///< on the station
     Mat3 derivative = Mat3::Zero();  ///< of minus the force, by the place at the end of the step
+    double slid = 0.0;               ///< work of sliding [J]
   };
+  /// Slips of the lateral and axial sliders of a station: where they begin, and how many.
+  std::span<const Vec3> slips_of(std::size_t station) const;
+  /// The sliders of a station; moves its slips on.
+  Answer slide_station(std::size_t station, const Vec3& prev, const Vec3& next, double theta,
+                       std::span<Vec3> slips) const;
   Vec3 displacement(std::size_t station, const model::Coordinates& q) const;
   Answer respond(std::size_t station, const Vec3& prev, const Vec3& next, double theta) const;
   Answer respond(std::size_t station, const model::State& state, double theta) const;
@@ -64,6 +82,8 @@ class SoilLoad final : public model::MemorylessBatch {
   const model::NodeTable& nodes_;
   std::vector<Station> stations_;
   std::vector<Vec3> reference_;
+  std::vector<std::size_t> first_slip_;  ///< by station
+  std::vector<Vec3> slips_;              ///< of all sliders, accepted
 };
 
 }  // namespace culm::soil
