@@ -97,6 +97,18 @@ def verify_gradient(culm, report):
     report.check("clamped, tip [m]", last(history, "tip uz [m]"), 0.0, 1e-12)
 
 
+def verify_places(culm, report):
+    report.title("A gradient that grows along the bar, and heat on a part of it")
+    field = ["Fields/along/Type=Formula", "Loads/sun/Gradient={}", "Loads/sun/Field=along"]
+    bar = culm.history(BENT, [*field, "Fields/along/Y=1000*x", "Structures/bar/Curve/Elements=16"])
+    # turn = alpha c x^2 / 2: the tip is at its sine and cosine integrals
+    turn = [0.5 * ALPHA * 1000.0 * (LENGTH * (i + 0.5) / 20000) ** 2 for i in range(20000)]
+    sinks = sum(math.sin(t) for t in turn) * LENGTH / 20000
+    report.relative("gradient 1000 x K/m, tip sinks [m]", -last(bar, "tip uz [m]"), sinks, 1e-6)
+    part = culm.history(BENT, [*field, "Fields/along/X=(x < 1.5) ? 40 : 0"])
+    report.relative("40 K on 1.5 of 2 m, growth [m]", last(part, "tip ux [m]"), ALPHA * 40.0 * 1.5, 1e-9)
+
+
 def verify_work(culm, report):
     report.title("Work of heat, conserving scheme: of what the beam holds and heat puts in")
     for form in ("Null Space", "Multipliers"):
@@ -127,6 +139,7 @@ def verify(culm, report):
     verify_heated_states(culm, report)
     verify_gradient(culm, report)
     verify_bimetal(culm, report)
+    verify_places(culm, report)
     verify_work(culm, report)
 
 

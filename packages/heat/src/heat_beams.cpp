@@ -1,6 +1,8 @@
 #include <culm/beam/element_batches.hpp>
 #include <culm/beam/held_beam.hpp>
 #include <culm/beam/linear_beam.hpp>
+#include <culm/math/lagrange.hpp>
+#include <culm/math/quadrature.hpp>
 
 #include "heat_elements.hpp"
 
@@ -11,21 +13,24 @@ namespace {
 Vec6 free_strain(const Temperature& temperature) {
   Vec6 e = Vec6::Zero();
   e[2] = temperature.value;
-  if (temperature.gradient.empty()) return e;
   e[3] = temperature.gradient[1];
   e[4] = -temperature.gradient[0];
   return e;
 }
 
 template <class Beam>
-HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, int item,
-                                 const Temperature& temperature) {
-  const Beam& beam = batch.element(item);
-  const Vec<Beam::num_points> expansion = batch.expansion(item);
+HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, const model::Cell& cell,
+                                 const HeatRequest& request) {
+  const Beam& beam = batch.element(cell.item);
+  const Vec<Beam::num_points> expansion = batch.expansion(cell.item);
+  const auto rule = gauss_legendre(Beam::num_points);
   HeatedElement<Beam> heated;
-  heated.item = item;
+  heated.item = cell.item;
   heated.resultants.setZero();
   for (int p = 0; p < Beam::num_points; ++p) {
+    const auto N = Lagrange<Beam::num_points>::values(rule[static_cast<std::size_t>(p)].xi);
+    const Temperature temperature =
+        request.temperatures.at(place_of(cell.nodes, N, request.context.model));
     const Vec<Beam::num_strains> e =
         expansion[p] * free_strain(temperature).template head<Beam::num_strains>();
     auto& stress = heated.stress[static_cast<std::size_t>(p)];
@@ -58,7 +63,7 @@ bool heat(const HeatRequest& request) {
         where, "beam '" + name + "' yields; heat acts on beams without 'Plasticity'");
   } else {
     add_heat(request, *batch,
-             [&](int item) { return heat_element(*batch, item, request.temperature); });
+             [&](const model::Cell& cell) { return heat_element(*batch, cell, request); });
   }
   return true;
 }

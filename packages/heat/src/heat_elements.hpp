@@ -11,11 +11,27 @@
 
 namespace culm::heat {
 
-/// A temperature as the deck describes it, at amplitude 1.
+/// A temperature at a place of an axis or a middle surface, at amplitude 1.
 struct Temperature {
-  double value = 0.0;            ///< above the stress-free state, on the axis or surface [K]
-  std::vector<double> gradient;  ///< by xi1 and xi2 of a beam, by zeta of a shell [K/m]
+  double value = 0.0;                                  ///< above the stress-free state [K]
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< by xi1 and xi2, or by zeta [K/m]
+};
+
+/// Temperatures as the deck describes them.
+struct Temperatures {
+  Temperature everywhere;
+  model::SharedField field;  ///< of what is added by place: value and gradient; none if null
   model::Amplitude amplitude;
+
+  /// In the reference.
+  Temperature at(const Vec3& place) const {
+    Temperature here = everywhere;
+    if (field == nullptr) return here;
+    const Vec3 more = field->value(place, 0.0);
+    here.value += more[0];
+    here.gradient += more.tail<2>();
+    return here;
+  }
 };
 
 /// What a load of the deck asks for, and where mistakes go.
@@ -23,13 +39,25 @@ struct HeatRequest {
   const Options& options;
   model::BuildContext& context;
   const model::Structure& structure;
-  Temperature temperature;
+  Temperatures temperatures;
 };
 
 /// Heats the structure if its elements are those of a family; a mistake is an issue.
 /// @return whether they are
 bool heat_beams(const HeatRequest& request);
 bool heat_shells(const HeatRequest& request);
+
+/// The place of a point with the shape functions N of the first nodes, in the reference.
+template <class Shapes>
+Vec3 place_of(const std::vector<int>& nodes, const Shapes& N, const model::Model& model) {
+  Vec3 place = Vec3::Zero();
+  for (Eigen::Index a = 0; a < N.size(); ++a) {
+    place += N[a] *
+             model::NodeTable::slots(model.nodes().reference(), nodes[static_cast<std::size_t>(a)])
+                 .col(0);
+  }
+  return place;
+}
 
 /// Whether 'Gradient' has none or `size` values; an issue if not.
 bool has_gradients(std::size_t size, const std::string& kind, const HeatRequest& request);
@@ -44,14 +72,14 @@ model::ElementBatch<E>* batch_of(const model::Cell& cell, const model::Model& mo
   return nullptr;
 }
 
-/// Adds the batch that heats the cells of a structure of elements E: heat(batch, item) of each.
+/// Adds the batch that heats the cells of a structure of elements E: heat(cell) of each.
 template <class E, class Heat>
 void add_heat(const HeatRequest& request, model::ElementBatch<E>& elements, Heat heat) {
   model::Model& model = request.context.model;
   auto batch =
       std::make_unique<HeatBatch<E>>(model::Effect("Temperature", request.options.name()),
-                                     model.nodes(), request.temperature.amplitude, elements);
-  for (const model::Cell& cell : request.structure.cells) batch->add(heat(cell.item));
+                                     model.nodes(), request.temperatures.amplitude, elements);
+  for (const model::Cell& cell : request.structure.cells) batch->add(heat(cell));
   elements.show_with(*batch);
   model.add_element_batch(std::move(batch));
 }

@@ -24,7 +24,7 @@ Vec6 strain_in_plane(const material::Layer& layer, double temperature) {
 // beyond the best one has no stress in a wall that is free, so it must not have any here.
 shell::LayerStrain free_strain(const Temperature& temperature, const material::Layup& layup) {
   const double value = temperature.value;
-  const double gradient = temperature.gradient.empty() ? 0.0 : temperature.gradient[0];
+  const double gradient = temperature.gradient[0];
   const auto at = [=](double zeta) { return value + zeta * gradient; };
   const double t = layup.thickness();
   double mean = 0.0;
@@ -80,10 +80,13 @@ bool heat(const HeatRequest& request) {
   } else if (structure::yields(*batch)) {
     request.context.issues.add(where, shell + "yields; heat acts on shells without 'Plasticity'");
   } else {
-    const shell::LayerStrain strain =
-        free_strain(request.temperature, batch->element(first.item).layup());
-    add_heat(request, *batch,
-             [&](int item) { return heat_element(batch->element(item), item, strain); });
+    const auto& layup = batch->element(first.item).layup();
+    const Eigen::Vector4d centre = Eigen::Vector4d::Constant(0.25);
+    add_heat(request, *batch, [&](const model::Cell& cell) {
+      const Temperature temperature =
+          request.temperatures.at(place_of(cell.nodes, centre, request.context.model));
+      return heat_element(batch->element(cell.item), cell.item, free_strain(temperature, layup));
+    });
   }
   return true;
 }

@@ -5,9 +5,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace culm::heat {
 namespace {
+
+// Whether a field has the same values at some times at all nodes of a structure.
+bool rests(const model::VectorField& field, const model::Structure& structure,
+           const model::Model& model) {
+  return std::ranges::all_of(structure.nodes, [&](int node) {
+    const Vec3 place = model::NodeTable::slots(model.nodes().reference(), node).col(0);
+    const Vec3 at_start = field.value(place, 0.0);
+    return std::ranges::all_of(std::array{0.1, 1.0, 17.0, 1e3, 1e5},
+                               [&](double time) { return field.value(place, time) == at_start; });
+  });
+}
 
 void build(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
@@ -19,14 +31,26 @@ void build(const Options& options, model::BuildContext& context) {
                            "' has one value per step; a temperature needs a function of time");
     return;
   }
-  const Temperature temperature{options.number("Value"), options.numbers("Gradient"), *function};
-  const auto& gradient = temperature.gradient;
-  const auto is_zero = [](double value) { return value == 0.0; };
-  if (temperature.value == 0.0 && std::all_of(gradient.begin(), gradient.end(), is_zero)) {
-    context.issues.add(options.where(), "heats nothing: give 'Value' or 'Gradient'");
+  Temperatures temperatures{{options.number("Value")}, nullptr, *function};
+  const std::vector<double>& gradient = options.numbers("Gradient");
+  for (std::size_t i = 0; i < std::min<std::size_t>(gradient.size(), 2); ++i) {
+    temperatures.everywhere.gradient[static_cast<Eigen::Index>(i)] = gradient[i];
+  }
+  if (options.has("Field")) {
+    temperatures.field = model::find_field(options, context);
+    if (temperatures.field == nullptr) return;
+    if (!rests(*temperatures.field, *structure, context.model)) {
+      context.issues.add(options.where("Field"),
+                         "'" + options.text("Field") +
+                             "' changes in time; a temperature takes the place from 'Field' and "
+                             "the time from 'Function'");
+      return;
+    }
+  } else if (temperatures.everywhere.value == 0.0 && temperatures.everywhere.gradient.isZero(0.0)) {
+    context.issues.add(options.where(), "heats nothing: give 'Value', 'Gradient' or 'Field'");
     return;
   }
-  const HeatRequest request{options, context, *structure, temperature};
+  const HeatRequest request{options, context, *structure, temperatures};
   const bool has_elements = !structure->cells.empty() && structure->cells.front().source != nullptr;
   if (has_elements && (heat_beams(request) || heat_shells(request))) return;
   context.issues.add(options.where("Structure"),
@@ -38,7 +62,7 @@ void build(const Options& options, model::BuildContext& context) {
 }  // namespace
 
 bool has_gradients(std::size_t size, const std::string& kind, const HeatRequest& request) {
-  const std::size_t found = request.temperature.gradient.size();
+  const std::size_t found = request.options.numbers("Gradient").size();
   if (found == 0 || found == size) return true;
   request.context.issues.add(
       request.options.where("Gradient"),
@@ -59,6 +83,11 @@ void register_heat(model::BuilderRegistry& registry) {
                                 "Its rise: of a beam along d1 and d2 of the section, of a shell "
                                 "along the director.")
                             .optional(std::vector<double>{}))
+                   .add(text("Field",
+                             "Entry of the list Fields with what is added by place in the "
+                             "reference: its first component to 'Value', the others to "
+                             "'Gradient'.")
+                            .optional())
                    .add(model::function_field("Ramp")),
                build);
 }

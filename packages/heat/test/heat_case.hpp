@@ -15,7 +15,9 @@
 namespace culm::heat {
 
 /// Adds a load "sun" that may follow "day" = 1 + t^2. @return what it complains of
-inline std::vector<std::string> add_heat(model::Model& model, const kit::GivenValues& values) {
+inline std::vector<std::string> add_heat(
+    model::Model& model, const kit::GivenValues& values,
+    const std::map<std::string, model::SharedField>& fields = {}) {
   model::BuilderRegistry registry;
   register_heat(registry);
   const std::map<std::string, model::Amplitude> functions{
@@ -23,6 +25,7 @@ inline std::vector<std::string> add_heat(model::Model& model, const kit::GivenVa
       {"noise", model::Amplitude::of_step([](double, double end) { return end; })}};
   InputIssues issues;
   model::BuildContext context{model, functions, issues};
+  context.fields = fields;
   const Schema schema = registry.variants().at("Temperature");
   registry.make("Temperature", kit::deck_list(schema, values, "sun"), context);
   std::vector<std::string> messages;

@@ -110,6 +110,47 @@ TEST(TemperatureOfBeams, ResultantsAreThoseOfStrainLessFreeStrain) {
   EXPECT_LT((Eigen::Map<const Vec6>(found.data()) - expected).norm(), 1e-13 * expected.norm());
 }
 
+/// A temperature and gradients that grow along z.
+struct Slope final : model::VectorField {
+  double with_time = 0.0;
+  Vec3 value(const Vec3& place, double time) const override {
+    return (place[2] + with_time * time) * Vec3(1.0, 0.5, -2.0);
+  }
+  Mat3 gradient(const Vec3&, double) const override { return Mat3::Zero(); }
+};
+
+// An element from 0.75 to 1.5 m has the mean of its points, z = 1.125 m.
+TEST(TemperatureOfBeams, FieldAddsByPlace) {
+  model::Model model;
+  add_beam(model, {{"Order", 2}});
+  GivenValues values = sun;
+  values.emplace_back("Field", std::string("slope"));
+  ASSERT_THAT(add_heat(model, values, {{"slope", std::make_shared<Slope>()}}), testing::IsEmpty());
+  model.freeze(model::Form::null_space);
+  model::State state = model.initial_state();
+  kit::DenseAssembly dense(model);
+  dense.prepare(state, Stencil::statics());
+  Vec6 free;
+  free << 0.0, 0.0, 0.8 + 1.125, -0.7 - 2.0 * 1.125, -0.4 - 0.5 * 1.125, 0.0;
+  const Vec6 expected = -expansion * section().stiffness * free;
+  const model::Cell& cell = model.find_structure("bridge")->cells[1];
+  std::vector<double> found;
+  cell.source->resultants(cell.item, state.next, found);
+  EXPECT_LT((Eigen::Map<const Vec6>(found.data()) - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST(TemperatureOfBeams, FieldMustRest) {
+  model::Model model;
+  add_beam(model, {});
+  GivenValues values = sun;
+  values.emplace_back("Field", std::string("slope"));
+  const auto slope = std::make_shared<Slope>();
+  slope->with_time = 1.0;
+  EXPECT_THAT(add_heat(model, values, {{"slope", slope}}),
+              ElementsAre(HasSubstr("'slope' changes in time")));
+  EXPECT_THAT(add_heat(model, values), ElementsAre(HasSubstr("unknown field 'slope'")));
+}
+
 TEST(TemperatureOfBeams, MistakesAreNamed) {
   const auto message = [](const GivenValues& beam, const GivenValues& heat, double of_expansion) {
     model::Model model;
