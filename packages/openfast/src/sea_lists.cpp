@@ -46,6 +46,10 @@ void write_sea(const SeaState& sea, DeckWriter& deck) {
     if (sea.peak) deck.set("Peak", *sea.peak);
     if (sea.lowest > 0.0) deck.set("Lowest", sea.lowest);
     if (sea.highest > 0.0) deck.set("Highest", sea.highest);
+    if (sea.spreading) {
+      deck.set("Spreading", *sea.spreading);
+      deck.set("Spreading Range", sea.spreading_range);
+    }
     deck.set("Seed", sea.seed);
   }
   write_current(sea, deck);

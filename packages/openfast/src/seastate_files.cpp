@@ -116,8 +116,10 @@ void read_waves(InputFile& file, SeaState& sea, Report& report) {
   report.add(assumed, to_string(file.where("WaveSeed(1)")) +
                           ": the same seed gives another sea with the same spectrum");
   if (file.number("WaveDirMod", 0.0) != 0.0) {
-    report.add(not_used,
-               to_string(file.where("WaveDirMod")) + ": spreading; all waves go along WaveDir");
+    sea.spreading = 2.0 * positive(file, "WaveDirSpread");
+    sea.spreading_range = degree * positive(file, "WaveDirRange");
+    report.add(assumed, to_string(file.where("WaveDirMod")) +
+                            ": one direction per wave, not 'WaveNDir' of them in all");
   }
 }
 

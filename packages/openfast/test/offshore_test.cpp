@@ -88,6 +88,11 @@ TEST_F(OffshoreFiles, SeasHaveHeightPeriodHeadingAndCurrent) {
     EXPECT_THAT(imported.deck, HasSubstr(part.substr(0, part.size() - 4)));
   }
   EXPECT_THAT(imported.deck, Not(HasSubstr("\"Peak\"")));
+  const std::string spread =
+      change(seastate_file, "0         WaveDirMod - Spreading",
+             "1 WaveDirMod - on\n3 WaveDirSpread - s\n180 WaveDirRange - degrees");
+  EXPECT_THAT(import(spread).deck, HasSubstr(parameter("Spreading", "6")));
+  EXPECT_THAT(import(spread).deck, HasSubstr("\"Spreading Range\" value=\"3.14159265"));
   const std::string regular = change(seastate_file, "2         WaveMod", "1P90      WaveMod");
   EXPECT_THAT(import(regular).deck, HasSubstr(parameter("Phase", "-1.57079632679")));
   EXPECT_THAT(

@@ -65,6 +65,11 @@ Vec3 read_direction(const Options& options, const Vec3& up) {
   return (direction - direction.dot(up) * up).normalized();
 }
 
+// Counter-clockwise seen from above.
+Vec3 turned(const Vec3& direction, double angle, const Vec3& up) {
+  return std::cos(angle) * direction + std::sin(angle) * up.cross(direction);
+}
+
 Stretching read_stretching(const Options& options) {
   const std::string& name = options.text("Stretching");
   if (name == "None") return Stretching::none;
@@ -145,6 +150,9 @@ void check_irregular(const Options& options, InputIssues& issues) {
   if (options.text("Spectrum") == "Pierson Moskowitz" && options.has("Peak")) {
     issues.add(options.where("Peak"), "is 1 in a spectrum of Pierson and Moskowitz; leave it out");
   }
+  if (options.has("Spreading Range") && !options.has("Spreading")) {
+    issues.add(options.where("Spreading Range"), "needs 'Spreading'");
+  }
   // the mean of the highest third of its waves
   check_height(options, issues);
 }
@@ -154,15 +162,25 @@ std::vector<Wave> read_irregular(const Options& options) {
   if (options.text("Spectrum") == "JONSWAP") {
     sea.peak = options.has("Peak") ? options.number("Peak") : usual_peak(sea.height, sea.period);
   }
-  return random_waves(sea, read_band(options), options.integer("Waves"),
-                      static_cast<std::uint64_t>(options.integer("Seed")));
+  const auto seed = static_cast<std::uint64_t>(options.integer("Seed"));
+  std::vector<Wave> waves = random_waves(sea, read_band(options), options.integer("Waves"), seed);
+  if (!options.has("Spreading")) return waves;
+  const double range =
+      options.has("Spreading Range") ? options.number("Spreading Range") : std::numbers::pi;
+  const std::vector<double> angles =
+      spread_angles({options.number("Spreading"), range}, options.integer("Waves"), seed);
+  const Vec3 up = model::vector(options, "Up").normalized();
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    waves[i].direction = turned(read_direction(options, up), angles[i], up);
+  }
+  return waves;
 }
 
 void register_irregular(flow::FlowRegistry& registry) {
   registry.add(
       "Irregular Waves",
       wave_schema("Irregular Waves",
-                  "Water with a sum of waves by a spectrum, all in one direction.")
+                  "Water with a sum of waves by a spectrum, in one direction or spread about it.")
           .add(choice("Spectrum", {"JONSWAP", "Pierson Moskowitz"},
                       "Of a sea that grows, or of a grown one.")
                    .optional("JONSWAP"))
@@ -185,6 +203,16 @@ void register_irregular(flow::FlowRegistry& registry) {
                    .optional())
           .add(number("Highest", "Hz", "Highest frequency; four times that of the peak if absent.")
                    .positive()
+                   .optional())
+          .add(number("Spreading", "1",
+                      "Exponent n of the density of directions, cos^n(pi angle / range); all "
+                      "waves go in one direction if absent.")
+                   .between(0.0, 1000.0)
+                   .optional())
+          .add(number("Spreading Range", "rad",
+                      "Range of these angles, half of it on each side; pi if absent.")
+                   .greater_than(0.0)
+                   .at_most(turn)
                    .optional())
           .check(check_irregular),
       [](const Options& options, model::BuildContext&) {
@@ -219,7 +247,7 @@ std::vector<Wave> read_components(const Options& options) {
     const double phase = options.has("Phases") ? options.numbers("Phases")[i] : 0.0;
     waves.push_back(wave_of(0.5 * options.numbers("Heights")[i], periods[i], phase));
     const double angle = options.has("Turns") ? options.numbers("Turns")[i] : 0.0;
-    waves.back().direction = std::cos(angle) * ahead + std::sin(angle) * up.cross(ahead);
+    waves.back().direction = turned(ahead, angle, up);
   }
   return waves;
 }

@@ -1,5 +1,7 @@
 #include <culm/water/wave.hpp>
 
+#include <boost/math/special_functions/beta.hpp>
+
 #include <cmath>
 #include <numbers>
 
@@ -39,6 +41,21 @@ std::vector<Wave> random_waves(const SeaState& sea, Band band, int count, std::u
   const double factor = 0.25 * sea.height / std::sqrt(variance);
   for (Wave& wave : waves) wave.amplitude *= factor;
   return waves;
+}
+
+// With v = sin(pi angle / range), (1 + v) / 2 has a beta distribution with both parameters
+// (exponent + 1) / 2. Multiples of the golden ratio, without their integers, fill the interval from
+// 0 to 1 evenly however many follow each other.
+std::vector<double> spread_angles(const Spreading& spreading, int count, std::uint64_t seed) {
+  const double a = 0.5 * (spreading.exponent + 1.0);
+  const double begin = draw(seed, ~std::uint64_t{0});
+  std::vector<double> angles;
+  for (int i = 0; i < count; ++i) {
+    const double whole = begin + i / std::numbers::phi;
+    const double v = 2.0 * boost::math::ibeta_inv(a, a, whole - std::floor(whole)) - 1.0;
+    angles.push_back(spreading.range / std::numbers::pi * std::asin(v));
+  }
+  return angles;
 }
 
 }  // namespace culm::water

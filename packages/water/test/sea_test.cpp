@@ -182,6 +182,45 @@ TEST(IrregularWaves, GoWhereTheyAreTold) {
   }
 }
 
+// The shares of the energy along and across the main direction are (n + 1) / (n + 2) and 1 / (n +
+// 2) of a density cos^n, and (1 +- s (s - 1) / ((s + 1) (s + 2))) / 2 of one cos^2s of half the
+// angle.
+// @source DNV-RP-C205, section 3.5.8; moments of Longuet-Higgins, Cartwright and Smith (1963)
+TEST(IrregularWaves, SpreadAsTheyAreTold) {
+  const auto shares = [](double exponent, double range) {
+    kit::GivenValues values = storm(1);
+    values.emplace_back("Direction", std::vector{3.0, 4.0, 0.0});
+    values.emplace_back("Spreading", exponent);
+    values.emplace_back("Spreading Range", range);
+    const auto sea = make_sea("Irregular Waves", values);
+    Vec3 sums = Vec3::Zero();
+    for (const Wave& wave : sea->waves()) {
+      const double along = wave.direction.dot(Vec3(0.6, 0.8, 0.0));
+      const double across = wave.direction.dot(Vec3(-0.8, 0.6, 0.0));
+      EXPECT_NEAR(wave.direction.norm(), 1.0, 1e-14);
+      sums += 8.0 / 36.0 * wave.amplitude * wave.amplitude *
+              Vec3(along * along, across * across, along * across);
+    }
+    return sums;
+  };
+  for (const double n : {0.0, 2.0, 4.0, 10.0, 60.0}) {
+    const Vec3 found = shares(n, pi);
+    EXPECT_NEAR(found[0], (n + 1.0) / (n + 2.0), 0.01) << n;
+    EXPECT_NEAR(found[1], 1.0 / (n + 2.0), 0.01) << n;
+    EXPECT_NEAR(found[2], 0.0, 0.01) << n;
+  }
+  for (const double s : {1.0, 5.0, 20.0}) {
+    const double second = s * (s - 1.0) / ((s + 1.0) * (s + 2.0));
+    EXPECT_NEAR(shares(2.0 * s, 2.0 * pi)[0], 0.5 * (1.0 + second), 0.01) << s;
+  }
+}
+
+TEST(IrregularWaves, RangeNeedsSpreading) {
+  kit::GivenValues values = storm(1);
+  values.emplace_back("Spreading Range", 1.0);
+  EXPECT_THAT(mistakes("Irregular Waves", values), ElementsAre("needs 'Spreading'"));
+}
+
 TEST(IrregularWaves, FollowFromTheirSeed) {
   const auto one = make_sea("Irregular Waves", storm(1)),
              same = make_sea("Irregular Waves", storm(1)),

@@ -42,6 +42,8 @@ struct SeaState {
   std::optional<double> peak;         ///< factor of JONSWAP, where the file has it
   double phase = 0.0;                 ///< of a regular wave [rad]
   double heading = 0.0;               ///< counter-clockwise from x [rad]
+  std::optional<double> spreading;    ///< exponent of the density of directions
+  double spreading_range = 0.0;       ///< [rad]
   std::string stretching = "None";
   double lowest = 0.0, highest = 0.0;  ///< [Hz]; 0 where the file does not limit them
   int seed = 0;

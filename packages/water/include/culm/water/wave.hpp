@@ -30,4 +30,17 @@ struct Band {
 /// to the caller.
 std::vector<Wave> random_waves(const SeaState& sea, Band band, int count, std::uint64_t seed);
 
+/// How the directions of waves differ from the main one: their density by the angle is
+/// cos^exponent(pi angle / range) within half the range on both sides.
+struct Spreading {
+  double exponent = 0.0;  ///< 0: all alike
+  double range = 0.0;     ///< [rad]
+};
+
+/// Angles from the main direction [rad], one for each of the waves in the order of their
+/// frequencies: those of neighbours lie evenly in the density, whatever their number.
+/// @source DNV-RP-C205, section 3.5.8, with range pi; range 2 pi is the form cos^2s of half the
+/// angle
+std::vector<double> spread_angles(const Spreading& spreading, int count, std::uint64_t seed);
+
 }  // namespace culm::water
