@@ -86,6 +86,17 @@ def verify_line(culm, report):
     report.note(f"iterations per step {run.iterations() / 10:.1f}, at most {run.most_iterations()}")
 
 
+def verify_kinks(culm, report):
+    report.title("The same with a tenth of the bending stiffness: kinks beyond T = 24 EI / L^2 are told, and finer elements have none")
+    soft = ["Sections/chain/EI1=1e5", "Sections/chain/EI2=1e5"]
+    coarse = culm.run(LINE, soft, quiet=False)
+    report.holds("50 elements: fails", 0.0 if coarse.exit == 4 else 1.0, 0.0)
+    report.holds("and says why", 0.0 if "kinks may grow" in coarse.output + coarse.errors else 1.0, 0.0)
+    fine = culm.run(LINE, [*soft, "Structures/line/Curve/Elements=170"], quiet=False)
+    report.relative("170 elements: H [N]", last(fine.history, "fairlead Fx [N]"), 96643.4804, 5e-3)
+    report.holds("no such warning", 1.0 if "kinks may grow" in fine.output + fine.errors else 0.0, 0.0)
+
+
 def verify_bars(culm, report):
     report.title("A rod between three bars, 100 N")
     run = culm.run("contact/pressed_rod.xml", quiet=False)
@@ -209,6 +220,7 @@ def verify(culm, report):
     verify_chain(culm, report)
     verify_bars(culm, report)
     verify_line(culm, report)
+    verify_kinks(culm, report)
 
 
 main(verify)

@@ -4,6 +4,8 @@
 #include "link_type.hpp"
 #include "types.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 namespace culm::load {
@@ -29,6 +31,22 @@ Schema schema() {
   return fields;
 }
 
+// Below the plane on which its line rests a fairlead would carry nothing.
+bool is_above_seabed(const LinkPoint& fairlead, const Options& options,
+                     model::BuildContext& context) {
+  const Vec3 anchor = model::vector(options, "Anchor");
+  const Vec3 place = reference_of(context.model.nodes(), fairlead);
+  const double height = model::vector(options, "Up").normalized().dot(place - anchor);
+  constexpr double rounding = 1e-6;
+  if (!options.flag("Seabed") || height >= -rounding * options.number("Length")) return true;
+  context.issues.add(
+      options.where("Anchor"),
+      fmt::format("is {:.4g} m above the fairlead at '{}', but the line rests on the "
+                  "plane of its anchor: take 'Seabed' = false where there is none",
+                  -height, context.model.node_name(fairlead.node)));
+  return false;
+}
+
 void build(const Options& options, model::BuildContext& context) {
   const auto points = select_ground_points(options, context);
   if (points.empty()) return;
@@ -36,6 +54,7 @@ void build(const Options& options, model::BuildContext& context) {
   const CatenaryLine line{options.number("Length"), options.number("EA"), options.number("Weight"),
                           options.flag("Seabed")};
   for (const LinkPoint& point : points) {
+    if (!is_above_seabed(point, options, context)) return;
     load->add(point, model::vector(options, "Anchor"), model::vector(options, "Up").normalized(),
               line);
   }

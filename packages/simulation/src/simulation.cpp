@@ -22,6 +22,7 @@
 #include "run_observer.hpp"
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
+#include "taut_beams.hpp"
 
 #include <fmt/format.h>
 
@@ -265,8 +266,19 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
     warn("overlap", deep_contacts(*phase.model, state.next));
     warn("lost moment", moments_that_are_not_carried(*phase.model));
-    const auto report = run_analysis(entries[i], context, state, observer, coupled, served,
-                                     resumes ? from : nullptr);
+    const auto warn_of_kinks = [&](model::Coordinates q) {
+      phase.system->complete(q);
+      warn("taut beam", taut_beams(*phase.model, q));
+    };
+    analysis::AnalysisReport report;
+    try {
+      report = run_analysis(entries[i], context, state, observer, coupled, served,
+                            resumes ? from : nullptr);
+    } catch (const NumericalError&) {
+      warn_of_kinks(state.prev);
+      throw;
+    }
+    warn_of_kinks(state.next);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
     keep_state(entries[i].name(), state);
   }

@@ -19,6 +19,8 @@ using Ends = Mat<3, 2>;  // a column for each end of a segment
 // Morison's formula is good for members up to this share of the length of waves.
 // @source DNV-RP-C205, section 6.1.1
 constexpr double slender = 0.2;
+// The two points of a segment miss half a per cent of a wave that is three of its lengths long.
+constexpr double resolved = 1.0 / 3.0;
 
 // Numbers that carry the derivatives by the ends at the end of the step, times a factor.
 void set(const Vec3& values, int, double, Vector<double>& result) { result = values; }
@@ -65,6 +67,18 @@ void MorisonLoad::add(Segment segment) {
       factors << point.weights[a], point.weights[a] * point.offset;
       item.factors[place].col(static_cast<int>(end)) += factors;
     }
+  }
+  Vec<2> heights = Vec<2>::Zero();
+  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+    const Ends places =
+        model::NodeTable::slots(nodes_.reference(), item.nodes[a]) * item.factors[a];
+    for (int end = 0; end < 2; ++end) heights[end] += sea_->site().up.dot(places.col(end));
+  }
+  // half a wave below still water there is little of it left
+  const double top = heights.maxCoeff() - sea_->site().level;
+  const double bottom = heights.minCoeff() - sea_->site().level;
+  if (top > -0.5 * sea_->main_length() && bottom < sea_->highest()) {
+    item.exposed = segment.length;
   }
   internal_check(item.nodes.size() <= max_nodes, "a segment has more nodes than MorisonLoad takes");
   item.segment = std::move(segment);
@@ -195,12 +209,20 @@ double MorisonLoad::range_used() const {
     for (const WetSection& section : item.segment.sections) {
       used = std::max(used, section.diameter / (slender * length));
     }
+    used = std::max(used, item.exposed / (resolved * length));
   }
   return used;
 }
 
 std::string MorisonLoad::range_warning(double used) const {
   const double length = sea_->main_length();
+  const auto longest = std::ranges::max_element(items_, {}, &Item::exposed);
+  if (longest->exposed > (1.0 - 1e-9) * used * resolved * length) {
+    return fmt::format(
+        "{}: segments of {:.3g} m lie in waves {:.3g} m long, whose forces they do not resolve: "
+        "take more 'Segments', of at most a third of the length each",
+        effect().quoted(), longest->exposed, length);
+  }
   return fmt::format(
       "{}: members up to {:.3g} m thick stand in waves {:.3g} m long: so thick ones scatter waves, "
       "which Morison's formula does not know; it is good up to a fifth of the length",

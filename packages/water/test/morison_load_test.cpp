@@ -217,6 +217,33 @@ TEST(MorisonLoad, SaysWhereItsMethodEnds) {
     const kit::DenseAssembly dense(model);
     EXPECT_NEAR(batch->range_used(), diameter / (0.2 * sea->main_length()), 1e-14);
     EXPECT_EQ(batch->range_used() > 1.0, diameter > 25.0);
+    EXPECT_THAT(batch->range_warning(batch->range_used()), testing::HasSubstr("m thick"));
+  }
+}
+
+// At the surface, and where waves do not reach.
+TEST(MorisonLoad, SaysWhereSegmentsAreLongerThanWaves) {
+  WetSection section;
+  section.diameter = 0.1;
+  for (const double depth : {1.0, 100.0}) {
+    model::Model model;
+    model::NodeSlots slots;
+    slots << Vec3::Zero(), Mat3::Identity();
+    model.nodes().add(slots);
+    const auto sea =
+        make_sea("Regular Waves", {{"Depth", 200.0}, {"Height", 0.2}, {"Period", 2.0}});
+    auto load = std::make_unique<MorisonLoad>(model::Effect("Morison", "tested"), model.nodes(),
+                                              model::Amplitude::constant(), sea, MorisonModel{});
+    load->add(member({0, 0, -depth}, {3, 0, -depth}, section, section, 1).front());
+    auto* batch = load.get();
+    model.add_load(std::move(load));
+    model.freeze(model::Form::multipliers);
+    const kit::DenseAssembly dense(model);
+    const double used = depth < 10.0 ? 9.0 / sea->main_length() : 0.5 / sea->main_length();
+    EXPECT_NEAR(batch->range_used(), used, 1e-14);
+    if (depth < 10.0) {
+      EXPECT_THAT(batch->range_warning(used), testing::HasSubstr("segments of 3 m lie in waves"));
+    }
   }
 }
 

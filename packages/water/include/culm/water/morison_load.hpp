@@ -67,6 +67,7 @@ class MorisonLoad final : public model::MemorylessBatch,
     Segment segment;
     std::vector<int> nodes;        ///< of both ends, each once
     std::vector<Factors> factors;  ///< one per node
+    double exposed = 0.0;          ///< length that waves reach in the reference [m]
     bool owned = false;            ///< whether this rank counts it in sums
     Resultant accepted, trial;
   };

@@ -1,0 +1,90 @@
+#include "taut_beams.hpp"
+
+#include <culm/beam/element_batches.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace culm::simulation {
+namespace {
+
+// Of turns at the nodes that are the Legendre polynomial whose roots are the points of quadrature:
+// their bending, 1/2 EI int theta'^2, over what tension gains, 1/2 T int sum_a N_a theta_a^2.
+constexpr double limits[] = {4.0, 24.0, 64.1};
+// A little beyond it an element is held by its neighbours.
+constexpr double alone = 1.2;
+
+struct Taut {
+  std::size_t cell = 0;
+  int order = 0;
+  double tension = 0.0;  // [N]
+  double limit = 0.0;    // [N]
+};
+
+template <int Order>
+std::optional<Taut> taut(const model::Cell& cell, double length, const model::Coordinates& q) {
+  using Batch = model::ElementBatch<beam::DirectorBeam<Order>>;
+  const auto* batch = dynamic_cast<const Batch*>(cell.source);
+  if (batch == nullptr) return {};
+  Eigen::Matrix2d bending = Eigen::Matrix2d::Zero();  // times the length
+  for (int p = 0; p < Order; ++p) {
+    bending += batch->element(cell.item).stiffness(p).template block<2, 2>(3, 3);
+  }
+  const double EI = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bending).eigenvalues()[0] / length;
+  std::vector<double> resultants;
+  cell.source->resultants(cell.item, q, resultants);
+  return Taut{0, Order, resultants[2], limits[Order - 1] * EI / (length * length)};
+}
+
+// The tautest element of a line beyond its limit, if any.
+std::optional<Taut> tautest(const model::Structure& structure, const model::Coordinates& q) {
+  if (structure.line_points.empty() || structure.cells.empty()) return {};
+  const std::size_t per_element = structure.line_points.size() / structure.cells.size();
+  std::optional<Taut> worst;
+  for (std::size_t i = 0; i < structure.cells.size(); ++i) {
+    double length = 0.0;
+    for (std::size_t p = 0; p < per_element; ++p) {
+      length += structure.line_points[per_element * i + p].length;
+    }
+    const model::Cell& cell = structure.cells[i];
+    std::optional<Taut> found = taut<1>(cell, length, q);
+    if (!found) found = taut<2>(cell, length, q);
+    if (!found) found = taut<3>(cell, length, q);
+    if (!found || found->tension <= alone * found->limit) continue;
+    found->cell = i;
+    if (!worst || found->tension * worst->limit > worst->tension * found->limit) worst = found;
+  }
+  return worst;
+}
+
+// The number that the deck has for a cell.
+std::size_t number_of(std::size_t cell, const model::Structure& structure) {
+  const auto& all = structure.deck.cells;
+  for (std::size_t number = 0; number < all.size(); ++number) {
+    if (std::ranges::find(all[number], static_cast<int>(cell)) != all[number].end()) return number;
+  }
+  return cell;
+}
+
+}  // namespace
+
+std::vector<std::string> taut_beams(const model::Model& model, const model::Coordinates& q) {
+  std::vector<std::string> sentences;
+  for (const model::Structure& structure : model.structures()) {
+    const std::optional<Taut> worst = tautest(structure, q);
+    if (!worst) continue;
+    sentences.push_back(fmt::format(
+        "element {} of '{}', of order {}, carries a tension of {:.3g} N, but as long as it is its "
+        "bending stiffness keeps its nodes from turning to and fro up to {:.3g} N only: kinks may "
+        "grow in it; take {:.2g} times as many 'Elements', or more bending stiffness",
+        number_of(worst->cell, structure), structure.name, worst->order, worst->tension,
+        worst->limit, std::ceil(10.0 * std::sqrt(worst->tension / worst->limit)) / 10.0));
+  }
+  return sentences;
+}
+
+}  // namespace culm::simulation
