@@ -34,7 +34,8 @@ std::optional<Taut> taut(const model::Cell& cell, double length, const model::Co
   for (int p = 0; p < Order; ++p) {
     bending += batch->element(cell.item).stiffness(p).template block<2, 2>(3, 3);
   }
-  const double EI = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bending).eigenvalues()[0] / length;
+  const double EI =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bending).eigenvalues()[0] / length;
   std::vector<double> resultants;
   cell.source->resultants(cell.item, q, resultants);
   return Taut{0, Order, resultants[2], limits[Order - 1] * EI / (length * length)};

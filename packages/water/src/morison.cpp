@@ -297,6 +297,8 @@ std::vector<Segment> segments_of(const Options& options, const Member& member) {
   const std::array<Face, 2> faces = read_faces(options);
   segments.front().faces[0] = faces[0];
   segments.back().faces[1] = faces[1];
+  segments.front().goes_on[0] = ends.front() > 0.0;
+  segments.back().goes_on[1] = ends.back() < 1.0;
   return segments;
 }
 
@@ -336,6 +338,28 @@ bool is_sound(const std::vector<Segment>& segments, const Sea& sea, const Option
   return false;
 }
 
+// A name for what the member of the load is.
+std::string name_of_member(const Options& options) {
+  if (options.has("Structure")) return options.text("Structure");
+  const Vec3 from = model::vector(options, "From"), to = model::vector(options, "To");
+  return fmt::format("{} {} {} {} {} {} {}", options.text("Node"), from[0], from[1], from[2], to[0],
+                     to[1], to[2]);
+}
+
+// Whether no other load of the water acts on the same part of a member.
+bool is_alone(const MorisonLoad& load, const Options& options, model::BuildContext& context) {
+  for (const auto& batch : context.model.loads()) {
+    const auto* other = dynamic_cast<const MorisonLoad*>(batch.get());
+    if (other == nullptr || !load.meets(*other)) continue;
+    context.issues.add(options.where(options.has("Structure") ? "Structure" : "Node"),
+                       fmt::format("{} acts on the same part of this member: two loads would carry "
+                                   "the water twice; give each its 'Range'",
+                                   other->effect().quoted()));
+    return false;
+  }
+  return true;
+}
+
 void make(const Options& options, flow::FluidContext& context) {
   model::BuildContext& build = context.build;
   const auto sea = find_sea(options, context);
@@ -349,6 +373,9 @@ void make(const Options& options, flow::FluidContext& context) {
                            options.number("End Added Mass")};
   auto load = std::make_unique<MorisonLoad>(model::Effect("Morison", options.name()),
                                             build.model.nodes(), *function, sea, model);
+  const std::vector<double>& range = options.numbers("Range");
+  load->cover(name_of_member(options), range[0], range[1]);
+  if (!is_alone(*load, options, build)) return;
   for (Segment& segment : segments) load->add(std::move(segment));
   build.model.add_load(std::move(load));
 }

@@ -50,6 +50,7 @@ struct MorisonLoad::Evaluation {
   Ends forces = Ends::Zero();      // [N]
   Mat6 derivative = Mat6::Zero();  // by the places of the ends at the end of the step
   Resultant resultant;
+  double swamped = 0.0;  // [m]
 };
 
 void MorisonLoad::add(Segment segment) {
@@ -126,6 +127,12 @@ MorisonLoad::Evaluation MorisonLoad::evaluate(const Item& item, const model::Sta
   for (int end = 0; end < 2; ++end) {
     put(found.forces()[static_cast<std::size_t>(end)], end, result.forces, result.derivative);
   }
+  for (int end = 0; end < 2; ++end) {
+    if (!item.segment.goes_on[static_cast<std::size_t>(end)]) continue;
+    const Vec3 place = middle.col(end);
+    if (sea_->site().up.dot(place - middle.col(1 - end)) <= 0.0) continue;
+    result.swamped = std::max(result.swamped, sea_->wet_to(place, time) - sea_->height(place));
+  }
   const double factor = mass ? 1.0 : amplitude_.in_step(state, stencil);
   result.forces *= factor;
   result.derivative *= factor;
@@ -162,6 +169,7 @@ Verdict MorisonLoad::assemble_item(std::size_t i, const model::State& state, con
     r.setZero();
   } else {
     item.trial = found.resultant;
+    item.trial_swamped = found.swamped;
     const Verdict verdict =
         load::add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
     if (verdict != Verdict::ok) return verdict;
@@ -186,7 +194,10 @@ Verdict MorisonLoad::assemble_item(std::size_t i, const model::State& state, con
 }
 
 void MorisonLoad::accept(model::State&) {
-  for (Item& item : items_) item.accepted = item.trial;
+  for (Item& item : items_) {
+    item.accepted = item.trial;
+    item.swamped = item.trial_swamped;
+  }
   has_stepped_ = true;
 }
 
@@ -210,23 +221,43 @@ double MorisonLoad::range_used() const {
       used = std::max(used, section.diameter / (slender * length));
     }
     used = std::max(used, item.exposed / (resolved * length));
+    if (item.swamped > 0.0) used = std::max(used, 1.0 + item.swamped);
   }
   return used;
 }
 
 std::string MorisonLoad::range_warning(double used) const {
+  constexpr double rounding = 1e-9;
   const double length = sea_->main_length();
-  const auto longest = std::ranges::max_element(items_, {}, &Item::exposed);
-  if (longest->exposed > (1.0 - 1e-9) * used * resolved * length) {
+  double thickest = 0.0, longest = 0.0;
+  for (const Item& item : items_) {
+    for (const WetSection& section : item.segment.sections) {
+      thickest = std::max(thickest, section.diameter);
+    }
+    longest = std::max(longest, item.exposed);
+  }
+  if (std::abs(longest - used * resolved * length) < rounding * longest) {
     return fmt::format(
         "{}: segments of {:.3g} m lie in waves {:.3g} m long, whose forces they do not resolve: "
         "take more 'Segments', of at most a third of the length each",
-        effect().quoted(), longest->exposed, length);
+        effect().quoted(), longest, length);
+  }
+  if (std::abs(thickest - used * slender * length) < rounding * thickest) {
+    return fmt::format(
+        "{}: members up to {:.3g} m thick stand in waves {:.3g} m long: so thick ones scatter "
+        "waves, which Morison's formula does not know; it is good up to a fifth of the length",
+        effect().quoted(), thickest, length);
   }
   return fmt::format(
-      "{}: members up to {:.3g} m thick stand in waves {:.3g} m long: so thick ones scatter waves, "
-      "which Morison's formula does not know; it is good up to a fifth of the length",
-      effect().quoted(), used * slender * length, length);
+      "{}: the water stands {:.3g} m above the upper end of 'Range', beyond which the member goes "
+      "on and nothing acts: let 'Range' reach higher",
+      effect().quoted(), used - 1.0);
+}
+
+bool MorisonLoad::meets(const MorisonLoad& other) const {
+  constexpr double rounding = 1e-9;
+  return member_ == other.member_ && begin_ < other.end_ - rounding &&
+         other.begin_ < end_ - rounding;
 }
 
 void MorisonLoad::save(model::Items items, std::span<double> numbers) const {

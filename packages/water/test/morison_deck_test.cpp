@@ -92,6 +92,29 @@ TEST_F(MorisonDeck, RangeLimitsIt) {
   EXPECT_NEAR(force()[2], 0.0, 1e-7);
 }
 
+TEST_F(MorisonDeck, NothingCarriesTheWaterTwice) {
+  const auto part = [](double begin, double end) {
+    return column({{"Diameter", 2.0}, {"Range", std::vector{begin, end}}});
+  };
+  EXPECT_THAT(build(part(0.0, 0.5)), ElementsAre());
+  EXPECT_THAT(build(part(0.5, 1.0)), ElementsAre());
+  EXPECT_THAT(build(part(0.2, 0.3)), ElementsAre(HasSubstr("the water twice")));
+  kit::GivenValues beside = column({{"Diameter", 2.0}});
+  beside[1].second = std::vector{5.0, 0.0, -20.0};
+  EXPECT_THAT(build(beside), ElementsAre());
+}
+
+// A range that ends 5 m under water, on a member that goes on to 10 m above it.
+TEST_F(MorisonDeck, RangeShouldReachAboveTheWater) {
+  EXPECT_THAT(build(column({{"Diameter", 2.0}, {"Range", std::vector{0.0, 0.5}}})), ElementsAre());
+  auto* load = dynamic_cast<MorisonLoad*>(model_.loads().back().get());
+  force();
+  model::State state = model_.initial_state();
+  load->accept(state);
+  EXPECT_NEAR(load->range_used(), 6.0, 1e-12);
+  EXPECT_THAT(load->range_warning(6.0), HasSubstr("5 m above the upper end of 'Range'"));
+}
+
 TEST_F(MorisonDeck, MistakesAreNamed) {
   EXPECT_THAT(mistakes({}), Contains(HasSubstr("give one of 'Diameter' and 'Diameters'")));
   EXPECT_THAT(mistakes({{"Diameter", 1.0}, {"Structure", std::string("pile")}}),

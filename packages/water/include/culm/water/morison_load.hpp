@@ -40,6 +40,14 @@ class MorisonLoad final : public model::MemorylessBatch,
         model_(model) {}
 
   void add(Segment segment);
+  /// What the load acts on: a member by a name of its own, and the part of its length.
+  void cover(std::string member, double begin, double end) {
+    member_ = std::move(member);
+    begin_ = begin;
+    end_ = end;
+  }
+  /// Whether another load acts on a part of the same.
+  bool meets(const MorisonLoad& other) const;
 
   const Sea& sea() const { return *sea_; }
 
@@ -70,6 +78,8 @@ class MorisonLoad final : public model::MemorylessBatch,
     double exposed = 0.0;          ///< length that waves reach in the reference [m]
     bool owned = false;            ///< whether this rank counts it in sums
     Resultant accepted, trial;
+    /// How high the water stands above an end beyond which the member goes on upward [m].
+    double swamped = 0.0, trial_swamped = 0.0;
   };
   struct Evaluation;
 
@@ -84,6 +94,8 @@ class MorisonLoad final : public model::MemorylessBatch,
   model::Amplitude amplitude_;
   std::shared_ptr<const Sea> sea_;
   MorisonModel model_;
+  std::string member_;
+  double begin_ = 0.0, end_ = 1.0;
   std::vector<Item> items_;
   bool has_stepped_ = false;
 };
