@@ -38,7 +38,7 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
 # The reference BLAS, which Trilinos would take as well, is three to four times slower.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
     "openmpi-bin, libopenblas0-serial, python3 (>= 3.11), python3-numpy, python3-h5py, python3-matplotlib, \
-python3-pandas, libjs-three"
+python3-pandas, python3-scipy, python3-yaml, libjs-three"
 )
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME culm-dev)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION

@@ -57,7 +57,16 @@ class ModeNames(unittest.TestCase):
     def test_a_mode_is_called_by_the_structure_with_most_of_the_energy(self):
         shapes = {"blade 1": numpy.stack([shape([0, 0, 1]), shape([1, 0, 0])]), "tower": numpy.zeros((2, 5, 6))}
         names = name_modes({"blade 1": blade(), "tower": blade()}, shapes, ["blade 1 60 %, tower 40 %", "mast 90 %"])
-        self.assertEqual(names, ["blade 1 along d1, 100 %", ""])
+        self.assertEqual(names, ["blade 1 flap, along d1, 100 %", ""])
+
+    def test_blades_flap_as_they_bend_first_and_the_tower_moves_with_or_across_that(self):
+        still = numpy.zeros((5, 6))
+        blade_moves = [still, shape([0, 0, 1]), shape([1, 0, 0]), still]
+        tower_moves = [shape([0, 0, 1]), still, still, shape([1, 0, 0])]
+        meshes = {"blade 1": blade(), "tower": blade()}
+        shapes = {"blade 1": numpy.stack(blade_moves), "tower": numpy.stack(tower_moves)}
+        names = name_modes(meshes, shapes, ["tower 90 %", "blade 1 60 %", "blade 1 70 %", "tower 80 %"])
+        self.assertEqual([name.split(",")[0] for name in names], ["tower fore-aft", "blade 1 flap", "blade 1 edge", "tower side to side"])
 
 
 if __name__ == "__main__":

@@ -26,7 +26,8 @@ namespace culm::load {
   TYPE(directed_ground_spring) /* Directed Ground Spring, Directed Ground Damper */ \
   TYPE(plane_ground_spring)    /* Plane Ground Spring, Plane Ground Damper */       \
   TYPE(torsion)                /* Torsion Spring, Torsion Damper, Torsion Drive */  \
-  TYPE(rotation_damper)        /* Rotation Damper, Rotation Damper Local */
+  TYPE(rotation_damper)        /* Rotation Damper, Rotation Damper Local */         \
+  TYPE(restoring)              /* Restoring */
 
 #define CULM_DECLARE(type) void register_##type(model::BuilderRegistry& registry);
 CULM_LOADS(CULM_DECLARE)

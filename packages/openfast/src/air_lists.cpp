@@ -32,11 +32,6 @@ std::string times_speed(const Vec3& direction) {
                      item(direction.z()));
 }
 
-std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  const auto base = std::filesystem::absolute(folder.empty() ? "." : folder);
-  return std::filesystem::absolute(file).lexically_proximate(base.lexically_normal()).string();
-}
-
 double linear(const std::vector<double>& places, const std::vector<double>& values, double at) {
   const auto above = std::upper_bound(places.begin() + 1, places.end() - 1, at);
   const auto i = static_cast<std::size_t>(above - places.begin());
@@ -368,9 +363,7 @@ void write_air(const ElastoDyn& turbine, const std::filesystem::path& folder, Re
   const Air& air = *turbine.air;
   deck.open("Flows");
   write_flow(turbine, folder, report, deck);
-  if (turbine.substructure && turbine.substructure->water) {
-    write_sea(turbine.substructure->water->sea, deck);
-  }
+  if (const SeaState* sea = turbine.sea()) write_sea(*sea, deck);
   deck.close();
   if (is_box(air.wind)) {
     report.add(assumed, is_endless(air.wind)

@@ -142,4 +142,9 @@ void DeckWriter::comment(const std::vector<std::string>& lines) {
 
 std::string DeckWriter::text() const { return text_ + "</ParameterList>\n"; }
 
+std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto base = std::filesystem::absolute(folder.empty() ? "." : folder);
+  return std::filesystem::absolute(file).lexically_proximate(base.lexically_normal()).string();
+}
+
 }  // namespace culm::openfast

@@ -71,20 +71,27 @@ std::optional<std::filesystem::path> file_if(InputFile& file, const char* flag, 
   return file.file(module.file);
 }
 
-// Water acts on the beams of SubDyn.
-bool is_of_sea(const Module& module) {
-  return module.flag == std::string("CompHydro") || module.flag == std::string("CompSeaSt");
+// Water and moorings need something to act on, which other files say.
+bool depends(const Module& module, int value) {
+  const std::string flag = module.flag;
+  return ((flag == "CompHydro" || flag == "CompSeaSt") && value == 1) ||
+         (flag == "CompMooring" && (value == 1 || value == 3));
 }
 
-void report_modules(InputFile& file, Report& report) {
+void report_modules(InputFile& file, GlueFile& glue, Report& report) {
   for (const Module& module : modules) {
     const int value = value_of(file, module);
-    const bool stands_on_it = is_of_sea(module) && value_of(file, module_of("CompSub")) == 1;
-    if (value == 0 || value == module.imported || (stands_on_it && value == 1)) continue;
+    if (value == 0 || value == module.imported) continue;
     const std::string named =
         module.file != nullptr && file.has(module.file) ? " (" + file.text(module.file) + ")" : "";
-    report.add(missing, fmt::format("{}: {}, {} = {}{}: {}", to_string(file.where(module.flag)),
-                                    module.name, module.flag, value, named, module.effect));
+    const std::string sentence =
+        fmt::format("{}: {}, {} = {}{}: {}", to_string(file.where(module.flag)), module.name,
+                    module.flag, value, named, module.effect);
+    if (depends(module, value)) {
+      glue.unless_imported[module.flag] = sentence;
+    } else {
+      report.add(missing, sentence);
+    }
   }
 }
 
@@ -142,7 +149,9 @@ GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
   glue.seastate = file_if(file, "CompSeaSt", 1);
   glue.hydrodyn = file_if(file, "CompHydro", 1);
   glue.subdyn = file_if(file, "CompSub", 1);
-  glue.moordyn = file_if(file, "CompMooring", 3);
+  for (const int value : {1, 3}) {  // MAP++, MoorDyn
+    if (const auto moorings = file_if(file, "CompMooring", value)) glue.moordyn = moorings;
+  }
   if (file.has("Gravity")) glue.gravity = file.number("Gravity");
   if (file.has("AirDens")) glue.air_density = file.number("AirDens");
   if (file.has("TMax")) glue.end = file.number("TMax");
@@ -153,7 +162,7 @@ GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
         fmt::format("{} ({})", name, file.file(module.file).filename().string()));
   }
   report.add(read, path.string() + ": names of the modules' files");
-  report_modules(file, report);
+  report_modules(file, glue, report);
   ignore_rest(file);
   report.add(unknown, file.unread());
   return glue;

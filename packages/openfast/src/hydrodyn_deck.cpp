@@ -43,6 +43,7 @@ struct Carrier {
   std::string beam = {};
   std::array<double, 2> of_member = {0.0, 1.0};  // the part of the member's length on the beam
   std::array<double, 2> of_beam = {0.0, 1.0};    // the same part of the beam's, rising
+  bool floats = false;                           // what fills a member is a body of its own
 };
 
 class MemberWriter {
@@ -77,7 +78,8 @@ class MemberWriter {
     const double first = on_carrier((*range)[0]), last = on_carrier((*range)[1]);
     if (first > 0.0 || last < 1.0) deck.set("Range", std::vector<double>{first, last});
     write_sections(deck);
-    if (!member_.has_buoyancy) deck.set("Buoyancy", "false");
+    if (!member_.has_buoyancy || is_drag_only()) deck.set("Buoyancy", "false");
+    if (is_drag_only()) deck.set("Pull", "false");
     write_ends(*range, bed, deck);
     deck.close();
     report_coefficients(name);
@@ -85,6 +87,9 @@ class MemberWriter {
   }
 
  private:
+  // The rest is potential flow's.
+  bool is_drag_only() const { return member_.is_potential; }
+
   // s is the fraction of the part that is written, from its first end to its last.
   double on_carrier(double s) const {
     return s == 1.0 ? carrier_.of_beam[1] : mix(carrier_.of_beam[0], carrier_.of_beam[1], s);
@@ -210,7 +215,7 @@ class MemberWriter {
     const auto varies = [](const std::vector<double>& list) {
       return std::any_of(list.begin(), list.end(), [&](double v) { return v != list.front(); });
     };
-    const bool floods = member_.is_flooded && inner.front() > 0.0;
+    const bool floods = member_.is_flooded && inner.front() > 0.0 && !carrier_.floats;
     if (varies(diameters) || varies(drags) || varies(masses) || varies(growths) ||
         (floods && varies(inner))) {
       deck.set("Positions", values([](const Section& s) { return s.place; }));
@@ -218,7 +223,11 @@ class MemberWriter {
     write_values("Diameter", "Diameters", diameters, deck);
     if (floods) write_values("Flooded Diameter", "Flooded Diameters", inner, deck);
     write_values("Drag", "Drags", drags, deck);
-    write_values("Added Mass", "Added Masses", masses, deck);
+    if (is_drag_only()) {
+      deck.set("Added Mass", 0.0);
+    } else {
+      write_values("Added Mass", "Added Masses", masses, deck);
+    }
     write_growth(growths, deck);
   }
 
@@ -257,7 +266,7 @@ class MemberWriter {
     const double drag = std::max(first.drag, last.drag);
     const double added_mass = std::max(first.added_mass, last.added_mass);
     if (drag > 0.0) deck.set("End Drag", drag);
-    if (added_mass > 0.0) deck.set("End Added Mass", added_mass);
+    if (added_mass > 0.0 && !is_drag_only()) deck.set("End Added Mass", added_mass);
     if (dry.empty() && (first.drag != last.drag || first.added_mass != last.added_mass)) {
       report_.add(assumed, fmt::format("member {}: both of its faces have the larger axial "
                                        "coefficients of its joints",
@@ -317,6 +326,30 @@ bool is_left_out(const HydroMember& member, Report& report) {
   return true;
 }
 
+void report_hull(const HydroDyn& hydro, Report& report) {
+  for (const HydroFilling& filling : hydro.fillings) {
+    const HydroMember& member = hydro.members[filling.member];
+    if (member.is_flooded) continue;
+    report.add(missing, fmt::format("{}: is filled with {:g} kg/m^3 up to {:g} m, not with the sea: "
+                                    "give the body its mass",
+                                    name_of(member), filling.density, filling.level));
+  }
+  if (hydro.potential) {
+    report.add(missing, hydro.path.string() + ": potential flow, PotMod, is not in the deck");
+  }
+  if (hydro.added.is_zero) return;
+  report.add(missing,
+             hydro.path.string() + ": additional forces, stiffness or damping of the platform");
+}
+
+std::vector<double> by_rows(const Mat6& matrix) {
+  const Mat6 rows = matrix.transpose();
+  return {rows.data(), rows.data() + rows.size()};
+}
+
+// Files with few or coarse frequencies are fitted less well than culm asks for by itself.
+constexpr double fit = 0.1;
+
 // The part of a member that lies along a beam from a to b; none if they only meet or are apart.
 std::optional<Carrier> along(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b) {
   const Vec3 axis = (b - a).normalized();
@@ -345,18 +378,94 @@ void report_all(const HydroDyn& hydro, Report& report) {
 
 }  // namespace
 
-void write_members(const HydroDyn& hydro, const std::string& body, DeckWriter& deck,
+void write_hull(const HydroDyn& hydro, const std::string& body, const std::filesystem::path& folder,
+                DeckWriter& deck, Report& report) {
+  if (hydro.potential) {
+    const HydroPotential& flow = *hydro.potential;
+    deck.open("hull", "Potential Flow");
+    deck.set("Node", body);
+    deck.set("Flow", sea_name);
+    deck.set("File Name", name_from(folder, flow.root.string() + ".1"));
+    if (flow.length != 1.0) deck.set("Length", flow.length);
+    deck.set("Volume", flow.volume);
+    if (flow.centre_x != 0.0 || flow.centre_y != 0.0) {
+      deck.set("Centre", Vec3(flow.centre_x, flow.centre_y, 0.0));
+    }
+    if (flow.radiates) {
+      deck.set("Fit", fit);
+    } else {
+      deck.set("Poles", 0);
+    }
+    deck.close();
+    const double lift = hydro.sea.density * hydro.sea.gravity * flow.volume;
+    report.add(checked, fmt::format("the water lifts the hull by {:.6g} N, the weight of {:.6g} kg",
+                                    lift, hydro.sea.density * flow.volume));
+    report.add(assumed, fmt::format("waves that the hull makes: fitted by poles, with an error of "
+                                    "at most {:g}; no forces of second order",
+                                    fit));
+  }
+  if (hydro.added.is_zero) return;
+  deck.open("added to the platform", "Restoring");
+  deck.set("Node", body);
+  deck.set("Preload", hydro.added.preload);
+  const std::pair<const char*, const Mat6*> matrices[] = {
+      {"Stiffness", &hydro.added.stiffness},
+      {"Damping", &hydro.added.damping},
+      {"Quadratic Damping", &hydro.added.quadratic}};
+  for (const auto& [name, matrix] : matrices) {
+    if (!matrix->isZero(0.0)) deck.set(name, by_rows(*matrix));
+  }
+  deck.close();
+}
+
+void write_members(const HydroDyn& hydro, const std::string& body, bool floats, DeckWriter& deck,
                    Report& report) {
   for (const HydroMember& member : hydro.members) {
-    if (is_left_out(member, report)) continue;
-    MemberWriter(hydro, member, Carrier{body}, report).write(name_of(member), deck);
+    if (member.is_potential && !hydro.potential) {
+      is_left_out(member, report);
+      continue;
+    }
+    Carrier carrier{body};
+    carrier.floats = floats;
+    MemberWriter(hydro, member, carrier, report).write(name_of(member), deck);
   }
   report_all(hydro, report);
+}
+
+Ballast ballast_of(const HydroDyn& hydro) {
+  Ballast ballast;
+  constexpr int parts = 1000;  // of the length
+  for (const HydroFilling& filling : hydro.fillings) {
+    const HydroMember& member = hydro.members[filling.member];
+    const Vec3 &a = hydro.joints[member.joints[0]].place, &b = hydro.joints[member.joints[1]].place;
+    const Vec3 axis = (b - a).normalized();
+    for (int i = 0; i < parts; ++i) {
+      const double s = (i + 0.5) / parts;
+      const Vec3 place = (1.0 - s) * a + s * b;
+      if (place.z() > filling.level) continue;
+      const double radius = 0.5 * mix(member.diameters[0], member.diameters[1], s) -
+                            mix(member.walls[0], member.walls[1], s);
+      const double mass =
+          filling.density * std::numbers::pi * radius * radius * (b - a).norm() / parts;
+      ballast.mass += mass;
+      ballast.centre += mass * place;
+      ballast.inertia += mass * (place.squaredNorm() * Mat3::Identity() - place * place.transpose());
+      ballast.inertia +=
+          0.25 * mass * radius * radius * (Mat3::Identity() + axis * axis.transpose());
+    }
+  }
+  if (ballast.mass == 0.0) return ballast;
+  const Vec3 centre = ballast.centre / ballast.mass;
+  ballast.inertia -= ballast.mass *
+                     (centre.squaredNorm() * Mat3::Identity() - centre * centre.transpose());
+  ballast.centre = centre;
+  return ballast;
 }
 
 std::vector<std::string> write_members(const HydroDyn& hydro, const SubDyn& sub, DeckWriter& deck,
                                        Report& report) {
   std::vector<std::string> names;
+  report_hull(hydro, report);
   for (const HydroMember& member : hydro.members) {
     if (is_left_out(member, report)) continue;
     const Vec3 &from = hydro.joints[member.joints[0]].place,
@@ -397,7 +506,8 @@ std::string write_deck(const HydroDyn& hydro, Report& report) {
   write_held_body(platform, "held", deck);
   write_flows(hydro.sea, deck);
   deck.open("Loads");
-  write_members(hydro, platform, deck, report);
+  report_hull(hydro, report);
+  write_members(hydro, platform, false, deck, report);
   deck.close();
   deck.open("Analyses");
   deck.open("sea", "Dynamic");

@@ -176,8 +176,8 @@ HydroMember read_member(const TextTable& table, std::size_t i, const Lists& list
   return member;
 }
 
-// Members with sea water up to the still surface are flooded; other fillings are not there in culm.
-void read_fillings(InputFile& file, HydroDyn& hydro, Report& report) {
+// Members with sea water up to the still surface are flooded.
+void read_fillings(InputFile& file, HydroDyn& hydro) {
   const TextTable table = read_table(file, "NFillGroups", "filling");
   for (std::size_t i = 0; i < table.size(); ++i) {
     const int count = table.integer(i, {"FillNumM"});
@@ -206,37 +206,76 @@ void read_fillings(InputFile& file, HydroDyn& hydro, Report& report) {
         throw InputError(table.where(i, {"FillMList"}), fmt::format("there is no member {}", id));
       }
       found->is_flooded = is_sea;
-      if (is_sea) continue;
-      report.add(missing,
-                 to_string(table.where(i, {"FillMList"})) +
-                     fmt::format(": member {} is filled with {:g} kg/m^3 up to {:g} m, not "
-                                 "with the sea: give the body its mass",
-                                 id, density, level));
+      const auto place = static_cast<std::size_t>(found - hydro.members.begin());
+      hydro.fillings.push_back({place, level, density});
     }
   }
 }
 
-void report_rest(InputFile& file, Report& report) {
-  if (file.number("PotMod", 0.0) != 0.0) {
-    report.add(missing, to_string(file.where("PotMod")) + ": potential flow is not in the deck");
+// One body with its origin where that of the platform is.
+std::optional<HydroPotential> read_potential(InputFile& file, Report& report) {
+  const double model = file.number("PotMod", 0.0);
+  if (model == 0.0) return {};
+  if (model != 1.0) {
+    throw InputError(file.where("PotMod"),
+                     fmt::format("must be 0, none, or 1, by WAMIT, got {:g}", model));
   }
+  if (const double bodies = file.number("NBody", 1.0); bodies != 1.0) {
+    throw InputError(file.where("NBody"), fmt::format("one body is imported, not {:g}", bodies));
+  }
+  for (const char* name : {"PtfmRefxt", "PtfmRefyt", "PtfmRefzt", "PtfmRefztRot"}) {
+    if (file.number(name, 0.0) != 0.0) {
+      throw InputError(file.where(name), "a body beside the platform's origin is not imported");
+    }
+  }
+  HydroPotential potential;
+  potential.root = file.file("PotFile");
+  potential.length = file.number("WAMITULEN");
+  potential.volume = file.number("PtfmVol0");
+  potential.centre_x = file.number("PtfmCOBxt", 0.0);
+  potential.centre_y = file.number("PtfmCOByt", 0.0);
+  potential.radiates = file.number("RdtnMod", 1.0) != 0.0;
+  if (!(potential.length > 0.0) || !(potential.volume >= 0.0)) {
+    throw InputError(file.where(potential.length > 0.0 ? "PtfmVol0" : "WAMITULEN"),
+                     "length and volume must be > 0");
+  }
+  if (const double waves = file.number("ExctnMod", 1.0); waves != 1.0) {
+    report.add(not_used, fmt::format("{}: ExctnMod = {:g}; forces of waves are those of the .3 file",
+                                     to_string(file.where("ExctnMod")), waves));
+  }
+  return potential;
+}
+
+// A column of six, or a row; and three matrices of six rows each.
+HydroAdded read_added(const InputFile& file) {
+  constexpr const char* heading = "PLATFORM ADDITIONAL STIFFNESS AND DAMPING";
+  HydroAdded added;
+  std::vector<double> values;
+  int line = 0;
+  for (const NumberRow& row : file.numbers_below(heading)) {
+    line = row.line;
+    values.insert(values.end(), row.values.begin(), row.values.end());
+  }
+  added.is_zero = std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
+  if (added.is_zero) return added;
+  constexpr std::size_t matrix = 36, all = 6 + 3 * matrix;
+  if (values.size() != all) {
+    throw InputError(file.where(line, "AddF0, AddCLin, AddBLin, AddBQuad"),
+                     fmt::format("must be {} numbers, found {}", all, values.size()));
+  }
+  added.preload.assign(values.begin(), values.begin() + 6);
+  Mat6* const matrices[] = {&added.stiffness, &added.damping, &added.quadratic};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double* first = values.data() + 6 + matrix * i;
+    *matrices[i] = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(first);
+  }
+  return added;
+}
+
+void report_rest(InputFile& file, Report& report) {
   for (const char* keyword : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"}) {
     if (file.number(keyword, 0.0) == 0.0) continue;
     report.add(not_used, to_string(file.where(keyword)) + ": forces of second order");
-  }
-  for (const char* keyword : {"AddF0", "AddCLin", "AddBLin", "AddBQuad"}) {
-    if (!file.has(keyword)) continue;
-    const std::vector<NumberRow> rows =
-        file.numbers_below("PLATFORM ADDITIONAL STIFFNESS AND DAMPING");
-    const bool is_zero = std::all_of(rows.begin(), rows.end(), [](const NumberRow& row) {
-      return std::all_of(row.values.begin(), row.values.end(),
-                         [](double value) { return value == 0.0; });
-    });
-    if (!is_zero) {
-      report.add(missing, to_string(file.where(keyword)) +
-                              ": additional forces, stiffness or damping of the platform");
-    }
-    break;
   }
   if (file.number("WaveDisp", 1.0) == 0.0) {
     report.add(assumed, to_string(file.where("WaveDisp")) +
@@ -297,7 +336,9 @@ HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& su
     if (way.isZero(0.0)) throw InputError(members.where(i, {"MJointID2"}), "it has no length");
   }
   read_growth(file, hydro);
-  read_fillings(file, hydro, report);
+  read_fillings(file, hydro);
+  hydro.potential = read_potential(file, report);
+  hydro.added = read_added(file);
   report_rest(file, report);
   check_end(file, report);
   report.add(read, fmt::format("{}: HydroDyn, {} joints, {} members, {} depths with coefficients, "

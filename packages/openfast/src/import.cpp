@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace culm::openfast {
@@ -77,6 +78,56 @@ std::optional<Substructure> find_substructure(const GlueFile& glue, Platform& pl
   return found;
 }
 
+// A platform that moves in the water, where nothing else carries the tower.
+std::optional<Floater> find_floater(const GlueFile& glue, const ElastoDyn& turbine,
+                                    Report& report) {
+  const Platform& platform = turbine.platform;
+  const bool moves = std::find(platform.free.begin(), platform.free.end(), true) !=
+                     platform.free.end();
+  if (!glue.hydrodyn || !moves || !(platform.mass > 0.0) || glue.subdyn ||
+      !is_there(glue, *glue.hydrodyn, "HydroDyn", "no water, and the platform is held", report)) {
+    return std::nullopt;
+  }
+  if (!platform.reference.isZero(0.0)) {
+    throw InputError({turbine.path.string(), 0, "PtfmRefzt"},
+                     fmt::format("must be 0 where the platform floats, got {:g}",
+                                 platform.reference.z()));
+  }
+  const Surroundings surroundings = read_surroundings(glue.path);
+  Floater floater{read_hydrodyn(*glue.hydrodyn, surroundings, report), {}};
+  if (!glue.moordyn || !is_there(glue, *glue.moordyn, "moorings", "nothing moors the platform",
+                                 report)) {
+    return floater;
+  }
+  Surroundings deep = surroundings;
+  if (!deep.depth) deep.depth = floater.water.sea.depth;
+  floater.moorings = read_moordyn(*glue.moordyn, deep, report);
+  if (!floater.moorings->left_out.empty()) {
+    const InputIssue& first = floater.moorings->left_out.front();
+    throw InputError(first.where, first.message + ", and the platform would be moored otherwise");
+  }
+  return floater;
+}
+
+// What is in the deck is taken from the list of what is not.
+void settle_water(const GlueFile& glue, ElastoDyn& turbine, Report& report) {
+  const auto tell = [&](const char* flag) {
+    const auto found = glue.unless_imported.find(flag);
+    if (found != glue.unless_imported.end()) report.add(missing, found->second);
+  };
+  const auto imported = [&](const char* module) {
+    std::erase_if(turbine.platform.modules,
+                  [&](const std::string& name) { return name.starts_with(module); });
+  };
+  if (turbine.floater) imported("HydroDyn");
+  if (turbine.floater && turbine.floater->moorings) imported("mooring");
+  if (!turbine.floater && !turbine.substructure) {
+    tell("CompSeaSt");
+    tell("CompHydro");
+  }
+  if (!turbine.floater || !turbine.floater->moorings) tell("CompMooring");
+}
+
 // `glue` is what was given, or what was found beside the main file.
 Imported import_turbine(const std::filesystem::path& path, const std::optional<GlueFile>& glue,
                         const TurbineOptions& options, Report& report) {
@@ -88,6 +139,8 @@ Imported import_turbine(const std::filesystem::path& path, const std::optional<G
   if (options.blade_mass > 0.0) scale_blades(turbine, options.blade_mass, report);
   if (glue) turbine.air = find_air(*glue, turbine, report);
   if (glue) turbine.substructure = find_substructure(*glue, turbine.platform, report);
+  if (glue) turbine.floater = find_floater(*glue, turbine, report);
+  if (glue) settle_water(*glue, turbine, report);
   Imported imported{{}, {}, variants_of(turbine), only_modes_of(turbine)};
   imported.deck = write_deck(std::move(turbine), options.folder, report);
   return imported;

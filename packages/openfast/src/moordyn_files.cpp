@@ -8,6 +8,7 @@
 #include "headings.hpp"
 #include "words.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +20,12 @@
 namespace culm::openfast {
 
 namespace {
+
+// What is not imported changes what lines hold.
+void leave_out(const Where& where, const std::string& what, MoorDyn& moorings, Report& report) {
+  moorings.left_out.push_back({where, what});
+  report.add(missing, to_string(where) + ": " + what);
+}
 
 // A table below a heading. In version 1 a line with its count comes first.
 TextTable read_section(const InputFile& file, std::initializer_list<const char*> headings,
@@ -85,7 +92,16 @@ std::vector<LineType> read_types(const InputFile& file, Report& report) {
   return types;
 }
 
-std::vector<MooringPoint> read_points(const InputFile& file, Report& report) {
+// MAP++ says "depth" for the bed.
+double read_height(const TextTable& table, std::size_t row, const std::optional<double>& depth) {
+  if (to_lower(table.text(row, {"Z"})) != "depth") return table.number(row, {"Z"});
+  if (depth) return -*depth;
+  throw InputError(table.where(row, {"Z"}),
+                   "is 'depth', but no file beside this one says how deep the water is");
+}
+
+std::vector<MooringPoint> read_points(const InputFile& file, const Surroundings& surroundings,
+                                      MoorDyn& moorings, Report& report) {
   const TextTable table = read_section(
       file, {"POINTS", "POINT PROPERTIES", "CONNECTION PROPERTIES", "NODE PROPERTIES"}, "point");
   index_rows(table, {"ID", "Node", "Point"});
@@ -109,11 +125,13 @@ std::vector<MooringPoint> read_points(const InputFile& file, Report& report) {
                        "unknown '" + word + "'" +
                            did_you_mean(word, {"fixed", "vessel", "coupled", "free", "connect"}));
     }
-    point.place = {table.number(i, {"X"}), table.number(i, {"Y"}), table.number(i, {"Z"})};
+    point.place = {table.number(i, {"X"}), table.number(i, {"Y"}),
+                   read_height(table, i, surroundings.depth)};
     if (point.kind == MooringPoint::Kind::free) {
-      report.add(missing, to_string(table.where(i, {"Attachment"})) + ": point " +
-                              std::to_string(point.id) + " is '" + word +
-                              "'; lines that end there are not in the deck");
+      leave_out(table.where(i, {"Attachment"}),
+                fmt::format("point {} is '{}'; lines that end there are not in the deck", point.id,
+                            word),
+                moorings, report);
     }
     points.push_back(point);
   }
@@ -152,14 +170,54 @@ void read_lines(const InputFile& file, MoorDyn& moorings, Report& report) {
     line.length = positive(table, i, {"UnstrLen"});
     if (ends_on_rod(table.text(i, {"AttachA", "NodeAnch", "NodeA"})) ||
         ends_on_rod(table.text(i, {"AttachB", "NodeFair", "NodeB"}))) {
-      report.add(missing,
-                 to_string(table.where(i, {"AttachA"})) +
-                     fmt::format(": line {} ends on a rod, and is not in the deck", line.id));
+      leave_out(table.where(i, {"AttachA"}),
+                fmt::format("line {} ends on a rod, and is not in the deck", line.id), moorings,
+                report);
       continue;
     }
     line.points = {find_point(moorings, table, i, {"AttachA", "NodeAnch", "NodeA"}),
                    find_point(moorings, table, i, {"AttachB", "NodeFair", "NodeB"})};
     moorings.lines.push_back(line);
+  }
+}
+
+// Its dictionary has a damping that MoorDyn's has not.
+bool is_of_map(const InputFile& file) {
+  const std::vector<std::string> columns = file.columns_below("LINE DICTIONARY");
+  return std::any_of(columns.begin(), columns.end(), [](const std::string& column) {
+    return to_lower(column) == "cintdamp";
+  });
+}
+
+// MAP++ makes the lines again, turned about z.
+void repeat_lines(const InputFile& file, MoorDyn& moorings) {
+  const std::size_t points = moorings.points.size(), lines = moorings.lines.size();
+  int next_point = 0, next_line = 0;
+  for (const MooringPoint& point : moorings.points) next_point = std::max(next_point, point.id);
+  for (const MooringLine& line : moorings.lines) next_line = std::max(next_line, line.id);
+  for (const TextRow& row : file.rows_below("OPTIONS")) {
+    if (to_lower(row.words.front()) != "repeat") continue;
+    for (std::size_t k = 1; k < row.words.size(); ++k) {
+      const auto degrees = find_number(row.words[k]);
+      if (!degrees) {
+        throw InputError(file.where(row.line, "repeat"),
+                         "must be angles in degrees, got '" + row.words[k] + "'");
+      }
+      const Eigen::AngleAxisd turn(*degrees * std::numbers::pi / 180.0, Vec3::UnitZ());
+      const std::size_t first = moorings.points.size();
+      for (std::size_t i = 0; i < points; ++i) {
+        MooringPoint point = moorings.points[i];
+        point.id = ++next_point;
+        point.place = turn * point.place;
+        moorings.points.push_back(point);
+      }
+      for (std::size_t i = 0; i < lines; ++i) {
+        MooringLine line = moorings.lines[i];
+        line.id = ++next_line;
+        for (std::size_t& end : line.points) end += first;
+        moorings.lines.push_back(line);
+      }
+    }
   }
 }
 
@@ -189,28 +247,39 @@ double wet_weight(const MoorDyn& file, const LineType& type) {
 }
 
 MoorDyn read_moordyn(const std::filesystem::path& path, Report& report) {
+  return read_moordyn(path, find_surroundings(path), report);
+}
+
+MoorDyn read_moordyn(const std::filesystem::path& path, const Surroundings& surroundings,
+                     Report& report) {
   const InputFile file(path);
   MoorDyn moorings;
   moorings.path = path;
-  moorings.title = file.title();
-  const Surroundings surroundings = find_surroundings(path);
+  const bool is_map = is_of_map(file);
+  moorings.title = is_map ? "Mooring lines" : file.title();
   moorings.gravity =
       option(file, {"g", "gravity"}, surroundings.gravity, 9.80665, "gravity [m/s^2]", report);
   moorings.density = option(file, {"WtrDnsty", "rhoW", "rho", "WtrDens"}, surroundings.density,
                             1025.0, "density of the water [kg/m^3]", report);
   moorings.types = read_types(file, report);
-  moorings.points = read_points(file, report);
+  moorings.points = read_points(file, surroundings, moorings, report);
   read_lines(file, moorings, report);
+  repeat_lines(file, moorings);
   for (const char* heading : {"BODIES", "BODY LIST", "RODS", "ROD LIST", "CONTROL", "FAILURE"}) {
     const std::size_t count = file.has_heading(heading) ? count_below(file, heading) : 0;
     if (count == 0) continue;
-    report.add(missing, fmt::format("{}: {} lines below {} are not in the deck", path.string(),
-                                    count, heading));
+    leave_out(file.where(0, heading),
+              fmt::format("{} lines below {} are not in the deck", count, heading), moorings,
+              report);
   }
-  check_end(file, report);
+  if (!is_map) {
+    check_end(file, report);
+  } else if (file.rows_below("SOLVER OPTIONS").empty()) {
+    report.add(unknown, path.string() + ": has no options at its end; it may have been cut off");
+  }
   report.add(read,
-             fmt::format("{}: MoorDyn, {} types of lines, {} points, {} lines", path.string(),
-                         moorings.types.size(), moorings.points.size(), moorings.lines.size()));
+             fmt::format("{}: {}, {} types of lines, {} points, {} lines", path.string(),
+                         is_map ? "MAP++" : "MoorDyn", moorings.types.size(), moorings.points.size(), moorings.lines.size()));
   return moorings;
 }
 

@@ -65,14 +65,14 @@ std::vector<std::string> estimate(const ElastoDyn& turbine) {
 
 bool stands_on_more(const ElastoDyn& turbine) {
   const Platform& platform = turbine.platform;
-  if (turbine.substructure) return !platform.modules.empty();
+  if (turbine.substructure || turbine.floater) return !platform.modules.empty();
   return turbine.tower_base - lowest(turbine) > least_height || platform.mass > 0.0 ||
          !free_names(platform).empty() || !platform.modules.empty();
 }
 
 std::vector<std::string> describe_base(const ElastoDyn& turbine) {
   const Platform& platform = turbine.platform;
-  if (turbine.substructure) {
+  if (turbine.substructure || turbine.floater) {
     return {"modules that carry it, not imported: " + join(platform.modules, ", ")};
   }
   std::vector<std::string> lines{

@@ -6,6 +6,7 @@
 
 #include "air_lists.hpp"
 #include "blade_lists.hpp"
+#include "floater.hpp"
 #include "headings.hpp"
 #include "hydrodyn_deck.hpp"
 #include "sea_lists.hpp"
@@ -165,6 +166,7 @@ void write_structures(const ElastoDyn& turbine, const TurbineLayout& layout,
   deck.close();
   deck.close();
   write_platform(turbine, deck);
+  if (turbine.floater) write_ballast(turbine, deck, report);
   write_bodies(turbine, layout, report, deck);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
     write_beam(fmt::format("blade {}", i + 1), sections_of(turbine, i), turbine.blades[i].beam,
@@ -232,6 +234,12 @@ void write_foundation(const ElastoDyn& turbine, Report& report, DeckWriter& deck
     if (has_platform) write_follower("platform", "platform", carrier, deck);
     return;
   }
+  if (turbine.floater) {
+    write_held_freedoms(turbine, deck);
+    write_ballast_support(turbine, deck);
+    write_follower("transition", "tower/first", "platform", deck);
+    return;
+  }
   if (stands_on_more(turbine)) deck.comment(describe_base(turbine));
   deck.open("foundation", "Rigid Support");
   deck.set("Node", has_platform ? "platform" : "tower/first");
@@ -275,8 +283,8 @@ void write_constraints(const ElastoDyn& turbine, const TurbineLayout& layout, Re
   deck.close();
 }
 
-void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report,
-                 DeckWriter& deck) {
+void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout,
+                 const std::filesystem::path& folder, Report& report, DeckWriter& deck) {
   deck.open("Loads");
   deck.open("weight", "Gravity");
   deck.set("Acceleration", Vec3(0.0, 0.0, -turbine.gravity.value_or(standard_gravity)));
@@ -302,6 +310,7 @@ void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout, Report& 
     deck.close();
   }
   if (turbine.air) write_air_loads(turbine, layout, report, deck);
+  if (turbine.floater) write_floater_loads(turbine, folder, deck, report);
   if (turbine.substructure) {
     const Substructure& base = *turbine.substructure;
     write_cables(base.frame, deck, report);
@@ -344,6 +353,8 @@ void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, Report&
   write_history("tower top", "Displacement", "tower/last", deck);
   if (turbine.substructure) {
     write_history(turbine.substructure->frame, deck, report);
+  } else if (turbine.floater) {
+    write_floater_history(turbine, deck);
   } else {
     write_history("tower base", "Reaction",
                   turbine.platform.mass > 0.0 ? "platform" : "tower/first", deck);
@@ -450,6 +461,9 @@ std::vector<std::string> about(const ElastoDyn& turbine) {
   if (turbine.substructure) {
     lines.push_back("It stands on the substructure of " +
                     turbine.substructure->frame.path.filename().string() + ".");
+  } else if (turbine.floater) {
+    lines.push_back("It floats on the platform of " +
+                    turbine.floater->water.path.filename().string() + ".");
   } else if (stands_on_more(turbine)) {
     lines.emplace_back("What is below the tower is not in this deck: see 'foundation'.");
   }
@@ -533,13 +547,13 @@ std::string write_deck(ElastoDyn turbine, const std::filesystem::path& folder, R
   write_sections_list(turbine, report, deck);
   if (turbine.air) {
     write_air(turbine, folder, report, deck);
-  } else if (turbine.substructure && turbine.substructure->water) {
-    write_flows(turbine.substructure->water->sea, deck);
+  } else if (const SeaState* sea = turbine.sea()) {
+    write_flows(*sea, deck);
   }
   write_structures(turbine, layout, tower_damping, report, deck);
   write_masses(turbine, report, deck);
   write_constraints(turbine, layout, report, deck);
-  write_loads(turbine, layout, report, deck);
+  write_loads(turbine, layout, folder, report, deck);
   if (turbine.air) write_initial_velocities(turbine, layout, deck);
   write_analyses(turbine, deck);
   write_output(turbine, layout, report, deck);

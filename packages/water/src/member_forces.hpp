@@ -168,7 +168,7 @@ class SegmentForces {
     // pressure of the undisturbed water
     if (model_.buoyancy) {
       force += mass * (pull + Number(sea_.site().gravity) * up_);
-    } else {
+    } else if (model_.pull) {
       force += mass * across(pull);
     }
     // drag across and friction along, on the wet share of the section

@@ -124,6 +124,11 @@ void check_growth(const Options& options, InputIssues& issues) {
   if (grows) issues.add(options.where(), "'Growth' needs 'Growth Density'");
 }
 
+void check_pull(const Options& options, InputIssues& issues) {
+  if (options.flag("Pull") || !options.flag("Buoyancy")) return;
+  issues.add(options.where("Pull"), "must be true where 'Buoyancy' is true, which is the whole pressure");
+}
+
 Schema morison_schema() {
   Schema schema("Morison",
                 "Waves, current and buoyancy on members with circular sections: the pressure of "
@@ -144,6 +149,10 @@ Schema morison_schema() {
                 "Whether the pressure of the water acts with weight and along the axis, beside its "
                 "pull across.")
                .optional(true))
+      .add(flag("Pull",
+                "Whether waves pull across the axis by their acceleration; false, with 'Buoyancy' "
+                "false, where 'Potential Flow' acts on the body.")
+               .optional(true))
       .add(texts("Dry Ends",
                  "Ends whose face no water touches: in the soil, or inside of another member.")
                .one_of({"first", "last"})
@@ -157,7 +166,8 @@ Schema morison_schema() {
                .optional(0.0))
       .check(check_place)
       .check(check_tables)
-      .check(check_growth);
+      .check(check_growth)
+      .check(check_pull);
 }
 
 // The ends of a straight piece of the axis between two fractions of its length.
@@ -370,7 +380,7 @@ void make(const Options& options, flow::FluidContext& context) {
   std::vector<Segment> segments = segments_of(options, *member);
   if (!is_sound(segments, *sea, options, build)) return;
   const MorisonModel model{options.flag("Buoyancy"), options.number("End Drag"),
-                           options.number("End Added Mass")};
+                           options.number("End Added Mass"), options.flag("Pull")};
   auto load = std::make_unique<MorisonLoad>(model::Effect("Morison", options.name()),
                                             build.model.nodes(), *function, sea, model);
   const std::vector<double>& range = options.numbers("Range");

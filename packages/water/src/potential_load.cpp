@@ -15,17 +15,6 @@ using Complex = std::complex<double>;
 
 constexpr double small_turn = 0.1;  // [rad]; sines and their linear parts differ by 0.2 %
 
-Mat3 cross(const Vec3& a) {
-  Mat3 matrix;
-  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
-  return matrix;
-}
-
-Vec<12> slots_of(const model::Coordinates& q, int node) {
-  const Mat<3, 4> slots = model::NodeTable::slots(q, node);
-  return Eigen::Map<const Vec<12>>(slots.data());
-}
-
 }  // namespace
 
 PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes,
@@ -36,19 +25,16 @@ PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes
       nodes_(nodes),
       amplitude_(std::move(amplitude)),
       sea_(std::move(sea)),
-      node_(node),
+      motion_(nodes, node),
       body_(std::move(body)),
       accepted_(body_.radiation.terms.size(), Eigen::Matrix<Complex, 6, 1>::Zero()),
       trial_(accepted_) {
-  const Mat<3, 4> slots = model::NodeTable::slots(nodes.reference(), node);
-  map_.block<3, 3>(0, 0) = Mat3::Identity();
-  for (int i = 1; i < 4; ++i) map_.block<3, 3>(3, 3 * i) = 0.5 * cross(slots.col(i));
-  reference_ = map_ * Eigen::Map<const Vec<12>>(slots.data());
+  const Vec3 place = model::NodeTable::slots(nodes.reference(), node).col(0);
   for (const Wave& wave : sea_->waves()) {
     const double heading = std::atan2(wave.direction.y(), wave.direction.x());
     const auto forces = excitation_of(body_.flow, wave.frequency, heading);
     // the wave at the node: cos(omega t - lag)
-    const double lag = wave.phase + wave.number * wave.direction.dot(Vec3(slots.col(0)));
+    const double lag = wave.phase + wave.number * wave.direction.dot(place);
     WaveForce one;
     one.frequency = wave.frequency;
     for (int i = 0; i < 6; ++i) {
@@ -59,15 +45,7 @@ PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes
 }
 
 std::vector<int> PotentialLoad::blocks(int, const model::UnknownTable& unknowns) const {
-  return blocks_of({node_}, unknowns);
-}
-
-Vec6 PotentialLoad::motion_of(const model::Coordinates& q) const {
-  return map_ * slots_of(q, node_) - reference_;
-}
-
-Vec6 PotentialLoad::rates_of(const model::Coordinates& q) const {
-  return map_ * slots_of(q, node_);
+  return blocks_of({motion_.node()}, unknowns);
 }
 
 Vec6 PotentialLoad::waves(double time) const {
@@ -88,13 +66,14 @@ PotentialLoad::Evaluation PotentialLoad::evaluate(const model::State& state, con
     return result;
   }
   const bool moves = stencil.step > 0.0 && stencil.inertia > 0.0;
-  const Vec6 prev = motion_of(state.prev), next = motion_of(state.next);
+  const Vec6 prev = motion_.motion(state.prev), next = motion_.motion(state.next);
   const double theta = stencil.theta;
   result.force = body_.rest - body_.flow.hydrostatics * ((1.0 - theta) * prev + theta * next) +
                  waves(moves ? load::time_of(state, stencil) : 0.0);
   result.derivative = -theta * body_.flow.hydrostatics;
   if (moves) {
-    const Vec6 acceleration = stencil.inertia * (next - prev) + rates_of(state.acceleration_offset);
+    const Vec6 acceleration =
+        stencil.inertia * (next - prev) + motion_.rates(state.acceleration_offset);
     result.force -= body_.flow.infinite_mass * acceleration;
     result.derivative -= stencil.inertia * body_.flow.infinite_mass;
     const double h = stencil.step;
@@ -114,12 +93,6 @@ PotentialLoad::Evaluation PotentialLoad::evaluate(const model::State& state, con
   return result;
 }
 
-// F on the place, half of M x D_i on director i: their work is F . Du + M . Dtheta
-Mat<3, 4> PotentialLoad::slot_forces(const Vec6& force) const {
-  const Vec<12> flat = map_.transpose() * force;
-  return Eigen::Map<const Mat<3, 4>>(flat.data());
-}
-
 Verdict PotentialLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
                                 model::Target& target) {
   return assemble_items([&](auto space, std::size_t i) {
@@ -133,8 +106,8 @@ Verdict PotentialLoad::assemble_item(std::size_t i, const model::State& state,
   const bool mass = want == Want::mass;
   const double theta = mass ? 1.0 : stencil.theta;
   const Evaluation found = evaluate(state, stencil, want, trial_);
-  const Motion motion(nodes_, {node_}, state, theta);
-  Motion::Slots r = -slot_forces(found.force);
+  const Motion motion(nodes_, {motion_.node()}, state, theta);
+  Motion::Slots r = -motion_.slot_forces(found.force);
   if (mass) {
     r.setZero();
   } else {
@@ -146,7 +119,7 @@ Verdict PotentialLoad::assemble_item(std::size_t i, const model::State& state,
     if (verdict != Verdict::ok) return verdict;
   }
   if (want == Want::residual) return Verdict::ok;
-  const Mat<12, 12> K = -map_.transpose() * found.derivative * map_;
+  const Mat<12, 12> K = -motion_.slot_derivative(found.derivative);
   load::add_dense_derivative<Space>(
       placement(), i, r, motion, theta, [&K](int, int) { return K; }, target);
   return Verdict::ok;
@@ -155,7 +128,7 @@ Verdict PotentialLoad::assemble_item(std::size_t i, const model::State& state,
 void PotentialLoad::accept(model::State& state) {
   accepted_ = trial_;
   accepted_force_ = trial_force_;
-  largest_turn_ = std::max(largest_turn_, motion_of(state.next).tail<3>().norm());
+  largest_turn_ = std::max(largest_turn_, motion_.motion(state.next).tail<3>().norm());
   has_stepped_ = true;
 }
 
@@ -216,8 +189,8 @@ model::StepWork PotentialLoad::step_work(const model::State& state, const Stenci
   if (placement().items.empty() || !placement().owned[0]) return work;
   States trial = accepted_;
   const Vec6 force = evaluate(state, stencil, Want::residual, trial).force;
-  const Motion motion(nodes_, {node_}, state, stencil.theta);
-  load::add_item_work(slot_forces(force), motion, {node_}, state, true, work);
+  const Motion motion(nodes_, {motion_.node()}, state, stencil.theta);
+  load::add_item_work(motion_.slot_forces(force), motion, {motion_.node()}, state, true, work);
   return work;
 }
 

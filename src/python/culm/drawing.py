@@ -5,6 +5,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as pyplot  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 import numpy  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
@@ -53,12 +54,57 @@ def _draw(axes, mesh, position, colour, alpha):
         axes.scatter(*numpy.array(points).T, color=colour, s=14)
 
 
+def coloured(meshes, state, pictures):
+    """A state several times, its elements in the colours of numbers.
+
+    @param state     positions by structure
+    @param pictures  of stresses.of_state()"""
+    columns = min(2, len(pictures))
+    rows = (len(pictures) + columns - 1) // columns
+    figure = pyplot.figure(figsize=(4.8 * columns, 3.4 * rows))
+    figure.subplots_adjust(left=0.0, right=0.94, bottom=0.02, top=0.94, wspace=0.12, hspace=0.12)
+    everything = numpy.vstack([state.get(name, mesh.position) for name, mesh in meshes.items()])
+    for number, picture in enumerate(pictures):
+        axes = figure.add_subplot(rows, columns, number + 1, projection="3d", proj_type="ortho")
+        numbers = numpy.concatenate([values for values in picture.values.values()])
+        low, high = float(numbers.min()), float(numbers.max())
+        signed = low < 0.0 < high
+        if signed:
+            low, high = -max(-low, high), max(-low, high)
+        colours = matplotlib.cm.ScalarMappable(
+            matplotlib.colors.Normalize(low, high if high > low else low + 1e-30), "coolwarm" if signed else "viridis"
+        )
+        for name, mesh in meshes.items():
+            position = state.get(name, mesh.position)
+            if name in picture.values:
+                _colour(axes, mesh, position, colours.to_rgba(picture.values[name]))
+            else:
+                _draw(axes, mesh, position, REFERENCE, 0.15)
+        _frame(axes, everything)
+        axes.set_axis_off()  # as in the picture of the model
+        axes.set_title(f"{picture.title} [{picture.unit}]", fontsize=9)
+        figure.colorbar(colours, ax=axes, shrink=0.7, pad=0.06)
+    return figure
+
+
+def _colour(axes, mesh, position, colours):
+    cells = [position[list(cell)] for cell in mesh.cells]
+    if mesh.is_surface:
+        axes.add_collection3d(Poly3DCollection(cells, facecolor=colours, edgecolor=colours, lw=0.3))
+    else:
+        axes.add_collection3d(Line3DCollection(cells, colors=colours, lw=3.0))
+
+
 def _frame(axes, points):
+    """A box of the model's own shape, but flat in no direction, with one scale for all."""
     low, high = points.min(axis=0), points.max(axis=0)
-    centre, half = (low + high) / 2, max(float((high - low).max()) / 2, 1e-9) * 1.05
+    largest = max(float((high - low).max()), 1e-9)
+    centre, half = (low + high) / 2, numpy.maximum((high - low) / 2, 0.2 * largest) * 1.05
     for i, limits in enumerate((axes.set_xlim, axes.set_ylim, axes.set_zlim)):
-        limits(centre[i] - half, centre[i] + half)
-    axes.set_box_aspect((1, 1, 1))
+        limits(centre[i] - half[i], centre[i] + half[i])
+    axes.set_box_aspect(half / half.max())
+    for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), half / half.max()):
+        axis.set_major_locator(matplotlib.ticker.MaxNLocator(3 if share < 0.5 else 6))
     axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
 
 

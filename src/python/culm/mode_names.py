@@ -1,15 +1,40 @@
-"""What moves in a mode, in a few words: the structure, and along which of its axes it bends, or that it twists."""
+"""What moves in a mode, in a few words: the structure, and along which of its axes it bends, or that it twists. Where
+structures are called blades and tower, also the words that engineers of wind turbines have for that."""
+
+import dataclasses
 
 import numpy
 
+ALONG = 0.7  # cosine from which two directions are one
+
+
+@dataclasses.dataclass
+class Motion:
+    """@param axis       d1, x, …, or torsion
+    @param share      of the squares
+    @param direction  of the axis in space at the last node; None for torsion"""
+
+    axis: str
+    share: float
+    direction: object = None
+
+    def __str__(self):
+        return f"{self.axis}, {100.0 * self.share:.0f} %" if self.axis == "torsion" else f"along {self.axis}, {100.0 * self.share:.0f} %"
+
 
 def describe(mesh, shape):
+    """The motion of a structure in a mode in words; empty if it does not move."""
+    motion = motion_of(mesh, shape)
+    return "" if motion is None else str(motion)
+
+
+def motion_of(mesh, shape):
     """The motion of a structure in a mode, without that of its first node.
 
     @param mesh   in the reference
     @param shape  (nodes, 6), displacement and rotation; complex for complex modes
-    @return such as 'along d1, 93 %', of a body 'along x, 98 %', of a beam that twists more than it bends
-        'torsion, 97 %', the share of the squared rotations; empty if it does not move
+    @return such as along d1, of a body along x, of a beam that twists more than it bends torsion, with the share of
+        the squared rotations; None if it does not move
     """
     displacement = shape[:, :3]
     axes, names = numpy.eye(3), "xyz"
@@ -20,14 +45,15 @@ def describe(mesh, shape):
             axes, names = mesh.directors, ("d1", "d2", "d3")
             twist = _share_of_twist(mesh, shape, displacement)
             if twist > 0.5:
-                return f"torsion, {100.0 * twist:.0f} %"
+                return Motion("torsion", twist)
     along = numpy.einsum("...i,...ij->...j", displacement, axes)
     shares = numpy.sum(numpy.abs(along) ** 2, axis=0)
     total = shares.sum()
     if total <= 1e-12 * numpy.sum(numpy.abs(shape[:, :3]) ** 2) or total == 0.0:
-        return ""
+        return None
     largest = int(numpy.argmax(shares))
-    return f"along {names[largest]}, {100.0 * shares[largest] / total:.0f} %"
+    direction = axes[largest] if axes.ndim == 2 else axes[-1, :, largest]
+    return Motion(names[largest], shares[largest] / total, direction)
 
 
 def _share_of_twist(mesh, shape, displacement):
@@ -47,14 +73,33 @@ def name_modes(meshes, shapes, remarks):
     """A name for each mode: the structure with the largest share of the kinetic energy, and how it moves.
 
     @param meshes   by structure
-    @param shapes   (modes, nodes, 6) by structure
+    @param shapes   (modes, nodes, 6) by structure, by rising frequency
     @param remarks  by mode the shares of structures, as 'blade 1 55 %, tower 12 %'
     """
-    names = []
+    found = []
     for mode, remark in enumerate(remarks):
         structure = remark.split(", ")[0].rsplit(" ", 2)[0]
-        if structure not in shapes or structure not in meshes:
-            names.append("")
-            continue
-        names.append(f"{structure} {describe(meshes[structure], shapes[structure][mode])}".strip())
-    return names
+        known = structure in shapes and structure in meshes
+        found.append((structure if known else "", motion_of(meshes[structure], shapes[structure][mode]) if known else None))
+    flap, downwind = _flap(found, meshes)
+    return [_name(structure, motion, flap, downwind) for structure, motion in found]
+
+
+def _flap(found, meshes):
+    """The axis along which blades flap, which is that of the first mode in which one bends, and its direction in space at
+    the root; None without one."""
+    for structure, motion in found:
+        if structure.lower().startswith("blade") and motion is not None and motion.axis in ("d1", "d2"):
+            return motion.axis, meshes[structure].directors[0, :, int(motion.axis[1]) - 1]
+    return None, None
+
+
+def _name(structure, motion, flap, downwind):
+    if motion is None:
+        return structure
+    word = ""
+    if structure.lower().startswith("blade") and motion.axis in ("d1", "d2") and flap is not None:
+        word = "flap, " if motion.axis == flap else "edge, "
+    elif structure.lower().startswith("tower") and downwind is not None and motion.axis != "d3" and motion.direction is not None:
+        word = "fore-aft, " if abs(motion.direction @ downwind) > ALONG else "side to side, "
+    return f"{structure} {word}{motion}"

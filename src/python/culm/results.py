@@ -146,6 +146,24 @@ class Results:
                 _text(group.attrs["name"]): read_field(last, group, "position") for group in file["mesh"].values()
             }
 
+    def cell_fields(self):
+        """Of the last recorded state: by structure whether it is a surface, and of each field of its cells the columns
+        and the values (cells, columns)."""
+        fields = {}
+        with h5py.File(self.path) as file:
+            last = file["steps"][max(file["steps"])]
+            for group in file["mesh"].values():
+                tables = {}
+                columns = {"resultants": [_text(name) for name in group.attrs["resultant_names"]]}
+                names, texts = group.attrs["cell_array_names"], group.attrs["cell_array_columns"]
+                columns |= {_text(name): _text(text).split() for name, text in zip(names, texts)}
+                for name, one in columns.items():
+                    values = read_field(last, group, name) if one else None
+                    if values is not None and len(values):
+                        tables[name] = (one, values.reshape(len(values), -1))
+                fields[_text(group.attrs["name"])] = (_text(group.attrs["type"]) == "Shell", tables)
+        return fields
+
     def analyses(self):
         """Names and types of the analyses of the deck."""
         lists = ElementTree.fromstring(self.deck()).findall("ParameterList[@name='Analyses']/ParameterList")

@@ -3,6 +3,7 @@
 
 #include <culm/math/types.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -49,5 +50,8 @@ class DeckWriter {
   int depth_ = 1;
   std::string text_;
 };
+
+/// The name of a file as a deck in a folder gives it.
+std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 }  // namespace culm::openfast

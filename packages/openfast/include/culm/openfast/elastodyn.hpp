@@ -5,6 +5,7 @@
 #include <culm/openfast/beamdyn.hpp>
 #include <culm/openfast/hydrodyn.hpp>
 #include <culm/openfast/inflow.hpp>
+#include <culm/openfast/moordyn.hpp>
 #include <culm/openfast/subdyn.hpp>
 
 #include <optional>
@@ -67,6 +68,12 @@ struct Substructure {
   std::optional<HydroDyn> water;
 };
 
+/// A platform that floats.
+struct Floater {
+  HydroDyn water;
+  std::optional<MoorDyn> moorings;
+};
+
 /// The tower.
 struct ElastoDynTower {
   std::filesystem::path path;
@@ -120,7 +127,13 @@ struct ElastoDyn {
   ElastoDynTower tower;
   std::optional<Air> air;
   std::optional<Substructure> substructure;
+  std::optional<Floater> floater;
 
+  /// The sea about what carries the tower; null without one.
+  const SeaState* sea() const {
+    if (floater) return &floater->water.sea;
+    return substructure && substructure->water ? &substructure->water->sea : nullptr;
+  }
   /// Whether the nacelle turns against a spring; without one it would turn without end.
   bool yaws() const { return yaw_is_free && yaw_drive && yaw_drive->stiffness > 0.0; }
   /// Angle about z at which the nacelle stands [rad].

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,29 @@ struct HydroGrowth {
   double density = 0.0;    ///< [kg/m^3]
 };
 
+/// What fills a member from below.
+struct HydroFilling {
+  std::size_t member = 0;  ///< place in the list of members
+  double level = 0.0;      ///< of its surface, from mean sea level [m]
+  double density = 0.0;    ///< [kg/m^3]
+};
+
+/// A body by linear potential flow.
+struct HydroPotential {
+  std::filesystem::path root;  ///< of the files of WAMIT, without .1, .3, .hst
+  double length = 1.0;         ///< WAMITULEN [m]
+  double volume = 0.0;         ///< displaced [m^3]
+  double centre_x = 0.0, centre_y = 0.0;  ///< of the volume [m]
+  bool radiates = true;                   ///< whether its waves are remembered
+};
+
+/// What the file adds to the forces on the platform, in space about its reference point.
+struct HydroAdded {
+  std::vector<double> preload;  ///< 6 values [N, N m]
+  Mat6 stiffness = Mat6::Zero(), damping = Mat6::Zero(), quadratic = Mat6::Zero();
+  bool is_zero = true;
+};
+
 /// The file.
 struct HydroDyn {
   std::filesystem::path path;
@@ -64,6 +88,9 @@ struct HydroDyn {
   HydroPair simple;
   std::vector<HydroDepth> by_depth;  ///< sorted
   std::vector<HydroGrowth> growth;   ///< sorted by height
+  std::vector<HydroFilling> fillings;
+  std::optional<HydroPotential> potential;
+  HydroAdded added;
 };
 
 /// Reads the file and SeaState's, which the file of the whole turbine names, or the only one beside

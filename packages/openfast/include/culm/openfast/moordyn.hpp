@@ -1,4 +1,4 @@
-/// MoorDyn's input file, of version 1 and 2: mooring lines.
+/// Mooring lines: MoorDyn's input file, of version 1 and 2, and that of MAP++, which looks like version 1.
 #pragma once
 
 #include <culm/math/types.hpp>
@@ -44,6 +44,7 @@ struct MoorDyn {
   std::vector<LineType> types;
   std::vector<MooringPoint> points;
   std::vector<MooringLine> lines;
+  std::vector<InputIssue> left_out;  ///< what carries lines and is not imported, with its place
 };
 
 /// Weight of a line less its buoyancy [N/m].
@@ -51,5 +52,8 @@ double wet_weight(const MoorDyn& file, const LineType& type);
 
 /// Throws InputError, FileError; tells the report what it found and what is not in the deck.
 MoorDyn read_moordyn(const std::filesystem::path& path, Report& report);
+/// @param surroundings  what the file of the whole turbine says
+MoorDyn read_moordyn(const std::filesystem::path& path, const Surroundings& surroundings,
+                     Report& report);
 
 }  // namespace culm::openfast

@@ -39,6 +39,7 @@ struct MorisonModel {
   bool buoyancy = true;         ///< whether the pressure of the water acts on them
   double end_drag = 0.0;        ///< coefficient of the drag of wet faces [-]
   double end_added_mass = 0.0;  ///< water that moves with them, over that in a half sphere [-]
+  bool pull = true;  ///< without `buoyancy`: whether waves pull across, by their acceleration
 };
 
 }  // namespace culm::water

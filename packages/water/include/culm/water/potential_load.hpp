@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/flow/fluid_force.hpp>
+#include <culm/load/small_motion.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/method_limits.hpp>
@@ -61,12 +62,9 @@ class PotentialLoad final : public model::MemorylessBatch,
     Mat6 derivative = Mat6::Zero();  // by the motion at the end of the step
   };
 
-  Vec6 motion_of(const model::Coordinates& q) const;
-  Vec6 rates_of(const model::Coordinates& q) const;
   Vec6 waves(double time) const;
   Evaluation evaluate(const model::State& state, const Stencil& stencil, Want want,
                       States& trial) const;
-  Mat<3, 4> slot_forces(const Vec6& force) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
                         model::Target& target);
@@ -79,10 +77,8 @@ class PotentialLoad final : public model::MemorylessBatch,
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
   std::shared_ptr<const Sea> sea_;
-  int node_;
+  load::SmallMotion motion_;
   FloatingBody body_;
-  Mat<6, 12> map_ = Mat<6, 12>::Zero();  // of slots to motions
-  Vec6 reference_ = Vec6::Zero();        // of the map
   std::vector<WaveForce> waves_;
   States accepted_, trial_;
   Resultant accepted_force_, trial_force_;
