@@ -26,8 +26,18 @@ struct Tower {
 
 class WindAroundTower final : public Flow {
  public:
-  WindAroundTower(SharedFlow wind, const Tower& tower, const TowerInfluence& influence)
-      : Flow(wind->density()), wind_(std::move(wind)), tower_(tower), influence_(influence) {}
+  WindAroundTower(SharedFlow wind, std::string structure, const Tower& tower,
+                  const TowerInfluence& influence)
+      : Flow(wind->density()),
+        wind_(std::move(wind)),
+        structure_(std::move(structure)),
+        tower_(tower),
+        influence_(influence) {}
+
+  // The loads of the tower itself are those of coefficients in the wind that comes.
+  SharedFlow undisturbed_by(const std::string& structure) const override {
+    return structure == structure_ ? wind_ : nullptr;
+  }
 
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override {
@@ -68,6 +78,7 @@ class WindAroundTower final : public Flow {
   }
 
   SharedFlow wind_;
+  std::string structure_;
   Tower tower_;
   TowerInfluence influence_;
 };
@@ -126,7 +137,8 @@ SharedFlow put_around(const Options& options, model::BuildContext& context, Shar
   const std::vector<double>& diameters = options.numbers("Diameters");
   tower.radius_at_foot = 0.5 * diameters[0];
   tower.radius_at_top = 0.5 * diameters[1];
-  return std::make_shared<WindAroundTower>(std::move(wind), tower, read_influence(options));
+  return std::make_shared<WindAroundTower>(std::move(wind), structure->name, tower,
+                                           read_influence(options));
 }
 
 }  // namespace

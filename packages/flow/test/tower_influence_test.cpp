@@ -101,6 +101,11 @@ TEST_F(WindsWithTowers, FeelItByItsRadiusAtTheirHeight) {
   for (const Vec3& place : {Vec3(9.0, -7.5, 40.0), Vec3(6.0, 10.0, 40.0), Vec3(9.0, 1.0, 82.0)}) {
     expect_gradient(*shaded, place, 0.0, directions);
   }
+  // the tower itself stands in the wind that comes
+  EXPECT_EQ(shaded->undisturbed_by("tower")->velocity(Vec3(5.0, 0.0, 40.0), 0.0),
+            free->velocity(Vec3::Zero(), 0.0));
+  EXPECT_EQ(shaded->undisturbed_by("mast"), nullptr);
+  EXPECT_EQ(free->undisturbed_by("tower"), nullptr);
   // Powles, four radii behind
   EXPECT_NEAR(change(Vec3(5.0, 10.0, 40.0))[1], -10.0 / 16.0 - 10.0 / 2.0, 1e-12);
 }

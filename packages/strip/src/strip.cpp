@@ -253,7 +253,10 @@ void refuse_second_load(const Options& options, const StripLoad& load, StripCont
 
 void make(const Options& options, StripContext& context) {
   model::BuildContext& build = context.fluids.build;
-  const flow::SharedFlow flow = flow::find_flow(options, context.fluids);
+  flow::SharedFlow flow = flow::find_flow(options, context.fluids);
+  if (flow && options.has("Structure")) {
+    if (auto bare = flow->undisturbed_by(options.text("Structure"))) flow = std::move(bare);
+  }
   const auto function = model::find_function(options, build);
   const std::vector<SharedAirfoil> airfoils = find_airfoils(options, context);
   const std::vector<Place> places = places_of(options, build);

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 namespace culm::flow {
 
@@ -24,6 +25,11 @@ class Flow {
   /// Derivative of the velocity by the place [1/s]; of one side where it has a kink. It only serves
   /// the tangent: zero of a flow that does not know it.
   virtual Mat3 gradient(const Vec3& /*place*/, double /*time*/) const { return Mat3::Zero(); }
+  /// What a structure that changes the flow about itself stands in: the flow without that change.
+  /// Null where this flow is not changed by a structure of this name.
+  virtual std::shared_ptr<const Flow> undisturbed_by(const std::string& /*structure*/) const {
+    return nullptr;
+  }
   /// The velocity at one place.
   Vec3 velocity(const Vec3& place, double time) const {
     Vec3 result;
