@@ -191,6 +191,28 @@ def check_models(check, folder):
     check.expect(done.returncode == 3 and not page.exists(), f"a wrong deck: exit {done.returncode}")
 
 
+def check_links(check, folder):
+    """Springs and mooring lines of models that are not solved: their ends are the points that their decks name."""
+    page = folder / "links.html"
+    for deck, type, name, expected in (
+        # anchor and fairlead of the spar of OC3
+        ("offshore/moored_spar.xml", "Catenary", "line 1", [[853.87, 0, -320], [5.2, 0, -70]]),
+        # points beside the nodes of two bodies
+        ("joint/free_springs.xml", "Spring", "gap", None),
+    ):
+        done = check.program.call("check", INPUTS / deck, "--quiet", "--view", page)
+        check.expect(done.returncode == 0, f"{deck}: {done.stderr}")
+        scene = data_of(page)["run"]
+        found = {(one["type"], one["name"]): unpacked(one["ends"]) for one in scene["links"]}
+        check.expect((type, name) in found, f"{deck} shows {sorted(found)}")
+        if expected is None:
+            places = {one["name"]: (unpacked(one["reference"])[0], unpacked(one["referenceTriads"])[0]) for one in scene["structures"]}
+            offsets = {"a": [0.3, 0.1, 0.0], "b": [-0.2, 0.1, 0.1]}
+            expected = [places[body][0] + places[body][1] @ offsets[body] for body in "ab"]
+        check.expect(numpy.allclose(found[(type, name)], [expected], rtol=1e-5, atol=1e-5), f"{deck}: {found[(type, name)]}, {expected}")
+        page.unlink()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True)
@@ -203,6 +225,7 @@ def main():
         check_runs_that_lack_something(check, folder, run)
         check_what_is_refused(check, folder, run)
         check_models(check, folder)
+        check_links(check, folder)
     for complaint in check.complaints:
         print(f"FAILED: {complaint}")
     sys.exit(1 if check.complaints else 0)

@@ -37,6 +37,24 @@ Vec3 reference_of(const NodeTable& nodes, const LinkPoint& point) {
   return q.col(0) + q.rightCols<3>() * point.offset;
 }
 
+std::array<Vec3, 2> reference_ends(const NodeTable& nodes, const Link& link, double scale) {
+  const model::Coordinates& q = nodes.reference();
+  if (link.measure == Measure::angle) {
+    return {Vec3(NodeTable::slots(q, link.nodes.front()).col(0)),
+            Vec3(NodeTable::slots(q, link.nodes.back()).col(0))};
+  }
+  // p_2 - p_1, where p_1 is in the slots of a first node or a place in space
+  const LinkForm& form = link.forms.front();
+  std::array<Vec3, 2> ends = {-form.p, Vec3::Zero()};
+  for (std::size_t s = 0; s < form.alpha.size(); ++s) {
+    const Vec3 slot = NodeTable::slots(q, link.nodes[s / 4]).col(static_cast<int>(s % 4));
+    const bool is_last = s / 4 + 1 == link.nodes.size();
+    if (is_last) ends[1] += form.alpha[s] * slot;
+    if (!is_last) ends[0] -= form.alpha[s] * slot;
+  }
+  return {scale * ends[0], scale * ends[1]};
+}
+
 Link distance_link(const NodeTable& nodes, const LinkPoint& first, const LinkPoint& second) {
   Link link = link_between(first.node, second.node, Measure::distance);
   const SlotSum d = gap(first, second);

@@ -1,9 +1,14 @@
 #include "model_picture.hpp"
 
+#include <culm/load/catenary_load.hpp>
+#include <culm/load/link_load.hpp>
+
 #include "load_watch.hpp"
 #include "on_root.hpp"
 #include "pictures.hpp"
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace culm::simulation {
@@ -48,6 +53,32 @@ void add_load(const model::Model& model, const model::Batch& load, const std::ve
   }
 }
 
+void append(std::vector<double>& values, const std::array<Vec3, 2>& ends) {
+  for (const Vec3& end : ends) values.insert(values.end(), end.begin(), end.end());
+}
+
+// Springs, dampers, drives and mooring lines: both ends of each.
+std::vector<output::NamedArray> links_of(const model::Model& model) {
+  std::vector<output::NamedArray> arrays;
+  for (const auto& load : model.loads()) {
+    std::vector<double> values;
+    if (const auto* links = dynamic_cast<const load::LinkLoad*>(load.get())) {
+      for (int i = 0; i < links->size(); ++i) {
+        append(values, load::reference_ends(model.nodes(), links->link(i)));
+      }
+    } else if (const auto* lines = dynamic_cast<const load::CatenaryLoad*>(load.get())) {
+      for (int i = 0; i < lines->size(); ++i) {
+        const double length = lines->line(i).length;
+        append(values, load::reference_ends(model.nodes(), lines->link(i), length));
+      }
+    }
+    if (values.empty()) continue;
+    const model::Effect& effect = load->effect();
+    arrays.push_back({"link: " + effect.type + ": " + effect.name, 6, std::move(values)});
+  }
+  return arrays;
+}
+
 }  // namespace
 
 void draw_model(const assembly::System& system, const output::RunInfo& info, double end,
@@ -62,7 +93,9 @@ void draw_model(const assembly::System& system, const output::RunInfo& info, dou
   }
   on_root(system.comm(), [&] {
     output::Recorder recorder(path, info, meshes, {});
-    recorder.record(picture_of(model, {}, state.next));
+    output::Picture picture = picture_of(model, {}, state.next);
+    picture.arrays = links_of(model);
+    recorder.record(picture);
     recorder.close();
   });
 }

@@ -14,7 +14,7 @@ LIBRARY = (THREE / "build/three.min.js", THREE / "examples/js/controls/OrbitCont
 
 # In this order: each uses what stands above it.
 MODULES = (
-    "data", "structure", "body_shapes", "surface", "drawn_structure", "markers", "loads", "colours", "fields", "model",
+    "data", "structure", "body_shapes", "surface", "drawn_structure", "markers", "loads", "links", "colours", "fields", "model",
     "camera", "axes", "plot", "picking", "inspector", "timeline", "controls", "address", "main",
 )  # fmt: skip
 

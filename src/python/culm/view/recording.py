@@ -2,6 +2,7 @@
 
 import dataclasses
 import pathlib
+import urllib.parse
 
 import h5py
 import numpy
@@ -157,6 +158,16 @@ class Recording:
     def values(self, state, structure, name):
         """A field of a structure, with the number of a state in the order of `times`."""
         return read_field(self._steps[state], self._file["mesh"][structure.link], name)
+
+    def links(self):
+        """Springs, dampers, drives and mooring lines of a model that is shown before it is solved: type, name, and both
+        ends of each, (links, 2, 3)."""
+        found = []
+        for link, data in self._steps[0].get("%arrays", {}).items() if self._steps else ():
+            words = urllib.parse.unquote(link).split(": ", 2)
+            if words[0] == "link":
+                found.append((words[1], words[2], data[()].reshape(-1, 2, 3)))
+        return found
 
     def shapes(self):
         """By the order of the names of analyses."""

@@ -39,6 +39,7 @@ def scene_of(run, most_states, up=None, with_fields=True):
         "indices": [indices[state] for state in states] or [0],
         "up": _up(run.deck, up),
         "structures": [_structure(run, one, part, states, with_fields, pack) for one, part in shown],
+        "links": [{"type": type, "name": name, "ends": packing.floats(ends)} for type, name, ends in run.links()],
         "analyses": [_shapes(one, shown, indices, states) for one in run.shapes()],
     }
 

@@ -31,6 +31,8 @@ class CatenaryLoad final : public model::MemorylessBatch, public model::Booked {
   double stored_energy(const model::Coordinates& q) const override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
   const CatenaryLine& line(int item) const { return items_[static_cast<std::size_t>(item)].line; }
+  /// The forms, of the place over the length of the line.
+  const Link& link(int item) const { return items_[static_cast<std::size_t>(item)].forms; }
   /// The line of an item with the fairlead where it is at q.
   CatenaryEnds ends(int item, const model::Coordinates& q) const;
 

@@ -4,6 +4,7 @@
 #include <culm/joint/marker_pair.hpp>
 #include <culm/model/constraint.hpp>
 
+#include <array>
 #include <vector>
 
 namespace culm::load {
@@ -37,6 +38,11 @@ struct LinkPoint {
   int node = -1;
   Vec3 offset = Vec3::Zero();  ///< in its directors [m]
 };
+
+/// Where a link begins and ends in the reference; the same place twice of one that acts at a node.
+/// @param scale  by which its forms were divided
+std::array<Vec3, 2> reference_ends(const model::NodeTable& nodes, const Link& link,
+                                   double scale = 1.0);
 
 /// Where a point is in the reference.
 Vec3 reference_of(const model::NodeTable& nodes, const LinkPoint& point);

@@ -66,7 +66,8 @@ class Viewer {
     this.directors = this.model.structures.map((one) => new Directors(one, 2 * symbol));
     this.marks = this.model.structures.map((one) => new Marks(one, 0.8 * symbol, upward));
     this.loads = new Loads(this.model.structures, 7 * symbol);
-    for (const one of [...this.drawn, ...this.ghosts, ...this.marks, this.loads]) this.scene.add(one.group);
+    this.links = new Links(this.model.links, symbol, upward);
+    for (const one of [...this.drawn, ...this.ghosts, ...this.marks, this.loads, this.links]) this.scene.add(one.group);
     for (const one of this.directors) this.scene.add(one.lines);
     this.pickMark = new PickMark(this.scene, symbol);
     this.axes = new Axes();
@@ -84,6 +85,7 @@ class Viewer {
     if (isBare) addNote("Beams without an outline are drawn as thin rods.", "plain");
     listHeld(this.model.structures);
     listLoads(this.model.structures);
+    listLinks(this.model.links);
   }
 
   listen() {
@@ -197,6 +199,7 @@ class Viewer {
       one.move();
     });
     this.loads.group.visible = view.loads;
+    this.links.group.visible = view.loads;
     this.movePick(view.pick);
     this.showBar(low, high);
     this.controls.show(view);

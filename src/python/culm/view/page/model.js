@@ -7,6 +7,7 @@ class Model {
     this.indices = data.indices;
     this.level = data.level;
     this.structures = data.structures.map((one) => new Structure(one));
+    this.links = (data.links || []).map((one) => ({ ...one, ends: unpack(one.ends).values }));
     this.analyses = data.analyses.map((one) => new Analysis(one));
     this.state = 0;
     this.size = this.boxOfReference().getSize(new THREE.Vector3()).length() || 1;
@@ -18,7 +19,7 @@ class Model {
   }
 
   get hasLoads() {
-    return this.structures.some((one) => one.loaded.length > 0);
+    return this.links.length > 0 || this.structures.some((one) => one.loaded.length > 0);
   }
 
   get cellCount() {
