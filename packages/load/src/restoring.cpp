@@ -21,7 +21,7 @@ constexpr double small_turn = 0.1;  // [rad]; sines and angles differ by 0.2 %
 }  // namespace
 
 std::vector<int> RestoringLoad::blocks(int item, const model::UnknownTable& unknowns) const {
-  return blocks_of({items_[static_cast<std::size_t>(item)].node()}, unknowns);
+  return blocks_of(items_[static_cast<std::size_t>(item)].nodes(), unknowns);
 }
 
 RestoringLoad::Evaluation RestoringLoad::evaluate(const SmallMotion& motion,
@@ -57,7 +57,7 @@ Verdict RestoringLoad::assemble_item(std::size_t i, const model::State& state,
                                      model::Target& target) const {
   const SmallMotion& small = local(i);
   const Evaluation found = evaluate(small, state, stencil);
-  const Motion motion(nodes_, {small.node()}, state, stencil.theta);
+  const Motion motion(nodes_, small.nodes(), state, stencil.theta);
   const Motion::Slots r = -small.slot_forces(found.force);
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (verdict != Verdict::ok || want == Want::residual) return verdict;
@@ -91,8 +91,8 @@ model::StepWork RestoringLoad::step_work(const model::State& state, const Stenci
     if (!placement().owned[i]) continue;
     const SmallMotion& small = local(i);
     const Evaluation found = evaluate(small, state, stencil);
-    const Motion motion(nodes_, {small.node()}, state, stencil.theta);
-    add_item_work(small.slot_forces(found.force), motion, {small.node()}, state, false, work);
+    const Motion motion(nodes_, small.nodes(), state, stencil.theta);
+    add_item_work(small.slot_forces(found.force), motion, small.nodes(), state, false, work);
     work.damping -= found.damping.dot(small.motion(state.next) - small.motion(state.prev));
   }
   return work;

@@ -149,9 +149,9 @@ TEST_F(Loads, TheTypes) {
                   "Field Force", "Follower Force", "Follower Line Force", "Follower Line Load",
                   "Follower Line Moment", "Follower Moment", "Force", "Gravity", "Ground Damper",
                   "Ground Spring", "Line Force", "Line Load", "Line Moment", "Moment",
-                  "Plane Ground Damper", "Plane Ground Spring", "Pressure", "Rotating Frame",
-                  "Rotation Damper", "Rotation Damper Local", "Spring", "Surface Force",
-                  "Torsion Damper", "Torsion Drive", "Torsion Spring"));
+                  "Plane Ground Damper", "Plane Ground Spring", "Pressure", "Restoring",
+                  "Rotating Frame", "Rotation Damper", "Rotation Damper Local", "Spring",
+                  "Surface Force", "Torsion Damper", "Torsion Drive", "Torsion Spring"));
 }
 
 TEST_F(Loads, VirtualWorkOfALineForceIsThatOfItsPoints) {

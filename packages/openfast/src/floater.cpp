@@ -20,7 +20,7 @@ std::string line_name(const MooringLine& line) { return fmt::format("line {}", l
 }  // namespace
 
 void write_held_freedoms(const ElastoDyn& turbine, DeckWriter& deck) {
-  constexpr const char* names[] = {"no surge", "no sway", "no heave",
+  constexpr const char* names[] = {"no surge", "no sway",  "no heave",
                                    "no roll",  "no pitch", "no yaw"};
   for (int i = 0; i < 6; ++i) {
     if (turbine.platform.free[static_cast<std::size_t>(i)]) continue;
@@ -40,12 +40,12 @@ void write_ballast(const ElastoDyn& turbine, DeckWriter& deck, Report& report) {
   deck.set("Mass", ballast.mass);
   deck.set("Centre", ballast.centre);
   const Mat3& J = ballast.inertia;
-  deck.set("Inertia",
-           std::vector<double>{J(0, 0), J(1, 1), J(2, 2), J(1, 2), J(0, 2), J(0, 1)});
+  deck.set("Inertia", std::vector<double>{J(0, 0), J(1, 1), J(2, 2), J(1, 2), J(0, 2), J(0, 1)});
   deck.close();
-  report.add(masses, fmt::format("what fills the members: {:.6g} kg, centre at z = {:.5g} m, at rest "
-                                 "in them",
-                                 ballast.mass, ballast.centre.z()));
+  report.add(masses,
+             fmt::format("what fills the members: {:.6g} kg, centre at z = {:.5g} m, at rest "
+                         "in them",
+                         ballast.mass, ballast.centre.z()));
 }
 
 void write_ballast_support(const ElastoDyn& turbine, DeckWriter& deck) {
@@ -64,11 +64,14 @@ void write_floater_loads(const ElastoDyn& turbine, const std::filesystem::path& 
   if (floater.moorings) {
     write_lines(*floater.moorings, platform, deck, report);
   } else {
-    report.add(missing, "mooring lines: nothing moors the platform in surge, sway and yaw but what "
-                        "HydroDyn's file adds");
+    report.add(missing,
+               "mooring lines: nothing moors the platform in surge, sway and yaw but what "
+               "HydroDyn's file adds");
   }
-  report.add(assumed, "the platform floats about its place in the files; weight and modes see the "
-                      "waves as they stand at time 0");
+  report.add(
+      assumed,
+      "the platform floats about its place in the files; weight and modes are those in still "
+      "water, and waves grow within one of their periods");
 }
 
 void write_floater_history(const ElastoDyn& turbine, DeckWriter& deck) {

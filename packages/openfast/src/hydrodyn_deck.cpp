@@ -330,9 +330,10 @@ void report_hull(const HydroDyn& hydro, Report& report) {
   for (const HydroFilling& filling : hydro.fillings) {
     const HydroMember& member = hydro.members[filling.member];
     if (member.is_flooded) continue;
-    report.add(missing, fmt::format("{}: is filled with {:g} kg/m^3 up to {:g} m, not with the sea: "
-                                    "give the body its mass",
-                                    name_of(member), filling.density, filling.level));
+    report.add(missing,
+               fmt::format("{}: is filled with {:g} kg/m^3 up to {:g} m, not with the sea: "
+                           "give the body its mass",
+                           name_of(member), filling.density, filling.level));
   }
   if (hydro.potential) {
     report.add(missing, hydro.path.string() + ": potential flow, PotMod, is not in the deck");
@@ -347,7 +348,9 @@ std::vector<double> by_rows(const Mat6& matrix) {
   return {rows.data(), rows.data() + rows.size()};
 }
 
-// Files with few or coarse frequencies are fitted less well than culm asks for by itself.
+// Files of hulls with several columns need more poles than culm takes by itself, and are fitted
+// less well: by 0.053 that of the VolturnUS-S of IEA's 15 MW turbine.
+constexpr int poles = 10;
 constexpr double fit = 0.1;
 
 // The part of a member that lies along a beam from a to b; none if they only meet or are apart.
@@ -392,6 +395,7 @@ void write_hull(const HydroDyn& hydro, const std::string& body, const std::files
       deck.set("Centre", Vec3(flow.centre_x, flow.centre_y, 0.0));
     }
     if (flow.radiates) {
+      deck.set("Poles", poles);
       deck.set("Fit", fit);
     } else {
       deck.set("Poles", 0);
@@ -449,15 +453,16 @@ Ballast ballast_of(const HydroDyn& hydro) {
           filling.density * std::numbers::pi * radius * radius * (b - a).norm() / parts;
       ballast.mass += mass;
       ballast.centre += mass * place;
-      ballast.inertia += mass * (place.squaredNorm() * Mat3::Identity() - place * place.transpose());
+      ballast.inertia +=
+          mass * (place.squaredNorm() * Mat3::Identity() - place * place.transpose());
       ballast.inertia +=
           0.25 * mass * radius * radius * (Mat3::Identity() + axis * axis.transpose());
     }
   }
   if (ballast.mass == 0.0) return ballast;
   const Vec3 centre = ballast.centre / ballast.mass;
-  ballast.inertia -= ballast.mass *
-                     (centre.squaredNorm() * Mat3::Identity() - centre * centre.transpose());
+  ballast.inertia -=
+      ballast.mass * (centre.squaredNorm() * Mat3::Identity() - centre * centre.transpose());
   ballast.centre = centre;
   return ballast;
 }

@@ -89,6 +89,10 @@ struct Lists {
 void read_joints(InputFile& file, HydroDyn& hydro, Lists& lists, Report& report) {
   const TextTable axial = read_table(file, "NAxCoef", "axial coefficient");
   const Rows axials = index_rows(axial, {"AxCoefID"});
+  for (const char* name : {"AxCd", "AxCa"}) {
+    if (axial.size() == 0 || axial.has({name})) continue;
+    throw InputError(axial.where(0, {name}), "the table has no such column");
+  }
   const TextTable table = read_table(file, "NJoints", "joint");
   lists.joints = index_rows(table, {"JointID"});
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -240,8 +244,9 @@ std::optional<HydroPotential> read_potential(InputFile& file, Report& report) {
                      "length and volume must be > 0");
   }
   if (const double waves = file.number("ExctnMod", 1.0); waves != 1.0) {
-    report.add(not_used, fmt::format("{}: ExctnMod = {:g}; forces of waves are those of the .3 file",
-                                     to_string(file.where("ExctnMod")), waves));
+    report.add(not_used,
+               fmt::format("{}: ExctnMod = {:g}; forces of waves are those of the .3 file",
+                           to_string(file.where("ExctnMod")), waves));
   }
   return potential;
 }

@@ -82,21 +82,22 @@ std::optional<Substructure> find_substructure(const GlueFile& glue, Platform& pl
 std::optional<Floater> find_floater(const GlueFile& glue, const ElastoDyn& turbine,
                                     Report& report) {
   const Platform& platform = turbine.platform;
-  const bool moves = std::find(platform.free.begin(), platform.free.end(), true) !=
-                     platform.free.end();
+  const bool moves =
+      std::find(platform.free.begin(), platform.free.end(), true) != platform.free.end();
   if (!glue.hydrodyn || !moves || !(platform.mass > 0.0) || glue.subdyn ||
       !is_there(glue, *glue.hydrodyn, "HydroDyn", "no water, and the platform is held", report)) {
     return std::nullopt;
   }
   if (!platform.reference.isZero(0.0)) {
-    throw InputError({turbine.path.string(), 0, "PtfmRefzt"},
-                     fmt::format("must be 0 where the platform floats, got {:g}",
-                                 platform.reference.z()));
+    throw InputError(
+        {turbine.path.string(), 0, "PtfmRefzt"},
+        fmt::format("must be 0 where the platform floats, got {:g}", platform.reference.z()));
   }
   const Surroundings surroundings = read_surroundings(glue.path);
   Floater floater{read_hydrodyn(*glue.hydrodyn, surroundings, report), {}};
-  if (!glue.moordyn || !is_there(glue, *glue.moordyn, "moorings", "nothing moors the platform",
-                                 report)) {
+  floater.water.sea.rise = floater.water.sea.period;
+  if (!glue.moordyn ||
+      !is_there(glue, *glue.moordyn, "moorings", "nothing moors the platform", report)) {
     return floater;
   }
   Surroundings deep = surroundings;

@@ -21,6 +21,13 @@ namespace culm::openfast {
 
 namespace {
 
+// Its dictionary has a damping that MoorDyn's has not.
+bool is_of_map(const InputFile& file) {
+  const std::vector<std::string> columns = file.columns_below("LINE DICTIONARY");
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const std::string& column) { return to_lower(column) == "cintdamp"; });
+}
+
 // What is not imported changes what lines hold.
 void leave_out(const Where& where, const std::string& what, MoorDyn& moorings, Report& report) {
   moorings.left_out.push_back({where, what});
@@ -28,8 +35,10 @@ void leave_out(const Where& where, const std::string& what, MoorDyn& moorings, R
 }
 
 // A table below a heading. In version 1 a line with its count comes first.
+// @param is_whole  whether each row must be as long as the first; a value of MAP++ may be '#',
+// behind which nothing is read
 TextTable read_section(const InputFile& file, std::initializer_list<const char*> headings,
-                       const std::string& what) {
+                       const std::string& what, bool is_whole = true) {
   for (const char* heading : headings) {
     if (!file.has_heading(heading)) continue;
     std::vector<TextRow> rows = file.rows_below(heading);
@@ -42,7 +51,7 @@ TextTable read_section(const InputFile& file, std::initializer_list<const char*>
     }
     const std::size_t columns = rows.empty() ? 0 : rows.front().words.size();
     for (const TextRow& row : rows) {
-      if (row.words.size() == columns || row.words.front().front() == '(') continue;
+      if (!is_whole || row.words.size() == columns || row.words.front().front() == '(') continue;
       throw InputError(file.where(row.line, what),
                        fmt::format("must have {} columns, found {}", columns, row.words.size()));
     }
@@ -102,8 +111,9 @@ double read_height(const TextTable& table, std::size_t row, const std::optional<
 
 std::vector<MooringPoint> read_points(const InputFile& file, const Surroundings& surroundings,
                                       MoorDyn& moorings, Report& report) {
-  const TextTable table = read_section(
-      file, {"POINTS", "POINT PROPERTIES", "CONNECTION PROPERTIES", "NODE PROPERTIES"}, "point");
+  const TextTable table =
+      read_section(file, {"POINTS", "POINT PROPERTIES", "CONNECTION PROPERTIES", "NODE PROPERTIES"},
+                   "point", !is_of_map(file));
   index_rows(table, {"ID", "Node", "Point"});
   std::vector<MooringPoint> points;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -128,10 +138,10 @@ std::vector<MooringPoint> read_points(const InputFile& file, const Surroundings&
     point.place = {table.number(i, {"X"}), table.number(i, {"Y"}),
                    read_height(table, i, surroundings.depth)};
     if (point.kind == MooringPoint::Kind::free) {
-      leave_out(table.where(i, {"Attachment"}),
-                fmt::format("point {} is '{}'; lines that end there are not in the deck", point.id,
-                            word),
-                moorings, report);
+      leave_out(
+          table.where(i, {"Attachment"}),
+          fmt::format("point {} is '{}'; lines that end there are not in the deck", point.id, word),
+          moorings, report);
     }
     points.push_back(point);
   }
@@ -179,14 +189,6 @@ void read_lines(const InputFile& file, MoorDyn& moorings, Report& report) {
                    find_point(moorings, table, i, {"AttachB", "NodeFair", "NodeB"})};
     moorings.lines.push_back(line);
   }
-}
-
-// Its dictionary has a damping that MoorDyn's has not.
-bool is_of_map(const InputFile& file) {
-  const std::vector<std::string> columns = file.columns_below("LINE DICTIONARY");
-  return std::any_of(columns.begin(), columns.end(), [](const std::string& column) {
-    return to_lower(column) == "cintdamp";
-  });
 }
 
 // MAP++ makes the lines again, turned about z.
@@ -277,9 +279,9 @@ MoorDyn read_moordyn(const std::filesystem::path& path, const Surroundings& surr
   } else if (file.rows_below("SOLVER OPTIONS").empty()) {
     report.add(unknown, path.string() + ": has no options at its end; it may have been cut off");
   }
-  report.add(read,
-             fmt::format("{}: {}, {} types of lines, {} points, {} lines", path.string(),
-                         is_map ? "MAP++" : "MoorDyn", moorings.types.size(), moorings.points.size(), moorings.lines.size()));
+  report.add(read, fmt::format("{}: {}, {} types of lines, {} points, {} lines", path.string(),
+                               is_map ? "MAP++" : "MoorDyn", moorings.types.size(),
+                               moorings.points.size(), moorings.lines.size()));
   return moorings;
 }
 

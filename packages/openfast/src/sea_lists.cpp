@@ -41,6 +41,7 @@ void write_sea(const SeaState& sea, DeckWriter& deck) {
     deck.set("Period", sea.period);
     deck.set("Stretching", sea.stretching);
   }
+  if (!is_still && sea.rise > 0.0) deck.set("Rise", sea.rise);
   if (is_regular && sea.phase != 0.0) deck.set("Phase", -sea.phase);
   if (sea.kind == SeaState::Kind::irregular) {
     if (sea.peak) deck.set("Peak", *sea.peak);

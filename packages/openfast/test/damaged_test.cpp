@@ -127,5 +127,32 @@ TEST_F(DamagedSubstructures, ThatAreCutMakeTheSameDeckOrAMessage) { expect_cuts_
 
 TEST_F(DamagedSubstructures, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(150); }
 
+// The files of a platform that floats.
+class DamagedFloaters : public DamagedFiles {
+ protected:
+  DamagedFloaters() {
+    std::string joined = change(scene, "0     CompHydro", "1     CompHydro");
+    joined = change(joined, "0     CompMooring", "3     CompMooring");
+    write("scene.fst", joined +
+                           "\"waves.dat\" HydroFile - (quoted string)\n\"lines.dat\" MooringFile - "
+                           "(quoted string)\n\"sea.dat\" SeaStFile - (quoted string)\n");
+    write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---",
+                                "True PtfmSgDOF - (flag)\nTrue PtfmHvDOF - (flag)\n5E5 PtfmMass - "
+                                "(kg)\n1E7 PtfmRIner - \n1E7 PtfmPIner - \n1E7 PtfmYIner - \n---"
+                                " INITIAL CONDITIONS ---"));
+    files_ = {{"lines.dat", write("lines.dat", moordyn_file)},
+              {"sea.dat", write("sea.dat", seastate_file)},
+              {"waves.dat", write("waves.dat", hydrodyn_file)}};
+    whole_ = import_file(scene_);
+  }
+};
+
+TEST_F(DamagedFloaters, ThatAreCutMakeTheSameDeckOrAMessage) {
+  EXPECT_NE(whole_.deck.find("Catenary"), std::string::npos);
+  expect_cuts_to_be_told();
+}
+
+TEST_F(DamagedFloaters, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(150); }
+
 }  // namespace
 }  // namespace culm::openfast

@@ -126,7 +126,8 @@ void check_growth(const Options& options, InputIssues& issues) {
 
 void check_pull(const Options& options, InputIssues& issues) {
   if (options.flag("Pull") || !options.flag("Buoyancy")) return;
-  issues.add(options.where("Pull"), "must be true where 'Buoyancy' is true, which is the whole pressure");
+  issues.add(options.where("Pull"),
+             "must be true where 'Buoyancy' is true, which is the whole pressure");
 }
 
 Schema morison_schema() {

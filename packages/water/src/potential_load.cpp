@@ -45,7 +45,7 @@ PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes
 }
 
 std::vector<int> PotentialLoad::blocks(int, const model::UnknownTable& unknowns) const {
-  return blocks_of({motion_.node()}, unknowns);
+  return blocks_of(motion_.nodes(), unknowns);
 }
 
 Vec6 PotentialLoad::waves(double time) const {
@@ -106,7 +106,7 @@ Verdict PotentialLoad::assemble_item(std::size_t i, const model::State& state,
   const bool mass = want == Want::mass;
   const double theta = mass ? 1.0 : stencil.theta;
   const Evaluation found = evaluate(state, stencil, want, trial_);
-  const Motion motion(nodes_, {motion_.node()}, state, theta);
+  const Motion motion(nodes_, motion_.nodes(), state, theta);
   Motion::Slots r = -motion_.slot_forces(found.force);
   if (mass) {
     r.setZero();
@@ -189,8 +189,8 @@ model::StepWork PotentialLoad::step_work(const model::State& state, const Stenci
   if (placement().items.empty() || !placement().owned[0]) return work;
   States trial = accepted_;
   const Vec6 force = evaluate(state, stencil, Want::residual, trial).force;
-  const Motion motion(nodes_, {motion_.node()}, state, stencil.theta);
-  load::add_item_work(motion_.slot_forces(force), motion, {motion_.node()}, state, true, work);
+  const Motion motion(nodes_, motion_.nodes(), state, stencil.theta);
+  load::add_item_work(motion_.slot_forces(force), motion, motion_.nodes(), state, true, work);
   return work;
 }
 

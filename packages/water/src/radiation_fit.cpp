@@ -11,6 +11,9 @@ namespace {
 using Complex = std::complex<double>;
 using MatC = Eigen::Matrix<Complex, 6, 6>;
 constexpr Complex imaginary(0.0, 1.0);
+// A coupling of two motions that is smaller beside their own entries counts by that much only: in
+// files of hulls with two planes of symmetry it is what their panels make of it.
+constexpr double faint = 0.03;
 
 // What is fitted: entries of the upper triangle that are not nothing, by frequency.
 struct Data {
@@ -45,7 +48,7 @@ Data data_of(const PotentialBody& body) {
   data.weights.resize(columns);
   for (Eigen::Index c = 0; c < columns; ++c) {
     const auto [i, j] = data.entries[static_cast<std::size_t>(c)];
-    data.weights[c] = 1.0 / std::max(sizes(i, j), 1e-3 * std::sqrt(sizes(i, i) * sizes(j, j)));
+    data.weights[c] = 1.0 / std::max(sizes(i, j), faint * std::sqrt(sizes(i, i) * sizes(j, j)));
     for (Eigen::Index r = 0; r < rows; ++r) {
       data.values(r, c) = all[static_cast<std::size_t>(r)](i, j);
     }

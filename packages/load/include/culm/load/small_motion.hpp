@@ -3,6 +3,8 @@
 
 #include <culm/model/node_table.hpp>
 
+#include <vector>
+
 namespace culm::load {
 
 /// Displacement u of a node and its rotation theta = 1/2 sum D_i x d_i from the reference, about
@@ -10,19 +12,21 @@ namespace culm::load {
 /// energy exactly; theta is the sine of the angle about an axis.
 class SmallMotion {
  public:
-  SmallMotion(const model::NodeTable& nodes, int node) : node_(node) {
+  SmallMotion(const model::NodeTable& nodes, int node) : nodes_{node} {
     const Mat<3, 4> slots = model::NodeTable::slots(nodes.reference(), node);
     map_.block<3, 3>(0, 0) = Mat3::Identity();
     for (int i = 1; i < 4; ++i) map_.block<3, 3>(3, 3 * i) = 0.5 * skew(Vec3(slots.col(i)));
     reference_ = map_ * Eigen::Map<const Vec<12>>(slots.data());
   }
 
-  int node() const { return node_; }
+  int node() const { return nodes_.front(); }
+  /// The node as the list that items of several have.
+  const std::vector<int>& nodes() const { return nodes_; }
   /// u [m] and theta.
   Vec6 motion(const model::Coordinates& q) const { return rates(q) - reference_; }
   /// Of slots that are rates or accelerations.
   Vec6 rates(const model::Coordinates& q) const {
-    const Mat<3, 4> slots = model::NodeTable::slots(q, node_);
+    const Mat<3, 4> slots = model::NodeTable::slots(q, node());
     return map_ * Eigen::Map<const Vec<12>>(slots.data());
   }
   /// Forces on the slots whose work is F . Du + M . Dtheta: half of M x D_i on director i.
@@ -36,7 +40,7 @@ class SmallMotion {
   }
 
  private:
-  int node_;
+  std::vector<int> nodes_;
   Mat<6, 12> map_ = Mat<6, 12>::Zero();
   Vec6 reference_ = Vec6::Zero();
 };

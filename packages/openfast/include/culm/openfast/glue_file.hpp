@@ -23,10 +23,10 @@ struct GlueFile {
   std::optional<std::filesystem::path> hydrodyn;
   std::optional<std::filesystem::path> subdyn;
   std::optional<std::filesystem::path> moordyn;  ///< or the file of MAP++
-  std::optional<double> gravity;          ///< [m/s^2]
-  std::optional<double> air_density;      ///< [kg/m^3]
-  std::optional<double> end;              ///< of the simulation [s]
-  std::vector<std::string> substructure;  ///< modules that carry the tower, with their files
+  std::optional<double> gravity;                 ///< [m/s^2]
+  std::optional<double> air_density;             ///< [kg/m^3]
+  std::optional<double> end;                     ///< of the simulation [s]
+  std::vector<std::string> substructure;         ///< modules that carry the tower, with their files
   /// What it means if the water, or the moorings, stay out of the deck: by switch.
   std::map<std::string, std::string> unless_imported;
 };

@@ -64,9 +64,9 @@ struct HydroFilling {
 
 /// A body by linear potential flow.
 struct HydroPotential {
-  std::filesystem::path root;  ///< of the files of WAMIT, without .1, .3, .hst
-  double length = 1.0;         ///< WAMITULEN [m]
-  double volume = 0.0;         ///< displaced [m^3]
+  std::filesystem::path root;             ///< of the files of WAMIT, without .1, .3, .hst
+  double length = 1.0;                    ///< WAMITULEN [m]
+  double volume = 0.0;                    ///< displaced [m^3]
   double centre_x = 0.0, centre_y = 0.0;  ///< of the volume [m]
   bool radiates = true;                   ///< whether its waves are remembered
 };

@@ -1,4 +1,5 @@
-/// Mooring lines: MoorDyn's input file, of version 1 and 2, and that of MAP++, which looks like version 1.
+/// Mooring lines: MoorDyn's input file, of version 1 and 2, and that of MAP++, which looks like
+/// version 1.
 #pragma once
 
 #include <culm/math/types.hpp>

@@ -47,7 +47,8 @@ struct SeaState {
   std::string stretching = "None";
   double lowest = 0.0, highest = 0.0;  ///< [Hz]; 0 where the file does not limit them
   int seed = 0;
-  std::string current;                                 ///< type in the deck; empty for none
+  double rise = 0.0;    ///< in which waves grow in the deck, so that it begins in still water [s]
+  std::string current;  ///< type in the deck; empty for none
   double current_speed = 0.0, current_heading = 0.0;   ///< [m/s, rad]
   std::vector<double> current_depths, current_speeds;  ///< of a table [m, m/s]
 };
