@@ -467,25 +467,49 @@ CASES = [
         check=has_findings(),
     ),
     Case(
-        "air on what a rotating frame turns",
-        0,
+        "air on what a rotating frame turns, in a wind that does not turn with it",
+        3,
         args=RUN,
         change=[
             (
                 '<ParameterList name="Loads">',
                 f'<ParameterList name="Masses">{entry("tip mass", Type="Point Mass", Node="beam/last", Mass="1")}</ParameterList>'
                 f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
-                f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")}</ParameterList>'
+                f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{1, 0, 1}")}</ParameterList>'
                 '<ParameterList name="Loads">'
                 + entry("air", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="0.25", Airfoil="thin")
                 + entry("turning", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="0.1"),
             ),
         ],
-        says=["warning: Strip 'air' stands in the frame that Rotating Frame 'turning' turns, and meets the wind as if it "
-              "stood still"],
-        results="out",
-        last_level=1.0,
-        check=has_findings("rotating frame", grade=False),
+        says=["Strip 'air' stands in a rotating frame, but its wind is not the same from all sides: at station 0 it is {1, 0, 1} "
+              "m/s in the frame, and {0.7071, -0.7071, 1} after 45 degrees"],
+    ),
+    Case(
+        "vortex rings on what a rotating frame turns",
+        3,
+        args="check deck.xml",
+        change=[
+            (
+                '<ParameterList name="Loads">',
+                f'<ParameterList name="Masses">{entry("tip mass", Type="Point Mass", Node="beam/last", Mass="1")}</ParameterList>'
+                f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
+                '<ParameterList name="Flows">'
+                + entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")
+                + entry("about", Type="Uniform", Density="1", Velocity="{0, 0, 1}").replace(
+                    "</ParameterList>",
+                    '<ParameterList name="Tower Influence"><Parameter name="Structure" value="beam"/>'
+                    '<Parameter name="Diameters" value="{0.1, 0.1}"/></ParameterList></ParameterList>')
+                + '</ParameterList><ParameterList name="Loads">'
+                + entry("air", Type="Strip", Structure="beam", Flow="about", Chord="0.1", Airfoil="thin")
+                + entry("rings", Type="Vortex Lattice", Flow="wind").replace(
+                    "</ParameterList>",
+                    '<ParameterList name="Surfaces"><ParameterList name="one"><Parameter name="Structure" value="beam"/>'
+                    '<Parameter name="Chord" value="0.1"/><Parameter name="Panels" value="{2, 4}"/></ParameterList></ParameterList>'
+                    "</ParameterList>")
+                + entry("turning", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="0.1"),
+            ),
+        ],
+        says=["Loads / rings: stands on what a load 'Rotating Frame' turns, whose speed it does not see"],
     ),
     Case(
         "a load on the clamp, on the page",

@@ -16,8 +16,8 @@ DECKS = (("Typical section", "air/flutter.xml", SECTION, 2e-6),
          ("Goland's wing, 8 elements, 24 stations", "air/goland_flutter.xml", GOLAND, 1e-3))
 
 
-def section_eigenvalues(speed):
-    """Of the typical section with Jones' states, from its equations: plunge, pitch, their rates, two states."""
+def section_eigenvalues(speed, lag=True):
+    """Of the typical section with Jones' states or without, from its equations: plunge, pitch, their rates, two states."""
     rho, b, a = 1.225, 0.5, -0.2
     m = 20.0 * math.pi * rho * b**2
     mass = np.array([[m, 0.2 * m * b], [0.2 * m * b, 0.25 * m * b**2]])
@@ -29,7 +29,7 @@ def section_eigenvalues(speed):
     lift = 2.0 * math.pi * rho * speed * b
     pull = np.array([1.0, -b * (0.5 + a)])
     by_place, by_speed = np.array([0.0, speed]), np.array([1.0, b * (0.5 - a)])
-    amplitude, rate = np.array([0.165, 0.335]), np.array([0.0455, 0.3]) * speed / b
+    amplitude, rate = np.array([0.165, 0.335]) * lag, np.array([0.0455, 0.3]) * speed / b
     left = 1.0 - amplitude.sum()
     stiffness = stiffness + lift * left * np.outer(pull, by_place)
     damping = damping + lift * left * np.outer(pull, by_speed)
@@ -63,7 +63,29 @@ def verify(culm, report):
             report.relative(f"{what}: frequency [Hz]", table.at(row, f"frequency {mode} [Hz]"),
                             s.imag / (2.0 * math.pi), 1e-6)
             report.relative(f"{what}: damping", table.at(row, f"damping ratio {mode}"), -s.real / abs(s), 1e-6)
+    report.title("The same without lag, in 5 m/s: it flutters in any wind")
+    quick = culm.table("flutter/flutter", "air/flutter.xml", ["Loads/air on the section/Lag=None"])
+    row = table.column("level").index(5.0) + 1
+    pairs = [(quick.at(row, f"damping ratio {mode}"), quick.at(row, f"frequency {mode} [Hz]")) for mode in (1, 2)]
+    damping, frequency = min(pairs)
+    growth = -damping * 2.0 * math.pi * frequency / math.sqrt(1.0 - damping**2)
+    exact = max(section_eigenvalues(5.0, lag=False), key=lambda s: s.real)
+    report.relative("growth [1/s]", growth, exact.real, 1e-5)
+    report.check("growth of the table [1/s]", growth, 0.05, 0.005)
+    verify_hale(culm, report)
     verify_parked(culm, report)
+
+
+HALE = ["c=1", "Sections/wing/EI1=2e4", "Sections/wing/EI2=4e6", "Sections/wing/GIp=1e4", "Sections/wing/rhoA=0.75",
+        "Sections/wing/rhoI2=0.1", "Sections/wing/rhoS2=0", "Structures/wing/Curve/To={0, 16, 0}",
+        "Loads/air on the wing/Axis At=0.5", "Flows/air/Density=0.0889", "Analyses/flutter/Levels={10, 20, 30, 36, 40}"]
+
+
+def verify_hale(culm, report):
+    report.title("Patil's wing of high aspect ratio, straight: (pi / 2 L)^2 GJ / (2 pi e c)")
+    pressure = (math.pi / 32.0) ** 2 * 1e4 / (2.0 * math.pi * 0.25)
+    onset = culm.table("flutter/onset", "air/goland_flutter.xml", HALE)
+    report.relative("speed of divergence [m/s]", onset.at(2, "level"), math.sqrt(2.0 * pressure / 0.0889), 1e-3)
 
 
 SWEEP = """    <ParameterList name="flutter">

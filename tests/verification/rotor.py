@@ -2,10 +2,12 @@
 """Rotor in the wind: the rigid NREL 5 MW rotor, the turbine in a gust. Page: doc/verification/rotor.md."""
 
 import math
+import pathlib
+import tempfile
 
 import numpy as np
 from scipy.integrate import trapezoid
-from verify import figure, gain, main, save
+from verify import INPUTS, figure, gain, main, richardson, save
 
 RIGID = "turbine/nrel5mw/rotor.xml"
 GUST = "turbine/nrel5mw/turbine_gust.xml"
@@ -45,6 +47,50 @@ def sweep(culm):
     return found
 
 
+MOTION = """    <ParameterList name="motion">
+      <Parameter name="Type" value="Dynamic"/>
+      <Parameter name="End Time" value="turn/W"/>
+      <Parameter name="Step" value="step/W"/>
+    </ParameterList>
+"""
+AT_REST = """    <ParameterList name="rest">
+      <Parameter name="Type" value="Static"/>
+      <Parameter name="Steps" value="1"/>
+    </ParameterList>
+"""
+FRAME = """    <ParameterList name="rotation">
+      <Parameter name="Type" value="Rotating Frame"/>
+      <Parameter name="Structures" value="{hub, blade 1, blade 2, blade 3}"/>
+      <Parameter name="Axis" value="{1, 0, 0}"/>
+      <Parameter name="Speed" value="W"/>
+    </ParameterList>
+"""
+
+
+def in_frame(culm, *overrides):
+    """History of the rigid rotor at rest in a frame that turns with it."""
+    path = INPUTS / RIGID
+    text = path.read_text().replace('href="', f'href="{path.parent}/').replace(MOTION, AT_REST)
+    loads = '    <xi:include href="' + f'{path.parent}/include/blade_air.xml"/>\n'
+    with tempfile.TemporaryDirectory() as folder:
+        deck = pathlib.Path(folder) / "frame.xml"
+        deck.write_text(text.replace(loads, loads + FRAME))
+        return culm.history(deck, ["tilt=0", "Functions/angle/Expression=0*t", *overrides])
+
+
+def verify_frame(culm, report):
+    report.title("The rigid rotor at rest in a frame that turns with it, beside its motion in space")
+    for blades in ("cone=0", "cone=2.5*pi/180"):
+        # steps of a motion turn by a chord
+        small = [f"step={part}" for part in ("pi/90", "pi/180")]
+        moving = [culm.history(RIGID, ["tilt=0", blades, "turn=pi/45", step]) for step in small]
+        resting = in_frame(culm, blades)
+        for name in ("thrust [N]", "torque [N m]", "a [1]"):
+            limit = richardson(*(history.column(f"rotor {name}")[-1] for history in moving))
+            report.relative(f"{blades}: {name}", resting.column(f"rotor {name}")[-1], limit, 1e-7)
+    report.check("its speed [rad/s]", resting.column("rotor speed [rad/s]")[-1], 9.156 * math.pi / 30.0, 1e-12)
+
+
 def gust(culm, induction, *overrides):
     return culm.history(GUST, [f"Loads/rotor/Induction={induction}", *overrides])
 
@@ -66,6 +112,32 @@ def response(time, induction, ratio=0.7):
     return 1 - part * math.exp(-time / slow) - (1 - part) * math.exp(-time / fast)
 
 
+def at_power(culm, wind, pitch, wanted):
+    """Pitch [deg] and thrust [kN] at which the torque at 12.1 rpm is as wanted [kN m], by secants."""
+
+    def run(angle):
+        history = culm.history(RIGID, [f"V={wind}", "W=12.1", f"pitch={angle!r}"])
+        return mean(history, "rotor thrust [N]") / 1e3, mean(history, "rotor torque [N m]") / 1e3
+
+    before, (_, off) = pitch - 0.3, run(pitch - 0.3)
+    off -= wanted
+    for _ in range(6):
+        thrust, torque = run(pitch)
+        if abs(torque - wanted) < 1e-4 * wanted:
+            break
+        before, pitch, off = pitch, pitch - (torque - wanted) * (pitch - before) / (torque - wanted - off), torque - wanted
+    return pitch, thrust
+
+
+def verify_power(culm, report):
+    report.title("Rigid rotor above rated wind at the torque of the report, where the pitch makes it: thrust [kN]")
+    for wind, _, pitch, wanted_thrust, wanted_torque in SWEEP:
+        if wind < 11.5:
+            continue
+        found, thrust = at_power(culm, wind, pitch, wanted_torque)
+        report.relative(f"{wind} m/s, pitch {found:.2f} instead of {pitch:.2f} deg", thrust, wanted_thrust, 0.03)
+
+
 def verify(culm, report):
     report.title("Stations of the rigid rotor: balance, induced velocity and load of the strip")
     for number, twist, phi, normal, along in STATIONS:
@@ -80,6 +152,8 @@ def verify(culm, report):
         else:
             report.note(f"{wind} m/s: thrust {thrust:.1f} ({100 * (thrust / wanted_thrust - 1):+.1f} %), "
                         f"torque {torque:.1f} ({100 * (torque / wanted_torque - 1):+.1f} %)")
+    verify_power(culm, report)
+    verify_frame(culm, report)
     report.title("Wakes in a wind along the axis, which does not change: with and without lags")
     steady, lagging = (culm.history(RIGID, ["tilt=0", "turn=pi/18", f"Loads/rotor/Induction={induction}"])
                        for induction in ("Steady", "Dynamic"))

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Strips: flutter of the typical section and of Goland's wing in time, stall flutter. Page: doc/verification/strips.md."""
+"""Strips: flutter of the typical section and of Goland's wing in time, stall flutter, drag, rotating frames.
+
+Page: doc/verification/strips.md."""
 
 import math
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 from verify import INPUTS, figure, main, poles, save
 
 # eigenvalues of the same models with Jones' states
@@ -70,7 +72,47 @@ def verify_stall_flutter(culm, report):
     report.note(f"separation that follows late (Oye): {np.ptp(late['Oye']) / 2:.4f}")
 
 
+def verify_drag(culm, report):
+    report.title("Mast in a wind that it stands about: drag at once on the undeformed mast, by stations and by the integral [N]")
+    speed, height, exponent, stations = 20.0, 40.0, 0.2, 40
+
+    def per_length(z):
+        return 0.5 * 1.225 * 0.7 * (0.8 - 0.4 * z / height) * (speed * (z / height) ** exponent) ** 2
+
+    z = (np.arange(stations) + 0.5) * height / stations
+    run = culm.run("air/mast_in_wind.xml", [f"stations={stations}", "Sections/tube/Young Modulus=2.1e15"], quiet=False)
+    static = next(i for i, level in enumerate(run.history.levels) if level >= 1.0)
+    force, moment, box = (run.history.column(name)[static] for name in ("mast Fx [N]", "mast My [N m]", "box Fx [N]"))
+    report.relative("force on the mast", force, per_length(z).sum() * height / stations, 1e-5)
+    report.relative("its moment", moment, (per_length(z) * z).sum() * height / stations, 1e-5)
+    report.relative("force, integral", force, quad(per_length, 0.0, height)[0], 1e-3)
+    report.relative("force on the box", box, 0.5 * 1.225 * 1.2 * 2.0 * 1.5 * speed**2, 1e-5)
+    report.relative("reaction", run.history.column("ground Fx [N]")[static], -force - box, 1e-9)
+    report.holds("balance of energy of the storm", run.drift("energy balance"), 1e-10)
+
+
+def verify_frame(culm, report):
+    report.title("Blade that turns and flaps about its hinge: eigenvalue [rad/s] by Lock's number")
+    speed, radius, chord, inertia = 30.0, 5.0, 0.4, 9.4 * 5.0**3 / 3.0
+    for count in (20, 40):
+        run = culm.succeed("air/flapping_blade.xml", [f"stations={count}"])
+        modes = run.tables["modes/modes"]
+        r = (np.arange(count) + 0.5) * radius / count
+        lift = 0.5 * 1.225 * 2.0 * math.pi * chord * speed * radius / count  # per speed across the chord, over r
+        damping = lift * (r**3).sum() / inertia
+        # flapped by b, the blade turns about its span with b times the speed, which the three-quarter chord feels
+        square = speed**2 - lift * 0.5 * chord * speed * (r**2).sum() / inertia
+        found = [modes.at(1, f"eigenvalue {part} [1/s]") for part in ("real", "imaginary")]
+        report.relative(f"{count} stations", found, [-damping / 2.0, math.sqrt(square - damping**2 / 4.0)], 1e-6)
+        lock = 1.225 * 2.0 * math.pi * chord * radius**4 / inertia
+        report.relative("decay by Lock's number", -found[0], speed * lock / 16.0, 1.0 / count**2)
+        report.relative("wind at the last station [m/s]", run.history.column("tip V [m/s]")[-1],
+                        30.0 * 5.0 * (1.0 - 0.5 / count), 1e-9)
+
+
 def verify(culm, report):
+    verify_drag(culm, report)
+    verify_frame(culm, report)
     verify_stall_flutter(culm, report)
     report.title("Typical section, step 0.01 s: 38 in a period")
     speed, omega = section(culm, 0.01)

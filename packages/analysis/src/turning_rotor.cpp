@@ -204,7 +204,7 @@ TurningRotor::TurningRotor(const assembly::System& system, const model::State& s
                            const RotorSettings& settings)
     : system_(system),
       where_(settings.where),
-      speed_(find_frame(system.model(), settings.where).speed(state)),
+      speed_(find_frame(system.model(), settings.where).speed(state, Stencil::statics())),
       rotor_(find_rotor(system.model(), state, settings)),
       map_(system.model().unknowns().num_unknowns(), rotor_) {}
 

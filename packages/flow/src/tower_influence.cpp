@@ -26,35 +26,30 @@ struct Tower {
 
 class WindAroundTower final : public Flow {
  public:
-  WindAroundTower(SharedFlow wind, std::string structure, const Tower& tower,
+  WindAroundTower(SharedFlow wind, std::string name, const Tower& tower,
                   const TowerInfluence& influence)
       : Flow(wind->density()),
         wind_(std::move(wind)),
-        structure_(std::move(structure)),
+        name_(std::move(name)),
         tower_(tower),
         influence_(influence) {}
-
-  // The loads of the tower itself are those of coefficients in the wind that comes.
-  SharedFlow undisturbed_by(const std::string& structure) const override {
-    return structure == structure_ ? wind_ : nullptr;
-  }
 
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override {
     wind_->velocities(places, time, velocities);
     for (std::size_t i = 0; i < places.size(); ++i) velocities[i] += change(places[i], time);
   }
-  // Along the tower its influence varies only with shear and taper, which are left out.
   Mat3 gradient(const Vec3& place, double time) const override {
     Mat3 result = wind_->gradient(place, time);
     const double h = 1e-5 * tower_.radius_at_foot;
-    const Vec3 one = tower_.axis.unitOrthogonal();
-    for (const Vec3& across : {one, Vec3(tower_.axis.cross(one))}) {
-      const Vec3 difference = change(place + h * across, time) - change(place - h * across, time);
-      result += difference / (2.0 * h) * across.transpose();
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 way = h * Vec3::Unit(k);
+      result.col(k) += (change(place + way, time) - change(place - way, time)) / (2.0 * h);
     }
     return result;
   }
+  std::string stands_about() const override { return name_; }
+  SharedFlow without_structure() const override { return wind_; }
 
  private:
   Vec3 change(const Vec3& place, double time) const {
@@ -78,7 +73,7 @@ class WindAroundTower final : public Flow {
   }
 
   SharedFlow wind_;
-  std::string structure_;
+  std::string name_;
   Tower tower_;
   TowerInfluence influence_;
 };

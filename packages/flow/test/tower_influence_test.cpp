@@ -102,10 +102,11 @@ TEST_F(WindsWithTowers, FeelItByItsRadiusAtTheirHeight) {
     expect_gradient(*shaded, place, 0.0, directions);
   }
   // the tower itself stands in the wind that comes
-  EXPECT_EQ(shaded->undisturbed_by("tower")->velocity(Vec3(5.0, 0.0, 40.0), 0.0),
+  EXPECT_EQ(shaded->without_structure()->velocity(Vec3(5.0, 0.0, 40.0), 0.0),
             free->velocity(Vec3::Zero(), 0.0));
-  EXPECT_EQ(shaded->undisturbed_by("mast"), nullptr);
-  EXPECT_EQ(free->undisturbed_by("tower"), nullptr);
+  EXPECT_EQ(shaded->stands_about(), "tower");
+  EXPECT_EQ(free->stands_about(), "");
+  EXPECT_EQ(free->without_structure(), nullptr);
   // Powles, four radii behind
   EXPECT_NEAR(change(Vec3(5.0, 10.0, 40.0))[1], -10.0 / 16.0 - 10.0 / 2.0, 1e-12);
 }

@@ -97,8 +97,8 @@ void RotatingFrame::turn_only(const std::vector<int>& nodes) {
   for (int node : nodes) turning_[static_cast<std::size_t>(node)] = true;
 }
 
-double RotatingFrame::speed(const model::State& state) const {
-  return amplitude_.in_step(state, Stencil::statics()) * speed_;
+double RotatingFrame::speed(const model::State& state, const Stencil& stencil) const {
+  return amplitude_.in_step(state, stencil) * speed_;
 }
 
 void RotatingFrame::add(std::span<const int> nodes, const Eigen::MatrixXd& mass) {
@@ -124,7 +124,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
                                      const Stencil& stencil, bool tangent,
                                      model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-  const Vec3 omega = amplitude_.in_step(state, stencil) * speed_ * axis_;
+  const Vec3 omega = speed(state, stencil) * axis_;
   const Motion motion(nodes_, item.nodes, state, stencil.theta);
   const Motion::Slots r =
       accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
@@ -149,7 +149,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
 
 model::StepWork RotatingFrame::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
-  const Vec3 omega = amplitude_.in_step(state, stencil) * speed_ * axis_;
+  const Vec3 omega = speed(state, stencil) * axis_;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];

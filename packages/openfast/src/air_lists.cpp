@@ -175,29 +175,10 @@ void write_polar(const std::string& name, const std::vector<AirfoilRow>& rows, b
   deck.close();
 }
 
-// Drag coefficients of the tower, each once.
-std::vector<double> tower_drags(const AeroDyn& loads) {
-  std::vector<double> drags;
-  for (const AeroTowerStation& station : loads.tower) {
-    if (std::find(drags.begin(), drags.end(), station.drag) == drags.end()) {
-      drags.push_back(station.drag);
-    }
-  }
-  return drags;
-}
-
-std::string tower_airfoil(double drag) { return fmt::format("cylinder with drag {:g}", drag); }
-
 void write_airfoils(const AeroDyn& loads, DeckWriter& deck) {
-  constexpr double half = std::numbers::pi;
   deck.open("Airfoils");
   for (const AirfoilFile& airfoil : loads.airfoils) {
     write_polar(airfoil.name, airfoil.rows, loads.has_moments, deck);
-  }
-  for (const double drag : tower_drags(loads)) {
-    write_polar(tower_airfoil(drag),
-                {{-half, 0.0, drag, 0.0}, {0.0, 0.0, drag, 0.0}, {half, 0.0, drag, 0.0}}, false,
-                deck);
   }
   deck.close();
 }
@@ -266,23 +247,18 @@ Strips strips_of(const AeroBlade& blade, const AeroDyn& loads, const BeamDyn& be
   return strips;
 }
 
-void write_strip(const std::string& name, const std::string& structure, const Strips& strips,
-                 DeckWriter& deck) {
-  deck.open(name, "Strip");
-  deck.set("Structure", structure);
-  deck.set("Flow", "wind");
-  deck.set("Positions", strips.positions);
-  deck.set("Chords", strips.chords);
-  deck.set("Airfoils", strips.airfoils);
-}
-
 void write_blade_load(std::size_t i, const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
   const AeroDyn& loads = turbine.air->loads;
   Report silent;  // blades of one file are told once
   const bool is_new = i == 0 || loads.blades[i].path != loads.blades[0].path;
   const Strips strips =
       strips_of(loads.blades[i], loads, turbine.blades[i].beam, is_new ? report : silent);
-  write_strip(load_name(i), blade_name(i), strips, deck);
+  deck.open(load_name(i), "Strip");
+  deck.set("Structure", blade_name(i));
+  deck.set("Flow", "wind");
+  deck.set("Positions", strips.positions);
+  deck.set("Chords", strips.chords);
+  deck.set("Airfoils", strips.airfoils);
   deck.set_degrees("Twists", strips.twists);
   deck.set("Axes At", strips.axes);
   deck.set("Nose", std::vector<double>{0.0, -1.0});
@@ -294,35 +270,28 @@ void write_blade_load(std::size_t i, const ElastoDyn& turbine, Report& report, D
 }
 
 // The values of the file within the tower, held above and below.
-Strips tower_strips(const ElastoDyn& turbine) {
-  const std::vector<AeroTowerStation>& tower = turbine.air->loads.tower;
+void write_tower_load(const ElastoDyn& turbine, DeckWriter& deck) {
   const double base = turbine.tower_base, top = turbine.tower_top;
-  std::vector<double> heights, diameters;
-  for (const AeroTowerStation& station : tower) {
+  std::vector<double> heights, diameters, drags, places{base};
+  for (const AeroTowerStation& station : turbine.air->loads.tower) {
     heights.push_back(station.height);
     diameters.push_back(station.diameter);
-  }
-  std::vector<double> places{base};
-  for (const double height : heights) {
-    if (height > base && height < top) places.push_back(height);
+    drags.push_back(station.drag);
+    if (station.height > base && station.height < top) places.push_back(station.height);
   }
   places.push_back(top);
-  Strips strips;
+  std::vector<double> positions, diameters_there, drags_there;
   for (const double place : places) {
-    const auto above = std::upper_bound(heights.begin() + 1, heights.end(), place);
-    strips.positions.push_back((place - base) / (top - base));
-    strips.chords.push_back(linear(heights, diameters, place));
-    strips.airfoils.push_back(
-        tower_airfoil(tower[static_cast<std::size_t>(above - heights.begin()) - 1].drag));
+    positions.push_back((place - base) / (top - base));
+    diameters_there.push_back(linear(heights, diameters, place));
+    drags_there.push_back(linear(heights, drags, place));
   }
-  return strips;
-}
-
-void write_tower_load(const ElastoDyn& turbine, DeckWriter& deck) {
-  write_strip(tower_load, "tower", tower_strips(turbine), deck);
-  deck.set("Axis At", 0.5);
-  deck.set("Lag", "None");
-  deck.set("Apparent Mass", "false");
+  deck.open(tower_load, "Strip Drag");
+  deck.set("Structure", "tower");
+  deck.set("Flow", "wind");
+  deck.set("Positions", positions);
+  deck.set("Diameters", diameters_there);
+  deck.set("Drags", drags_there);
   deck.set("Stations", tower_stations);
   deck.close();
 }

@@ -35,9 +35,11 @@ InflowState InflowState::after(double step, const InflowTimes& times, const Indu
           end - lag + slow_left * carried + fast_left * fast_part};
 }
 
+double slow_share(const InflowTimes& times) { return (1.0 - k) / (1.0 - times.fast / times.slow); }
+
 // Of one that starts at zero: InflowState::after where begin = end = 1.
 double inflow_response(double step, const InflowTimes& times) {
-  const double carried = (1.0 - k) / (1.0 - times.fast / times.slow);
+  const double carried = slow_share(times);
   return 1.0 - carried * std::exp(-step / times.slow) -
          (1.0 - carried) * std::exp(-step / times.fast);
 }

@@ -225,7 +225,7 @@ double induction_residual(const BladeElement& element, const Section& section, d
 Induction solve_induction(const BladeElement& element, const Section& section, double near) {
   const double wind = std::hypot(element.axial, element.tangential);
   if (std::abs(element.axial) <= no_wind * wind || std::abs(element.tangential) <= no_wind * wind)
-    return {.inflow_angle = std::atan2(element.axial, element.tangential)};
+    return {.inflow_angle = std::atan2(element.axial, element.tangential), .found = false};
   return element.axial > 0.0 ? solve_forward(element, section, near)
                              : solve_backward(element, section, near);
 }

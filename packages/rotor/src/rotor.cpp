@@ -88,6 +88,14 @@ void build(const Options& options, strip::StripContext& context) {
   if (nodes.size() > 1) build.issues.add(options.where("Hub"), "must name one node");
   if (nodes.size() != 1 || blades.empty() || axis.norm() == 0.0) return;
   if (!joint::have_triads(nodes, "Hub", options, build)) return;
+  const auto frames = model::rotations_of(build.model, nodes);
+  for (const strip::StripLoad* blade : blades) {
+    if (model::rotations_of(build.model, blade->stations().front().point.nodes) == frames) continue;
+    build.issues.add(options.where("Hub"),
+                     "a load 'Rotating Frame' turns either the hub or the blade of '" +
+                         blade->effect().name + "': name both in 'Structures' there, or none");
+    return;
+  }
   const auto slots = model::NodeTable::slots(build.model.nodes().reference(), nodes.front());
   const RotorHub hub{nodes.front(), slots.rightCols<3>().transpose() * axis.normalized()};
   build.model.add_load(std::make_unique<RotorLoad>(

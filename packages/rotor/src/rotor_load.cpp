@@ -3,6 +3,7 @@
 #include <culm/rotor/skewed_wake.hpp>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,7 @@ RotorLoad::RotorLoad(model::Effect effect, const model::NodeTable& nodes, RotorH
   accepted_.angles.resize(elements_.size());
   trial_ = accepted_;
   flows_.resize(elements_.size());
+  balances_.resize(elements_.size());
 }
 
 // Stations stand in the middle of their parts, so the blade goes on by half a part at both ends.
@@ -145,6 +147,9 @@ RotorState RotorLoad::motion(const model::State& state, const Stencil& stencil) 
   RotorState rotor;
   rotor.centre = middle.col(0);
   rotor.axis = (middle.rightCols<3>() * hub_.axis).normalized();
+  if (const model::SteadyRotation* frame = blades_.front()->frame()) {
+    rotor.speed = frame->speed(state, stencil) * frame->axis().dot(rotor.axis);
+  }
   if (stencil.step == 0.0) return rotor;
   double turned = 0.0, arms = 0.0;
   for (int k = 1; k < 4; ++k) {
@@ -152,8 +157,12 @@ RotorState RotorLoad::motion(const model::State& state, const Stencil& stencil) 
     turned += arm.cross(Vec3(next.col(k) - prev.col(k))).dot(rotor.axis);
     arms += arm.squaredNorm();
   }
-  rotor.speed = 2.0 * std::atan(0.5 * turned / arms) / stencil.step;
+  rotor.speed += 2.0 * std::atan(0.5 * turned / arms) / stencil.step;
   return rotor;
+}
+
+double RotorLoad::share_of(const RotorState& rotor) const {
+  return turning_share(std::abs(rotor.speed) * tip_radius_, std::abs(rotor.wind.dot(rotor.axis)));
 }
 
 // A rotation w of the section turns the span s by w x s, whose parts along normal n and `against`
@@ -187,9 +196,9 @@ RotorLoad::Balanced RotorLoad::balance(const Element& element, const strip::Stat
   const Induction induction = solve_induction(
       {place, kind_.losses, airfoil.station().chord, twist, axial, tangential, kind_.drag_induces},
       section, near);
+  found.found = induction.found;
   if (!induction.found) return found;
-  const double share =
-      turning_share(std::abs(rotor.speed) * tip_radius_, std::abs(rotor.wind.dot(rotor.axis)));
+  const double share = share_of(rotor);
   found.angle = induction.inflow_angle;
   found.induction = share * induction.axial;
   found.quasi_steady = {-share * induction.axial * axial,
@@ -213,23 +222,34 @@ RotorLoad::Balanced RotorLoad::balance(const Element& element, const strip::Stat
   return found;
 }
 
-// Sets the wake at the end of the step; one that has not stepped yet is steady.
-RotorLoad::Felt RotorLoad::follow(std::size_t element, const Induced& quasi_steady, double step) {
+InflowTimes RotorLoad::times_of(const Element& element, const RotorState& rotor) const {
+  const double wind = std::max(std::abs(rotor.wind.dot(rotor.axis)), least_wind);
+  return inflow_times(rotor.induction, wind, tip_radius_, element.radius / tip_radius_);
+}
+
+// Sets the wake at the end of the step; one that has not stepped yet is steady. A linearisation is
+// about such a wake.
+RotorLoad::Felt RotorLoad::follow(std::size_t element, const Induced& quasi_steady,
+                                  const RotorState& rotor, const Stencil& stencil) {
   InflowState& end = trial_.wake[element];
-  if (kind_.follow == Follow::steady || !accepted_.has_wake || step == 0.0) {
+  const bool moves = stencil.step > 0.0 && stencil.inertia > 0.0;
+  const bool is_linearised = !moves && (stencil.step > 0.0 || stencil.frees_states);
+  if (kind_.follow == Follow::steady || !accepted_.has_wake || !moves) {
     end = InflowState::steady(quasi_steady);
-    return {end.induced, 1.0};
+    Felt felt{end.induced, is_linearised && kind_.follow == Follow::frozen ? 0.0 : 1.0};
+    if (is_linearised && kind_.follow == Follow::dynamic) {
+      felt.times = times_of(elements_[element], accepted_.has_stepped ? accepted_.seen : rotor);
+    }
+    return felt;
   }
   const InflowState& wake = accepted_.wake[element];
   if (kind_.follow == Follow::frozen) {
     end = wake;
     return {wake.induced, 0.0};
   }
-  const double wind = std::max(std::abs(accepted_.seen.wind.dot(accepted_.seen.axis)), least_wind);
-  const InflowTimes times = inflow_times(accepted_.seen.induction, wind, tip_radius_,
-                                         elements_[element].radius / tip_radius_);
-  end = wake.after(step, times, quasi_steady, quasi_steady);
-  return {0.5 * (wake.induced + end.induced), 0.5 * inflow_response(step, times)};
+  const InflowTimes times = times_of(elements_[element], accepted_.seen);
+  end = wake.after(stencil.step, times, quasi_steady, quasi_steady);
+  return {0.5 * (wake.induced + end.induced), 0.5 * inflow_response(stencil.step, times)};
 }
 
 double RotorLoad::skew(const RotorState& rotor, const Element& element,
@@ -245,7 +265,8 @@ double RotorLoad::skew(const RotorState& rotor, const Element& element,
 
 void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
   if (evaluated_ == state.next && evaluated_time_ == state.time &&
-      evaluated_step_ == stencil.step) {
+      evaluated_stencil_.step == stencil.step && evaluated_stencil_.inertia == stencil.inertia &&
+      evaluated_stencil_.frees_states == stencil.frees_states) {
     return;
   }
   RotorState rotor = motion(state, stencil);
@@ -257,30 +278,72 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
     area += element.area;
   }
   rotor.wind /= area;
-  for (std::size_t i = 0; i < elements_.size() && kind_.follow != Follow::none; ++i) {
+  const bool induces = kind_.follow != Follow::none;
+  trial_.unbalanced = 0;
+  trial_.turning = induces ? share_of(rotor) : 0.0;
+  for (std::size_t i = 0; i < elements_.size() && induces; ++i) {
+    balances_[i] = balance(elements_[i], flows_[i], rotor, trial_.angles[i]);
+    trial_.angles[i] = balances_[i].angle;
+    rotor.induction += elements_[i].area / area * balances_[i].induction;
+    trial_.unbalanced += balances_[i].found ? 0 : 1;
+  }
+  for (std::size_t i = 0; i < elements_.size() && induces; ++i) {
     const Element& element = elements_[i];
-    const Balanced found = balance(element, flows_[i], rotor, trial_.angles[i]);
-    trial_.angles[i] = found.angle;
-    rotor.induction += element.area / area * found.induction;
-    const Felt felt = follow(i, found.quasi_steady, stencil.step);
+    const Balanced& found = balances_[i];
+    const Felt felt = follow(i, found.quasi_steady, rotor, stencil);
     const double skewed = skew(rotor, element, found.outwards);
     const double axial = skewed * felt.induced[0], tangential = felt.induced[1];
     strip::InducedVelocity induced;
     induced.velocity = axial * found.normal + tangential * found.against;
-    induced.slope = felt.response * (skewed * found.normal * found.axial_slope +
-                                     found.against * found.tangential_slope);
+    const Mat<3, 9> by_balance =
+        skewed * found.normal * found.axial_slope + found.against * found.tangential_slope;
+    if (felt.times) {
+      induced.following = by_balance;
+      induced.slow_time = felt.times->slow;
+      induced.fast_time = felt.times->fast;
+      induced.slow_share = slow_share(*felt.times);
+    } else {
+      induced.slope = felt.response * by_balance;
+    }
     induced.slope.rightCols<3>() += axial * found.normal_slope + tangential * found.against_slope;
+    const double through = flows_[i].relative().dot(found.normal);
+    const double against = flows_[i].relative().dot(found.against);
+    induced.inflow_angle = std::atan2(through + axial, against + tangential);
+    induced.axial = through == 0.0 ? 0.0 : -axial / through;
+    induced.tangential = against == 0.0 ? 0.0 : tangential / against;
     element.strip->set_induced(element.station, induced);
   }
   trial_.has_stepped = true;
-  trial_.has_wake = accepted_.has_wake || stencil.step > 0.0;
+  trial_.has_wake = accepted_.has_wake || (stencil.step > 0.0 && stencil.inertia > 0.0);
   trial_.seen = rotor;
   evaluated_ = state.next;
   evaluated_time_ = state.time;
-  evaluated_step_ = stencil.step;
+  evaluated_stencil_ = stencil;
 }
 
 void RotorLoad::accept(model::State&) { accepted_ = trial_; }
+
+double RotorLoad::range_used() const {
+  if (accepted_.turning == 0.0) return 0.0;
+  if (accepted_.unbalanced > 0) return 2.0;
+  const RotorState& rotor = accepted_.seen;
+  const double along = std::abs(rotor.wind.dot(rotor.axis));
+  if (!kind_.skewed_wake || along == 0.0) return 0.0;
+  return std::atan2(across(rotor.wind, rotor.axis).norm(), along) / (0.25 * pi);
+}
+
+std::string RotorLoad::range_warning(double used) const {
+  if (used == 2.0) {
+    return effect().quoted() +
+           ": there were stations of the turning rotor at which blade element and momentum have no "
+           "balance, as without wind along its axis; nothing is induced there";
+  }
+  return fmt::format(
+      "{}: the wind met the axis at {:.3g} degrees; the correction for skewed wakes ends at 45, "
+      "and "
+      "blade element and momentum are made for less",
+      effect().quoted(), 45.0 * used);
+}
 
 std::size_t RotorLoad::memory_size() const { return 2 + RotorState::size + 5 * elements_.size(); }
 

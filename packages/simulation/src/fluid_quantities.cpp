@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -102,9 +103,16 @@ class StripQuantity final : public Quantity {
  public:
   StripQuantity(const strip::StripLoad& load, int station) : load_(load), station_(station) {}
 
+  // What others induce, and how much of the flow is attached, where there is such a thing.
   std::vector<HistoryColumn> columns() const override {
-    return {{"alpha", "rad"}, {"alpha E", "rad"}, {"V", "m/s"},  {"Cl", "1"},
-            {"Cd", "1"},      {"Cm", "1"},        {"Fn", "N/m"}, {"Ft", "N/m"}};
+    std::vector<HistoryColumn> columns{{"alpha", "rad"}, {"alpha E", "rad"}, {"V", "m/s"},
+                                       {"Cl", "1"},      {"Cd", "1"},        {"Cm", "1"},
+                                       {"Fn", "N/m"},    {"Ft", "N/m"}};
+    if (load_.inducer() != nullptr) {
+      columns.insert(columns.end(), {{"phi", "rad"}, {"a", "1"}, {"a'", "1"}});
+    }
+    if (load_.kind().stall != strip::Stall::none) columns.push_back({"f", "1"});
+    return columns;
   }
   void evaluate(const assembly::System& system, const model::State&,
                 std::vector<double>& numbers) const override {
@@ -113,12 +121,16 @@ class StripQuantity final : public Quantity {
       numbers.insert(numbers.end(), columns().size(), absent);
       return;
     }
-    Vec<8> values = Vec<8>::Zero();
-    if (load_.owns(station_)) {
-      values << s->angle, s->effective_angle, s->speed, s->coefficients, s->normal, s->tangential;
+    std::vector<double> values{s->angle,           s->effective_angle, s->speed,
+                               s->coefficients[0], s->coefficients[1], s->coefficients[2],
+                               s->normal,          s->tangential};
+    if (load_.inducer() != nullptr) {
+      values.insert(values.end(), {s->inflow_angle, s->axial, s->tangential_induction});
     }
+    if (load_.kind().stall != strip::Stall::none) values.push_back(s->attached);
     // one rank has it, so the sum is exact
-    system.comm().sum({values.data(), 8});
+    if (!load_.owns(station_)) std::ranges::fill(values, 0.0);
+    system.comm().sum({values.data(), values.size()});
     numbers.insert(numbers.end(), values.begin(), values.end());
   }
 
@@ -151,8 +163,9 @@ class RotorQuantity final : public Quantity {
   explicit RotorQuantity(const rotor::RotorLoad& rotor) : rotor_(rotor) {}
 
   std::vector<HistoryColumn> columns() const override {
-    return {{"thrust", "N"}, {"torque", "N m"}, {"power", "W"},  {"speed", "rad/s"}, {"CT", "1"},
-            {"CP", "1"},     {"TSR", "1"},      {"wind", "m/s"}, {"yaw", "rad"},     {"a", "1"}};
+    return {{"thrust", "N"}, {"torque", "N m"}, {"power", "W"}, {"speed", "rad/s"},
+            {"CT", "1"},     {"CP", "1"},       {"TSR", "1"},   {"wind", "m/s"},
+            {"yaw", "rad"},  {"a", "1"},        {"CQ", "1"}};
   }
   void evaluate(const assembly::System& system, const model::State&,
                 std::vector<double>& numbers) const override {
@@ -188,7 +201,8 @@ class RotorQuantity final : public Quantity {
                              over(std::abs(rotor->speed) * radius, wind),
                              wind,
                              yaw,
-                             rotor->induction};
+                             rotor->induction,
+                             over(torque, push * radius)};
     numbers.insert(numbers.end(), std::begin(values), std::end(values));
   }
 
@@ -275,17 +289,18 @@ void register_fluid_quantities(QuantityRegistry& registry) {
       Schema("Strip",
              "Angle of attack, the angle behind the lag, wind across the span, coefficients, "
              "and forces per length towards the suction side and towards the tail, of a "
-             "station in the step.")
-          .add(text("Load", "Name of the strips in the list Loads."))
+             "station in the step; on the blade of a rotor the angle of the inflow to the plane of "
+             "rotation and the induction through it and in it, with stall the attached share.")
+          .add(text("Load", "Name of the strips, or of the strip drag, in the list Loads."))
           .add(integer("Station", "Number of the station, from 0.").at_least(0).optional(0)),
       make_strip);
   registry.add(
       "Rotor",
       Schema("Rotor",
              "Thrust, torque about the axis downwind, power and speed of a rotor in the step; its "
-             "coefficients of thrust and power and its tip speed ratio, by the mean wind over its "
-             "disc and the radius of its tips in the reference; this wind, its angle to the axis, "
-             "and the mean axial induction that the balance of momentum asks for.")
+             "coefficients of thrust, power and torque and its tip speed ratio, by the mean wind "
+             "over its disc and the radius of its tips in the reference; this wind, its angle to "
+             "the axis, and the mean axial induction that the balance of momentum asks for.")
           .add(text("Load", "Name of the rotor in the list Loads.")),
       make_rotor);
   registry.add(

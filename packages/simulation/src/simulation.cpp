@@ -18,7 +18,6 @@
 #include "on_root.hpp"
 #include "other_run.hpp"
 #include "port_picture.hpp"
-#include "rotating_air.hpp"
 #include "run_observer.hpp"
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
@@ -262,7 +261,6 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     const auto warn = [&](const char* kind, const std::vector<std::string>& sentences) {
       for (const std::string& sentence : sentences) p.findings.warn(kind, sentence, state.time);
     };
-    warn("rotating frame", strips_that_miss_rotation(*phase.model));
     warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
     warn("overlap", deep_contacts(*phase.model, state.next));
     warn("lost moment", moments_that_are_not_carried(*phase.model));

@@ -39,7 +39,7 @@ struct SectionMotion {
 template <class Number>
 struct Surroundings {
   double density = 0.0;
-  Vector<Number> wind_at_quarter, wind_at_three_quarters;
+  Vector<Number> wind_at_force, wind_at_angle;
   double step = 0.0;     ///< zero in statics
   SectionStates memory;  ///< at the start of the step
   /// What share of a change of their targets states follow in statics.
@@ -111,13 +111,12 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
   Vector<Number> n = motion.place.normal - dot(motion.place.normal, c) * c;
   n = Vector<Number>(n / sqrt(dot(n, n)));
   const double b = 0.5 * station.chord;
-  const auto behind = [&](double place) { return (place - station.axis_at) * station.chord; };
   const auto velocity_at = [&](double eta) -> Vector<Number> {
     return motion.velocity.axis + Number(eta) * motion.velocity.chord;
   };
   const Number turning = -dot(motion.velocity.chord, n) / chord_norm;  // nose up
 
-  const Vector<Number> wind = around.wind_at_three_quarters - velocity_at(behind(0.75));
+  const Vector<Number> wind = around.wind_at_angle - velocity_at(station.behind(station.angle_at));
   const Number along = dot(wind, c);
   const Number across = dot(wind, n);
   const Number speed_squared = along * along + across * across;
@@ -141,7 +140,8 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
     const Number &lift = found.lift, &drag = found.drag;
     const Number pressure = (0.5 * around.density * station.chord) * speed_squared;
 
-    const Vector<Number> wind_there = around.wind_at_quarter - velocity_at(behind(0.25));
+    const Vector<Number> wind_there =
+        around.wind_at_force - velocity_at(station.behind(station.force_at));
     Number wc = dot(wind_there, c);
     Number wn = dot(wind_there, n);
     const Number size = sqrt(Number(wc * wc + wn * wn));
@@ -150,7 +150,7 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
       wn = Number(wn / size);
       const Number tangential = pressure * (drag * wc - lift * wn);
       const Number normal = pressure * (lift * wc + drag * wn);
-      add_at<Number>(behind(0.25), tangential * c + normal * n, forces);
+      add_at<Number>(station.behind(station.force_at), tangential * c + normal * n, forces);
       loads.seen.normal = value_of(normal);
       loads.seen.tangential = value_of(tangential);
     }
@@ -165,15 +165,15 @@ SectionLoads<Number> section_loads(const Station& station, const StripModel& mod
     }
     if (model.apparent_mass) {
       const Number force = (std::numbers::pi * around.density * b * b) * speed * turning;
-      add_at<Number>(behind(0.75), force * n, forces);
+      add_at<Number>(station.behind(0.75), force * n, forces);
     }
   }
   if (model.apparent_mass) {
     const double mass = std::numbers::pi * around.density * b * b;
     const Vector<Number> middle =
-        motion.acceleration.axis + Number(behind(0.5)) * motion.acceleration.chord;
+        motion.acceleration.axis + Number(station.behind(0.5)) * motion.acceleration.chord;
     const Number force = -mass * dot(middle, n);
-    add_at<Number>(behind(0.5), force * n, forces);
+    add_at<Number>(station.behind(0.5), force * n, forces);
     const Number turning_rate = -dot(motion.acceleration.chord, n) / chord_norm;
     add_moment<Number>(Number((-mass * b * b / 8.0) * turning_rate), c, n, chord_norm, forces);
   }

@@ -1,14 +1,17 @@
+#include <culm/base/error.hpp>
 #include <culm/load/slot_kernel.hpp>
 #include <culm/strip/strip_load.hpp>
 
 #include "section_forces.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 namespace culm::strip {
 namespace {
@@ -80,8 +83,9 @@ Mat<3, 9> by_vectors_of_point(const Mat3& matrix, double eta) {
 // the wind, which has a gradient there, per metre: rows velocity, turning, rotation. With the triad
 // c, g, s of along, across and span, a rotation w has w . s = g . dc, w . g = -s . dc, w . c = s .
 // dg.
+// @param by_place  derivative of the velocity of a point by its place at the end
 Mat<9, 9> motion_of_vectors(const Station& station, const Columns& middle, double theta,
-                            double rate, const Mat3& gradient) {
+                            const Mat3& by_place, const Mat3& gradient) {
   const double chord = middle.col(1).norm();
   const Vec3 c = middle.col(1) / chord;
   const double leaning = middle.col(2).dot(c);
@@ -90,9 +94,9 @@ Mat<9, 9> motion_of_vectors(const Station& station, const Columns& middle, doubl
   const Vec3 g = upright / height;
   const Vec3 s = c.cross(g);
   Mat<9, 9> result = Mat<9, 9>::Zero();
-  result.topRows<3>() = by_vectors_of_point(rate * Mat3::Identity() - theta * gradient,
-                                            (0.25 - station.axis_at) * station.chord);
-  result.block<3, 3>(3, 3).diagonal().setConstant(rate * 0.5 * station.chord);
+  result.topRows<3>() =
+      by_vectors_of_point(by_place - theta * gradient, station.behind(station.force_at));
+  result.block<3, 3>(3, 3) = (station.angle_at - station.force_at) * station.chord * by_place;
   result.block<3, 3>(6, 3) =
       theta / chord * (s * g.transpose() - Vec3(g + leaning / height * c) * s.transpose());
   result.block<3, 3>(6, 6) = theta / height * c * s.transpose();
@@ -112,6 +116,39 @@ void add_velocity(const Vec3& velocity, const Derivative& derivative, Vector<Dua
     result[i].derivatives() += by_vectors.row(i).transpose();
   }
 }
+
+// Adds vectors of a section that a matrix makes of those at the end of the step.
+template <class Number>
+void add_vectors(const Columns& values, const Mat3& matrix, SectionVectors<Number>& result) {
+  const auto by_vector = [&](int k) {
+    return [&matrix, k]() -> Mat<3, 9> {
+      Mat<3, 9> by_vectors = Mat<3, 9>::Zero();
+      by_vectors.block<3, 3>(0, 3 * k) = matrix;
+      return by_vectors;
+    };
+  };
+  add_velocity(values.col(0), by_vector(0), result.axis);
+  add_velocity(values.col(1), by_vector(1), result.chord);
+  add_velocity(values.col(2), by_vector(2), result.normal);
+}
+
+// A frame that turns with a section in a step: the matrix of its angular velocity, and a point of
+// its axis.
+struct Turning {
+  Mat3 turn = Mat3::Zero();
+  Vec3 point = Vec3::Zero();
+
+  Turning(const model::SteadyRotation* frame, const model::State& state, const Stencil& stencil) {
+    if (frame == nullptr) return;
+    turn = frame->speed(state, stencil) * skew(frame->axis());
+    point = frame->point();
+  }
+  // Velocity of the frame where the vectors of a section are.
+  Columns velocity(Columns place) const {
+    place.col(0) -= point;
+    return turn * place;
+  }
+};
 
 void put(const Vector<double>& force, int column, Columns& values, Mat<9, 9>&) {
   values.col(column) = force;
@@ -142,9 +179,15 @@ Coefficients Station::coefficients(double alpha, Coefficients& slope) const {
 
 std::array<double, StationState::size> StationState::numbers() const {
   const Vec3 &c = coefficients, &f = resultant.force, &m = resultant.moment;
-  return {angle,      effective_angle, speed, c[0], c[1], c[2], normal,
-          tangential, attached,        f[0],  f[1], f[2], m[0], m[1],
-          m[2]};
+  return {angle,    effective_angle,
+          speed,    c[0],
+          c[1],     c[2],
+          normal,   tangential,
+          attached, f[0],
+          f[1],     f[2],
+          m[0],     m[1],
+          m[2],     inflow_angle,
+          axial,    tangential_induction};
 }
 
 void StationState::set(std::span<const double> values) {
@@ -156,6 +199,9 @@ void StationState::set(std::span<const double> values) {
   tangential = values[7];
   attached = values[8];
   resultant = {Vec3(values.data() + 9), Vec3(values.data() + 12)};
+  inflow_angle = values[15];
+  axial = values[16];
+  tangential_induction = values[17];
 }
 
 void StripLoad::add(Station station) {
@@ -183,7 +229,8 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
   const Columns prev = vectors_of(station, state.prev);
   const Columns next = vectors_of(station, state.next);
   const Columns middle = (1.0 - stencil.theta) * prev + stencil.theta * next;
-  const double eta = (0.25 - station.axis_at) * station.chord;
+  const double eta = station.behind(station.force_at);
+  const double lever = (station.angle_at - station.force_at) * station.chord;
   StationFlow found;
   found.place = middle.col(0) + eta * middle.col(1);
   found.along = middle.col(1).normalized();
@@ -191,7 +238,12 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
   if (stencil.step > 0.0) {
     const Columns moved = next - prev;
     found.velocity = (moved.col(0) + eta * moved.col(1)) / stencil.step;
-    found.turning = 0.5 * station.chord / stencil.step * moved.col(1);
+    found.turning = lever / stencil.step * moved.col(1);
+  }
+  if (frame_ != nullptr) {
+    const Columns velocity = Turning(frame_, state, stencil).velocity(middle);
+    found.velocity += velocity.col(0) + eta * velocity.col(1);
+    found.turning += lever * velocity.col(1);
   }
   found.wind = flow_->velocity(found.place, load::time_of(state, stencil));
   return found;
@@ -217,6 +269,16 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   motion.place = carried<Number>((1.0 - theta) * prev + theta * next, mass ? 0.0 : theta);
   motion.velocity = carried<Number>(rate * moved, rate);
   motion.acceleration = carried<Number>(acceleration, mass ? 1.0 : stencil.inertia);
+  const Columns middle = (1.0 - theta) * prev + theta * next;
+  Mat3 by_place = rate * Mat3::Identity();
+  if (frame_ != nullptr && !mass) {  // omega x x, and omega x (omega x x) + 2 omega x v
+    const Turning frame(frame_, state, stencil);
+    const Columns velocity = frame.velocity(middle);
+    add_vectors(velocity, theta * frame.turn, motion.velocity);
+    add_vectors(frame.turn * (velocity + 2.0 * rate * moved),
+                frame.turn * (theta * frame.turn + 2.0 * by_place), motion.acceleration);
+    by_place += theta * frame.turn;
+  }
 
   Surroundings<Number> around;
   around.density = flow_->density();
@@ -224,9 +286,8 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   around.step = moves && stencil.inertia > 0.0 ? stencil.step : 0.0;
   around.memory = accepted_[station_number].memory;
   around.follow = follow;
-  const Columns middle = (1.0 - theta) * prev + theta * next;
-  const std::array<double, 2> behind = {(0.25 - station.axis_at) * station.chord,
-                                        (0.75 - station.axis_at) * station.chord};
+  const std::array<double, 2> behind = {station.behind(station.force_at),
+                                        station.behind(station.angle_at)};
   const std::array<Vec3, 2> places = {middle.col(0) + behind[0] * middle.col(1),
                                       middle.col(0) + behind[1] * middle.col(1)};
   const double time = load::time_of(state, stencil);
@@ -239,16 +300,18 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
     }
   }
   for (const std::size_t k : {0U, 1U}) {
-    Vector<Number>& wind = k == 0 ? around.wind_at_quarter : around.wind_at_three_quarters;
+    Vector<Number>& wind = k == 0 ? around.wind_at_force : around.wind_at_angle;
     wind.setConstant(Number(0.0));
     const auto by_vectors = [&] { return by_vectors_of_point(theta * gradients[k], behind[k]); };
     add_velocity(winds[k], by_vectors, wind);
   }
   // to the section it is as if it moved against what is induced
   const InducedVelocity& induced = induced_[station_number];
+  const double followed = induced.slow_share * follow[state_kind::slow_inflow] +
+                          (1.0 - induced.slow_share) * follow[state_kind::fast_inflow];
   const auto by_vectors = [&]() -> Mat<3, 9> {
-    return -induced.slope.lazyProduct(
-        motion_of_vectors(station, middle, theta, rate, gradients[0]));
+    const Mat<3, 9> slope = induced.slope + followed * induced.following;
+    return -slope.lazyProduct(motion_of_vectors(station, middle, theta, by_place, gradients[0]));
   };
   if (!mass) add_velocity(-induced.velocity, by_vectors, motion.velocity.axis);
 
@@ -261,11 +324,48 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   result.forces *= factor;
   result.derivative *= factor;
   result.end = {loads.memory, loads.seen};
+  result.end.seen.inflow_angle = induced.inflow_angle;
+  result.end.seen.axial = induced.axial;
+  result.end.seen.tangential_induction = induced.tangential;
   result.end.seen.resultant.force = result.forces.col(0);
   for (int k = 0; k < 3; ++k) {
     result.end.seen.resultant.moment += Vec3(middle.col(k)).cross(Vec3(result.forces.col(k)));
   }
   return result;
+}
+
+void StripLoad::prepare(const model::State& state, const Stencil& stencil) {
+  if (frame_ == nullptr) return;
+  for (const int item : placement().items) {
+    refuse_wind_across_frame(static_cast<std::size_t>(item), state, stencil);
+  }
+}
+
+// Seen from the frame, the wind must be the same when the frame has turned on.
+void StripLoad::refuse_wind_across_frame(std::size_t number, const model::State& state,
+                                         const Stencil& stencil) const {
+  constexpr int sides = 8;
+  constexpr double same = 1e-6;
+  if (frame_->speed(state, stencil) == 0.0) return;
+  const Station& station = stations_[number];
+  const Vec3 place = vectors_of(station, state.prev).col(0);
+  const double time = load::time_of(state, stencil);
+  const Vec3 wind = flow_->velocity(place, time);
+  for (int side = 1; side < sides; ++side) {
+    const Mat3 turn =
+        Eigen::AngleAxisd(2.0 * std::numbers::pi * side / sides, frame_->axis()).matrix();
+    const Vec3 there = turn.transpose() *
+                       flow_->velocity(frame_->point() + turn * (place - frame_->point()), time);
+    if ((there - wind).norm() <= same * std::max(wind.norm(), there.norm())) continue;
+    throw InputError(
+        frame_where_,
+        fmt::format("{} stands in a rotating frame, but its wind is not the same from all sides: "
+                    "at station {} it is {{{:.4g}, {:.4g}, {:.4g}}} m/s in the frame, and "
+                    "{{{:.4g}, {:.4g}, {:.4g}}} after {} degrees.\nTake a wind along the axis that "
+                    "does not depend on the azimuth, or a motion in time without the frame",
+                    effect().quoted(), number, wind[0], wind[1], wind[2], there[0], there[1],
+                    there[2], 360 / sides * side));
+  }
 }
 
 Verdict StripLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -352,6 +452,10 @@ PerStateKind StripLoad::times_of(std::size_t number, const model::State& state) 
     const bool four = model_.stall == Stall::four_states;
     if (four) times[state_kind::pressure] = pressure_time(station.chord, speed);
     times[state_kind::attached] = attached_time(model_.stall, station.chord, speed);
+  }
+  if (induced_[number].slow_time > 0.0) {
+    times[state_kind::slow_inflow] = induced_[number].slow_time;
+    times[state_kind::fast_inflow] = induced_[number].fast_time;
   }
   for (std::size_t k = 1; k < times.size(); ++k) {
     const auto others = std::span(times).first(k);

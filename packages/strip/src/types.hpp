@@ -1,7 +1,8 @@
-/// One function per type of airfoil.
+/// One function per type of airfoil, and per type of load beside Strip.
 #pragma once
 
 #include <culm/strip/airfoil.hpp>
+#include <culm/strip/register_strip.hpp>
 
 namespace culm::strip {
 
@@ -13,5 +14,7 @@ namespace culm::strip {
 #define CULM_DECLARE(type) void register_##type(AirfoilRegistry& registry);
 CULM_AIRFOILS(CULM_DECLARE)
 #undef CULM_DECLARE
+
+void register_strip_drag(StripRegistry& registry);
 
 }  // namespace culm::strip

@@ -387,7 +387,14 @@ void make(const Options& options, flow::FluidContext& context) {
   const std::vector<double>& range = options.numbers("Range");
   load->cover(name_of_member(options), range[0], range[1]);
   if (!is_alone(*load, options, build)) return;
-  for (Segment& segment : segments) load->add(std::move(segment));
+  std::vector<int> nodes;
+  for (Segment& segment : segments) {
+    for (const model::Marker& end : segment.ends) {
+      nodes.insert(nodes.end(), end.nodes.begin(), end.nodes.end());
+    }
+    load->add(std::move(segment));
+  }
+  flow::refuse_rotating_frame(options, nodes, context);
   build.model.add_load(std::move(load));
 }
 

@@ -11,8 +11,12 @@
 
 namespace culm::flow {
 
+class Flow;
+/// Shared by all loads that act in it.
+using SharedFlow = std::shared_ptr<const Flow>;
+
 /// A fluid with a velocity of its own at each place [m] and time [s], which structures do not
-/// disturb.
+/// disturb, but for one that it stands about.
 class Flow {
  public:
   explicit Flow(double density) : density_(density) {}
@@ -25,11 +29,10 @@ class Flow {
   /// Derivative of the velocity by the place [1/s]; of one side where it has a kink. It only serves
   /// the tangent: zero of a flow that does not know it.
   virtual Mat3 gradient(const Vec3& /*place*/, double /*time*/) const { return Mat3::Zero(); }
-  /// What a structure that changes the flow about itself stands in: the flow without that change.
-  /// Null where this flow is not changed by a structure of this name.
-  virtual std::shared_ptr<const Flow> undisturbed_by(const std::string& /*structure*/) const {
-    return nullptr;
-  }
+  /// The structure that the flow stands about; empty: none.
+  virtual std::string stands_about() const { return {}; }
+  /// The flow as it is without that structure; null where there is none.
+  virtual SharedFlow without_structure() const { return nullptr; }
   /// The velocity at one place.
   Vec3 velocity(const Vec3& place, double time) const {
     Vec3 result;
@@ -41,8 +44,6 @@ class Flow {
   double density_ = 0.0;
 };
 
-/// Shared by all loads that act in it.
-using SharedFlow = std::shared_ptr<const Flow>;
 /// Types of the deck's list "Flows", made when all structures are there.
 using FlowRegistry = Registry<SharedFlow, model::BuildContext&>;
 

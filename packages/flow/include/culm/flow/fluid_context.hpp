@@ -43,5 +43,9 @@ using FluidLoadRegistry = Registry<void, FluidContext&>;
 Field flow_field();
 /// The flow that parameter "Flow" names; null, and an issue, if there is none.
 SharedFlow find_flow(const Options& options, FluidContext& context);
+/// Adds an issue when all loads are there if a rotating frame turns any of these nodes, to a load
+/// that would not see its speed.
+void refuse_rotating_frame(const Options& options, const std::vector<int>& nodes,
+                           FluidContext& context);
 
 }  // namespace culm::flow

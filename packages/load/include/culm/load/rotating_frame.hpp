@@ -49,7 +49,7 @@ class RotatingFrame final : public model::MemorylessBatch,
 
   const Vec3& axis() const override { return axis_; }
   const Vec3& point() const override { return point_; }
-  double speed(const model::State& state) const override;
+  double speed(const model::State& state, const Stencil& stencil) const override;
   bool turns(int node) const override {
     return turning_.empty() || turning_[static_cast<std::size_t>(node)];
   }

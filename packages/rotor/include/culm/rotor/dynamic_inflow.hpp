@@ -38,6 +38,9 @@ struct InflowState {
                     const Induced& end) const;
 };
 
+/// The share s in W = (s / (1 + tau_1 p) + (1 - s) / (1 + tau_2 p)) W_qs with p = d/dt.
+double slow_share(const InflowTimes& times);
+
 /// The part of W_qs, the same on the whole step, that W has at its end.
 double inflow_response(double step, const InflowTimes& times);
 

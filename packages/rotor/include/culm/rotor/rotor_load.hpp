@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/model/memoryless_batch.hpp>
+#include <culm/model/method_limits.hpp>
 #include <culm/rotor/dynamic_inflow.hpp>
 #include <culm/rotor/losses.hpp>
 #include <culm/strip/strip_load.hpp>
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace culm::rotor {
@@ -54,9 +56,12 @@ struct RotorState {
 /// forces of its own. The balance is computed anew in each iteration, from the angle of the one
 /// before; what the hub and other stations do to it is left out of the tangent. What it remembers
 /// changes in `accept` alone. Induction is good for rotors that turn: it fades out between tip
-/// speeds of twice and of once the wind, so in statics there is none. Every rank computes all of
-/// it. @source fluids B3
-class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
+/// speeds of twice and of once the wind, so in statics there is none, but in a frame that turns.
+/// Linearisations have the lags of the wake as lags of each station. Every rank computes all of it.
+/// @source fluids B3
+class RotorLoad final : public model::MemorylessBatch,
+                        public model::LimitedRange,
+                        public strip::Inducer {
  public:
   /// @param blades  one strip load per blade, each of at least two stations from the root to the
   ///                tip; they must outlive the rotor's last evaluation, as loads of a model do
@@ -81,6 +86,10 @@ class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
     return Verdict::ok;
   }
   void accept(model::State& state) override;
+  /// Twice if a station of a rotor that turns has no balance; else the angle between wind and axis
+  /// over 45 degrees, where its correction for skewed wakes ends.
+  double range_used() const override;
+  std::string range_warning(double used) const override;
   model::StepWork step_work(const model::State&, const Stencil&) const override { return {}; }
 
   std::size_t memory_size() const override;
@@ -101,6 +110,8 @@ class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
     bool has_stepped = false;
     bool has_wake = false;  ///< a step in time was accepted
     RotorState seen;
+    int unbalanced = 0;             ///< stations that should have a balance, and have none
+    double turning = 0.0;           ///< share of the balance that counts
     std::vector<InflowState> wake;  ///< by element
     std::vector<double> angles;     ///< of inflow, where the next balance is looked for; 0: nowhere
   };
@@ -108,7 +119,8 @@ class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
   using Slope = Eigen::Matrix<double, 1, 9>;
   /// A station with its balance, in the plane of its section.
   struct Balanced {
-    Vec3 outwards, normal, against;          ///< unit vectors: from the axis, of the rotor, of wind
+    Vec3 outwards, normal, against;  ///< unit vectors: from the axis, of the rotor, of wind
+    bool found = true;
     double angle = 0.0;                      ///< of inflow; 0 without a balance [rad]
     Induced quasi_steady = Induced::Zero();  ///< along the normal, and against the motion
     double induction = 0.0;                  ///< a
@@ -118,14 +130,18 @@ class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
   /// What is left of W_qs in what a station feels in a step.
   struct Felt {
     Induced induced = Induced::Zero();
-    double response = 0.0;  ///< its derivative by W_qs
+    double response = 0.0;                  ///< its derivative by W_qs
+    std::optional<InflowTimes> times = {};  ///< by which it would follow, where no step passes
   };
 
   void add_blade(strip::StripLoad& blade, const model::NodeTable& nodes);
   RotorState motion(const model::State& state, const Stencil& stencil) const;
   Balanced balance(const Element& element, const strip::StationFlow& flow, const RotorState& rotor,
                    double near) const;
-  Felt follow(std::size_t element, const Induced& quasi_steady, double step);
+  InflowTimes times_of(const Element& element, const RotorState& rotor) const;
+  Felt follow(std::size_t element, const Induced& quasi_steady, const RotorState& rotor,
+              const Stencil& stencil);
+  double share_of(const RotorState& rotor) const;
   double skew(const RotorState& rotor, const Element& element, const Vec3& outwards) const;
 
   RotorHub hub_;
@@ -136,9 +152,11 @@ class RotorLoad final : public model::MemorylessBatch, public strip::Inducer {
 
   Memory accepted_, trial_;
   std::vector<strip::StationFlow> flows_;  ///< by element, of one evaluation
+  std::vector<Balanced> balances_;         ///< likewise
   // what trial_ and the induced velocities belong to
   model::Coordinates evaluated_;  ///< empty: nothing
-  double evaluated_time_ = 0.0, evaluated_step_ = 0.0;
+  double evaluated_time_ = 0.0;
+  Stencil evaluated_stencil_;
 };
 
 }  // namespace culm::rotor

@@ -1,12 +1,14 @@
 /// Loads of a flow on sections of slender structures.
 #pragma once
 
+#include <culm/base/issue.hpp>
 #include <culm/flow/flow.hpp>
 #include <culm/flow/fluid_force.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/delayed.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/method_limits.hpp>
+#include <culm/model/steady_rotation.hpp>
 #include <culm/model/structure.hpp>
 #include <culm/strip/airfoil.hpp>
 #include <culm/strip/lag.hpp>
@@ -31,6 +33,11 @@ struct Station {
   Vec3 across = Vec3::Zero();  ///< unit vector towards the suction side, in the directors
   SharedAirfoil airfoil = {}, next_airfoil = {};  ///< blended
   double blend = 0.0;                             ///< share of the second one
+  double force_at = 0.25;  ///< where lift and drag act, by the direction of the wind there [chords]
+  double angle_at = 0.75;  ///< where the wind has the angle and the speed that count [chords]
+
+  /// Distance behind the axis of a place in chords from the nose [m].
+  double behind(double place) const { return (place - axis_at) * chord; }
 
   /// In a steady flow. @param alpha  angle of attack from -pi to pi [rad]
   /// @param slope  derivatives by it [1/rad]
@@ -47,16 +54,17 @@ struct StationState {
   double tangential = 0.0;  ///< and towards the tail [N/m]
   /// Attached share of the chord by the states of stall; one without them [-].
   double attached = 1.0;
-  flow::FluidForce::Resultant resultant = {};  ///< of the whole station
+  flow::FluidForce::Resultant resultant = {};                          ///< of the whole station
+  double inflow_angle = 0.0, axial = 0.0, tangential_induction = 0.0;  ///< `InducedVelocity`
 
-  static constexpr std::size_t size = 15;
+  static constexpr std::size_t size = 18;
   std::array<double, size> numbers() const;
   void set(std::span<const double> values);
 };
 
 /// Where a station is in a step, and what it meets there. @source fluids B2, B3
 struct StationFlow {
-  Vec3 place = Vec3::Zero();     ///< of the quarter chord [m]
+  Vec3 place = Vec3::Zero();     ///< where the force acts, the quarter chord [m]
   Vec3 along = Vec3::Zero();     ///< unit vector from nose to tail
   Vec3 across = Vec3::Zero();    ///< unit vector towards the suction side
   Vec3 wind = Vec3::Zero();      ///< of the flow there, without induction [m/s]
@@ -72,6 +80,14 @@ struct InducedVelocity {
   /// Its derivative by the motion of the station (`StationFlow`): columns by `velocity`, by
   /// `turning`, and by a small rotation of `along` and `across` about fixed axes [m/s].
   Mat<3, 9> slope = Mat<3, 9>::Zero();
+  /// In statics and linearisations, the part of the derivative that follows with two lags side by
+  /// side of the times [s] and with the shares; there is none without a `slow_time`.
+  Mat<3, 9> following = Mat<3, 9>::Zero();
+  double slow_time = 0.0, fast_time = 0.0;
+  double slow_share = 0.0;  ///< the other one has the rest [-]
+  /// For those who look at it: between the wind with all that is induced and the plane of rotation
+  /// [rad], and by how much the wind through it is slower, and that against the motion faster [-].
+  double inflow_angle = 0.0, axial = 0.0, tangential = 0.0;
 };
 
 /// Induces velocities at stations of strips, such as a rotor.
@@ -116,12 +132,14 @@ struct SectionStates {
 };
 
 /// Kinds of states of a section: those of the lag move the pressure, this the attached share. Both
-/// airfoils of a section have the same times.
+/// airfoils of a section have the same times. What is induced follows with two.
 namespace state_kind {
 constexpr std::size_t first_lag = 0;  ///< and those of the lag after it
 constexpr std::size_t pressure = Lag::max_states;
 constexpr std::size_t attached = pressure + 1;
-constexpr std::size_t count = attached + 1;
+constexpr std::size_t slow_inflow = attached + 1;
+constexpr std::size_t fast_inflow = slow_inflow + 1;
+constexpr std::size_t count = fast_inflow + 1;
 }  // namespace state_kind
 /// A number of each kind of states.
 using PerStateKind = std::array<double, state_kind::count>;
@@ -167,12 +185,22 @@ class StripLoad final : public model::MemorylessBatch,
   /// induced; of any station of the model, if all ranks know all nodes.
   StationFlow flow_at(int station, const model::State& state, const Stencil& stencil) const;
   const flow::Flow& flow() const { return *flow_; }
+  const StripModel& kind() const { return model_; }
   /// Sets what others induce at a station, such as a rotor: it adds to the wind of both of its
   /// points until it is set anew; the tangent knows its slope. Zero at first. Whoever sets it does
   /// so on all ranks, and keeps what it needs of accepted states.
   void set_induced(int station, const InducedVelocity& induced) {
     induced_[static_cast<std::size_t>(station)] = induced;
   }
+  /// Describes the stations in a frame that turns with them, whose velocity is theirs, too. All of
+  /// it turns, and the wind has to look the same from all sides: an InputError at `where` names a
+  /// station that does not find it so.
+  void stand_in(const model::SteadyRotation& frame, Where where) {
+    frame_ = &frame;
+    frame_where_ = std::move(where);
+  }
+  /// Null: they stand in space.
+  const model::SteadyRotation* frame() const { return frame_; }
   /// Asks somebody before each evaluation; null at first: nobody.
   void set_inducer(Inducer* inducer) { inducer_ = inducer; }
   const Inducer* inducer() const { return inducer_; }
@@ -186,6 +214,7 @@ class StripLoad final : public model::MemorylessBatch,
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
   void place(model::Placement placement, model::Form form) override;
+  void prepare(const model::State& state, const Stencil& stencil) override;
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void accept(model::State& state) override;
@@ -209,7 +238,10 @@ class StripLoad final : public model::MemorylessBatch,
     StationState seen;
   };
   struct Evaluation;
-  static constexpr PerStateKind all_follow = {1.0, 1.0, 1.0, 1.0};
+  /// Throws InputError unless the wind at a station turns with the frame.
+  void refuse_wind_across_frame(std::size_t station, const model::State& state,
+                                const Stencil& stencil) const;
+  static constexpr PerStateKind all_follow = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   /// @param follow  what share of a change of their targets states follow, where there are no steps
   template <class Number>
   Evaluation evaluate(std::size_t station, const model::State& state, const Stencil& stencil,
@@ -232,6 +264,8 @@ class StripLoad final : public model::MemorylessBatch,
   std::vector<bool> owned_;
   std::vector<InducedVelocity> induced_;
   Inducer* inducer_ = nullptr;
+  const model::SteadyRotation* frame_ = nullptr;
+  Where frame_where_;
   std::vector<StationEnd> accepted_, trial_;
   bool has_stepped_ = false;
 };
