@@ -103,6 +103,9 @@ def compare_tables(one, other, what):
             if column not in table.names:
                 continue
             pairs = list(zip(table.column(column), other[name].column(column), strict=True))
+            pairs = [(a, b) for a, b in pairs if not (math.isnan(a) and math.isnan(b))]  # empty cells
+            if not pairs:
+                continue
             largest = max(max(abs(a), abs(b)) for a, b in pairs)
             worst = max(abs(a - b) for a, b in pairs) / max(largest, 1e-300)
             print(f"{what}: table {name}, {column}: largest relative difference {worst:.1e}")

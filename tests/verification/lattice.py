@@ -2,11 +2,14 @@
 """Vortex lattice: steady wings, a wing that rests, flutter in time. Page: doc/verification/lattice.md."""
 
 import math
+import pathlib
+import tempfile
 
 import numpy as np
-from verify import figure, main, poles, richardson, save
+from verify import INPUTS, figure, main, poles, richardson, save
 
 CHORD = 1.8288
+DIVERGENCE = "air/lattice_divergence.xml"
 # lattice in the frequency domain with a flat wake of 12 chords, the tip inset, 8 x 12 panels
 FLUTTER = {8: 161.67, 16: 160.65, 24: 160.27}
 
@@ -74,7 +77,54 @@ def verify_shell(culm, report):
         report.relative(component, rigid, beam.column(f"wing {component}")[-1], 5e-5)
 
 
+SWEEP = """    <ParameterList name="sweep">
+      <Parameter name="Type" value="Flutter"/>
+      <Parameter name="Levels" value="{50, 100, 200, 250, 300, 350, 400}"/>
+      <Parameter name="Modes" value="3"/>
+    </ParameterList>
+"""
+AT_ONCE = """    <ParameterList name="twist">
+      <Parameter name="Type" value="Static"/>
+      <Parameter name="Steps" value="1"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Output">
+    <ParameterList name="History">
+      <ParameterList name="wing">
+        <Parameter name="Type" value="Displacement"/>
+        <Parameter name="Node" value="wing/last"/>
+      </ParameterList>
+    </ParameterList>
+"""
+
+
+def verify_divergence(culm, report):
+    report.title("Divergence of Goland's wing by the steady lattice, and statics on both sides of it at 1e-7 rad")
+    speed = culm.table("sweep/onset", DIVERGENCE).at(2, "level")
+    report.note(f"diverges at {speed:.4f} m/s")
+    text = (INPUTS / DIVERGENCE).read_text().replace(SWEEP, AT_ONCE)
+    with tempfile.TemporaryDirectory() as folder:
+        deck = pathlib.Path(folder) / "twist.xml"
+        deck.write_text(text)
+        for share, sign in ((0.999, 1.0), (1.001, -1.0)):
+            history = culm.history(deck, ["angle=1e-7", f"Functions/speed/Expression={share * speed!r}"])
+            uz = history.column("wing uz [m]")[-1]
+            report.check(f"{share} of it: sign of the deflection ({uz:.2e} m)", math.copysign(1.0, uz), sign, 0.0)
+
+
+def verify_tangents(culm, report):
+    report.title("Iterations per step of Goland's wing at 150 m/s, 20 steps, by density and tangent")
+    for density, most in ((1.225, 6.0), (10.0, 8.0), (20.0, 10.0)):
+        steps = [f"Flows/air/Density={density}", "U=150", "Analyses/motion/End Time=20*c/(m*150)"]
+        whole = culm.run("air/goland.xml", [*steps, "Loads/flow about the wing/Tangent=Whole"], quiet=False)
+        mean = whole.iterations() / 20
+        report.holds(f"density {density:g}: {mean:.2f} with the whole tangent; cut back", whole.cut_back(), 0)
+        report.holds(f"density {density:g}: iterations", mean, most)
+
+
 def verify(culm, report):
+    verify_divergence(culm, report)
+    verify_tangents(culm, report)
     verify_steady(culm, report)
     verify_shell(culm, report)
     verify_rest(culm, report)

@@ -2,6 +2,7 @@
 #include <culm/analysis/modal.hpp>
 #include <culm/analysis/newton_options.hpp>
 #include <culm/base/absent.hpp>
+#include <culm/model/method_limits.hpp>
 
 #include "levels.hpp"
 #include "mode_diagram.hpp"
@@ -53,6 +54,19 @@ Growth divergence_of(const ModeSet& set) {
     if (value > most.rate) most = {value, mode};
   }
   return most;
+}
+
+// The same where damping is not known, so that two oscillations may become two motions at once,
+// which means nothing: a single one more or less passes through a singular stiffness.
+Growth instability_of(const ModeSet& set) {
+  Growth found{-1.0, {}};
+  for (const Mode& mode : set.modes) {
+    if (mode.is_zero() || mode.frequency() != 0.0 || mode.eigenvalue.real() <= 0.0) continue;
+    const bool is_slowest =
+        found.mode.eigenvalue == 0.0 || mode.eigenvalue.real() < found.mode.eigenvalue.real();
+    found = {-found.rate, is_slowest ? mode : found.mode};
+  }
+  return found;
 }
 
 using Measure = Growth (*)(const ModeSet&);
@@ -107,6 +121,15 @@ Growth close_in(Crossing& crossing, ModeDiagram& diagram, model::State& state) {
   return last;
 }
 
+// Whether all forces are in the linearisation: without damping and inertia of a fluid, oscillations
+// that grow have no meaning.
+bool knows_all_forces(const model::Model& model) {
+  return std::ranges::none_of(model.batches(), [](const model::Batch* batch) {
+    const auto* partly = dynamic_cast<const model::LeftOutOfModes*>(batch);
+    return partly != nullptr && !partly->left_out_of_modes().empty();
+  });
+}
+
 // How far eigenvalues are from those of another level, over the largest of these.
 double change_of(const ModeSet& here, const ModeSet& there) {
   if (here.modes.size() != there.modes.size()) return infinity;
@@ -139,7 +162,9 @@ std::unique_ptr<Inspection> Flutter::make(const Options& options) {
 AnalysisReport Flutter::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Flutter"));
   ModeDiagram diagram(context, settings_.modes, settings_.newton, "flutter");
-  Crossing crossings[] = {{"flutter", flutter_of, {}}, {"divergence", divergence_of, {}}};
+  const bool looks_for_flutter = knows_all_forces(context.system.model());
+  Crossing crossings[] = {{"flutter", flutter_of, {}},
+                          {"divergence", looks_for_flutter ? divergence_of : instability_of, {}}};
   state.time = state.time_prev = std::min(state.time, settings_.levels.front());
   std::optional<ModeSet> first;
   double largest_change = settings_.levels.size() > 1 ? 0.0 : infinity;
@@ -161,6 +186,12 @@ AnalysisReport Flutter::inspect(Context& context, model::State& state) {
   report.tables.push_back(diagram.table());
   ReportTable onset{"onset", {"level", "frequency [Hz]"}, {}, {}};
   for (Crossing& crossing : crossings) {
+    if (crossing.measure == flutter_of && !looks_for_flutter) {
+      report.text += "flutter is not looked for: linear analyses do not know all forces here\n";
+      onset.rows.push_back({absent, absent});
+      onset.remarks.push_back("flutter is not looked for");
+      continue;
+    }
     const std::optional<Growth> growth =
         crossing.happens() ? std::optional(close_in(crossing, diagram, state)) : std::nullopt;
     report.text += crossing.text(growth, settings_.levels) + '\n';

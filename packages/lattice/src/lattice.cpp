@@ -1,8 +1,8 @@
 #include <culm/lattice/lattice.hpp>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -107,9 +107,8 @@ Lattice::ComingWake Lattice::begin_step(const FluidState& state, const Points& s
 
 // No flow through the collocation points, with what moves there relative to them. The circulation
 // of a straight wake is unknown as well: it is that of the rings at the edge.
-Eigen::VectorXd Lattice::solve(const Segments& segments, const Points& grid,
-                               const Points& velocities, const Wake* straight,
-                               const Points& edges) const {
+void Lattice::solve(const Segments& segments, const Points& grid, const Wake* straight,
+                    const Points& edges, FluidResult& result) const {
   const Points places = bound_.collocation_points(grid);
   const Points normals = unit(bound_.areas(grid));
   const auto rings = static_cast<Eigen::Index>(bound_.num_rings());
@@ -136,9 +135,10 @@ Eigen::VectorXd Lattice::solve(const Segments& segments, const Points& grid,
   Eigen::VectorXd right(rings);
   for (Eigen::Index k = 0; k < rings; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    right[k] = -velocities.at(at).dot(normals.at(at));
+    right[k] = -result.at_collocation.at(at).dot(normals.at(at));
   }
-  return matrix.partialPivLu().solve(right);
+  result.influence.compute(matrix);
+  result.circulation = result.influence.solve(right);
 }
 
 // By the bound rings and by a whole wake.
@@ -161,11 +161,11 @@ FluidResult Lattice::step(const FluidState& state, const ComingWake& coming,
   const Wake::Sheet near = coming.wake.near_part(edges);
 
   const Points places = bound_.collocation_points(grid.end);
-  Points relative = sum(sum(flow_at(places, grid.time_end), 1.0, coming.at_collocation), -1.0,
-                        bound_.collocation_points(grid.end_velocity));
-  bound_.add_induced(near.segments, near.strengths, places, relative);
   FluidResult result;
-  result.circulation = solve(segments, grid.end, relative, nullptr, edges);
+  result.at_collocation = sum(sum(flow_at(places, grid.time_end), 1.0, coming.at_collocation), -1.0,
+                              bound_.collocation_points(grid.end_velocity));
+  bound_.add_induced(near.segments, near.strengths, places, result.at_collocation);
+  solve(segments, grid.end, nullptr, edges, result);
 
   result.induced = coming.at_forces;
   const Points forced = force_points(grid.end);
@@ -177,10 +177,52 @@ FluidResult Lattice::step(const FluidState& state, const ComingWake& coming,
   const Points moved = sum(grid.end, -1.0, grid.start);
   Points wind = flow_at(force_points(middle), 0.5 * (grid.time_start + grid.time_end));
   wind = sum(wind, 1.0, mean(state.induced, result.induced));
-  wind = sum(wind, -1.0 / step, force_points(moved));
-  result.forces = forces(middle, wind, 0.5 * (state.circulation + result.circulation),
+  result.at_forces = sum(wind, -1.0 / step, force_points(moved));
+  result.forces = forces(middle, result.at_forces, 0.5 * (state.circulation + result.circulation),
                          (result.circulation - state.circulation) / step);
   return result;
+}
+
+// A dG = -w . dn + n . dv; what forces are made of changes with it. These have few terms, so
+// differences give their derivative to rounding.
+Points Lattice::change_of_forces(const FluidResult& result, const Eigen::VectorXd& before,
+                                 const GridStep& grid, const Points& change) const {
+  const double step = grid.time_end - grid.time_start;
+  const double share = step > 0.0 ? 0.5 : 1.0;  // of the end, where forces act
+  const double rate = step > 0.0 ? 1.0 / step : 0.0;
+  double largest = 0.0, chord = bound_.surfaces().front().chord;
+  for (std::size_t i = 0; i < change.size(); ++i) largest = std::max(largest, change.at(i).norm());
+  if (largest == 0.0) return Points(change.size());
+  for (const Panelling& s : bound_.surfaces()) chord = std::min(chord, s.chord);
+  const double h = 1e-5 * chord / largest;
+
+  const Points normals = unit(bound_.areas(grid.end));
+  const Points after = unit(bound_.areas(sum(grid.end, h, change)));
+  const Points ahead = unit(bound_.areas(sum(grid.end, -h, change)));
+  const Points moved = bound_.collocation_points(change);
+  Eigen::VectorXd right(result.circulation.size());
+  for (Eigen::Index k = 0; k < right.size(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    right[k] = -result.at_collocation.at(at).dot(after.at(at) - ahead.at(at)) / (2.0 * h) +
+               2.0 * rate * moved.at(at).dot(normals.at(at));
+  }
+  const Eigen::VectorXd circulation = result.influence.solve(right);
+
+  const Points middle = mean(grid.start, grid.end);
+  const Points motion = force_points(change);
+  const Eigen::VectorXd mean_circulation =
+      step > 0.0 ? Eigen::VectorXd(0.5 * (before + result.circulation)) : result.circulation;
+  const Eigen::VectorXd growth = step > 0.0 ? Eigen::VectorXd(rate * (result.circulation - before))
+                                            : Eigen::VectorXd::Zero(right.size());
+  const auto beside = [&](double way) {
+    return forces(sum(middle, share * way, change), sum(result.at_forces, -rate * way, motion),
+                  mean_circulation + share * way * circulation, growth + rate * way * circulation);
+  };
+  Points difference = sum(beside(h), -1.0, beside(-h));
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    difference.set(i, difference.at(i) / (2.0 * h));
+  }
+  return difference;
 }
 
 FluidState Lattice::state_after(const FluidResult& result, Wake wake) {
@@ -207,12 +249,13 @@ FluidResult Lattice::steady(const Points& grid, double time) const {
   Wake wake(bound_, 1, setting_.core);
   wake.make_straight(far_line(edges, time), std::vector<double>(bound_.num_strips(), 0.0));
   FluidResult result;
-  result.circulation =
-      solve(segments, grid, flow_at(bound_.collocation_points(grid), time), &wake, edges);
+  result.at_collocation = flow_at(bound_.collocation_points(grid), time);
+  solve(segments, grid, &wake, edges, result);
   wake.make_straight(wake.lines(), bound_.edge_circulation(result.circulation));
   const Points places = force_points(grid);
   result.induced = induced_at(places, segments, result.circulation, wake, edges);
-  result.forces = forces(grid, sum(flow_at(places, time), 1.0, result.induced), result.circulation,
+  result.at_forces = sum(flow_at(places, time), 1.0, result.induced);
+  result.forces = forces(grid, result.at_forces, result.circulation,
                          Eigen::VectorXd::Zero(result.circulation.size()));
   return result;
 }

@@ -54,17 +54,19 @@ bool is_finite(const Points& points) {
 
 LatticeLoad::LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
                          std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror,
-                         flow::SharedFlow flow, LatticeSetting setting)
+                         flow::SharedFlow flow, LatticeSetting setting, LatticeTangent tangent)
     : MemorylessBatch(std::move(effect)),
       FluidForce(*flow),
       nodes_(nodes),
       lattice_(
           BoundLattice(panels_of(surfaces), reference_grid(surfaces, nodes), std::move(mirror)),
           flow, setting),
+      tangent_(tangent),
       density_(flow->density()),
       accepted_(lattice_.initial_state()),
       accepted_forces_(lattice_.bound().num_points()) {
   add_items(surfaces);
+  add_carriers();
   compute_apparent_masses();
 }
 
@@ -114,7 +116,8 @@ void LatticeLoad::compute_apparent_masses() {
 }
 
 std::vector<int> LatticeLoad::blocks(int item, const model::UnknownTable& unknowns) const {
-  return blocks_of(items_[static_cast<std::size_t>(item)].nodes, unknowns);
+  const auto at = static_cast<std::size_t>(item);
+  return blocks_of(is_coupling(item) ? carriers_ : items_[at].nodes, unknowns);
 }
 
 Points LatticeLoad::grid(const model::Coordinates& q) const {
@@ -134,7 +137,8 @@ Points LatticeLoad::grid(const model::Coordinates& q) const {
 
 void LatticeLoad::prepare(const model::State& state, const Stencil& stencil) {
   evaluated_.clear();
-  step_ = stencil.step;
+  knows_stiffness_ = false;
+  step_ = stencil.inertia > 0.0 ? stencil.step : 0.0;  // a linearisation is about the steady flow
   if (step_ == 0.0) return;
   start_ = grid(state.prev);
   start_velocity_ = grid(state.velocity);  // linear, so rates map like places
@@ -143,18 +147,22 @@ void LatticeLoad::prepare(const model::State& state, const Stencil& stencil) {
   coming_ = lattice_.begin_step(accepted_, start_, expected, state.time - step_, state.time);
 }
 
+GridStep LatticeLoad::step_to(const model::State& state) const {
+  GridStep motion{start_, grid(state.next), start_velocity_, state.time - step_, state.time};
+  for (std::size_t i = 0; i < start_.size(); ++i) {
+    motion.end_velocity.set(
+        i, 2.0 / step_ * (motion.end.at(i) - start_.at(i)) - start_velocity_.at(i));
+  }
+  return motion;
+}
+
 // Newton, work and acceptance ask for the same configuration.
 const FluidResult& LatticeLoad::result_at(const model::State& state) const {
   if (evaluated_ == state.next) return result_;
   if (step_ == 0.0) {
     result_ = lattice_.steady(grid(state.next), state.time);
   } else {
-    GridStep motion{start_, grid(state.next), start_velocity_, state.time - step_, state.time};
-    for (std::size_t i = 0; i < start_.size(); ++i) {
-      motion.end_velocity.set(
-          i, 2.0 / step_ * (motion.end.at(i) - start_.at(i)) - start_velocity_.at(i));
-    }
-    result_ = lattice_.step(accepted_, coming_, motion);
+    result_ = lattice_.step(accepted_, coming_, step_to(state));
   }
   evaluated_ = state.next;
   return result_;
@@ -210,11 +218,16 @@ std::string LatticeLoad::range_warning(double used) const {
 }
 
 std::string LatticeLoad::left_out_of_modes() const {
+  if (tangent_ == LatticeTangent::whole) {
+    return effect().quoted() +
+           ": linear analyses know how the forces of its steady flow change with the deformation, "
+           "so divergence, but not the damping and the mass of its air: flutter is found by a "
+           "motion in time";
+  }
   return effect().quoted() +
          ": linear analyses see the forces of the steady flow about the state, not how they change "
-         "with motion: there is no stiffness, damping or mass of its air, hence no flutter. A "
-         "motion "
-         "in time knows them";
+         "with motion: there is no stiffness, damping or mass of its air, hence no flutter. "
+         "'Tangent' = Whole brings the stiffness, and a motion in time knows all of them";
 }
 
 flow::FluidForce::Resultant LatticeLoad::resultant_of(const Points& forces, const Points& places) {
@@ -231,7 +244,12 @@ Verdict LatticeLoad::assemble(const model::State& state, const Stencil& stencil,
   if (want == Want::mass) return Verdict::ok;
   const Points& forces = result_at(state).forces;
   if (!is_finite(forces)) return Verdict::not_finite;
+  const bool whole = want == Want::residual_and_tangent && tangent_ == LatticeTangent::whole;
+  if (whole && (step_ == 0.0 || !knows_stiffness_)) find_stiffness(state);
   return assemble_items([&](auto space, std::size_t i) {
+    if (is_coupling(placement().items[i])) {
+      return whole ? assemble_coupling<decltype(space)>(i, state, stencil, target) : Verdict::ok;
+    }
     return assemble_item<decltype(space)>(i, state, stencil, want == Want::residual_and_tangent,
                                           forces, target);
   });
@@ -265,7 +283,8 @@ Verdict LatticeLoad::assemble_item(std::size_t i, const model::State& state, con
   for (std::size_t k = 0; k < item.points.size(); ++k) {
     slot_forces -= forces.at(item.points[k]) * item.factors[k].transpose();
   }
-  const bool has_inertia = tangent && stencil.inertia > 0.0;
+  const bool has_inertia =
+      tangent && stencil.inertia > 0.0 && tangent_ == LatticeTangent::apparent_mass;
   std::vector<Mat3> inertia;
   if (has_inertia) {
     for (const std::size_t point : item.points) {
@@ -310,7 +329,7 @@ model::StepWork LatticeLoad::step_work(const model::State& state, const Stencil&
   model::StepWork work;
   const Points& forces = result_at(state).forces;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
-    if (!placement().owned[i]) continue;
+    if (!placement().owned[i] || is_coupling(placement().items[i])) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     const Motion motion(nodes_, item.nodes, state, stencil.theta);
     Motion::Slots slot_forces = Motion::Slots::Zero(3, motion.mid.cols());

@@ -44,6 +44,11 @@ Schema schema() {
                   "On vortex segments, with suction at leading edges, or by pressure jumps, "
                   "normal to the panels.")
                .optional("Joukowski"))
+      .add(choice("Tangent", {"Apparent Mass", "Whole"},
+                  "What Newton's method and linear analyses know of the change of the forces: half "
+                  "of the mass of the air, or all that follows from the motion of all nodes of the "
+                  "surfaces, which couples these with each other.")
+               .optional("Apparent Mass"))
       .list("Surfaces", Schema("Surfaces", "Lifting surfaces by name. Wakes act on all of them.")
                             .entries(surface_schema())
                             .check([](const Options& list, InputIssues& issues) {
@@ -84,6 +89,18 @@ void take_memory(const Options& options, flow::FluidContext& context) {
       options.where());
 }
 
+// The whole tangent, between all nodes, and its blocks in the matrix with factors.
+void take_memory_of_tangent(const LatticeLoad& load, const Options& options,
+                            flow::FluidContext& context) {
+  constexpr double number = 8.0, blocks = 12.0 * 12.0 + 2.0 * 6.0 * 6.0;
+  const auto nodes = static_cast<double>(load.nodes().size());
+  model::MemoryNeed need;
+  need.elements = number * blocks * nodes * nodes;
+  model::refuse_above(context.memory, need,
+                      fmt::format("couples {:.0f} nodes with each other, which", nodes),
+                      options.where("Tangent"));
+}
+
 void build(const Options& options, flow::FluidContext& context) {
   take_memory(options, context);
   const flow::SharedFlow flow = flow::find_flow(options, context);
@@ -107,14 +124,19 @@ void build(const Options& options, flow::FluidContext& context) {
   }
   if (!is_sound) return;
   const model::NodeTable& nodes = context.build.model.nodes();
+  const auto tangent =
+      options.text("Tangent") == "Whole" ? LatticeTangent::whole : LatticeTangent::apparent_mass;
   auto load = std::make_unique<LatticeLoad>(model::Effect("Vortex Lattice", options.name()), nodes,
-                                            std::move(surfaces), mirror, flow, setting_of(options));
+                                            std::move(surfaces), mirror, flow, setting_of(options),
+                                            tangent);
+  if (tangent == LatticeTangent::whole) take_memory_of_tangent(*load, options, context);
   if (const auto wrong =
           find_misplaced(load->lattice().bound(), load->grid(nodes.reference()), names)) {
     context.build.issues.add(options.list("Surfaces").entries()[wrong->surface].where(),
                              wrong->text);
     return;
   }
+  flow::refuse_rotating_frame(options, load->nodes(), context);
   context.build.model.add_load(std::move(load));
 }
 

@@ -6,6 +6,7 @@
 #include <culm/lattice/wake.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <optional>
 #include <span>
@@ -50,6 +51,11 @@ struct FluidResult {
   Eigen::VectorXd circulation;  ///< at the end of the step
   Points induced;               ///< at the end of the step
   Points forces;                ///< at grid points; of a step in its middle [N]
+
+  // where it was found, for `Lattice::change_of_forces`
+  Eigen::PartialPivLU<Eigen::MatrixXd> influence;  ///< of the circulations
+  Points at_collocation;  ///< what moves there relative to them, without the bound rings [m/s]
+  Points at_forces;       ///< what moves relative to where forces act [m/s]
 };
 
 /// Rings on surfaces with wakes. A step has the wake move and take a row with the circulation of
@@ -76,6 +82,14 @@ class Lattice {
   ComingWake begin_step(const FluidState& state, const Points& start, const Points& expected,
                         double time_start, double time_end) const;
   FluidResult step(const FluidState& state, const ComingWake& coming, const GridStep& grid) const;
+  /// Derivative of the forces at grid points by a motion `change` of the grid at the end of a step,
+  /// times that motion: of the boundary condition, of the circulation with all rings, and of what
+  /// carries the forces. What is induced at rings that move stays as it is, which is without error
+  /// for flat surfaces in the wind.
+  /// @param before  circulation at the start of the step; of no meaning if that has no duration
+  /// @param grid    of the result; in a steady flow both ends are the same
+  Points change_of_forces(const FluidResult& result, const Eigen::VectorXd& before,
+                          const GridStep& grid, const Points& change) const;
   /// The state at the end of a step.
   static FluidState state_after(const FluidResult& result, Wake wake);
 
@@ -87,8 +101,9 @@ class Lattice {
  private:
   Points flow_at(const Points& places, double time) const;
   Points force_points(const Points& grid) const;
-  Eigen::VectorXd solve(const Segments& segments, const Points& grid, const Points& velocities,
-                        const Wake* straight, const Points& edges) const;
+  /// Sets circulation and influence of a result from what moves at its collocation points.
+  void solve(const Segments& segments, const Points& grid, const Wake* straight,
+             const Points& edges, FluidResult& result) const;
   Points induced_at(const Points& places, const Segments& segments,
                     const Eigen::VectorXd& circulation, const Wake& wake,
                     const Points& edges) const;

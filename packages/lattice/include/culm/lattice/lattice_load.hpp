@@ -7,8 +7,10 @@
 #include <culm/model/method_limits.hpp>
 #include <culm/model/structure.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::lattice {
@@ -19,9 +21,17 @@ struct SurfaceGrid {
   std::vector<model::Marker> points;
 };
 
+/// What the tangent knows of the forces of a lattice.
+enum class LatticeTangent {
+  apparent_mass,  ///< half of that of strips, at each point of the grid
+  whole,          ///< `Lattice::change_of_forces` between all nodes that carry the grid
+};
+
 /// A lattice whose grid points are material points of structures. Statics take the steady flow,
 /// dynamics one step of the unsteady one per time step. Each evaluation solves the lattice for the
-/// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it.
+/// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it. The
+/// whole tangent is found once per attempt of a step in time, and in each iteration of statics; its
+/// linearisation is that of the steady flow.
 class LatticeLoad final : public model::MemorylessBatch,
                           public model::LimitedRange,
                           public model::LeftOutOfModes,
@@ -29,10 +39,12 @@ class LatticeLoad final : public model::MemorylessBatch,
  public:
   LatticeLoad(model::Effect effect, const model::NodeTable& nodes,
               std::vector<SurfaceGrid> surfaces, std::optional<Vec3> mirror, flow::SharedFlow flow,
-              LatticeSetting setting);
+              LatticeSetting setting, LatticeTangent tangent = LatticeTangent::apparent_mass);
 
-  /// One per group of grid points on the same nodes.
-  int size() const override { return static_cast<int>(items_.size()); }
+  /// One per group of grid points on the same nodes, and one of all nodes for the whole tangent.
+  int size() const override {
+    return static_cast<int>(items_.size()) + (tangent_ == LatticeTangent::whole ? 1 : 0);
+  }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
   /// The step needs velocities at its end.
@@ -58,6 +70,8 @@ class LatticeLoad final : public model::MemorylessBatch,
   double range_used() const override { return counts() ? range_used_ : 0.0; }
   std::string range_warning(double used) const override;
   std::string left_out_of_modes() const override;
+  /// That carry grid points, in rising order.
+  const std::vector<int>& nodes() const { return carriers_; }
   /// Grid points in a configuration.
   Points grid(const model::Coordinates& q) const;
 
@@ -70,7 +84,14 @@ class LatticeLoad final : public model::MemorylessBatch,
   };
 
   void add_items(const std::vector<SurfaceGrid>& surfaces);
+  void add_carriers();
   void compute_apparent_masses();
+  bool is_coupling(int item) const { return item == static_cast<int>(items_.size()); }
+  /// The step as it is tried.
+  GridStep step_to(const model::State& state) const;
+  /// Sets `stiffness_`, minus the derivative of the forces on all slots of the carriers by them at
+  /// the end of the step, of a result that is at hand.
+  void find_stiffness(const model::State& state);
   /// Whether this rank counts what belongs to all items: the one that owns the first.
   bool counts() const;
   static Resultant resultant_of(const Points& forces, const Points& places);
@@ -80,10 +101,17 @@ class LatticeLoad final : public model::MemorylessBatch,
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, const Points& forces, model::Target& target) const;
+  template <class Space>
+  Verdict assemble_coupling(std::size_t i, const model::State& state, const Stencil& stencil,
+                            model::Target& target) const;
 
   const model::NodeTable& nodes_;
   std::vector<Item> items_;
   Lattice lattice_;
+  LatticeTangent tangent_;
+  std::vector<int> carriers_;  ///< nodes
+  /// By carrier: a point of the grid that hangs on it, with what its slots do for it.
+  std::vector<std::vector<std::pair<std::size_t, Vec<4>>>> carried_;
   double density_ = 0.0;
   std::vector<double> apparent_mass_;  ///< half of that of strips, by grid point [kg]
 
@@ -94,6 +122,8 @@ class LatticeLoad final : public model::MemorylessBatch,
 
   // of the step that is tried
   double step_ = 0.0;
+  bool knows_stiffness_ = false;
+  Eigen::MatrixXd stiffness_;  ///< twelve per carrier [N/m]
   Points start_, start_velocity_;
   Lattice::ComingWake coming_;
   mutable model::Coordinates evaluated_;  ///< where result_ was computed; empty: nowhere
