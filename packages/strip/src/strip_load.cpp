@@ -40,6 +40,21 @@ Mat<12, 9> slots_of_vectors(const Mat<4, 3>& T) {
   return result;
 }
 
+// P^T T rows: what rows of the vectors of a section, one after another, are to the unknowns of a
+// node. Where directors turn with it, their arms make those of the vectors, which are fewer.
+template <class Space, class Rows, class Reduced>
+void reduce_vectors(const Mat<4, 3>& T, const model::Arms<4>& arms, const Rows& rows,
+                    Reduced& reduced) {
+  if (Space::form == model::Form::null_space && arms.turns) {
+    const model::Arms<3> of_vectors{arms.slots.lazyProduct(T), true};
+    model::NullSpace::reduce_rows(rows, of_vectors, reduced.template topRows<6>());
+    reduced.template topRows<3>() *= T(0, 0);  // the axis alone moves with the node
+    return;
+  }
+  const Mat<12, Rows::ColsAtCompileTime> slots = slots_of_vectors(T).lazyProduct(rows);
+  Space::reduce_rows(slots, arms, reduced);
+}
+
 template <class Slots>
 Columns vectors_of(const Station& station, const Slots& slots) {
   Columns result = Columns::Zero();
@@ -210,6 +225,7 @@ void StripLoad::add(Station station) {
   induced_.emplace_back();
   accepted_.emplace_back();
   trial_.emplace_back();
+  kept_.emplace_back();
 }
 
 std::vector<int> StripLoad::blocks(int item, const model::UnknownTable& unknowns) const {
@@ -335,6 +351,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
 }
 
 void StripLoad::prepare(const model::State& state, const Stencil& stencil) {
+  std::ranges::fill(kept_, Kept{});
   if (frame_ == nullptr) return;
   for (const int item : placement().items) {
     refuse_wind_across_frame(static_cast<std::size_t>(item), state, stencil);
@@ -390,6 +407,7 @@ Verdict StripLoad::assemble_item(std::size_t i, const model::State& state, const
   const double theta = mass ? 1.0 : stencil.theta;
   if (!mass) {
     trial_[number] = found.end;
+    keep_forces(number, state, stencil, found.forces);
     const Station& station = stations_[number];
     const Motion motion(nodes_, station.point.nodes, state, theta);
     for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
@@ -414,21 +432,20 @@ void StripLoad::add_tangent(std::size_t i, const Evaluation& found, const model:
   const Station& station = stations_[static_cast<std::size_t>(placement().items[i])];
   const std::size_t n = station.point.nodes.size();
   const Motion motion(nodes_, station.point.nodes, state, theta);
-  std::array<Mat<W, 9>, max_nodes> forces;
-  std::array<Mat<9, W>, max_nodes> derivatives;
+  std::array<Mat<4, 3>, max_nodes> T;
+  for (std::size_t a = 0; a < n; ++a) T[a] = factors(station, a);
+  const RowMat<9, 9> derivative = -found.derivative;
   for (std::size_t a = 0; a < n; ++a) {
-    const Mat<12, 9> T = slots_of_vectors(factors(station, a));
-    Mat<W, 9> vectors;
-    Space::reduce_rows(T, motion.arms_mid[a], forces[a]);
-    Space::reduce_rows(T, motion.arms_next[a], vectors);
-    derivatives[a].noalias() = found.derivative.lazyProduct(vectors.transpose());
-  }
-  for (std::size_t a = 0; a < n; ++a) {
+    RowMat<W, 9> by_vectors;
+    reduce_vectors<Space>(T[a], motion.arms_mid[a], derivative, by_vectors);
+    const RowMat<9, W> transposed = by_vectors.transpose();
     for (std::size_t b = 0; b < n; ++b) {
-      RowMat<W, W> block = -forces[a].lazyProduct(derivatives[b]);
+      Mat<W, W> columns;
+      reduce_vectors<Space>(T[b], motion.arms_next[b], transposed, columns);
+      RowMat<W, W> block = columns.transpose();
       if (a == b && turns) {
-        Space::add_turning(Mat<3, 4>(-found.forces * factors(station, a).transpose()),
-                           motion.arms_next[a], theta, block);
+        Space::add_turning(Mat<3, 4>(-found.forces * T[a].transpose()), motion.arms_next[a], theta,
+                           block);
       }
       placement().scatter.add_tangent(i, static_cast<int>(a), static_cast<int>(b), block, target);
     }
@@ -500,6 +517,19 @@ Verdict StripLoad::assemble_delayed(const model::State& state, const Stencil& st
     }
     return Verdict::ok;
   });
+}
+
+void StripLoad::keep_forces(std::size_t number, const model::State& state, const Stencil& stencil,
+                            const Columns& forces) {
+  kept_[number] = {vectors_of(stations_[number], state.next), state.time, stencil.step, forces};
+}
+
+const Columns* StripLoad::kept_forces(std::size_t number, const model::State& state,
+                                      const Stencil& stencil) const {
+  const Kept& kept = kept_[number];
+  const bool is_same = kept.time == state.time && kept.step == stencil.step &&
+                       kept.vectors == vectors_of(stations_[number], state.next);
+  return is_same ? &kept.forces : nullptr;
 }
 
 void StripLoad::accept(model::State&) {
@@ -574,7 +604,9 @@ model::StepWork StripLoad::step_work(const model::State& state, const Stencil& s
     const auto number = static_cast<std::size_t>(placement().items[i]);
     const Station& station = stations_[number];
     const Motion motion(nodes_, station.point.nodes, state, stencil.theta);
-    const Columns forces = evaluate<double>(number, state, stencil, Want::residual).forces;
+    const Columns* kept = kept_forces(number, state, stencil);
+    const Columns forces =
+        kept ? *kept : evaluate<double>(number, state, stencil, Want::residual).forces;
     Motion::Slots slots(3, motion.mid.cols());
     for (std::size_t a = 0; a < station.point.nodes.size(); ++a) {
       slots.middleCols<4>(4 * static_cast<int>(a)) = forces * factors(station, a).transpose();

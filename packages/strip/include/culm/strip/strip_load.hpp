@@ -191,6 +191,7 @@ class StripLoad final : public model::MemorylessBatch,
   /// so on all ranks, and keeps what it needs of accepted states.
   void set_induced(int station, const InducedVelocity& induced) {
     induced_[static_cast<std::size_t>(station)] = induced;
+    kept_[static_cast<std::size_t>(station)] = {};
   }
   /// Describes the stations in a frame that turns with them, whose velocity is theirs, too. All of
   /// it turns, and the wind has to look the same from all sides: an InputError at `where` names a
@@ -238,6 +239,18 @@ class StripLoad final : public model::MemorylessBatch,
     StationState seen;
   };
   struct Evaluation;
+  /// Forces of the last evaluation of a station, and what they belong to: the work of a step asks
+  /// for them once more.
+  struct Kept {
+    Mat3 vectors = Mat3::Zero();     ///< axis, chord and normal at the end of the step
+    double time = 0.0, step = -1.0;  ///< a negative step: of nothing
+    Mat3 forces = Mat3::Zero();      ///< on them [N]
+  };
+  void keep_forces(std::size_t station, const model::State& state, const Stencil& stencil,
+                   const Mat3& forces);
+  /// Null if there are none for this motion.
+  const Mat3* kept_forces(std::size_t station, const model::State& state,
+                             const Stencil& stencil) const;
   /// Throws InputError unless the wind at a station turns with the frame.
   void refuse_wind_across_frame(std::size_t station, const model::State& state,
                                 const Stencil& stencil) const;
@@ -267,6 +280,7 @@ class StripLoad final : public model::MemorylessBatch,
   const model::SteadyRotation* frame_ = nullptr;
   Where frame_where_;
   std::vector<StationEnd> accepted_, trial_;
+  std::vector<Kept> kept_;
   bool has_stepped_ = false;
 };
 
