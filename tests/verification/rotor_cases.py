@@ -24,9 +24,10 @@ class Rotor:
     """About x through the origin; `sense` is that of its rotation, a positive pitch turns the noses into a wind along x."""
 
     def __init__(self, wind=(9.0, 0.0, 0.0), blades=3, sense=1, rpm=12.0, pitch=5.0, cone=0.0, induction="Steady",
-                 losses=("Tip", "Hub"), drag_induces=True, axis=(1, 0, 0)):
+                 losses=("Tip", "Hub"), drag_induces=True, axis=(1, 0, 0), hub="hub", named=None):
         self.wind, self.blades, self.sense, self.pitch, self.cone = np.array(wind), blades, sense, math.radians(pitch), cone
         self.induction, self.losses, self.drag_induces, self.axis = induction, losses, drag_induces, axis
+        self.hub, self.named = hub, named
         self.omega = sense * rpm * math.pi / 30.0
         self.step = 2.0 * math.pi / 3.0 / abs(self.omega) / STEPS
 
@@ -53,7 +54,8 @@ class Rotor:
                 "Twist": -self.pitch, "Airfoil": "section", "Lag": "None", "Apparent Mass": "false", "Stations": STATIONS}
             joints[name] = {"Type": "Rigid Connection", "Node": f"{name}/first", "Master": "hub"}
             speeds[name] = {"Type": "Velocity", "Node": name, **spin}
-        rotor = {"Type": "Rotor", "Hub": "hub", "Axis": array(self.axis), "Blades": "{" + ", ".join(air) + "}", "Yaw": "None",
+        rotor = {"Type": "Rotor", "Hub": self.hub, "Axis": array(self.axis), "Yaw": "None",
+                 "Blades": "{" + ", ".join(list(air)[:self.named]) + "}",
                  "Induction": self.induction, "Losses": "{" + ", ".join(self.losses) + "}",
                  "Drag Induces": str(self.drag_induces).lower()}
         turning = {"First": "nacelle", "Second": "hub", "Axis": "{1, 0, 0}"}
@@ -224,9 +226,12 @@ def verify(culm, report):
             worst = max(worst, np.abs((found - wanted) / scale).max())
         # chords of arcs are shorter by (3 deg)^2 / 24, and loads go with their square; small thrusts are differences
         report.holds(f"{name}: thrust {found[0]:.6g} N, torque {found[3]:.6g} N m", worst, 2e-3)
-    report.title("What has no balance, or a skewed wake too far, is told")
+    report.title("What has no balance, or is no rotor, is told")
     for name, kind, words in (("still air", {"wind": (0.0, 0.0, 0.0)}, "have no balance"),
-                              ("wind across the axis", {"wind": (0.0, 5.0, 0.0)}, "have no balance")):
+                              ("wind across the axis", {"wind": (0.0, 5.0, 0.0)}, "have no balance"),
+                              ("wrong axis", {"axis": (0, 1, 0)}, "do not turn with the node of 'Hub'"),
+                              ("wrong hub", {"hub": "nacelle"}, "do not turn with the node of 'Hub'"),
+                              ("two of three blades", {"named": 2}, "are not evenly spaced")):
         output = Rotor(**kind).run(culm)
         report.check(f"{name}: warned", words in output.errors + output.output, True, 0)
 

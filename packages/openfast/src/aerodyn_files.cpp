@@ -168,6 +168,9 @@ int switch_or_flag(InputFile& file, const char* keyword) {
 
 std::vector<AeroTowerStation> read_tower(InputFile& file) {
   if (file.integer("NumTwrNds") == 0) return {};
+  if (file.integer("NumTwrNds") == 1) {
+    throw InputError(file.where("NumTwrNds"), "a tower needs two heights at least, got 1");
+  }
   const NamedTable table(file, "NumTwrNds", 3, "tower");
   std::vector<AeroTowerStation> tower;
   for (std::size_t i = 0; i < table.size(); ++i) {

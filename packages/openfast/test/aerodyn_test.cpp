@@ -212,7 +212,9 @@ TEST_F(AeroDynFiles, SceneBecomesFlowStripsAndRotor) {
        R"(<Parameter name="Axes At" value="{0.25, 0.25, 0.25}"/>)",
        // of the tower
        R"(<Parameter name="Positions" value="{0, 0.5, 1}"/>)",
-       R"(<Parameter name="Chords" value="{2, 1.5, 1.16666666667}"/>)",
+       R"(<Parameter name="Type" value="Strip Drag"/>)",
+       R"(<Parameter name="Diameters" value="{2, 1.5, 1.16666666667}"/>)",
+       R"(<Parameter name="Drags" value="{0.5, 0.5, 0.633333333333}"/>)",
        R"(<Parameter name="Losses" value="{Tip}"/>)",
        R"(<Parameter name="Inactive" value="{rotation, induction, air on blade 1, air on blade 2, air on the tower}"/>)"}) {
     EXPECT_THAT(made.deck, HasSubstr(part));

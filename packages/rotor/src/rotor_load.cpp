@@ -116,6 +116,8 @@ void RotorLoad::add_blade(strip::StripLoad& blade, const model::NodeTable& nodes
   for (const strip::Station& station : blade.stations()) {
     radii.push_back(across(place_of(station.point, nodes.reference()) - slots.col(0), axis).norm());
   }
+  const Vec3 end = place_of(blade.stations().back().point, nodes.reference()) - slots.col(0);
+  lean_ += across(end, axis).normalized() / static_cast<double>(blades_.size());
   const std::size_t last = radii.size() - 1;
   const double root = 1.5 * radii[0] - 0.5 * radii[1];
   const double tip = 1.5 * radii[last] - 0.5 * radii[last - 1];
@@ -279,6 +281,14 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
   }
   rotor.wind /= area;
   const bool induces = kind_.follow != Follow::none;
+  Vec3 hub_velocity = Vec3::Zero();
+  if (stencil.step > 0.0) {
+    const auto place = [&](const model::Coordinates& q) -> Vec3 {
+      return model::NodeTable::slots(q, hub_.node).col(0);
+    };
+    hub_velocity = (place(state.next) - place(state.prev)) / stencil.step;
+  }
+  trial_.turns_otherwise = induces && turns_otherwise(rotor, hub_velocity);
   trial_.unbalanced = 0;
   trial_.turning = induces ? share_of(rotor) : 0.0;
   for (std::size_t i = 0; i < elements_.size() && induces; ++i) {
@@ -323,9 +333,27 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
 
 void RotorLoad::accept(model::State&) { accepted_ = trial_; }
 
+// Of speeds that matter beside the wind, as those of a blade that stands and bends do not.
+bool RotorLoad::turns_otherwise(const RotorState& rotor, const Vec3& hub_velocity) const {
+  constexpr double most = 0.25;  // of the square, so that half of the speed is another one
+  double all = 0.0, other = 0.0, wind = 0.0;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const Vec3 velocity = flows_[i].velocity - hub_velocity;
+    const Vec3 turning = rotor.speed * rotor.axis.cross(flows_[i].place - rotor.centre);
+    all += elements_[i].area * velocity.squaredNorm();
+    other += elements_[i].area * (velocity - turning).squaredNorm();
+    wind += elements_[i].area * flows_[i].wind.squaredNorm();
+  }
+  return all > wind && other > most * all;
+}
+
 double RotorLoad::range_used() const {
+  constexpr double even = 0.05;
+  if (kind_.follow == Follow::none) return 0.0;
+  if (accepted_.turns_otherwise) return Misuse::other_turn;
   if (accepted_.turning == 0.0) return 0.0;
-  if (accepted_.unbalanced > 0) return 2.0;
+  if (blades_.size() > 1 && lean_.norm() > even) return Misuse::uneven;
+  if (accepted_.unbalanced > 0) return Misuse::unbalanced;
   const RotorState& rotor = accepted_.seen;
   const double along = std::abs(rotor.wind.dot(rotor.axis));
   if (!kind_.skewed_wake || along == 0.0) return 0.0;
@@ -333,7 +361,18 @@ double RotorLoad::range_used() const {
 }
 
 std::string RotorLoad::range_warning(double used) const {
-  if (used == 2.0) {
+  if (used == Misuse::uneven) {
+    return effect().quoted() +
+           ": its 'Blades' are not evenly spaced about the axis; each annulus counts those that "
+           "are "
+           "named, so name all of them";
+  }
+  if (used == Misuse::other_turn) {
+    return effect().quoted() +
+           ": the blades do not turn with the node of 'Hub' about 'Axis', by whose speed and "
+           "direction induction is found";
+  }
+  if (used == Misuse::unbalanced) {
     return effect().quoted() +
            ": there were stations of the turning rotor at which blade element and momentum have no "
            "balance, as without wind along its axis; nothing is induced there";

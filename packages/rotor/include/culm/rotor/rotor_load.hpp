@@ -86,8 +86,8 @@ class RotorLoad final : public model::MemorylessBatch,
     return Verdict::ok;
   }
   void accept(model::State& state) override;
-  /// Twice if a station of a rotor that turns has no balance; else the angle between wind and axis
-  /// over 45 degrees, where its correction for skewed wakes ends.
+  /// The angle between wind and axis over 45 degrees, where the correction for skewed wakes ends;
+  /// or one of `Misuse`, the largest that there is.
   double range_used() const override;
   std::string range_warning(double used) const override;
   model::StepWork step_work(const model::State&, const Stencil&) const override { return {}; }
@@ -97,6 +97,13 @@ class RotorLoad final : public model::MemorylessBatch,
   void restore(std::span<const double> numbers) override;
 
  private:
+  /// What is worse than a skewed wake, as values of `range_used`.
+  struct Misuse {
+    static constexpr double unbalanced = 3.0;  ///< stations that should have a balance have none
+    static constexpr double other_turn =
+        4.0;                               ///< blades do not turn as the hub does about the axis
+    static constexpr double uneven = 5.0;  ///< blades are not evenly spaced about it
+  };
   /// A station, and what does not change there.
   struct Element {
     strip::StripLoad* strip = nullptr;
@@ -112,6 +119,7 @@ class RotorLoad final : public model::MemorylessBatch,
     RotorState seen;
     int unbalanced = 0;             ///< stations that should have a balance, and have none
     double turning = 0.0;           ///< share of the balance that counts
+    bool turns_otherwise = false;   ///< most of the speed of the blades is another than the hub's
     std::vector<InflowState> wake;  ///< by element
     std::vector<double> angles;     ///< of inflow, where the next balance is looked for; 0: nowhere
   };
@@ -142,6 +150,7 @@ class RotorLoad final : public model::MemorylessBatch,
   Felt follow(std::size_t element, const Induced& quasi_steady, const RotorState& rotor,
               const Stencil& stencil);
   double share_of(const RotorState& rotor) const;
+  bool turns_otherwise(const RotorState& rotor, const Vec3& hub_velocity) const;
   double skew(const RotorState& rotor, const Element& element, const Vec3& outwards) const;
 
   RotorHub hub_;
@@ -149,6 +158,7 @@ class RotorLoad final : public model::MemorylessBatch,
   RotorModel kind_;
   std::vector<Element> elements_;
   double tip_radius_ = 0.0;
+  Vec3 lean_ = Vec3::Zero();  ///< mean of unit vectors along the blades, across the axis
 
   Memory accepted_, trial_;
   std::vector<strip::StationFlow> flows_;  ///< by element, of one evaluation

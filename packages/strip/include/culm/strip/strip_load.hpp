@@ -250,7 +250,7 @@ class StripLoad final : public model::MemorylessBatch,
                    const Mat3& forces);
   /// Null if there are none for this motion.
   const Mat3* kept_forces(std::size_t station, const model::State& state,
-                             const Stencil& stencil) const;
+                          const Stencil& stencil) const;
   /// Throws InputError unless the wind at a station turns with the frame.
   void refuse_wind_across_frame(std::size_t station, const model::State& state,
                                 const Stencil& stencil) const;
