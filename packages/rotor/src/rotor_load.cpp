@@ -116,8 +116,8 @@ void RotorLoad::add_blade(strip::StripLoad& blade, const model::NodeTable& nodes
   for (const strip::Station& station : blade.stations()) {
     radii.push_back(across(place_of(station.point, nodes.reference()) - slots.col(0), axis).norm());
   }
-  const Vec3 end = place_of(blade.stations().back().point, nodes.reference()) - slots.col(0);
-  lean_ += across(end, axis).normalized() / static_cast<double>(blades_.size());
+  const Vec3 outermost = place_of(blade.stations().back().point, nodes.reference()) - slots.col(0);
+  lean_ += across(outermost, axis).normalized() / static_cast<double>(blades_.size());
   const std::size_t last = radii.size() - 1;
   const double root = 1.5 * radii[0] - 0.5 * radii[1];
   const double tip = 1.5 * radii[last] - 0.5 * radii[last - 1];

@@ -53,9 +53,8 @@ void make(const Options& options, StripContext& context) {
   const Distribution diameter(options, "Diameter", "Diameters"), drag(options, "Drag", "Drags");
   // coefficients of a tower, and of what stands on it, are those of the wind that comes
   if (flow::SharedFlow alone = flow->without_structure()) flow = std::move(alone);
-  auto load =
-      std::make_unique<StripLoad>(model::Effect("Strip Drag", options.name()), build.model.nodes(),
-                                  *function, flow, StripModel{});
+  auto load = std::make_unique<StripLoad>(model::Effect("Strip Drag", options.name()),
+                                          build.model.nodes(), *function, flow, StripModel{});
   for (const Place& place : places) {
     Station station{place.point, place.length, diameter.at(place.s), 0.5};
     station.along = Vec3::UnitX();
