@@ -478,7 +478,7 @@ CASES = [
                 f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{1, 0, 1}")}</ParameterList>'
                 '<ParameterList name="Loads">'
                 + entry("air", Type="Strip", Structure="beam", Flow="wind", Chord="0.1", Axis_At="0.25", Airfoil="thin")
-                + entry("turning", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="0.1"),
+                + entry("turning", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="0.1", Function="Constant"),
             ),
         ],
         says=["Strip 'air' stands in a rotating frame, but its wind is not the same from all sides: at station 0 it is {1, 0, 1} "

@@ -350,6 +350,17 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   return result;
 }
 
+// Where the frame turns from the first, this is told before anything is written.
+void StripLoad::stand_in(const model::SteadyRotation& frame, Where where) {
+  frame_ = &frame;
+  frame_where_ = std::move(where);
+  model::State start;
+  start.prev = nodes_.reference();
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    refuse_wind_across_frame(i, start, Stencil::statics());
+  }
+}
+
 void StripLoad::prepare(const model::State& state, const Stencil& stencil) {
   std::ranges::fill(kept_, Kept{});
   if (frame_ == nullptr) return;

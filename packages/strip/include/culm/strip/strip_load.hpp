@@ -196,10 +196,7 @@ class StripLoad final : public model::MemorylessBatch,
   /// Describes the stations in a frame that turns with them, whose velocity is theirs, too. All of
   /// it turns, and the wind has to look the same from all sides: an InputError at `where` names a
   /// station that does not find it so.
-  void stand_in(const model::SteadyRotation& frame, Where where) {
-    frame_ = &frame;
-    frame_where_ = std::move(where);
-  }
+  void stand_in(const model::SteadyRotation& frame, Where where);
   /// Null: they stand in space.
   const model::SteadyRotation* frame() const { return frame_; }
   /// Asks somebody before each evaluation; null at first: nobody.
