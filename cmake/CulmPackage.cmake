@@ -22,10 +22,11 @@ find_program(CULM_CCACHE ccache)
 if(CULM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Without this sloppiness ccache does not cache anything that uses a precompiled header. It must
   # look at the headers themselves: where only a comment changed, preprocessed texts are equal, and
-  # it would return a precompiled header that does not know the changed file.
+  # it would return a precompiled header that does not know the changed file. Paths in the tree count
+  # relative to it, so that one clone finds what another one compiled.
   set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
-      ${CULM_CCACHE}
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CULM_CCACHE}
   )
 endif()
 
