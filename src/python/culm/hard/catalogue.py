@@ -458,7 +458,7 @@ CASES = [
         "1 over depth [1/m]", 2e3,
         lambda x: parameters("Loads/impact", Depth=1 / x),
         [uncut(), energy(), momenta()],
-        limit=1e6, growth=4,
+        limit=10, growth=4,
     ),
     Case(
         "sharp friction", "ST", "contact/sliding_ball.xml",
