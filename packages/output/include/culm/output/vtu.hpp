@@ -97,7 +97,6 @@ class Pictures {
 
   std::string stem(const Group& group, int index) const;
   Collections begin(const std::string& stem) const;
-  Sequence& sequence_of(int analysis);
   void add(int analysis, Step step, const Picture* picture);
   void show(int analysis, Step step);
   void settle();
