@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -37,10 +38,13 @@ class Parts {
     place_.resize(blocks_.rows.size(), -1);
   }
 
-  std::vector<int> find_hosts() {
+  std::vector<int> find_hosts(int first_kept) {
     const parallel::Graph graph = couple(blocks_, block_of_row(blocks_));
-    return solver::find_hosts(
-        graph, [this](std::span<const int> blocks) { return is_regular(gather(blocks)); });
+    return solver::find_hosts(graph, [&](std::span<const int> blocks) {
+      const auto kept = std::ranges::count_if(blocks, [&](int b) { return b >= first_kept; });
+      if (kept > 0) return blocks.size() == 1;  // needs no host and is none
+      return is_regular(gather(blocks));
+    });
   }
 
  private:
@@ -84,8 +88,8 @@ class Parts {
 
 }  // namespace
 
-std::vector<int> choose_hosts(const assembly::CrsMatrix& matrix) {
-  return Parts(matrix).find_hosts();
+std::vector<int> choose_hosts(const assembly::CrsMatrix& matrix, int first_kept) {
+  return Parts(matrix).find_hosts(first_kept);
 }
 
 }  // namespace culm::solver

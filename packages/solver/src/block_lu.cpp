@@ -48,11 +48,13 @@ auto with_sizes(const BlockPlan::Panel& panel, const Visit& visit) {
 
 }  // namespace
 
-BlockLu::BlockLu(const assembly::CrsMatrix& matrix)
+BlockLu::BlockLu(const assembly::CrsMatrix& matrix, int kept)
     : matrix_(matrix),
       local_(matrix.getLocalMatrixHost()),
-      block_of_(block_of_row(find_blocks(matrix))) {
+      block_of_(block_of_row(find_blocks(matrix))),
+      kept_(kept) {
   num_blocks_ = block_of_.empty() ? 0 : block_of_.back() + 1;
+  first_kept_ = kept == 0 ? num_blocks_ : block_of_[block_of_.size() - index(kept)];
 }
 
 bool BlockLu::factor() {
@@ -60,7 +62,7 @@ bool BlockLu::factor() {
 }
 
 bool BlockLu::factor_with_new_hosts() {
-  const std::vector<int> hosts = choose_hosts(matrix_);
+  const std::vector<int> hosts = choose_hosts(matrix_, first_kept_);
   return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rounding);
 }
 
@@ -79,8 +81,12 @@ bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
 bool BlockLu::factor_as_planned(double least) {
   failed_ = nullptr;
   copy(local_.values.data());
-  return std::ranges::all_of(plan_.panels,
+  return std::ranges::all_of(eliminated(),
                              [&](const auto& panel) { return eliminate(panel, least); });
+}
+
+std::span<const BlockPlan::Panel> BlockLu::eliminated() const {
+  return {plan_.panels.data(), plan_.panels.size() - (kept_ > 0 ? 1 : 0)};
 }
 
 // A part that joints hold, and nothing else, has no pivots for its last group before the joints are
@@ -93,6 +99,7 @@ bool BlockLu::merge_failed() {
   };
   const int from = host_at(failed_->first);
   const int to = host_at(plan_.beside[failed_->beside]);
+  if (to >= first_kept_) return false;
   for (std::size_t block = 0; block < host_.size(); ++block) {
     if (static_cast<int>(block) == from || host_[block] == from) host_[block] = to;
   }
@@ -113,7 +120,7 @@ bool BlockLu::set_hosts(std::span<const int> host) {
 }
 
 void BlockLu::plan() {
-  plan_ = plan_blocks(matrix_, host_);
+  plan_ = plan_blocks(matrix_, host_, first_kept_);
   const std::size_t rows = plan_.unknown.size();
   values_.assign(plan_.num_values, 0.0);
   before_.assign(rows, 0.0);
@@ -245,17 +252,39 @@ void BlockLu::update(const BlockPlan::Panel& panel, std::size_t from) {
   }
 }
 
-CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::solve(std::span<double> x) {
+void BlockLu::solve(std::span<double> x) {
+  reduce(x);
+  extend(x);
+}
+
+std::span<const double> BlockLu::remainder() const {
+  if (kept_ == 0) return {};
+  return std::span(values_).subspan(plan_.panels.back().pivot, index(kept_) * index(kept_));
+}
+
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce(std::span<double> x) {
   for (std::size_t place = 0; place < x_.size(); ++place) {
     x_[place] = x[index(plan_.unknown[place])];
   }
-  for (const BlockPlan::Panel& panel : plan_.panels) {
+  for (const BlockPlan::Panel& panel : eliminated()) {
     with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
   }
-  for (auto panel = plan_.panels.rbegin(); panel != plan_.panels.rend(); ++panel) {
+  const std::size_t first = x_.size() - index(kept_);
+  for (std::size_t place = first; place < x_.size(); ++place) {
+    x[index(plan_.unknown[place])] = x_[place];
+  }
+}
+
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::extend(std::span<double> x) {
+  const std::size_t first = x_.size() - index(kept_);
+  for (std::size_t place = first; place < x_.size(); ++place) {
+    x_[place] = x[index(plan_.unknown[place])];
+  }
+  const auto panels = eliminated();
+  for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
     with_sizes(*panel, [&](auto size, auto width) { substitute_back(*panel, size, width); });
   }
-  for (std::size_t place = 0; place < x_.size(); ++place) {
+  for (std::size_t place = 0; place < first; ++place) {
     x[index(plan_.unknown[place])] = x_[place];
   }
 }
@@ -281,7 +310,7 @@ void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width wi
 // Rows and columns are in the same order, so that only exchanges inside blocks change the sign.
 Determinant BlockLu::determinant() const {
   Determinant d{1, 0.0};
-  for (const BlockPlan::Panel& panel : plan_.panels) {
+  for (const BlockPlan::Panel& panel : eliminated()) {
     for (int i = 0; i < panel.size; ++i) {
       const double reciprocal = values_[panel.pivot + index(i) * index(panel.stride() + 1)];
       if ((reciprocal < 0.0) != (exchanged_[index(panel.first + i)] != i)) d.sign = -d.sign;

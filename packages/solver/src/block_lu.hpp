@@ -17,19 +17,30 @@ namespace culm::solver {
 /// diagonal block only, so that nothing but numbers changes from one factorisation to the next, and
 /// nothing is allocated. The hosts are chosen by the first values, and are the only thing that
 /// depends on earlier factorisations.
+///
+/// The last rows may be kept: they are not eliminated, and `remainder` is what is left of them, as
+/// for a part of a model that hangs on others by these unknowns.
 class BlockLu {
  public:
-  /// The matrix stays with the caller.
-  explicit BlockLu(const assembly::CrsMatrix& matrix);
+  /// The matrix stays with the caller. @param kept rows at the end that are not eliminated; they
+  /// form blocks of their own
+  explicit BlockLu(const assembly::CrsMatrix& matrix, int kept = 0);
 
   /// Factors the present values. @return false if a pivot is nothing but rounding or not a number,
   /// or entries grow too much; the matrix may yet have factors with other pivots
   bool factor();
   /// The same with hosts that are chosen by the present values.
   bool factor_with_new_hosts();
-  /// Puts A^-1 x into x with the last factors.
+  /// Puts A^-1 x into x with the last factors, where no rows are kept.
   void solve(std::span<double> x);
-  /// Of the matrix that was factored last.
+  /// What is left of the rows and columns that are kept, row by row: with I eliminated and K kept,
+  /// A_KK - A_KI A_II^-1 A_IK.
+  std::span<const double> remainder() const;
+  /// x_K - A_KI A_II^-1 x_I takes the place of x_K; first half of a solution.
+  void reduce(std::span<double> x);
+  /// With x_K found, A_II^-1 (x_I - A_IK x_K) takes the place of x_I that was reduced last.
+  void extend(std::span<double> x);
+  /// Of the matrix that was factored last; without what is kept.
   Determinant determinant() const;
 
   /// Of each block, see `find_hosts`; empty before the first factorisation.
@@ -43,6 +54,7 @@ class BlockLu {
   bool factor_as_planned(double least);
   bool merge_failed();
   void plan();
+  std::span<const BlockPlan::Panel> eliminated() const;
   void copy(const double* values);
   bool eliminate(const BlockPlan::Panel& panel, double least);
   bool has_grown(const BlockPlan::Panel& panel);
@@ -58,6 +70,8 @@ class BlockLu {
   assembly::CrsMatrix::local_matrix_host_type local_;  ///< of it; to ask for it allocates
   std::vector<int> block_of_;                          ///< of each row
   int num_blocks_ = 0;
+  int kept_ = 0;        ///< rows
+  int first_kept_ = 0;  ///< block
   std::vector<int> host_;
   BlockPlan plan_;
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding

@@ -13,13 +13,13 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 class Planner {
  public:
-  Planner(const assembly::CrsMatrix& matrix, const std::vector<int>& host)
+  Planner(const assembly::CrsMatrix& matrix, const std::vector<int>& host, int first_kept)
       : matrix_(matrix),
         blocks_(find_blocks(matrix)),
         block_of_(block_of_row(blocks_)),
         graph_(couple(blocks_, block_of_)),
         first_row_(blocks_.sizes.size()),
-        groups_(order_groups(graph_, host)) {
+        groups_(order_groups(graph_, host, first_kept)) {
     std::exclusive_scan(blocks_.sizes.begin(), blocks_.sizes.end(), first_row_.begin(), 0);
     place_blocks();
     find_panels();
@@ -199,8 +199,9 @@ class Planner {
 
 }  // namespace
 
-BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host) {
-  return Planner(matrix, host).take();
+BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host,
+                      int first_kept) {
+  return Planner(matrix, host, first_kept).take();
 }
 
 }  // namespace culm::solver

@@ -56,6 +56,9 @@ struct BlockPlan {
 };
 
 /// @param matrix with all rows on this rank @param host of each block, see `find_hosts`
-BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host);
+/// @param first_kept  the first of the blocks at the end that are not eliminated; if there are any,
+/// the D of the last panel is what remains for them
+BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host,
+                      int first_kept);
 
 }  // namespace culm::solver

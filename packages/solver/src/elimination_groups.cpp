@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -98,8 +99,14 @@ class HostSearch {
   std::set<std::pair<int, int>> open_;     // blocks in need, by free helpers
 };
 
-// Place of each group: approximate minimum degree.
-std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& group_of, int count) {
+// More neighbours than any group has that is eliminated early.
+constexpr int neighbours_of_kept = 64;
+
+// Place of each group: approximate minimum degree. What is kept would be taken for the end of a
+// chain, and elimination would begin there and drag it along; so it looks like a part of something
+// large.
+std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& group_of, int count,
+                                 bool last_is_kept) {
   std::vector<Eigen::Triplet<char, int>> entries;
   for (int block = 0; block < graph.size(); ++block) {
     const int group = group_of[index(block)];
@@ -108,12 +115,16 @@ std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& gro
       entries.emplace_back(group, group_of[index(other)], '\1');
     }
   }
-  Eigen::SparseMatrix<char, Eigen::ColMajor, int> pattern(count, count);
+  const int imagined = last_is_kept ? neighbours_of_kept : 0;
+  for (int i = count - 1; imagined > 0 && i < count + imagined; ++i) {
+    for (int k = count - 1; k < count + imagined; ++k) entries.emplace_back(i, k, '\1');
+  }
+  Eigen::SparseMatrix<char, Eigen::ColMajor, int> pattern(count + imagined, count + imagined);
   pattern.setFromTriplets(entries.begin(), entries.end(), [](char a, char) { return a; });
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(pattern, order);
-  std::vector<int> place(index(count));
-  for (int k = 0; k < count; ++k) place[index(order.indices()[k])] = k;
+  std::vector<int> place(index(count + imagined));
+  for (int k = 0; k < count + imagined; ++k) place[index(order.indices()[k])] = k;
   return place;
 }
 
@@ -123,28 +134,38 @@ std::vector<int> find_hosts(const Graph& graph, const IsRegular& is_regular) {
   return HostSearch(graph, is_regular).take();
 }
 
-std::vector<std::vector<int>> order_groups(const Graph& graph, const std::vector<int>& host) {
+std::vector<std::vector<int>> order_groups(const Graph& graph, const std::vector<int>& host,
+                                           int first_kept) {
   const auto is_guest = [&](int block) {
     return host[index(block)] >= 0 && host[index(block)] != block;
   };
   std::vector<int> group_of(host.size(), -1);
   std::vector<std::vector<int>> groups;
-  for (int block = 0; block < graph.size(); ++block) {
+  for (int block = 0; block < first_kept; ++block) {
     if (is_guest(block)) continue;
     group_of[index(block)] = static_cast<int>(groups.size());
     groups.push_back({block});
   }
-  for (int block = 0; block < graph.size(); ++block) {
+  for (int block = 0; block < first_kept; ++block) {
     if (!is_guest(block)) continue;
     group_of[index(block)] = group_of[index(host[index(block)])];
     groups[index(group_of[index(block)])].push_back(block);
   }
-  const std::vector<int> place = order_by_degree(graph, group_of, static_cast<int>(groups.size()));
+  const bool keeps_some = first_kept < graph.size();
+  if (keeps_some) groups.emplace_back();
+  for (int block = first_kept; block < graph.size(); ++block) {
+    group_of[index(block)] = static_cast<int>(groups.size()) - 1;
+    groups.back().push_back(block);
+  }
+  const std::vector<int> place =
+      order_by_degree(graph, group_of, static_cast<int>(groups.size()), keeps_some);
   std::vector<std::pair<int, int>> order;
   for (int group = 0; group < static_cast<int>(groups.size()); ++group) {
     int last = 2 * place[index(group)];
     const int block = groups[index(group)].front();
-    if (host[index(block)] == block) {  // it waits
+    if (block >= first_kept) {
+      last = std::numeric_limits<int>::max();
+    } else if (host[index(block)] == block) {  // it waits
       for (int other : neighbours_of(graph, block)) {
         last = std::max(last, 2 * place[index(group_of[index(other)])] + 1);
       }

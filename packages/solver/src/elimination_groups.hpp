@@ -24,7 +24,9 @@ std::vector<int> find_hosts(const parallel::Graph& graph, const IsRegular& is_re
 
 /// Blocks that are eliminated together, group after group, with little fill: approximate minimum
 /// degree of the graph of the groups, by Eigen. @param host as found by find_hosts
+/// @param first_kept  the first of the blocks at the end that are not eliminated; if there are any,
+/// they are the last group
 std::vector<std::vector<int>> order_groups(const parallel::Graph& graph,
-                                           const std::vector<int>& host);
+                                           const std::vector<int>& host, int first_kept);
 
 }  // namespace culm::solver

@@ -5,6 +5,7 @@
 #include "matrix_checks.hpp"
 #include "multigrid.hpp"
 #include "mumps_solver.hpp"
+#include "residual_check.hpp"
 #include "symmetry_check.hpp"
 
 #include <fmt/format.h>
@@ -45,9 +46,8 @@ class IterativeSolver final : public LinearSolver {
         model_(std::move(model)),
         comm_(comm),
         symmetry_(matrix),
-        columns_(assembly::rows_of(matrix->getColMap())),
-        rest_(assembly::rows_of(matrix->getRowMap())),
-        correction_(rest_.rows()) {}
+        check_(matrix, comm),
+        correction_(assembly::rows_of(matrix->getRowMap())) {}
 
   std::string name() const override { return "Iterative"; }
 
@@ -93,8 +93,8 @@ class IterativeSolver final : public LinearSolver {
     const double largest = v.largest();
     if (!(largest > 0.0)) return 0.0;
     v.scale(1.0 / largest);
-    matrix_->apply(tpetra(v), tpetra(rest_));
-    return rest_.largest() / size;
+    matrix_->apply(tpetra(v), tpetra(correction_));
+    return correction_.largest() / size;
   }
 
   // What depends on earlier matrices ends with the step, so that it does not matter where a run was
@@ -160,25 +160,27 @@ class IterativeSolver final : public LinearSolver {
     const double usual = -std::log10(reduction) * slower * usual_ + some_iterations;
     const int most = is_new_ ? most_iterations : std::min(most_iterations, static_cast<int>(usual));
     x.fill(0.0);
-    rest_ = b;
+    const Vector* left = &b;  // b - A x
     while (spent < most && !is_reached()) {
       KrylovGoal run;
       run.reduction = std::max(0.5 * reduction * size / rest, reduction_of_a_run);
       run.most_iterations = most - spent;
       correction_.fill(0.0);
-      const KrylovEnd end = is_definite ? conjugate_gradients(*multigrid_, rest_, correction_, run)
-                                        : minimise_residual(*multigrid_, rest_, correction_, run);
+      const KrylovEnd end = is_definite ? conjugate_gradients(*multigrid_, *left, correction_, run)
+                                        : minimise_residual(*multigrid_, *left, correction_, run);
       spent += std::max(1, end.iterations);
       const double before = rest;
       if (std::isfinite(correction_.norm())) {
         x.update(1.0, correction_);
-        relative = check(b, x);
-        rest = rest_.norm();
+        relative = check_(b, x);
+        left = &check_.rest();
+        rest = left->norm();
       }
       if (rest > before) {
         x.update(-1.0, correction_);
-        relative = check(b, x);
-        rest = rest_.norm();
+        relative = check_(b, x);
+        left = &check_.rest();
+        rest = left->norm();
       }
       if (is_reached()) break;
       const bool helps = end.converged && rest < 0.5 * before;
@@ -218,22 +220,12 @@ class IterativeSolver final : public LinearSolver {
     return direct_->solve(b, x);
   }
 
-  // Relative residual; leaves b - A x in rest_.
-  double check(const Vector& b, const Vector& x) {
-    const auto importer = matrix_->getGraph()->getImporter();
-    if (!importer.is_null()) tpetra(columns_).doImport(tpetra(x), *importer, Tpetra::INSERT);
-    const Vector& all = importer.is_null() ? x : columns_;
-    const Residual mine = residual(*matrix_, all.values(), b.values(), rest_.values());
-    std::array<double, 2> joint = {mine.largest, mine.size};
-    comm_.max(joint);
-    return Residual{joint[0], joint[1]}.relative();
-  }
-
   Teuchos::RCP<const CrsMatrix> matrix_;
   ModelBehind model_;
   parallel::Comm comm_;
   SymmetryCheck symmetry_;
-  Vector columns_, rest_, correction_;
+  ResidualCheck check_;
+  Vector correction_;
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<LinearSolver> direct_;  // where the iteration did not converge in this step
   std::vector<long long> sizes_;          // of the grids

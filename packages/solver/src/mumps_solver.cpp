@@ -2,10 +2,10 @@
 
 #include "matrix_checks.hpp"
 #include "mumps.hpp"
+#include "residual_check.hpp"
 #include "rooted_vector.hpp"
 #include "symmetry_check.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -27,9 +27,8 @@ class MumpsSolver final : public LinearSolver {
         symmetry_(matrix),
         rooted_(assembly::rows_of(matrix->getRowMap()), comm),
         whole_(comm.is_root() ? matrix->getGlobalNumRows() : 0),
-        columns_(assembly::rows_of(matrix->getColMap())),
-        rest_(assembly::rows_of(matrix->getRowMap())),
-        correction_(rest_.rows()) {}
+        check_(matrix, comm),
+        correction_(assembly::rows_of(matrix->getRowMap())) {}
 
   std::string name() const override { return "MUMPS"; }
 
@@ -49,11 +48,11 @@ class MumpsSolver final : public LinearSolver {
     apply_inverse(*mumps_, b, x);
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
     const auto correct = [&] {
-      apply_inverse(*mumps_, rest_, correction_);
+      apply_inverse(*mumps_, check_.rest(), correction_);
       x.update(1.0, correction_);
     };
     const double achieved = refine(
-        check(b, x), correct, [&] { return check(b, x); }, [&] { x.update(-1.0, correction_); });
+        check_(b, x), correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, correction_); });
     return {achieved};
   }
 
@@ -87,17 +86,6 @@ class MumpsSolver final : public LinearSolver {
     rooted_.scatter(whole_, x.values());
   }
 
-  // Relative residual; leaves b - A x in rest_.
-  double check(const Vector& b, const Vector& x) {
-    const auto importer = matrix_->getGraph()->getImporter();
-    if (!importer.is_null()) tpetra(columns_).doImport(tpetra(x), *importer, Tpetra::INSERT);
-    const Vector& all = importer.is_null() ? x : columns_;
-    const Residual mine = residual(*matrix_, all.values(), b.values(), rest_.values());
-    std::array<double, 2> joint = {mine.largest, mine.size};
-    comm_.max(joint);
-    return Residual{joint[0], joint[1]}.relative();
-  }
-
   Teuchos::RCP<const CrsMatrix> matrix_;
   parallel::Comm comm_;
   std::vector<int> place_;
@@ -105,8 +93,7 @@ class MumpsSolver final : public LinearSolver {
   SymmetryCheck symmetry_;
   RootedVector rooted_;
   std::vector<double> whole_;  // a vector in global order, on the root
-  Vector columns_;             // values of all local columns
-  Vector rest_;
+  ResidualCheck check_;
   Vector correction_;
 };
 

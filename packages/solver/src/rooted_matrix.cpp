@@ -1,15 +1,13 @@
 #include "rooted_matrix.hpp"
 
-#include <Teuchos_DefaultMpiComm.hpp>
+#include "serial_matrix.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 namespace culm::solver {
 
-using assembly::CrsGraph;
 using assembly::CrsMatrix;
-using assembly::Map;
 using assembly::Vector;
 
 RootedMatrix::RootedMatrix(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
@@ -51,9 +49,8 @@ void RootedMatrix::build_serial(const std::vector<int>& counts,
   std::vector<std::size_t> gathered_row(n);
   for (std::size_t g = 0; g < n; ++g) gathered_row[rows_.rows()[g]] = g;
 
-  using Size = Teuchos::ArrayRCP<std::size_t>::size_type;
-  Teuchos::ArrayRCP<std::size_t> begin(static_cast<Size>(n + 1), 0);
-  Teuchos::ArrayRCP<int> entries(static_cast<Size>(columns.size()));
+  std::vector<std::size_t> begin(n + 1, 0);
+  std::vector<int> entries(columns.size());
   value_place_.resize(columns.size());
   std::size_t at = 0;
   for (std::size_t row = 0; row < n; ++row) {
@@ -63,18 +60,13 @@ void RootedMatrix::build_serial(const std::vector<int>& counts,
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
     for (std::size_t k : order) {
-      entries[static_cast<Size>(at)] = static_cast<int>(columns[k]);
+      entries[at] = static_cast<int>(columns[k]);
       value_place_[k] = at++;
     }
-    begin[static_cast<Size>(row + 1)] = at;
+    begin[row + 1] = at;
   }
-  const auto self = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
-  const auto map = Teuchos::rcp(new Map(static_cast<Tpetra::global_size_t>(n), 0, self));
-  const auto graph = Teuchos::rcp(new CrsGraph(map, map, begin, entries));
-  graph->expertStaticFillComplete(map, map);
-  serial_ = Teuchos::rcp(new CrsMatrix(graph));
-  serial_->fillComplete(map, map);
-  rhs_.emplace(assembly::rows_of(map));
+  serial_ = make_serial_matrix(begin, entries);
+  rhs_.emplace(assembly::rows_of(serial_->getRowMap()));
   solution_.emplace(rhs_->rows());
   gathered_values_.resize(columns.size());
 }

@@ -20,11 +20,6 @@ namespace {
 
 using assembly::CrsMatrix;
 
-// Above it pivots that were not chosen for this matrix are not to be trusted; those that were leave
-// little more than rounding.
-constexpr double largest_residual_of_doubtful_pivots = 1e-12;
-// Newton's method makes up for less.
-constexpr double largest_without_refinement = 1e-13;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Factors: Klu2 or GuardedBlockLu.
@@ -128,11 +123,11 @@ class RootedSolver final : public LinearSolver {
     const double size = largest_entry(*A);
     if (!std::isfinite(size) || size == 0.0) return 0.0;
     const auto shifted = shifted_copy(*A, relative_shift * size);
-    Klu2 klu(*shifted);
-    if (!klu.factor()) return 0.0;
+    Factors factors(*shifted);
+    if (!factors.factor()) return 0.0;
     const auto solve = [&](const Vector& b, Vector& x) {
       x = b;
-      klu.solve(x.values());
+      factors.solve(x.values());
     };
     return inverse_iteration(*A, solve, v) / size;
   }

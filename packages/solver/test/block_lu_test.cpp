@@ -1,8 +1,10 @@
 #include "../src/block_lu.hpp"
 
 #include "../src/block_hosts.hpp"
+#include "../src/blocks.hpp"
 #include "../src/guarded_block_lu.hpp"
 #include "../src/matrix_checks.hpp"
+#include "skeletons.hpp"
 
 #include <Eigen/Dense>
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -23,93 +25,11 @@ using assembly::CrsMatrix;
 using assembly::GlobalIndex;
 using assembly::Map;
 
-// Which blocks are coupled, and how many rows each has; those without diagonal are hollow.
-struct Skeleton {
-  std::string name;
-  std::vector<std::pair<int, int>> edges;
-  std::vector<int> sizes;
-  std::vector<int> hollow;  // numbers of blocks
-
-  int rows() const { return std::accumulate(sizes.begin(), sizes.end(), 0); }
-};
-
-Skeleton chain(int nodes, const std::function<int(int)>& size) {
-  Skeleton s{"chain", {}, {}, {}};
-  for (int i = 0; i < nodes; ++i) {
-    s.sizes.push_back(size(i));
-    if (i > 0) s.edges.emplace_back(i - 1, i);
-  }
-  return s;
-}
-
-// The first k nodes may be the parent of node 2 k + 1 and 2 k + 2.
-Skeleton tree(int nodes, const std::function<int(int)>& size) {
-  Skeleton s{"tree", {}, {}, {}};
-  for (int i = 0; i < nodes; ++i) {
-    s.sizes.push_back(size(i));
-    if (i > 0) s.edges.emplace_back((i - 1) / 2, i);
-  }
-  return s;
-}
-
-Skeleton loop(int nodes, const std::function<int(int)>& size) {
-  Skeleton s = chain(nodes, size);
-  s.name = "loop";
-  s.edges.emplace_back(nodes - 1, 0);
-  return s;
-}
-
-// Bodies with a joint between each two that follow each other, closed to a loop or held by the
-// first joint. Joints take away 1 to 5 freedoms.
-Skeleton bodies(int count, bool closed) {
-  Skeleton s{closed ? "closed bodies" : "bodies", {}, std::vector<int>(count, 6), {}};
-  for (int i = 0; i < count; ++i) {
-    const int joint = count + i;
-    s.sizes.push_back(1 + i % 5);
-    s.hollow.push_back(joint);
-    s.edges.emplace_back(i, joint);
-    if (i > 0) s.edges.emplace_back(i - 1, joint);
-    if (i == 0 && closed) s.edges.emplace_back(count - 1, joint);
-  }
-  return s;
-}
-
-// All blocks within an edge are full; the diagonal is as large as a row, but not so large that no
-// pivots are needed.
-Eigen::MatrixXd random_values(const Skeleton& s, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::vector<int> first(s.sizes.size());
-  std::exclusive_scan(s.sizes.begin(), s.sizes.end(), first.begin(), 0);
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(s.rows(), s.rows());
-  const auto fill = [&](int a, int b) {
-    auto block = A.block(first[a], first[b], s.sizes[a], s.sizes[b]);
-    for (int i = 0; i < block.size(); ++i) block(i % s.sizes[a], i / s.sizes[a]) = uniform(random);
-  };
-  for (int b = 0; b < static_cast<int>(s.sizes.size()); ++b) {
-    if (std::ranges::count(s.hollow, b) > 0) continue;
-    fill(b, b);
-    A.block(first[b], first[b], s.sizes[b], s.sizes[b]).diagonal().array() += 3.0;
-  }
-  for (const auto& [a, b] : s.edges) {
-    fill(a, b);
-    fill(b, a);
-  }
-  return A;
-}
-
 // A matrix on this rank with the pattern of a skeleton.
 class BlockMatrix {
  public:
   explicit BlockMatrix(const Skeleton& s, unsigned seed = 1) : values(random_values(s, seed)) {
-    std::vector<int> block_of;
-    for (int b = 0; b < static_cast<int>(s.sizes.size()); ++b) {
-      block_of.insert(block_of.end(), static_cast<std::size_t>(s.sizes[b]), b);
-    }
-    const auto couples = [&](int a, int b) {
-      return a == b || std::ranges::count(s.edges, std::pair(a, b)) > 0 ||
-             std::ranges::count(s.edges, std::pair(b, a)) > 0;
-    };
+    const std::vector<int> block_of = s.block_of_row();
     const auto self = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
     const auto map = Teuchos::rcp(new Map(s.rows(), 0, self));
     matrix = Teuchos::rcp(new CrsMatrix(map, static_cast<std::size_t>(s.rows())));
@@ -117,7 +37,7 @@ class BlockMatrix {
       std::vector<GlobalIndex> columns;
       std::vector<double> entries;
       for (int column = 0; column < s.rows(); ++column) {
-        if (!couples(block_of[row], block_of[column])) continue;
+        if (!s.couples(block_of[row], block_of[column])) continue;
         columns.push_back(column);
         entries.push_back(values(row, column));
       }
@@ -152,29 +72,6 @@ double relative_residual(const Eigen::MatrixXd& A, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& b) {
   const double size = (A.cwiseAbs() * x.cwiseAbs() + b.cwiseAbs()).maxCoeff();
   return (b - A * x).lpNorm<Eigen::Infinity>() / size;
-}
-
-std::vector<Skeleton> skeletons() {
-  const auto any = [](int i) { return 1 + (7 * i) % 9; };
-  const auto node = [](int) { return 6; };
-  std::vector<Skeleton> all;
-  for (const int n : {1, 2, 3, 20}) {
-    for (const auto& make : {chain, tree}) {
-      all.push_back(make(n, any));
-      all.push_back(make(n, node));
-    }
-    all.push_back(bodies(n, false));
-  }
-  for (const int n : {3, 4, 20}) {
-    all.push_back(loop(n, any));
-    all.push_back(loop(n, node));
-    all.push_back(bodies(n, true));
-  }
-  for (int size = 1; size <= 9; ++size) {
-    all.push_back(loop(7, [size](int) { return size; }));
-    all.push_back(chain(7, [size](int) { return size; }));
-  }
-  return all;
 }
 
 TEST(BlockLu, SolvesAndKnowsTheDeterminant) {
@@ -229,6 +126,48 @@ TEST(BlockLu, AllocatesNothingAfterTheFirstFactorisation) {
     blocks.solve({x.data(), static_cast<std::size_t>(x.size())});
     EXPECT_EQ(std::abs(blocks.determinant().sign), 1);
   }
+}
+
+// What is left of the last blocks is their Schur complement, and a solution comes in two halves.
+TEST(BlockLu, KeepsTheLastBlocks) {
+  for (const Skeleton& s : skeletons()) {
+    const BlockMatrix A(s);
+    const int blocks = static_cast<int>(s.sizes.size());
+    for (const int kept : {1, 2}) {
+      if (kept >= blocks) continue;
+      const int rows = std::accumulate(s.sizes.end() - kept, s.sizes.end(), 0);
+      const int inner = s.rows() - rows;
+      const std::vector<int> found_blocks = block_of_row(find_blocks(*A.matrix));
+      if (found_blocks[inner - 1] == found_blocks[inner]) continue;  // the same columns
+      const auto& M = A.values;
+      const Eigen::PartialPivLU<Eigen::MatrixXd> inside(M.topLeftCorner(inner, inner));
+      if (inside.rcond() < 1e-6) continue;
+      BlockLu factors(*A.matrix, rows);
+      ASSERT_TRUE(factors.factor()) << s.name << " of " << blocks;
+      const Eigen::MatrixXd exact =
+          M.bottomRightCorner(rows, rows) -
+          M.bottomLeftCorner(rows, inner) * inside.solve(M.topRightCorner(inner, rows));
+      using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      const Eigen::Map<const ByRows> found(factors.remainder().data(), rows, rows);
+      EXPECT_LT((found - exact).norm(), 1e-9 * exact.norm()) << s.name << " of " << blocks;
+
+      const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+      Eigen::VectorXd b = M * x;
+      factors.reduce({b.data(), static_cast<std::size_t>(b.size())});
+      b.tail(rows) = exact.partialPivLu().solve(b.tail(rows)).eval();
+      factors.extend({b.data(), static_cast<std::size_t>(b.size())});
+      EXPECT_LT((b - x).norm(), 1e-7 * x.norm()) << s.name << " of " << blocks;
+    }
+  }
+}
+
+// Elimination begins at the free end, so that nothing is dragged along.
+TEST(BlockLu, AKeptEndDoesNotWidenAChain) {
+  const Skeleton s = chain(60, [](int) { return 6; });
+  const BlockMatrix A(s);
+  const std::vector<int> no_hosts(60, -1);
+  const BlockPlan plan = plan_blocks(*A.matrix, no_hosts, 59);
+  for (const BlockPlan::Panel& panel : plan.panels) EXPECT_LE(panel.width, 6);
 }
 
 TEST(BlockLu, WithItsHostsFactorsDoNotDependOnEarlierOnes) {

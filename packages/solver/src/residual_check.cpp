@@ -1,0 +1,29 @@
+#include "residual_check.hpp"
+
+#include "matrix_checks.hpp"
+
+#include <array>
+#include <utility>
+
+namespace culm::solver {
+
+ResidualCheck::ResidualCheck(Teuchos::RCP<const assembly::CrsMatrix> matrix,
+                             const parallel::Comm& comm)
+    : matrix_(std::move(matrix)),
+      comm_(comm),
+      columns_(assembly::rows_of(matrix_->getColMap())),
+      rest_(assembly::rows_of(matrix_->getRowMap())) {}
+
+double ResidualCheck::operator()(const assembly::Vector& b, const assembly::Vector& x) {
+  const auto importer = matrix_->getGraph()->getImporter();
+  if (!importer.is_null()) {
+    assembly::tpetra(columns_).doImport(assembly::tpetra(x), *importer, Tpetra::INSERT);
+  }
+  const assembly::Vector& all = importer.is_null() ? x : columns_;
+  const Residual mine = residual(*matrix_, all.values(), b.values(), rest_.values());
+  std::array<double, 2> joint = {mine.largest, mine.size};
+  comm_.max(joint);
+  return Residual{joint[0], joint[1]}.relative();
+}
+
+}  // namespace culm::solver

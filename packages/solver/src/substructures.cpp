@@ -1,0 +1,311 @@
+#include "substructures.hpp"
+
+#include "serial_matrix.hpp"
+
+#include <Teuchos_Array.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace culm::solver {
+namespace {
+
+using assembly::CrsMatrix;
+using assembly::GlobalIndex;
+using assembly::Vector;
+
+std::size_t index(long long i) { return static_cast<std::size_t>(i); }
+
+// An entry of a matrix that is put together, and where its value comes from.
+struct Entry {
+  int column = 0;
+  std::size_t source = 0;  // as the caller counts
+};
+using Lists = std::vector<std::vector<Entry>>;  // by row
+
+// A serial matrix, row after row.
+class Rows {
+ public:
+  // Entries that are listed several times stand there once. @param visit (source, place)
+  template <class Visit>
+  void add(std::vector<Entry>& row, const Visit& visit) {
+    std::ranges::stable_sort(row, {}, &Entry::column);
+    for (const Entry& entry : row) {
+      if (columns_.size() == begin_.back() || columns_.back() != entry.column) {
+        columns_.push_back(entry.column);
+      }
+      visit(entry.source, columns_.size() - 1);
+    }
+    begin_.push_back(columns_.size());
+  }
+  Teuchos::RCP<CrsMatrix> make_matrix() const { return make_serial_matrix(begin_, columns_); }
+
+ private:
+  std::vector<std::size_t> begin_{0};
+  std::vector<int> columns_;
+};
+
+// @param visit (column, place of the value)
+template <class Visit>
+void for_entries(const CrsMatrix& matrix, int row, const Visit& visit) {
+  const auto local = matrix.getLocalMatrixHost();
+  for (auto k = local.graph.row_map(index(row)); k < local.graph.row_map(index(row) + 1); ++k) {
+    visit(local.graph.entries(k), static_cast<std::size_t>(k));
+  }
+}
+
+std::size_t find_entry(const CrsMatrix& matrix, GlobalIndex row, GlobalIndex column) {
+  const int wanted = matrix.getColMap()->getLocalElement(column);
+  std::size_t found = 0;
+  bool is_there = false;
+  for_entries(matrix, matrix.getRowMap()->getLocalElement(row), [&](int here, std::size_t place) {
+    if (here != wanted) return;
+    found = place;
+    is_there = true;
+  });
+  if (!is_there) throw std::logic_error("substructures need a symmetric pattern");
+  return found;
+}
+
+std::span<double> values_of(const CrsMatrix& matrix) {
+  const auto values = matrix.getLocalMatrixHost().values;
+  return {values.data(), values.extent(0)};
+}
+
+}  // namespace
+
+Substructures::Substructures(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
+    : matrix_(std::move(matrix)), comm_(comm) {
+  const std::vector<int> owners = owners_of_columns();
+  const std::vector<bool> is_interface = find_interface(owners);
+  build_piece(owners, is_interface);
+  build_interface(is_interface);
+}
+
+std::vector<int> Substructures::owners_of_columns() const {
+  const auto ids = matrix_->getColMap()->getNodeElementList();
+  Teuchos::Array<int> owners(ids.size());
+  matrix_->getRowMap()->getRemoteIndexList(ids, owners());
+  return {owners.begin(), owners.end()};
+}
+
+// Of each local column.
+std::vector<bool> Substructures::find_interface(const std::vector<int>& owners) const {
+  Vector rows(assembly::rows_of(matrix_->getRowMap()));
+  for (std::size_t row = 0; row < rows.values().size(); ++row) {
+    for_entries(*matrix_, static_cast<int>(row), [&](int column, std::size_t) {
+      if (owners[index(column)] < comm_.rank()) rows.values()[row] = 1.0;
+    });
+  }
+  Vector columns(assembly::rows_of(matrix_->getColMap()));
+  const auto importer = matrix_->getGraph()->getImporter();
+  if (importer.is_null()) {
+    columns = std::move(rows);
+  } else {
+    assembly::tpetra(columns).doImport(assembly::tpetra(rows), *importer, Tpetra::INSERT);
+  }
+  const auto values = columns.values();
+  return {values.begin(), values.end()};
+}
+
+void Substructures::build_piece(const std::vector<int>& owners,
+                                const std::vector<bool>& is_interface) {
+  const auto& rows = *matrix_->getRowMap();
+  const auto& columns = *matrix_->getColMap();
+  std::vector<int> place(owners.size(), -1);  // of local columns in the piece
+  for (int row = 0; row < static_cast<int>(rows.getNodeNumElements()); ++row) {
+    const std::size_t column = index(columns.getLocalElement(rows.getGlobalElement(row)));
+    if (is_interface[column]) {
+      boundary_.push_back(row);
+    } else {
+      place[column] = static_cast<int>(interior_.size());
+      interior_.push_back(row);
+    }
+  }
+  std::vector<int> kept;  // local columns
+  for (int row : interior_) {
+    for_entries(*matrix_, row, [&](int column, std::size_t) {
+      if (is_interface[index(column)]) kept.push_back(column);
+    });
+  }
+  std::ranges::sort(kept, {}, [&](int column) { return columns.getGlobalElement(column); });
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    place[index(kept[k])] = static_cast<int>(interior_.size() + k);
+    kept_.push_back(columns.getGlobalElement(kept[k]));
+  }
+
+  Rows built;
+  Lists rows_below(kept.size());
+  ByRank<long long> wanted(index(comm_.size()));  // row and column of each value
+  std::vector<int> owner_of_wanted;
+  const std::size_t from_others = values_of(*matrix_).size();  // sources above it are wanted
+  std::vector<int> place_of_wanted;
+  const auto note = [&](std::size_t source, std::size_t to) {
+    if (source >= from_others) {
+      place_of_wanted[source - from_others] = static_cast<int>(to);
+    } else if (!runs_here_.empty() && runs_here_.back().continues(source, to)) {
+      ++runs_here_.back().count;
+    } else {
+      runs_here_.push_back({source, to, 1});
+    }
+  };
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < interior_.size(); ++i) {
+    const GlobalIndex here = rows.getGlobalElement(interior_[i]);
+    entries.clear();
+    for_entries(*matrix_, interior_[i], [&](int column, std::size_t source) {
+      const int there = place[index(column)];
+      if (there < 0) throw std::logic_error("substructures need a symmetric pattern");
+      entries.push_back({there, source});
+      if (!is_interface[index(column)]) return;
+      std::vector<Entry>& below = rows_below[index(there) - interior_.size()];
+      const int owner = owners[index(column)];
+      const GlobalIndex other = columns.getGlobalElement(column);
+      if (owner == comm_.rank()) {
+        below.push_back({static_cast<int>(i), find_entry(*matrix_, other, here)});
+        return;
+      }
+      below.push_back({static_cast<int>(i), from_others + owner_of_wanted.size()});
+      owner_of_wanted.push_back(owner);
+      wanted[index(owner)].insert(wanted[index(owner)].end(), {other, here});
+    });
+    built.add(entries, note);
+  }
+  place_of_wanted.resize(owner_of_wanted.size());
+  for (std::vector<Entry>& row : rows_below) built.add(row, note);
+  piece_ = built.make_matrix();
+  values_in_.resize(wanted.size());
+  for (std::size_t k = 0; k < owner_of_wanted.size(); ++k) {
+    values_in_[index(owner_of_wanted[k])].push_back(place_of_wanted[k]);
+  }
+  for (const std::vector<long long>& requests : exchange_lists(wanted, comm_)) {
+    std::vector<int>& out = values_out_.emplace_back();
+    for (std::size_t k = 0; k < requests.size(); k += 2) {
+      out.push_back(static_cast<int>(find_entry(*matrix_, requests[k], requests[k + 1])));
+    }
+  }
+}
+
+void Substructures::build_interface(const std::vector<bool>& is_interface) {
+  std::vector<long long> boundary;  // global numbers
+  std::vector<long long> entries;   // row and column of each
+  for (int row : boundary_) {
+    boundary.push_back(matrix_->getRowMap()->getGlobalElement(row));
+    for_entries(*matrix_, row, [&](int column, std::size_t source) {
+      if (!is_interface[index(column)]) return;
+      entries.push_back(boundary.back());
+      entries.push_back(matrix_->getColMap()->getGlobalElement(column));
+      interface_values_.push_back(source);
+    });
+  }
+  const std::array<int, 3> mine = {static_cast<int>(kept_.size()),
+                                   static_cast<int>(boundary.size()),
+                                   static_cast<int>(interface_values_.size())};
+  value_funnel_ = parallel::Funnel(comm_, mine[0] * mine[0] + mine[2]);
+  row_funnel_ = parallel::Funnel(comm_, mine[0] + mine[1]);
+  const auto counts = comm_.gather(std::span<const int>(mine));
+  const auto all_kept = comm_.gather(std::span<const long long>(kept_));
+  const auto all_boundary = comm_.gather(std::span<const long long>(boundary));
+  const auto all_entries = comm_.gather(std::span<const long long>(entries));
+  interface_size_ = comm_.max(static_cast<int>(all_boundary.size()));
+  if (!comm_.is_root()) return;
+
+  std::vector<long long> numbers = all_boundary;
+  std::ranges::sort(numbers);
+  const auto place = [&](long long number) {
+    return static_cast<int>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  };
+  Lists lists(numbers.size());
+  std::size_t source = 0;  // in the order in which values are gathered
+  auto kept = all_kept.begin();
+  auto bound = all_boundary.begin();
+  auto entry = all_entries.begin();
+  for (std::size_t k = 0; k < counts.size(); k += 3) {
+    const std::span<const long long> clique(kept, kept + counts[k]);
+    for (long long row : clique) {
+      for (long long column : clique) {
+        lists[index(place(row))].push_back({place(column), source++});
+      }
+    }
+    for (int i = 0; i < counts[k + 2]; ++i, entry += 2) {
+      lists[index(place(entry[0]))].push_back({place(entry[1]), source++});
+    }
+    for (long long row : clique) row_place_.push_back(place(row));
+    for (int i = 0; i < counts[k + 1]; ++i) row_place_.push_back(place(bound[i]));
+    kept += counts[k];
+    bound += counts[k + 1];
+  }
+  value_place_.resize(source);
+  Rows built;
+  for (std::vector<Entry>& row : lists) {
+    built.add(row, [&](std::size_t from, std::size_t to) { value_place_[from] = to; });
+  }
+  interface_ = built.make_matrix();
+}
+
+void Substructures::gather_values() {
+  const std::span<const double> from = values_of(*matrix_);
+  const std::span<double> to = values_of(*piece_);
+  for (const Run& run : runs_here_)
+    std::ranges::copy(from.subspan(run.from, run.count), &to[run.to]);
+  if (comm_.size() == 1) return;
+  ByRank<double> out(values_out_.size());
+  for (std::size_t rank = 0; rank < out.size(); ++rank) {
+    for (int k : values_out_[rank]) out[rank].push_back(from[index(k)]);
+  }
+  const ByRank<double> in = exchange_lists(out, comm_);
+  for (std::size_t rank = 0; rank < in.size(); ++rank) {
+    for (std::size_t k = 0; k < in[rank].size(); ++k) to[index(values_in_[rank][k])] = in[rank][k];
+  }
+}
+
+void Substructures::gather_interface(std::span<const double> remainder) {
+  const std::span<const double> from = values_of(*matrix_);
+  mine_.assign(remainder.begin(), remainder.end());
+  for (std::size_t k : interface_values_) mine_.push_back(from[k]);
+  all_.resize(index(value_funnel_.total()));
+  value_funnel_.gather(mine_, all_);
+  if (!comm_.is_root()) return;
+  const std::span<double> to = values_of(*interface_);
+  std::ranges::fill(to, 0.0);
+  for (std::size_t k = 0; k < value_place_.size(); ++k) to[value_place_[k]] += all_[k];
+}
+
+void Substructures::take(std::span<const double> b, std::span<double> piece) const {
+  std::ranges::fill(piece, 0.0);
+  for (std::size_t i = 0; i < interior_.size(); ++i) piece[i] = b[index(interior_[i])];
+}
+
+void Substructures::gather(std::span<const double> b, std::span<const double> piece,
+                           std::span<double> whole) {
+  const auto ends = piece.subspan(interior_.size());
+  mine_.assign(ends.begin(), ends.end());
+  for (int row : boundary_) mine_.push_back(b[index(row)]);
+  all_.resize(index(row_funnel_.total()));
+  row_funnel_.gather(mine_, all_);
+  std::ranges::fill(whole, 0.0);
+  for (std::size_t k = 0; k < row_place_.size(); ++k) whole[index(row_place_[k])] += all_[k];
+}
+
+void Substructures::scatter(std::span<const double> whole, std::span<double> piece,
+                            std::span<double> x) {
+  all_.resize(index(row_funnel_.total()));
+  for (std::size_t k = 0; k < row_place_.size(); ++k) all_[k] = whole[index(row_place_[k])];
+  mine_.resize(kept_.size() + boundary_.size());
+  row_funnel_.scatter(all_, mine_);
+  const auto own = mine_.begin() + static_cast<std::ptrdiff_t>(kept_.size());
+  std::copy(mine_.begin(), own, piece.begin() + static_cast<std::ptrdiff_t>(interior_.size()));
+  for (std::size_t k = 0; k < boundary_.size(); ++k) {
+    x[index(boundary_[k])] = own[static_cast<std::ptrdiff_t>(k)];
+  }
+}
+
+void Substructures::put(std::span<const double> piece, std::span<double> x) const {
+  for (std::size_t i = 0; i < interior_.size(); ++i) x[index(interior_[i])] = piece[i];
+}
+
+}  // namespace culm::solver

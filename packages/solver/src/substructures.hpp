@@ -1,0 +1,86 @@
+/// A matrix on several ranks, cut into what each rank can eliminate alone and what is left between
+/// them.
+#pragma once
+
+#include <culm/assembly/tpetra.hpp>
+#include <culm/parallel/comm.hpp>
+
+#include "exchange.hpp"
+
+#include <span>
+#include <vector>
+
+namespace culm::solver {
+
+/// Unknowns that meet one of a lower rank are the interface; all others are interior, and those of
+/// two ranks never meet. So each rank eliminates its interior alone, and what that leaves of the
+/// interface,
+///
+///     S = A_BB - sum over ranks of A_BI A_II^-1 A_IB,
+///
+/// is a small matrix on the root. The plan is made once, because the pattern never changes; it must
+/// be symmetric. @source J. S. Przemieniecki, Matrix structural analysis of substructures, 1963
+class Substructures {
+ public:
+  Substructures(Teuchos::RCP<const assembly::CrsMatrix> matrix, const parallel::Comm& comm);
+
+  /// [A_II A_IB; A_BI 0] of this rank, with the interface unknowns that its interior meets at the
+  /// end.
+  const assembly::CrsMatrix& piece() const { return *piece_; }
+  /// Unknowns at its end that are of the interface.
+  int kept() const { return static_cast<int>(kept_.size()); }
+  /// S; on the root only.
+  const assembly::CrsMatrix& interface() const { return *interface_; }
+  /// Unknowns of the interface; on all ranks.
+  int interface_size() const { return interface_size_; }
+
+  /// Brings the present values to the pieces. Collective, as all that follows.
+  void gather_values();
+  /// Puts S together. @param remainder  of this rank, -A_BI A_II^-1 A_IB, row by row
+  void gather_interface(std::span<const double> remainder);
+  /// The unknowns of the piece take part of a right-hand side: those of the interior theirs, the
+  /// others zero.
+  void take(std::span<const double> b, std::span<double> piece) const;
+  /// The right-hand side of S. @param piece  after the interior was eliminated @param whole on the
+  /// root only
+  void gather(std::span<const double> b, std::span<const double> piece, std::span<double> whole);
+  /// The solution of S to the ends of the pieces and to the rows of the interface.
+  void scatter(std::span<const double> whole, std::span<double> piece, std::span<double> x);
+  /// The interior to its rows.
+  void put(std::span<const double> piece, std::span<double> x) const;
+
+ private:
+  struct Run {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    std::size_t count = 0;
+    bool continues(std::size_t next_from, std::size_t next_to) const {
+      return next_from == from + count && next_to == to + count;
+    }
+  };
+
+  std::vector<int> owners_of_columns() const;
+  std::vector<bool> find_interface(const std::vector<int>& owners) const;
+  void build_piece(const std::vector<int>& owners, const std::vector<bool>& is_interface);
+  void build_interface(const std::vector<bool>& is_interface);
+
+  Teuchos::RCP<const assembly::CrsMatrix> matrix_;
+  parallel::Comm comm_;
+  std::vector<int> interior_;    ///< rows of this rank
+  std::vector<int> boundary_;    ///< rows of this rank that are of the interface
+  std::vector<long long> kept_;  ///< global numbers
+  int interface_size_ = 0;
+  Teuchos::RCP<assembly::CrsMatrix> piece_;
+  std::vector<Run> runs_here_;  ///< from the values of the matrix to those of the piece
+  ByRank<int> values_out_;      ///< values of the matrix that other ranks need
+  ByRank<int> values_in_;       ///< places in the piece of what they send
+  Teuchos::RCP<assembly::CrsMatrix> interface_;
+  std::vector<std::size_t> interface_values_;  ///< those of the matrix between its unknowns
+  parallel::Funnel value_funnel_;
+  std::vector<std::size_t> value_place_;  ///< of each gathered value in S; on the root
+  parallel::Funnel row_funnel_;           ///< kept unknowns, then own rows of the interface
+  std::vector<int> row_place_;            ///< of each gathered row in S; on the root
+  std::vector<double> mine_, all_;        ///< what travels
+};
+
+}  // namespace culm::solver
