@@ -37,6 +37,27 @@ void System::synchronise(model::State& state) {
   comm_.sum(gathered_reactions_);
 }
 
+void System::synchronise(model::State& state, std::span<const int> nodes) const {
+  if (comm_.size() == 1 || nodes.empty()) return;
+  const model::UnknownTable& unknowns = model_.unknowns();
+  std::vector<double> values;
+  const auto for_slots = [&](const auto& action) {
+    for (model::Coordinates* all : {&state.next, &state.velocity}) {
+      if (all->empty()) continue;
+      for (int node : nodes) action(node, model::NodeTable::slots(*all, node));
+    }
+  };
+  for_slots([&](int node, auto slots) {
+    const bool owned = layout_.owners()[index(unknowns.node_block(node))] == comm_.rank();
+    for (double value : slots.reshaped()) values.push_back(owned ? value : nothing);
+  });
+  comm_.sum(values);
+  auto from = values.begin();
+  for_slots([&](int, auto slots) {
+    for (double& value : slots.reshaped()) value = *from++;
+  });
+}
+
 void System::save(model::State& state, Snapshot& snapshot) {
   if (!snapshot.is_for_memory()) synchronise(state);
   snapshot.set("state/time", state.time);

@@ -288,6 +288,7 @@ void register_layer_quantity(QuantityRegistry& registry, const char* type, const
 class StrainEnergy final : public Quantity {
  public:
   std::vector<output::HistoryColumn> columns() const override { return {{"", "J"}}; }
+  std::optional<std::vector<int>> nodes() const override { return std::vector<int>(); }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
     numbers.push_back(system.strain_energy(state.next));
@@ -299,6 +300,7 @@ class Energy final : public Quantity {
   std::vector<output::HistoryColumn> columns() const override {
     return {{"kinetic", "J"}, {"strain", "J"}, {"potential", "J"}, {"total", "J"}};
   }
+  std::optional<std::vector<int>> nodes() const override { return std::vector<int>(); }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
     const model::Momentum momentum = system.momentum(state.next, state.velocity);
@@ -313,6 +315,7 @@ class Momenta final : public Quantity {
     return {{"lx", "N s"},   {"ly", "N s"},   {"lz", "N s"},
             {"Lx", "N m s"}, {"Ly", "N m s"}, {"Lz", "N m s"}};
   }
+  std::optional<std::vector<int>> nodes() const override { return std::vector<int>(); }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
     const model::Momentum momentum = system.momentum(state.next, state.velocity);

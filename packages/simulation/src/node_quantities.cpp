@@ -34,13 +34,18 @@ class NodeQuantity final : public Quantity {
   using Object = std::string (*)(const model::Model&, const Watched&);
 
   NodeQuantity(const Watched& place, std::vector<HistoryColumn> columns, Evaluate evaluate,
-               Object object)
+               bool reads_nodes_only, Object object)
       : place_(place),
         columns_(std::move(columns)),
         evaluate_(std::move(evaluate)),
+        reads_nodes_only_(reads_nodes_only),
         object_(object) {}
 
   std::vector<HistoryColumn> columns() const override { return columns_; }
+  std::optional<std::vector<int>> nodes() const override {
+    if (!reads_nodes_only_) return {};
+    return place_.frame < 0 ? std::vector{place_.node} : std::vector{place_.node, place_.frame};
+  }
   void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
     evaluate_(system, state, place_, numbers);
@@ -53,6 +58,7 @@ class NodeQuantity final : public Quantity {
   Watched place_;
   std::vector<HistoryColumn> columns_;
   Evaluate evaluate_;
+  bool reads_nodes_only_;  // no forces
   Object object_;
 };
 
@@ -210,7 +216,7 @@ void add(QuantityRegistry& registry, Schema schema, std::vector<HistoryColumn> c
         Watched place{*read, {}};
         if (has_constraint && !read_constraint(options, context, place)) return nullptr;
         if (!has_triad_where_needed(type, options, context, place)) return nullptr;
-        return std::make_unique<NodeQuantity>(place, columns, evaluate, object);
+        return std::make_unique<NodeQuantity>(place, columns, evaluate, !has_constraint, object);
       });
 }
 

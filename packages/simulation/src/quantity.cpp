@@ -1,5 +1,6 @@
 #include <culm/simulation/quantity.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace culm::simulation {
@@ -12,6 +13,18 @@ std::vector<output::HistoryColumn> columns_of(const std::vector<WatchedQuantity>
       all.push_back(std::move(column));
     }
   }
+  return all;
+}
+
+std::optional<std::vector<int>> nodes_of(const std::vector<WatchedQuantity>& watched) {
+  std::vector<int> all;
+  for (const WatchedQuantity& one : watched) {
+    const auto nodes = one.quantity->nodes();
+    if (!nodes) return {};
+    all.insert(all.end(), nodes->begin(), nodes->end());
+  }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

@@ -83,7 +83,11 @@ output::RecordMark restore_mark(const Snapshot& snapshot) {
 ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
                          ResultSettings settings, const std::vector<WatchedQuantity>& watched,
                          const Snapshot* from)
-    : system_(&system), drawn_(&drawn), settings_(std::move(settings)), watched_(&watched) {
+    : system_(&system),
+      drawn_(&drawn),
+      settings_(std::move(settings)),
+      watched_(&watched),
+      read_nodes_(nodes_of(watched)) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
     const auto meshes = meshes_in(drawn);
@@ -141,6 +145,7 @@ void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantit
   }
   system_ = &system;
   watched_ = &watched;
+  read_nodes_ = nodes_of(watched);
 }
 
 std::optional<output::Pictures> ResultFiles::open_fluid() const {
@@ -199,7 +204,11 @@ void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
 std::vector<output::HistoryColumn> ResultFiles::columns() const { return columns_of(*watched_); }
 
 std::vector<double> ResultFiles::evaluate(model::State& state) const {
-  system_->synchronise(state);
+  if (read_nodes_) {
+    system_->synchronise(state, *read_nodes_);
+  } else {
+    system_->synchronise(state);
+  }
   return simulation::evaluate(*watched_, *system_, state);
 }
 

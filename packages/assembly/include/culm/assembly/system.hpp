@@ -99,6 +99,8 @@ class System {
   /// Brings coordinates, multipliers and reactions of all nodes up to date on all ranks, for
   /// output.
   void synchronise(model::State& state);
+  /// The same of coordinates and velocities of some nodes only, each named once.
+  void synchronise(model::State& state, std::span<const int> nodes) const;
   /// Brings an array over the slots of all nodes up to date on all ranks: each value from the rank
   /// that owns the node, exactly.
   void complete(model::Coordinates& values) const;

@@ -7,6 +7,7 @@
 #include <culm/output/picture_mesh.hpp>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@ class Quantity {
   virtual ~Quantity() = default;
   /// One per number, named below the name that the deck gives the quantity.
   virtual std::vector<output::HistoryColumn> columns() const = 0;
-  /// Appends the numbers. Called on all ranks, with state.next up to date on all of them.
+  /// Nodes whose coordinates and velocities it reads; none: it may read everything.
+  virtual std::optional<std::vector<int>> nodes() const { return {}; }
+  /// Appends the numbers. Called on all ranks, with what it reads up to date on all of them.
   virtual void evaluate(const assembly::System& system, const model::State& state,
                         std::vector<double>& numbers) const = 0;
   /// What it remembers of earlier states, such as turns that were counted; always as many numbers.
@@ -38,7 +41,9 @@ struct WatchedQuantity {
 
 /// The columns of all, each with the name of its quantity.
 std::vector<output::HistoryColumn> columns_of(const std::vector<WatchedQuantity>& watched);
-/// The numbers of all, of a state that is up to date on all ranks.
+/// The nodes that all of them read, each once and rising; none: everything.
+std::optional<std::vector<int>> nodes_of(const std::vector<WatchedQuantity>& watched);
+/// The numbers of all, of a state where what they read is up to date on all ranks.
 std::vector<double> evaluate(const std::vector<WatchedQuantity>& watched,
                              const assembly::System& system, const model::State& state);
 

@@ -111,6 +111,7 @@ class ResultFiles {
   const model::Model* drawn_;
   ResultSettings settings_;
   const std::vector<WatchedQuantity>* watched_;
+  std::optional<std::vector<int>> read_nodes_;  ///< by what is watched; none: everything
   std::unique_ptr<Files> files_;
   std::vector<std::filesystem::path> analysis_files_;  ///< for listing(); on rank 0
   std::size_t frames_ = 0;
