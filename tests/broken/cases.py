@@ -1171,6 +1171,8 @@ FILES = [
 
 MECHANISM = "Likely cause: a mechanism. Nothing resists this motion:\n"
 SINGULAR = "The equations are singular at level 0, before the first step.\n"
+NO_FACTORS = "The tangent at level 0 is singular: factors would be made of rounding.\n"
+BUCKLING = parameters("bend", ("Type", "Buckling"))
 AXIS_X = ("Axis", "{1, 0, 0}")
 OFFSET = ("Offset", "{0, 0, 0.1}")
 TWO_MASTERS = CLAMP + link("first", "beam/1", "beam/3") + link("second", "beam/2", "beam/3")
@@ -1385,7 +1387,7 @@ for form in ("Null Space", "Multipliers"):
             4,
             change=[(CLAMP, ""), ('"Null Space"', f'"{form}"')],
             args="check deck.xml",
-            says=[SINGULAR + MECHANISM, "\n'beam' ", "; nothing holds it\n"],
+            says=[SINGULAR + MECHANISM, "\n  beam/0, z ", "\n'beam' ", "; nothing holds it\n"],
             silent=False,
             ranks=null_space,
         ),
@@ -1401,6 +1403,26 @@ for form in ("Null Space", "Multipliers"):
                 "\nTry: add a support",
             ],
             **of_form,
+        ),
+        *(
+            Case(
+                f"{verb}, buckling of what may turn, {form}",
+                4,
+                change=[
+                    (CLAMP, support("pin", "Spherical Support") + ROLLERS),
+                    (ANALYSIS, BUCKLING),
+                    ('"Null Space"', f'"{form}"'),
+                ],
+                args=args,
+                says=[NO_FACTORS + MECHANISM, "\n'beam' turns about the axis (1, 0, 0)"],
+                silent=False,
+                leaves=["out"],
+                ranks=null_space,
+            )
+            for verb, args in (
+                ("check", "check deck.xml"),
+                ("run", "run deck.xml --output out"),
+            )
         ),
         unsolvable(
             f"load of 1e308, {form}",

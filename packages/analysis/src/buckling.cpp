@@ -2,7 +2,9 @@
 #include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
+#include "softest_direction.hpp"
 #include "wall_limits.hpp"
+#include "weak_direction.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +28,26 @@ constexpr double notable_share = 5e-4;
 // with short ones beyond.
 constexpr double notable_wall = 0.9;
 
+// Of a factor, that rounding may take before it is worth nothing: errors are up to ten times as
+// large then.
+constexpr double worthless_share = 0.2;
+
+// Factors about a tangent that is not regular are made of rounding, and a load that does no work in
+// the free motion does not show it.
+void require_regular(Context& context, const model::State& state) {
+  std::optional<Vector> direction;
+  const assembly::Rows& rows = context.system.layout().rows();
+  const bool is_factored = context.linear.factor();
+  const WeakDirection weak(context.system, state);
+  if (is_factored) direction = softest_direction(context.linear, rows);
+  if (direction && !weak.is_free(*direction)) return;
+  if (!direction) context.linear.weakest_direction(direction.emplace(rows));
+  throw NumericalError(context.system.comm().broadcast(
+      fmt::format("The tangent at level {:g} is singular: factors would be made of rounding.\n{}\n"
+                  "At a limit point, take a state before it.",
+                  state.time, weak.singular_cause(*direction))));
+}
+
 // The linear response to the loads of another level, zero where they do not move anything, as heat
 // does not between supports. The matrix of the system is the tangent then.
 Vector linear_step(Context& context, model::State at, double level) {
@@ -43,12 +65,12 @@ Vector linear_step(Context& context, model::State at, double level) {
   load.update(1.0, system.residual(), -1.0);
   const double size = load.largest();
   Vector step(load.rows());
+  require_regular(context, at);
   if (size <= 1e-12 * found.force_scale || size == 0.0) return step;
-  if (!context.linear.factor() || !context.linear.solve(load, step).is_sound()) {
+  if (!context.linear.solve(load, step).is_sound()) {
     throw NumericalError(
-        "The tangent at the present state is singular, so there is no linear response to the "
-        "reference load.\nTry: supports that hold the structure, or a state before the limit "
-        "point.");
+        "The linear response to the reference load is lost in rounding: stiffnesses differ too "
+        "much in size.\nTry: check units; make what is very stiff rigid.");
   }
   return step;
 }
@@ -108,11 +130,15 @@ void warn_of_rounding(const solver::EigenPairs& pairs, double time, Findings& fi
   for (std::size_t i = 0; i < pairs.values.size(); ++i) {
     const double share = 0.1 * pairs.rounding[i];
     if (share < notable_share) continue;
-    findings.warn("hidden modes",
-                  fmt::format("rounding leaves the factor of mode {} exact to {:.2g} % only: "
-                              "stiffnesses differ too much in size",
-                              i + 1, 100.0 * share),
-                  time);
+    const std::string text = fmt::format(
+        "rounding leaves the factor of mode {} exact to {:.2g} % only: stiffnesses differ too much "
+        "in size",
+        i + 1, 100.0 * share);
+    if (share < worthless_share) {
+      findings.warn("hidden modes", text, time);
+    } else {
+      findings.broken("hidden modes", text + ", and it is worth nothing", time);
+    }
     return;
   }
 }

@@ -2,6 +2,7 @@
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/base/error.hpp>
 
+#include "softest_direction.hpp"
 #include "weak_direction.hpp"
 
 #include <fmt/format.h>
@@ -44,15 +45,6 @@ CoarseMesh judge_mesh(const assembly::System& system, const model::State& state,
                       state.time, turn.name(), model::TurnLaw(turn.kind.order).greatest_moment(),
                       turn.cure()),
           true};
-}
-
-// entries without any symmetry, the same for any number of ranks
-void fill_irregular(Vector& v) {
-  const auto values = v.values();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto global = static_cast<double>(v.rows().global(i));
-    values[i] = std::fmod(0.6180339887498949 * (global + 1.0), 1.0) - 0.4;
-  }
 }
 
 }  // namespace
@@ -111,9 +103,8 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
 void PostMortem::refuse_singular(const model::State& state) {
   assembly::System& system = context_.system;
   if (system.layout().rows().total() == 0) return;  // held or rigid altogether
-  Vector probe(system.layout().rows());
+  const Vector probe = irregular(system.layout().rows());
   Vector response(system.layout().rows());
-  fill_irregular(probe);
   const double size = system.matrix()->norm();
   if (!std::isfinite(size)) {
     throw NonFiniteError(

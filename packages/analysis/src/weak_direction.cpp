@@ -19,6 +19,7 @@ constexpr double notable = 0.05;          // share in a direction of unit maximu
 constexpr std::size_t shown = 6;          // entries of a direction in a message
 constexpr double least_resistance = 4.0;  // of a motion that is not free; those of free ones are
                                           // below 0.3
+constexpr double free_resistance = 1.0;   // below, rounding is larger than what resists
 
 // A motion that at most so much of all nodes carry is local, and a mesh does not resolve it with
 // fewer nodes than these, on a line and on a surface: a bump exp(-r^2 / 2 s^2) over elements of
@@ -64,6 +65,10 @@ double WeakDirection::resistance(const Vector& motion) const {
   for (double& value : size.values()) value = std::abs(value);
   absolute.multiply(size, image);
   return std::abs(work) / (std::numeric_limits<double>::epsilon() * size.dot(image));
+}
+
+bool WeakDirection::is_free(const Vector& motion) const {
+  return resistance(motion) < free_resistance;
 }
 
 // In a sound model K u + H^T lambda = 0 and H u = 0 hold with H^T lambda = 0 as well, because K has
@@ -262,7 +267,9 @@ std::string WeakDirection::mechanism(const Vector& motion) const {
   }
   return "Likely cause: a mechanism. Nothing resists this motion:\n" + largest_motions(moved) +
          rigid_motions(moved) +
-         "Try: add a support or a joint that holds it, or give the section stiffness.";
+         "Try: add a support or a joint that holds it, or give the section stiffness. If "
+         "something\n"
+         "does: beside stiffnesses 1e12 times as large it is lost in rounding; check units.";
 }
 
 std::string WeakDirection::massless(const Vector& direction) const {

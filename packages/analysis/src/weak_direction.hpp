@@ -12,6 +12,9 @@ class WeakDirection {
   WeakDirection(const assembly::System& system, const model::State& state)
       : system_(system), names_(system), state_(state) {}
 
+  /// Whether rounding of the matrix is all that resists a motion, however soft the motion and stiff
+  /// the rest: a mechanism, or stiffness that is lost beside a much larger one.
+  bool is_free(const assembly::Vector& motion) const;
   /// Why the tangent is singular in a direction, and what helps: a mechanism, redundant constraints
   /// or numbers too far apart.
   std::string singular_cause(const assembly::Vector& direction) const;

@@ -1,0 +1,35 @@
+#include "softest_direction.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace culm::analysis {
+
+using assembly::Vector;
+
+Vector irregular(const assembly::Rows& rows) {
+  Vector v(rows);
+  const auto values = v.values();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto global = static_cast<double>(rows.global(i));
+    values[i] = std::fmod(0.6180339887498949 * (global + 1.0), 1.0) - 0.4;
+  }
+  return v;
+}
+
+// The first solution holds what is free, and as much of what is soft as the start has; the second
+// has no more of stiff directions than rounding.
+std::optional<Vector> softest_direction(solver::LinearSolver& linear, const assembly::Rows& rows) {
+  Vector direction = irregular(rows);
+  Vector response(rows);
+  for (int i = 0; i < 2; ++i) {
+    if (!linear.solve(direction, response).is_sound()) return {};
+    const double size = response.largest();
+    if (!std::isfinite(size) || size == 0.0) return {};
+    response.scale(1.0 / size);
+    std::swap(direction, response);
+  }
+  return direction;
+}
+
+}  // namespace culm::analysis
