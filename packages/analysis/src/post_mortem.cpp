@@ -47,6 +47,16 @@ CoarseMesh judge_mesh(const assembly::System& system, const model::State& state,
           true};
 }
 
+// Whether a direction of unit maximum norm is resisted by more than rounding of the matrix.
+bool resists(const assembly::System& system, const std::optional<Vector>& direction) {
+  if (!direction) return false;
+  double largest = 0.0;
+  for (double value : system.matrix()->values()) largest = std::max(largest, std::abs(value));
+  Vector force(direction->rows());
+  system.matrix()->multiply(*direction, force);
+  return force.largest() > singular_ratio * system.comm().max(largest);
+}
+
 }  // namespace
 
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil,
@@ -113,14 +123,14 @@ void PostMortem::refuse_singular(const model::State& state) {
   }
   const bool solves = is_factored_ && context_.linear.solve(probe, response).is_sound();
   if (solves && response.largest() * size < 1e13 * probe.largest()) return;
+  // the factors at hand tell a soft model from a singular one; others would take as much memory
+  if (solves && resists(system, softest_direction(context_.linear, probe.rows()))) return;
   Vector direction(system.layout().rows());
-  const double ratio = context_.linear.weakest_direction(direction);
+  context_.linear.weakest_direction(direction);
   if (size == 0.0) {  // no motion is resisted
     direction = probe;
     direction.scale(1.0 / probe.largest());
   }
-  // without useful factors no step can be solved, whatever the ratio
-  if (solves && ratio > singular_ratio) return;
   throw NumericalError(system.comm().broadcast(fmt::format(
       "The equations are singular at {} {:.6g}, before the first step.\n{}", time_word(),
       state.time, WeakDirection(context_.system, state).singular_cause(direction))));

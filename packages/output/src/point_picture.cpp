@@ -1,6 +1,5 @@
 #include <culm/output/point_picture.hpp>
 
-#include "replace_file.hpp"
 #include "vtu_grid.hpp"
 
 namespace culm::output {
@@ -20,7 +19,7 @@ void write_points(const std::filesystem::path& path, const std::vector<Vec3>& po
   for (const NamedArray& array : arrays) {
     grid.point_data.push_back({array.name, array.columns, array.values});
   }
-  replace_file(path, vtu_text(grid, 0.0, names));
+  write_vtu(path, grid, 0.0, names);
 }
 
 }  // namespace culm::output

@@ -15,11 +15,15 @@ namespace {
   throw FileError(path.string(), "cannot write: " + std::generic_category().message(error));
 }
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
+void write_file(const std::filesystem::path& path,
+                const std::function<void(const Sink& sink)>& write) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) give_up(path, errno);
-  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  int error = written ? 0 : errno;
+  int error = 0;
+  write([&](std::string_view piece) {
+    const bool written = std::fwrite(piece.data(), 1, piece.size(), file) == piece.size();
+    if (!written && error == 0) error = errno;
+  });
   // A full disk may show only when the last bytes leave the buffer.
   if (std::fclose(file) != 0 && error == 0) error = errno;
   if (error != 0) {
@@ -40,10 +44,15 @@ void move_into_place(const std::filesystem::path& from, const std::filesystem::p
   if (error) throw FileError(to.string(), "cannot replace: " + error.message());
 }
 
-void replace_file(const std::filesystem::path& path, std::string_view content) {
+void replace_file(const std::filesystem::path& path,
+                  const std::function<void(const Sink& sink)>& write) {
   const std::filesystem::path temporary = temporary_name(path);
-  write_file(temporary, content);
+  write_file(temporary, write);
   move_into_place(temporary, path);
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  replace_file(path, [&](const Sink& sink) { sink(content); });
 }
 
 void make_folder(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace culm::output {
@@ -15,6 +16,10 @@ void move_into_place(const std::filesystem::path& from, const std::filesystem::p
 /// when the process dies; it does not wait for the disk, so a power cut may lose both. Throws
 /// FileError.
 void replace_file(const std::filesystem::path& path, std::string_view content);
+/// The same piece by piece, for content that is better not in memory as a whole.
+using Sink = std::function<void(std::string_view piece)>;
+void replace_file(const std::filesystem::path& path,
+                  const std::function<void(const Sink& sink)>& write);
 
 /// Creates a folder and those above it if they are missing. Throws FileError.
 void make_folder(const std::filesystem::path& path);

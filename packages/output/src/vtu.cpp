@@ -210,16 +210,16 @@ void Pictures::write_files(const Picture& picture, Step& step) {
                                 reference_skins_[s]));
     }
     const std::string file = stem(group, picture.index);
-    write_picture(file + ".vtu", vtu_text(merge(centres), picture.time, names_));
+    write_picture(file + ".vtu", merge(centres), picture.time);
     step.centres.emplace_back(g, file + ".vtu");
     if (skins.empty()) continue;
-    write_picture(file + "_skin.vtu", vtu_text(merge(skins), picture.time, names_));
+    write_picture(file + "_skin.vtu", merge(skins), picture.time);
     step.skins.emplace_back(g, file + "_skin.vtu");
   }
 }
 
-void Pictures::write_picture(const std::string& file, const std::string& text) {
-  replace_file(folder_ / file, text);
+void Pictures::write_picture(const std::string& file, const VtuGrid& grid, double time) {
+  write_vtu(folder_ / file, grid, time, names_);
   written_.insert_or_assign(file, FileIdentity(folder_ / file));
 }
 

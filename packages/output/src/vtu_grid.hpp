@@ -1,6 +1,7 @@
 /// An unstructured grid of VTK in memory, and its XML form.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,10 @@ struct VtuGrid {
 /// All grids as one. Data that a grid lacks is NaN there.
 VtuGrid merge(const std::vector<VtuGrid>& grids);
 
-/// Content of a .vtu file, numbers in base64.
+/// Writes a .vtu file, numbers in base64. Throws FileError.
 /// @param time   s
 /// @param names  of all structures, in the order of their numbers
-std::string vtu_text(const VtuGrid& grid, double time, const std::vector<std::string>& names);
+void write_vtu(const std::filesystem::path& path, const VtuGrid& grid, double time,
+               const std::vector<std::string>& names);
 
 }  // namespace culm::output

@@ -15,6 +15,8 @@
 
 namespace culm::output {
 
+struct VtuGrid;
+
 /// Pictures for ParaView and VTK. In the given folder
 ///
 ///     <stem>.pvd         steps: centre lines, nodes and mid-surfaces
@@ -105,7 +107,7 @@ class Pictures {
   void list(Collections& collections, int analysis, const Step& step, const Files& files);
   void list_anew(Collections& collections, Files Step::*files);
   void write_files(const Picture& picture, Step& step);
-  void write_picture(const std::string& file, const std::string& text);
+  void write_picture(const std::string& file, const VtuGrid& grid, double time);
   void make_groups();
   void make_skins();
 
