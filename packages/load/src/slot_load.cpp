@@ -50,8 +50,7 @@ SlotLoad::Item& SlotLoad::item_on(const std::vector<int>& nodes) {
   internal_check(nodes.size() <= max_nodes, "a load acts on more nodes than SlotLoad provides for");
   if (items_.empty() || items_.back().nodes != nodes) {
     const int slots = 4 * static_cast<int>(nodes.size());
-    items_.push_back(
-        {nodes, Eigen::Matrix3Xd::Zero(3, slots), Eigen::MatrixXd::Zero(slots, slots)});
+    items_.push_back({nodes, Eigen::Matrix3Xd::Zero(3, slots), {}});
   }
   return items_.back();
 }
@@ -62,6 +61,7 @@ void SlotLoad::add_force(const model::Marker& point, const Vec3& components, Axe
   if (axes == Axes::space) {
     item.constant += components * T.transpose();
   } else {
+    if (item.linear.size() == 0) item.linear.setZero(T.size(), T.size());
     item.linear += T * follower_factors(point, components).transpose();
     item.follows = !item.linear.isZero(0.0);
   }
@@ -72,8 +72,7 @@ void SlotLoad::add_slot_forces(int node, const model::NodeSlots& forces) {
 }
 
 int SlotLoad::add_settable_force(int node) {
-  items_.push_back(
-      {{node}, Eigen::Matrix3Xd::Zero(3, 4), Eigen::MatrixXd::Zero(4, 4), false, true});
+  items_.push_back({{node}, Eigen::Matrix3Xd::Zero(3, 4), {}, false, true});
   return size() - 1;
 }
 
@@ -154,6 +153,7 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
   add_slot_derivative<Space>(
       placement_, i, r, motion, stencil.theta,
       [&](int a, int b, auto& block) {
+        if (!item.follows) return;
         const SlotMatrix<4> pairs =
             -factor * stencil.theta * item.linear.template block<4, 4>(4 * a, 4 * b);
         Space::add_pairs(pairs, arms_mid[static_cast<std::size_t>(a)],

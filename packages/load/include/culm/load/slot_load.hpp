@@ -52,7 +52,7 @@ class SlotLoad final : public model::Batch, public model::Booked {
   struct Item {
     std::vector<int> nodes;
     Eigen::Matrix3Xd constant;  // f0, shape (3, slots)
-    Eigen::MatrixXd linear;     // L, shape (slots, slots)
+    Eigen::MatrixXd linear;     // L, shape (slots, slots); empty if nothing follows
     bool follows = false;       // L is not zero
     bool is_settable = false;   // f0 may become another one
   };

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Speed and memory of a large slender model on several processes: the flexible pendulum. The time of a step is that
+of a long run less that of a short one; memory is the largest that a process ever had.
+
+usage: ranks.py CULM [--elements N] [--ranks 1 2 4] [--steps 4 24] [--repeats 2]
+"""
+
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
+STEP = 5e-3  # s, of the deck
+# prints what getrusage knows when the program has ended
+WATCH = ("import os, resource, subprocess, sys; code = subprocess.call(sys.argv[1:], stdout=subprocess.DEVNULL); "
+         "used = resource.getrusage(resource.RUSAGE_CHILDREN); "
+         "print(f'used {used.ru_utime + used.ru_stime} {used.ru_maxrss}', flush=True); sys.exit(code)")
+
+
+def run(culm, ranks, elements, steps):
+    """Wall time [s], CPU time [s] and memory [MB] of each process."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [culm, "run", str(INPUTS / "beam/pendulum.xml"), "--quiet", "--output", folder, "--set",
+                 f"Structures/beam/Curve/Elements={elements}", "--set",
+                 f"Analyses/motion/End Time={steps * STEP!r}", "--set", "Output/Every=100000"]
+        began = time.monotonic()
+        out = subprocess.run(["mpiexec", "-n", str(ranks), sys.executable, "-c", WATCH, *words], check=True,
+                             capture_output=True, text=True).stdout
+        wall = time.monotonic() - began
+    used = [line.split()[1:] for line in out.splitlines() if line.startswith("used")]
+    return wall, [float(cpu) for cpu, _ in used], [int(size) / 1024 for _, size in used]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("culm")
+    parser.add_argument("--elements", type=int, nargs="+", default=[100000])
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--steps", type=int, nargs=2, default=[4, 24])
+    parser.add_argument("--repeats", type=int, default=2)
+    options = parser.parse_args()
+    culm = os.path.abspath(options.culm)
+    print("elements  ranks  whole run [s]  a step [s]  CPU of a step and rank [s]  memory of each rank [MB]")
+    for elements in options.elements:
+        for ranks in options.ranks:
+            runs = {steps: [run(culm, ranks, elements, steps) for _ in range(options.repeats)]
+                    for steps in options.steps}
+            few, many = options.steps
+            best = {steps: min(wall for wall, *_ in results) for steps, results in runs.items()}
+            cpu = {steps: min(max(times) for _, times, _ in results) for steps, results in runs.items()}
+            memory = " ".join(f"{size:.0f}" for size in runs[many][0][2])
+            print(f"{elements:8d} {ranks:6d} {best[many]:14.2f} {(best[many] - best[few]) / (many - few):11.4f} "
+                  f"{(cpu[many] - cpu[few]) / (many - few):27.4f}  {memory}", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
