@@ -200,8 +200,7 @@ class Finder {
       Mode mode;
       if (!is_zero(pairs, i)) {
         mode.eigenvalue = pairs.values[i];
-        // a real value has no frequency but for rounding
-        if (mode.eigenvalue.imag() < 1e-9 * std::abs(mode.eigenvalue)) mode.eigenvalue.imag(0.0);
+        if (!oscillates(mode.eigenvalue)) mode.eigenvalue.imag(0.0);
       }
       const Eigen::VectorXcd x = pairs.vectors.col(static_cast<Eigen::Index>(i));
       mode.shape.real = motions(x.real());
@@ -213,6 +212,9 @@ class Finder {
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
   }
+
+  // A real value has no frequency but for rounding.
+  static bool oscillates(Complex value) { return value.imag() >= 1e-9 * std::abs(value); }
 
   static bool is_zero(const solver::ComplexPairs& pairs, std::size_t i) {
     return std::norm(pairs.values[i]) <= quadratic_zero_bound * pairs.rounding[i];
@@ -270,12 +272,15 @@ class Finder {
     pairs.solver += ", branches by Newton's method";
   }
 
-  // Two motions without branches may lead to one with them; the other is missing then.
+  // Two vibrations without branches may lead to one with them; the other is missing then. Of
+  // motions that only decay or grow branches have others of their own, and none of them is looked
+  // for.
   void warn_of_doubles(const RelaxingPencil& pencil, const std::vector<ComplexMode>& modes) const {
     for (std::size_t i = 0; i < modes.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const double apart = std::abs(modes[i].value - modes[j].value);
         if (apart > 1e-8 * std::abs(modes[i].value) || modes[i].value == 0.0) continue;
+        if (!oscillates(modes[i].value)) continue;
         if (std::abs(modes[i].vector.dot(pencil.M * modes[j].vector)) < 1.0 - 1e-6) continue;
         context_.findings.warn(
             "relaxation",

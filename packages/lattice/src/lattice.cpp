@@ -23,11 +23,6 @@ Points mean(const Points& a, const Points& b) {
   return result;
 }
 
-Points unit(Points vectors) {
-  for (std::size_t i = 0; i < vectors.size(); ++i) vectors.set(i, vectors.at(i).normalized());
-  return vectors;
-}
-
 // Values at collocation points carried to middles of segments. The middle of a segment along the
 // span lies between two collocation points of its strip, the leading one ahead of the first.
 Points to_middles(const BoundLattice& bound, const Points& at_collocation) {
@@ -71,6 +66,12 @@ Points Lattice::flow_at(const Points& places, double time) const {
   return result;
 }
 
+Points Lattice::unit_normals(const Points& grid) const {
+  Points normals = bound_.areas(grid);
+  for (std::size_t i = 0; i < normals.size(); ++i) normals.set(i, normals.at(i).normalized());
+  return normals;
+}
+
 Points Lattice::force_points(const Points& grid) const {
   return setting_.forces == ForceRule::joukowski ? bound_.segment_middles(bound_.corners(grid))
                                                  : bound_.collocation_points(grid);
@@ -105,30 +106,35 @@ Lattice::ComingWake Lattice::begin_step(const FluidState& state, const Points& s
   return coming;
 }
 
+void Lattice::add_row(const Points& from, const Points& to, std::size_t strip, const Points& places,
+                      const Points& normals, std::span<double> column) const {
+  std::vector<double> strengths(bound_.num_strips(), 0.0);
+  strengths[strip] = 1.0;
+  Wake row(bound_, 1, setting_.core);
+  row.make_straight(to, std::move(strengths));
+  for (const Wake::Sheet& sheet : {row.near_part(from), row.far_part()}) {
+    for (std::size_t k = 0; k < sheet.segments.size(); ++k) {
+      if (sheet.strengths[k] == 0.0) continue;
+      bound_.add_induced_normal(sheet.segments, k, sheet.strengths[k], places, normals, column);
+    }
+  }
+}
+
 // No flow through the collocation points, with what moves there relative to them. The circulation
 // of a straight wake is unknown as well: it is that of the rings at the edge.
 void Lattice::solve(const Segments& segments, const Points& grid, const Wake* straight,
                     const Points& edges, FluidResult& result) const {
   const Points places = bound_.collocation_points(grid);
-  const Points normals = unit(bound_.areas(grid));
+  const Points normals = unit_normals(grid);
   const auto rings = static_cast<Eigen::Index>(bound_.num_rings());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rings, rings);
   bound_.add_influence(segments, places, normals, matrix);
   if (straight != nullptr) {
-    Wake one = *straight;
     for (const Panelling& s : bound_.surfaces()) {
       for (int j = 0; j < s.panels.span; ++j) {
-        std::vector<double> strip(bound_.num_strips(), 0.0);
-        strip[s.strip(j)] = 1.0;
-        one.make_straight(straight->lines(), std::move(strip));
         const auto column = static_cast<Eigen::Index>(s.ring(s.panels.chord - 1, j));
-        for (const Wake::Sheet& sheet : {one.near_part(edges), one.far_part()}) {
-          for (std::size_t k = 0; k < sheet.segments.size(); ++k) {
-            if (sheet.strengths[k] == 0.0) continue;
-            bound_.add_induced_normal(sheet.segments, k, sheet.strengths[k], places, normals,
-                                      {matrix.col(column).data(), bound_.num_rings()});
-          }
-        }
+        add_row(edges, straight->lines(), s.strip(j), places, normals,
+                {matrix.col(column).data(), bound_.num_rings()});
       }
     }
   }
@@ -183,6 +189,24 @@ FluidResult Lattice::step(const FluidState& state, const ComingWake& coming,
   return result;
 }
 
+double Lattice::small_way(const Points& change) const {
+  double largest = 0.0, chord = bound_.surfaces().front().chord;
+  for (std::size_t i = 0; i < change.size(); ++i) largest = std::max(largest, change.at(i).norm());
+  for (const Panelling& s : bound_.surfaces()) chord = std::min(chord, s.chord);
+  return largest > 0.0 ? 1e-5 * chord / largest : 0.0;
+}
+
+Points Lattice::change_of_normals(const Points& grid, const Points& change) const {
+  const double h = small_way(change);
+  if (h == 0.0) return Points(bound_.num_rings());
+  Points difference =
+      sum(unit_normals(sum(grid, h, change)), -1.0, unit_normals(sum(grid, -h, change)));
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    difference.set(i, difference.at(i) / (2.0 * h));
+  }
+  return difference;
+}
+
 // A dG = -w . dn + n . dv; what forces are made of changes with it. These have few terms, so
 // differences give their derivative to rounding.
 Points Lattice::change_of_forces(const FluidResult& result, const Eigen::VectorXd& before,
@@ -190,20 +214,16 @@ Points Lattice::change_of_forces(const FluidResult& result, const Eigen::VectorX
   const double step = grid.time_end - grid.time_start;
   const double share = step > 0.0 ? 0.5 : 1.0;  // of the end, where forces act
   const double rate = step > 0.0 ? 1.0 / step : 0.0;
-  double largest = 0.0, chord = bound_.surfaces().front().chord;
-  for (std::size_t i = 0; i < change.size(); ++i) largest = std::max(largest, change.at(i).norm());
-  if (largest == 0.0) return Points(change.size());
-  for (const Panelling& s : bound_.surfaces()) chord = std::min(chord, s.chord);
-  const double h = 1e-5 * chord / largest;
+  const double h = small_way(change);
+  if (h == 0.0) return Points(change.size());
 
-  const Points normals = unit(bound_.areas(grid.end));
-  const Points after = unit(bound_.areas(sum(grid.end, h, change)));
-  const Points ahead = unit(bound_.areas(sum(grid.end, -h, change)));
+  const Points normals = unit_normals(grid.end);
+  const Points turned = change_of_normals(grid.end, change);
   const Points moved = bound_.collocation_points(change);
   Eigen::VectorXd right(result.circulation.size());
   for (Eigen::Index k = 0; k < right.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
-    right[k] = -result.at_collocation.at(at).dot(after.at(at) - ahead.at(at)) / (2.0 * h) +
+    right[k] = -result.at_collocation.at(at).dot(turned.at(at)) +
                2.0 * rate * moved.at(at).dot(normals.at(at));
   }
   const Eigen::VectorXd circulation = result.influence.solve(right);

@@ -138,6 +138,7 @@ Points LatticeLoad::grid(const model::Coordinates& q) const {
 void LatticeLoad::prepare(const model::State& state, const Stencil& stencil) {
   evaluated_.clear();
   knows_stiffness_ = false;
+  linearises_ = stencil.frees_states;
   step_ = stencil.inertia > 0.0 ? stencil.step : 0.0;  // a linearisation is about the steady flow
   if (step_ == 0.0) return;
   start_ = grid(state.prev);
@@ -218,16 +219,11 @@ std::string LatticeLoad::range_warning(double used) const {
 }
 
 std::string LatticeLoad::left_out_of_modes() const {
-  if (tangent_ == LatticeTangent::whole) {
-    return effect().quoted() +
-           ": linear analyses know how the forces of its steady flow change with the deformation, "
-           "so divergence, but not the damping and the mass of its air: flutter is found by a "
-           "motion in time";
-  }
+  if (tangent_ == LatticeTangent::whole) return "";
   return effect().quoted() +
          ": linear analyses see the forces of the steady flow about the state, not how they change "
          "with motion: there is no stiffness, damping or mass of its air, hence no flutter. "
-         "'Tangent' = Whole brings the stiffness, and a motion in time knows all of them";
+         "'Tangent' = Whole brings them, and a motion in time knows all of them";
 }
 
 flow::FluidForce::Resultant LatticeLoad::resultant_of(const Points& forces, const Points& places) {
@@ -241,18 +237,25 @@ flow::FluidForce::Resultant LatticeLoad::resultant_of(const Points& forces, cons
 
 Verdict LatticeLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
                               model::Target& target) {
-  if (want == Want::mass) return Verdict::ok;
+  const bool whole = tangent_ == LatticeTangent::whole;
+  if (want == Want::mass) {
+    return whole && linearises_ ? assemble_coupling(air_at(state).mass, state, stencil, target)
+                                : Verdict::ok;
+  }
   const Points& forces = result_at(state).forces;
   if (!is_finite(forces)) return Verdict::not_finite;
-  const bool whole = want == Want::residual_and_tangent && tangent_ == LatticeTangent::whole;
-  if (whole && (step_ == 0.0 || !knows_stiffness_)) find_stiffness(state);
-  return assemble_items([&](auto space, std::size_t i) {
-    if (is_coupling(placement().items[i])) {
-      return whole ? assemble_coupling<decltype(space)>(i, state, stencil, target) : Verdict::ok;
-    }
-    return assemble_item<decltype(space)>(i, state, stencil, want == Want::residual_and_tangent,
-                                          forces, target);
+  const bool tangent = want == Want::residual_and_tangent;
+  Verdict verdict = assemble_items([&](auto space, std::size_t i) {
+    if (is_coupling(placement().items[i])) return Verdict::ok;
+    return assemble_item<decltype(space)>(i, state, stencil, tangent, forces, target);
   });
+  if (!whole || !tangent) return verdict;
+  if (step_ == 0.0 || !knows_stiffness_) find_stiffness(state);
+  verdict = worse(verdict, assemble_coupling(stiffness_, state, stencil, target));
+  const bool moves_slowly = step_ == 0.0 && stencil.step > 0.0;  // about a steady state
+  if (!moves_slowly) return verdict;
+  return worse(verdict,
+               assemble_coupling(air_at(state).damping / stencil.step, state, stencil, target));
 }
 
 // Of the columns of panels around a grid point, at its place along the chord.

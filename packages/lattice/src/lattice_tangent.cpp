@@ -3,6 +3,7 @@
 #include <culm/load/slot_kernel.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace culm::lattice {
 
@@ -54,9 +55,77 @@ void LatticeLoad::find_stiffness(const model::State& state) {
   knows_stiffness_ = true;
 }
 
-template <class Space>
-Verdict LatticeLoad::assemble_coupling(std::size_t i, const model::State& state,
+LatticeLoad::SlotMotions LatticeLoad::motions_of_slots() const {
+  const auto rows = 3 * static_cast<Eigen::Index>(lattice_.bound().num_points());
+  SlotMotions all;
+  std::vector<Eigen::VectorXd> columns;
+  const auto count = 12 * static_cast<Eigen::Index>(carriers_.size());
+  for (Eigen::Index slot = 0; slot < count; ++slot) {
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(rows);
+    for (const auto& [point, factors] : carried_[static_cast<std::size_t>(slot / 12)]) {
+      motion[3 * static_cast<Eigen::Index>(point) + slot % 3] = factors[slot % 12 / 3];
+    }
+    if (motion.isZero(0.0)) continue;
+    all.slots.push_back(slot);
+    columns.push_back(std::move(motion));
+  }
+  all.motions.resize(rows, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t m = 0; m < columns.size(); ++m) {
+    all.motions.col(static_cast<Eigen::Index>(m)) = columns[m];
+  }
+  return all;
+}
+
+const LaggedAir& LatticeLoad::air_at(const model::State& state) const {
+  if (linearised_ == state.next && linearised_at_ == state.time) return air_;
+  const SlotMotions moving = motions_of_slots();
+  air_ = fit_lags(
+      lattice_.small_motions(result_at(state), grid(state.next), state.time, moving.motions));
+  const auto size = 12 * static_cast<Eigen::Index>(carriers_.size());
+  const auto spread = [&](Eigen::MatrixXd& matrix) {
+    Eigen::MatrixXd between_all = Eigen::MatrixXd::Zero(size, size);
+    between_all(moving.slots, moving.slots) = matrix;
+    matrix = std::move(between_all);
+  };
+  spread(air_.damping);
+  spread(air_.mass);
+  for (LaggedAir::Lag& lag : air_.lags) spread(lag.stiffness);
+  linearised_ = state.next;
+  linearised_at_ = state.time;
+  return air_;
+}
+
+std::vector<double> LatticeLoad::delays(const model::State& state) const {
+  std::vector<double> times;
+  if (tangent_ != LatticeTangent::whole) return times;
+  for (const LaggedAir::Lag& lag : air_at(state).lags) times.push_back(lag.time);
+  return times;
+}
+
+Verdict LatticeLoad::assemble_delayed(const model::State& state, const Stencil& stencil,
+                                      double delay, model::Target& target) {
+  Verdict verdict = Verdict::ok;
+  if (tangent_ != LatticeTangent::whole) return verdict;
+  for (const LaggedAir::Lag& lag : air_at(state).lags) {
+    if (!(std::abs(lag.time - delay) <= model::same_delay * delay)) continue;
+    verdict = worse(verdict, assemble_coupling(lag.stiffness, state, stencil, target));
+  }
+  return verdict;
+}
+
+Verdict LatticeLoad::assemble_coupling(const Eigen::MatrixXd& matrix, const model::State& state,
                                        const Stencil& stencil, model::Target& target) const {
+  if (!matrix.allFinite()) return Verdict::not_finite;
+  return assemble_items([&](auto space, std::size_t i) {
+    if (!is_coupling(placement().items[i])) return Verdict::ok;
+    return assemble_coupling<decltype(space)>(i, matrix, state, stencil, target);
+  });
+}
+
+template <class Space>
+Verdict LatticeLoad::assemble_coupling(std::size_t i, const Eigen::MatrixXd& matrix,
+                                       const model::State& state, const Stencil& stencil,
+                                       model::Target& target) const {
   using Motion = model::ItemMotion<1>;
   std::vector<Motion> motions;
   motions.reserve(carriers_.size());
@@ -66,7 +135,7 @@ Verdict LatticeLoad::assemble_coupling(std::size_t i, const model::State& state,
   for (int a = 0; a < count; ++a) {
     for (int b = 0; b < count; ++b) {
       RowMat<Space::width, Space::width> block = RowMat<Space::width, Space::width>::Zero();
-      const Mat<12, 12> K = stiffness_.block<12, 12>(12 * a, 12 * b);
+      const Mat<12, 12> K = matrix.block<12, 12>(12 * a, 12 * b);
       load::add_slot_tangent<Space>(K, motions[static_cast<std::size_t>(a)].arms_mid[0],
                                     motions[static_cast<std::size_t>(b)].arms_next[0], block);
       placement().scatter.add_tangent(i, a, b, block, target);
@@ -74,12 +143,5 @@ Verdict LatticeLoad::assemble_coupling(std::size_t i, const model::State& state,
   }
   return Verdict::ok;
 }
-
-template Verdict LatticeLoad::assemble_coupling<model::NullSpace>(std::size_t, const model::State&,
-                                                                  const Stencil&,
-                                                                  model::Target&) const;
-template Verdict LatticeLoad::assemble_coupling<model::FullSpace>(std::size_t, const model::State&,
-                                                                  const Stencil&,
-                                                                  model::Target&) const;
 
 }  // namespace culm::lattice

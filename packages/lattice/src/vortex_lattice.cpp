@@ -44,10 +44,11 @@ Schema schema() {
                   "On vortex segments, with suction at leading edges, or by pressure jumps, "
                   "normal to the panels.")
                .optional("Joukowski"))
-      .add(choice("Tangent", {"Apparent Mass", "Whole"},
-                  "What Newton's method and linear analyses know of the change of the forces: half "
-                  "of the mass of the air, or all that follows from the motion of all nodes of the "
-                  "surfaces, which couples these with each other.")
+      .add(choice(
+               "Tangent", {"Apparent Mass", "Whole"},
+               "What Newton's method and linear analyses know of the change of the forces: half "
+               "of the mass of the air, which linear analyses leave out, or all that follows from "
+               "the motion of all nodes of the surfaces, which couples these with each other.")
                .optional("Apparent Mass"))
       .list("Surfaces", Schema("Surfaces", "Lifting surfaces by name. Wakes act on all of them.")
                             .entries(surface_schema())

@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace culm::lattice {
 
@@ -58,6 +59,27 @@ struct FluidResult {
   Points at_forces;       ///< what moves relative to where forces act [m/s]
 };
 
+/// One row of a straight wake behind one strip, in small motions about a steady flow.
+struct WakeRow {
+  Eigen::Index edge_ring = 0;  ///< whose circulation it carries
+  double delay = 0.0;          ///< time after which it does [s]
+  Eigen::VectorXd induced;     ///< along the normals at collocation points, per circulation [1/m]
+};
+
+/// Linearisation about a steady flow, by motions x of the grid that are given as columns. With the
+/// influence A of the bound rings and what rows of the wake of these delays induce,
+///   A G + sum of rows = flow_by_place x + flow_by_velocity x'
+///   f = by_circulation G + by_growth G' + by_place x + by_velocity x'
+/// where f are forces along the same motions: what each does work with, per unit of it.
+struct SmallMotions {
+  double passing = 0.0;  ///< mean time in which the wind passes half a chord; 0 without wind [s]
+  double panel = 0.0;    ///< longest time in which it passes a panel [s]
+  Eigen::MatrixXd influence;
+  std::vector<WakeRow> rows;
+  Eigen::MatrixXd flow_by_place, flow_by_velocity;
+  Eigen::MatrixXd by_circulation, by_growth, by_place, by_velocity;
+};
+
 /// Rings on surfaces with wakes. A step has the wake move and take a row with the circulation of
 /// the step before, solves for no flow through the collocation points at its end, and takes forces
 /// in its middle, with the mean circulation and the rate of its change. Nothing here keeps
@@ -90,6 +112,12 @@ class Lattice {
   /// @param grid    of the result; in a steady flow both ends are the same
   Points change_of_forces(const FluidResult& result, const Eigen::VectorXd& before,
                           const GridStep& grid, const Points& change) const;
+  /// Small motions about a steady flow, whose wake is straight along it: rows of one panel first,
+  /// then longer ones the farther they are, to the end of that of the steady flow. What rings that
+  /// move induce is left out as in `change_of_forces`.
+  /// @param motions  of the grid by column, three components for each of its points
+  SmallMotions small_motions(const FluidResult& steady, const Points& grid, double time,
+                             const Eigen::MatrixXd& motions) const;
   /// The state at the end of a step.
   static FluidState state_after(const FluidResult& result, Wake wake);
 
@@ -101,6 +129,9 @@ class Lattice {
  private:
   Points flow_at(const Points& places, double time) const;
   Points force_points(const Points& grid) const;
+  Points unit_normals(const Points& grid) const;  ///< of the panels
+  /// How much of a motion is small for differences; 0 if it is none.
+  double small_way(const Points& change) const;
   /// Sets circulation and influence of a result from what moves at its collocation points.
   void solve(const Segments& segments, const Points& grid, const Wake* straight,
              const Points& edges, FluidResult& result) const;
@@ -113,6 +144,13 @@ class Lattice {
                      Points& forces) const;
   void add_bernoulli(const Points& grid, const Points& relative, const Eigen::VectorXd& circulation,
                      Points& forces) const;
+  /// Change of the unit normals of the panels by a motion.
+  Points change_of_normals(const Points& grid, const Points& change) const;
+  /// Adds to a column what a row of wake between two lines behind one strip induces, per
+  /// circulation.
+  void add_row(const Points& from, const Points& to, std::size_t strip, const Points& places,
+               const Points& normals, std::span<double> column) const;
+  void add_straight_rows(const Points& grid, double time, SmallMotions& small) const;
   Points far_line(const Points& edges, double time) const;
 
   BoundLattice bound_;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <culm/flow/fluid_force.hpp>
+#include <culm/lattice/harmonic_air.hpp>
 #include <culm/lattice/lattice.hpp>
+#include <culm/model/delayed.hpp>
 #include <culm/model/memoryless_batch.hpp>
 #include <culm/model/method_limits.hpp>
 #include <culm/model/structure.hpp>
@@ -24,15 +26,18 @@ struct SurfaceGrid {
 /// What the tangent knows of the forces of a lattice.
 enum class LatticeTangent {
   apparent_mass,  ///< half of that of strips, at each point of the grid
-  whole,          ///< `Lattice::change_of_forces` between all nodes that carry the grid
+  /// `Lattice::change_of_forces` between all nodes that carry the grid, and in linearisations
+  /// `LaggedAir`
+  whole,
 };
 
 /// A lattice whose grid points are material points of structures. Statics take the steady flow,
 /// dynamics one step of the unsteady one per time step. Each evaluation solves the lattice for the
 /// trial motion; what was accepted changes in `accept` alone. Every rank computes all of it. The
-/// whole tangent is found once per attempt of a step in time, and in each iteration of statics; its
-/// linearisation is that of the steady flow.
+/// whole tangent is found once per attempt of a step in time, and in each iteration of statics; a
+/// linearisation has damping, mass and lags about the steady flow as well.
 class LatticeLoad final : public model::MemorylessBatch,
+                          public model::Delayed,
                           public model::LimitedRange,
                           public model::LeftOutOfModes,
                           public flow::FluidForce {
@@ -54,6 +59,9 @@ class LatticeLoad final : public model::MemorylessBatch,
   void prepare(const model::State& state, const Stencil& stencil) override;
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
+  std::vector<double> delays(const model::State& state) const override;
+  Verdict assemble_delayed(const model::State& state, const Stencil& stencil, double delay,
+                           model::Target& target) override;
   void accept(model::State& state) override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
@@ -83,6 +91,13 @@ class LatticeLoad final : public model::MemorylessBatch,
     std::vector<Eigen::VectorXd> factors;  ///< T_s of each point, four per node
   };
 
+  /// What components of slots of the carriers do to the grid, by column; those that do nothing are
+  /// left out.
+  struct SlotMotions {
+    std::vector<Eigen::Index> slots;
+    Eigen::MatrixXd motions;
+  };
+
   void add_items(const std::vector<SurfaceGrid>& surfaces);
   void add_carriers();
   void compute_apparent_masses();
@@ -92,6 +107,12 @@ class LatticeLoad final : public model::MemorylessBatch,
   /// Sets `stiffness_`, minus the derivative of the forces on all slots of the carriers by them at
   /// the end of the step, of a result that is at hand.
   void find_stiffness(const model::State& state);
+  /// What linearisations about a state have beside it.
+  const LaggedAir& air_at(const model::State& state) const;
+  SlotMotions motions_of_slots() const;
+  /// Adds a matrix between all slots of the carriers.
+  Verdict assemble_coupling(const Eigen::MatrixXd& matrix, const model::State& state,
+                            const Stencil& stencil, model::Target& target) const;
   /// Whether this rank counts what belongs to all items: the one that owns the first.
   bool counts() const;
   static Resultant resultant_of(const Points& forces, const Points& places);
@@ -102,8 +123,8 @@ class LatticeLoad final : public model::MemorylessBatch,
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, const Points& forces, model::Target& target) const;
   template <class Space>
-  Verdict assemble_coupling(std::size_t i, const model::State& state, const Stencil& stencil,
-                            model::Target& target) const;
+  Verdict assemble_coupling(std::size_t i, const Eigen::MatrixXd& matrix, const model::State& state,
+                            const Stencil& stencil, model::Target& target) const;
 
   const model::NodeTable& nodes_;
   std::vector<Item> items_;
@@ -128,6 +149,12 @@ class LatticeLoad final : public model::MemorylessBatch,
   Lattice::ComingWake coming_;
   mutable model::Coordinates evaluated_;  ///< where result_ was computed; empty: nowhere
   mutable FluidResult result_;
+
+  // of a linearisation
+  bool linearises_ = false;
+  mutable LaggedAir air_;
+  mutable model::Coordinates linearised_;  ///< where air_ was found; empty: nowhere
+  mutable double linearised_at_ = 0.0;     ///< and when [s]
 };
 
 }  // namespace culm::lattice
