@@ -94,6 +94,7 @@ void RotorState::restore(std::span<const double> numbers) {
 RotorLoad::RotorLoad(model::Effect effect, const model::NodeTable& nodes, RotorHub hub,
                      std::vector<strip::StripLoad*> blades, RotorModel kind)
     : MemorylessBatch(std::move(effect)),
+      nodes_(nodes),
       hub_(std::move(hub)),
       blades_(std::move(blades)),
       kind_(kind) {
@@ -142,6 +143,19 @@ void RotorLoad::prepare(const model::State&, const Stencil&) {
 }
 
 // The hub turns by the Cayley vector tau = 2 tan(angle / 2) axis: D d = tau x d_middle.
+double RotorLoad::azimuth(const model::Coordinates& q) const {
+  constexpr double whole = 2.0 * std::numbers::pi;
+  constexpr double rounding = 1e-9;  // a whole turn is none
+  const Mat3 start = model::NodeTable::slots(nodes_.reference(), hub_.node).rightCols<3>();
+  const Mat3 now = model::NodeTable::slots(q, hub_.node).rightCols<3>();
+  const Vec3 axis = (now * hub_.axis).normalized();
+  const Vec3 mark = hub_.axis.unitOrthogonal();  // of the hub, across the axis
+  const Vec3 from = Eigen::Quaterniond::FromTwoVectors(start * hub_.axis, axis) * (start * mark);
+  const Vec3 to = now * mark;
+  const double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
+  return angle < -rounding ? angle + whole : std::max(angle, 0.0);
+}
+
 RotorState RotorLoad::motion(const model::State& state, const Stencil& stencil) const {
   const model::NodeSlots prev = model::NodeTable::slots(state.prev, hub_.node);
   const model::NodeSlots next = model::NodeTable::slots(state.next, hub_.node);

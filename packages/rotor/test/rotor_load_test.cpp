@@ -105,6 +105,7 @@ class Turbine {
   }
 
   RotorLoad& rotor() { return *rotor_; }
+  const model::Coordinates& reference() const { return model_.nodes().reference(); }
   Wind& wind() { return *wind_; }
 
  private:
@@ -235,6 +236,27 @@ TEST(RotorLoad, KnowsItsMotionAndItsWind) {
   EXPECT_LT((seen.axis - turbine.axis()).norm(), 1e-12);
   EXPECT_LT((seen.wind - 8.0 * turbine.axis()).norm(), 1e-12);
   EXPECT_NEAR(turbine.rotor().tip_radius(), tip, 1e-12);
+}
+
+TEST(RotorLoad, AzimuthGoesRoundWithTheHubAndNotWithItsAxis) {
+  Turbine turbine({Follow::steady});
+  const Vec3 axis = turbine.axis();
+  const Vec3 sideways = axis.unitOrthogonal();
+  const auto azimuth = [&](double turn, double lean) {
+    model::Coordinates q = turbine.reference();
+    auto slots = model::NodeTable::slots(q, 0);
+    const Mat3 both = Eigen::AngleAxisd(lean, sideways).toRotationMatrix() *
+                      Eigen::AngleAxisd(turn, axis).toRotationMatrix();
+    slots.rightCols<3>() = Mat3(both * slots.rightCols<3>());
+    return turbine.rotor().azimuth(q);
+  };
+  for (const double lean : {0.0, 0.3}) {
+    for (const double turn : {0.0, 0.5, 3.0, 3.5, 6.0}) {
+      EXPECT_NEAR(azimuth(turn, lean), turn, 1e-12) << lean;
+    }
+    EXPECT_NEAR(azimuth(2.0 * pi, lean), 0.0, 1e-12);
+    EXPECT_NEAR(azimuth(-0.5, lean), 2.0 * pi - 0.5, 1e-12);
+  }
 }
 
 }  // namespace

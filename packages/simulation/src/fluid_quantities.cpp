@@ -165,9 +165,9 @@ class RotorQuantity final : public Quantity {
   std::vector<HistoryColumn> columns() const override {
     return {{"thrust", "N"}, {"torque", "N m"}, {"power", "W"}, {"speed", "rad/s"},
             {"CT", "1"},     {"CP", "1"},       {"TSR", "1"},   {"wind", "m/s"},
-            {"yaw", "rad"},  {"a", "1"},        {"CQ", "1"}};
+            {"yaw", "rad"},  {"a", "1"},        {"CQ", "1"},    {"azimuth", "rad"}};
   }
-  void evaluate(const assembly::System& system, const model::State&,
+  void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
     const std::optional<rotor::RotorState> rotor = rotor_.state();
     if (!rotor) {
@@ -202,7 +202,8 @@ class RotorQuantity final : public Quantity {
                              wind,
                              yaw,
                              rotor->induction,
-                             over(torque, push * radius)};
+                             over(torque, push * radius),
+                             rotor_.azimuth(state.next)};
     numbers.insert(numbers.end(), std::begin(values), std::end(values));
   }
 
@@ -296,11 +297,13 @@ void register_fluid_quantities(QuantityRegistry& registry) {
       make_strip);
   registry.add(
       "Rotor",
-      Schema("Rotor",
-             "Thrust, torque about the axis downwind, power and speed of a rotor in the step; its "
-             "coefficients of thrust, power and torque and its tip speed ratio, by the mean wind "
-             "over its disc and the radius of its tips in the reference; this wind, its angle to "
-             "the axis, and the mean axial induction that the balance of momentum asks for.")
+      Schema(
+          "Rotor",
+          "Thrust, torque about the axis downwind, power and speed of a rotor in the step; its "
+          "coefficients of thrust, power and torque and its tip speed ratio, by the mean wind "
+          "over its disc and the radius of its tips in the reference; this wind, its angle to "
+          "the axis, and the mean axial induction that the balance of momentum asks for; last how "
+          "far the hub has turned about the axis at the end of the step, from 0 to 2 pi.")
           .add(text("Load", "Name of the rotor in the list Loads.")),
       make_rotor);
   registry.add(

@@ -72,6 +72,9 @@ class RotorLoad final : public model::MemorylessBatch,
   /// Where blades end, from the axis in the reference [m].
   double tip_radius() const { return tip_radius_; }
   double density() const { return blades_.front()->flow().density(); }
+  /// How far the hub has turned about the axis since the reference, as it is seen along the axis,
+  /// from 0 to 2 pi; an axis that leans otherwise got there the shortest way [rad].
+  double azimuth(const model::Coordinates& q) const;
   /// In the last accepted step; nothing before the first one, on all ranks alike.
   std::optional<RotorState> state() const;
 
@@ -153,6 +156,7 @@ class RotorLoad final : public model::MemorylessBatch,
   bool turns_otherwise(const RotorState& rotor, const Vec3& hub_velocity) const;
   double skew(const RotorState& rotor, const Element& element, const Vec3& outwards) const;
 
+  const model::NodeTable& nodes_;
   RotorHub hub_;
   std::vector<strip::StripLoad*> blades_;
   RotorModel kind_;
