@@ -61,6 +61,44 @@ def verify_growth(culm, report):
             report.relative("frequency [rad/s]", table.at(row, "eigenvalue imaginary [1/s]"), omega, 1.5e-3)
 
 
+MOTION = """    <ParameterList name="motion">
+      <Parameter name="Type" value="Dynamic"/>
+"""
+FROM_EQUILIBRIUM = """    <ParameterList name="equilibrium">
+      <Parameter name="Type" value="Static"/>
+      <Parameter name="Inactive" value="{push}"/>
+    </ParameterList>
+    <ParameterList name="motion">
+      <Parameter name="Type" value="Dynamic"/>
+      <Parameter name="Start Time" value="0"/>
+"""
+
+
+def verify_incidence(culm, report):
+    report.title("The same at 155 m/s with incidence: what moved rings induce by the circulation at rest is not in the eigenvalues")
+    in_time = (INPUTS / "air/goland.xml").read_text().replace(MOTION, FROM_EQUILIBRIUM)
+    modes = (INPUTS / BY_EIGENVALUES).read_text().replace(SWEEP, MODES)
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in (("time", in_time), ("modes", modes)):
+            pathlib.Path(folder, f"{name}.xml").write_text(text)
+        for degrees, of_growth, of_frequency in ((0.0, 0.01, 1.5e-3), (2.0, 0.02, 2e-3), (5.0, 0.12, 4e-3)):
+            angle = math.radians(degrees)
+            wind = f"Flows/air/Velocity={{U*{math.cos(angle)}, 0, U*{math.sin(angle)}}}"
+            history = culm.history(pathlib.Path(folder, "time.xml"), [
+                wind, "U=155", "Loads/push/Force={0, 0, 1e4}", "Analyses/motion/End Time=0.74", WHOLE])
+            levels = np.array(history.levels)
+            begin = int(np.argmin(np.diff(levels))) + 1  # of the motion, whose time starts anew
+            times, values = levels[begin:], np.array(history.column("tip uz [m]"))[begin:]
+            free = times > 0.06
+            found = [p for p in poles(times[free], values[free] - values[-1], 10) if 55.0 < p.imag < 85.0]
+            best = max(found, key=lambda p: p.real)
+            table = culm.table("modes/modes", pathlib.Path(folder, "modes.xml"),
+                               [f"angle={angle}", "Functions/speed/Expression=155"])
+            row = min(range(1, 4), key=lambda i: table.at(i, "damping ratio"))
+            report.check(f"{degrees:g} degrees: growth [1/s]", table.at(row, "eigenvalue real [1/s]"), best.real, of_growth)
+            report.relative("frequency [rad/s]", table.at(row, "eigenvalue imaginary [1/s]"), best.imag, of_frequency)
+
+
 def verify_panels(culm, report):
     report.title("Flutter by eigenvalues with more panels, against 3 + 3 modes; density 1.225, then 1.02")
     for density, references in ((1.225, {16: 160.65, 24: 160.27}), (1.02, {8: 173.57, 16: 172.59, 24: 172.23})):
@@ -175,6 +213,7 @@ def verify(culm, report):
 
 def fine(culm, report):
     verify_panels(culm, report)
+    verify_incidence(culm, report)
     report.title("Goland's wing: the same with more panels along the chord")
     for m, low in ((16, 160.0), (24, 159.6)):
         speed, _ = flutter(culm, low, low + 1.0, [f"m={m}"])
