@@ -180,7 +180,7 @@ void report_mesh(Report& report) {
 std::string write_deck(const BeamDyn& beam, Report& report) {
   report_conventions(report);
   report_mesh(report);
-  report_blade(beam, report);
+  report_blade("blade", beam, report);
   report.add(assumed,
              "the primary file has no loads: the blade is clamped at its root and lies "
              "horizontally, x downwards, under its own weight");
@@ -201,7 +201,7 @@ std::string write_deck(const BeamDyn& beam, Report& report) {
 std::string write_deck(const BeamDynDriver& driver, Report& report) {
   report_conventions(report);
   report_mesh(report);
-  report_blade(driver.beam, report);
+  report_blade("blade", driver.beam, report);
   const std::string what = driver.dynamic
                                ? "a blade in motion, as a driver of BeamDyn asks for."
                                : "a blade in static equilibrium, as a driver of BeamDyn asks for.";

@@ -110,12 +110,12 @@ void report_conventions(Report& report) {
   }
 }
 
-void report_blade(const BeamDyn& beam, Report& report) {
+void report_blade(const std::string& name, const BeamDyn& beam, Report& report) {
   const BladeAxis axis(beam.key_points);
   const BladeMass mass = integrate_mass(axis, beam.blade.stations);
   const Vec3 centre = mass.first / mass.mass;
-  report.add(masses,
-             fmt::format("blade: length {:.6g} m, mass {:.6g} kg", axis.curve.length(), mass.mass));
+  report.add(masses, fmt::format("{}: length {:.6g} m, mass {:.6g} kg", name, axis.curve.length(),
+                                 mass.mass));
   report.add(masses, fmt::format("  centre of mass from the root, without offsets of sections: "
                                  "({:.5g}, {:.5g}, {:.5g}) m",
                                  centre.x(), centre.y(), centre.z()));

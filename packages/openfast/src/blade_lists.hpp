@@ -32,6 +32,6 @@ void write_beam(const std::string& name, const std::string& sections, const Beam
 /// Sentences about axes, order of matrices and twist.
 void report_conventions(Report& report);
 /// Sentences about the mass of a blade and its damping.
-void report_blade(const BeamDyn& beam, Report& report);
+void report_blade(const std::string& name, const BeamDyn& beam, Report& report);
 
 }  // namespace culm::openfast

@@ -129,6 +129,15 @@ void ignore_rest(InputFile& file) {
   for (int i = 1; i <= 3; ++i) file.ignore({fmt::format("BDBldFile({})", i)});
 }
 
+// One for each blade, of which the main file of ElastoDyn has the number.
+std::vector<std::filesystem::path> blade_files(InputFile& file) {
+  std::vector<std::filesystem::path> found{file.file("BDBldFile(1)")};
+  for (int i = 2; file.has(fmt::format("BDBldFile({})", i)); ++i) {
+    found.push_back(file.file(fmt::format("BDBldFile({})", i)));
+  }
+  return found;
+}
+
 bool are_same(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;  // one that does not exist is not the same
   return std::filesystem::equivalent(a, b, ignored);
@@ -142,7 +151,7 @@ GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
   GlueFile glue;
   glue.path = path;
   glue.elastodyn = file.file("EDFile");
-  if (file.number("CompElast") == 2.0) glue.beamdyn = file.file("BDBldFile(1)");
+  if (file.number("CompElast") == 2.0) glue.beamdyn = blade_files(file);
   glue.servodyn = file_if(file, "CompServo", 1);
   glue.aerodyn = file_if(file, "CompAero", 2);
   glue.inflow = file_if(file, "CompInflow", 1);

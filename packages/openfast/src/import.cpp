@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
+#include <vector>
 
 namespace culm::openfast {
 
@@ -26,6 +28,30 @@ std::optional<YawDrive> find_yaw_drive(const std::optional<GlueFile>& glue,
   report.add(missing, glue->path.string() + ": names ServoDyn's file " + glue->servodyn->string() +
                           ", which is not there");
   return std::nullopt;
+}
+
+// BeamDyn's primary file of each blade; none where the blades are ElastoDyn's.
+std::vector<std::filesystem::path> blade_files(const std::optional<GlueFile>& glue,
+                                               const TurbineOptions& options, std::size_t blades) {
+  if (!options.blade.empty()) return std::vector(blades, options.blade);
+  if (!glue || glue->beamdyn.empty()) return {};
+  if (glue->beamdyn.size() < blades) {
+    throw InputError(
+        {glue->path.string(), 0, fmt::format("BDBldFile({})", glue->beamdyn.size() + 1)},
+        fmt::format("is missing: the turbine has {} blades", blades));
+  }
+  return {glue->beamdyn.begin(), glue->beamdyn.begin() + static_cast<std::ptrdiff_t>(blades)};
+}
+
+// Each file is read once.
+std::vector<BeamDyn> read_blades(const std::vector<std::filesystem::path>& files, Report& report) {
+  std::map<std::filesystem::path, BeamDyn> known;
+  std::vector<BeamDyn> blades;
+  for (const auto& file : files) {
+    if (!known.contains(file)) known[file] = read_beamdyn(file, report);
+    blades.push_back(known[file]);
+  }
+  return blades;
 }
 
 // A file that is named and not there is told to the report.
@@ -136,7 +162,8 @@ Imported import_turbine(const std::filesystem::path& path, const std::optional<G
   turbine.yaw_drive = find_yaw_drive(glue, options, report);
   if (glue) turbine.platform.modules = glue->substructure;
   if (glue && glue->gravity) turbine.gravity = *glue->gravity;
-  if (!options.blade.empty()) replace_blades(turbine, read_beamdyn(options.blade, report), report);
+  const auto blades = blade_files(glue, options, turbine.blades.size());
+  if (!blades.empty()) replace_blades(turbine, read_blades(blades, report), report);
   if (options.blade_mass > 0.0) scale_blades(turbine, options.blade_mass, report);
   if (glue) turbine.air = find_air(*glue, turbine, report);
   if (glue) turbine.substructure = find_substructure(*glue, turbine.platform, report);
@@ -147,9 +174,9 @@ Imported import_turbine(const std::filesystem::path& path, const std::optional<G
   return imported;
 }
 
-Imported import_all(const std::filesystem::path& path, TurbineOptions options, Report& report) {
+Imported import_all(const std::filesystem::path& path, const TurbineOptions& options,
+                    Report& report) {
   const GlueFile glue = read_glue_file(path, report);
-  if (glue.beamdyn && options.blade.empty()) options.blade = *glue.beamdyn;
   return import_turbine(glue.elastodyn, glue, options, report);
 }
 

@@ -65,12 +65,26 @@ void write_tower_sections(const ElastoDyn& turbine, Report& report, DeckWriter& 
                    "ElastoDyn does not: 'Torsion' false of the beam 'tower'");
 }
 
+// The first blade that the file of this one describes.
+std::size_t first_of_its_file(const ElastoDyn& turbine, std::size_t blade) {
+  const auto& path = turbine.blades[blade].beam.path;
+  std::size_t first = 0;
+  while (turbine.blades[first].beam.path != path) ++first;
+  return first;
+}
+
+bool is_first_of_its_file(const ElastoDyn& turbine, std::size_t blade) {
+  return first_of_its_file(turbine, blade) == blade;
+}
+
+// Of a blade that shares its file with others, for which it stands.
+std::string name_of(std::size_t blade) {
+  return blade == 0 ? "blade" : fmt::format("blade {}", blade + 1);
+}
+
 // Blades of one file share their sections.
 std::string sections_of(const ElastoDyn& turbine, std::size_t blade) {
-  const auto& path = turbine.blades[blade].beam.blade.path;
-  std::size_t first = 0;
-  while (turbine.blades[first].beam.blade.path != path) ++first;
-  return first == 0 ? "blade station" : fmt::format("blade {} station", first + 1);
+  return name_of(first_of_its_file(turbine, blade)) + " station";
 }
 
 void write_sections_list(const ElastoDyn& turbine, Report& report, DeckWriter& deck) {
@@ -79,12 +93,9 @@ void write_sections_list(const ElastoDyn& turbine, Report& report, DeckWriter& d
   deck.comment(
       {"Stations of the blades. Order: shear x, shear y, stretch, bending about x (edge) and y",
        "(flap), twist; upper triangle by rows."});
-  std::vector<std::string> written;
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
-    const std::string name = sections_of(turbine, i);
-    if (std::find(written.begin(), written.end(), name) != written.end()) continue;
-    write_sections(name, turbine.blades[i].beam.blade, deck);
-    written.push_back(name);
+    if (!is_first_of_its_file(turbine, i)) continue;
+    write_sections(sections_of(turbine, i), turbine.blades[i].beam.blade, deck);
   }
   if (turbine.substructure) write_sections(turbine.substructure->frame, deck, report);
   deck.close();
@@ -482,17 +493,18 @@ void scale_blades(ElastoDyn& turbine, double mass, Report& report) {
   }
 }
 
-void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report) {
-  const double length = BladeAxis(blade.key_points).curve.length();
+void replace_blades(ElastoDyn& turbine, const std::vector<BeamDyn>& blades, Report& report) {
   const double wanted = turbine.tip_radius - turbine.hub_radius;
   report.add(assumed,
              "blades: those of BeamDyn; what ElastoDyn's blade files say is left out but for "
              "the mode shapes");
-  if (std::abs(length - wanted) > 1e-3 * wanted) {
+  for (std::size_t i = 0; i < blades.size(); ++i) {
+    turbine.blades[i].beam = blades[i];
+    const double length = BladeAxis(blades[i].key_points).curve.length();
+    if (!is_first_of_its_file(turbine, i) || std::abs(length - wanted) <= 1e-3 * wanted) continue;
     report.add(unknown, fmt::format("{}: the blade is {:.6g} m long, TipRad - HubRad is {:.6g} m",
-                                    blade.path.string(), length, wanted));
+                                    blades[i].path.string(), length, wanted));
   }
-  for (ElastoDynBlade& one : turbine.blades) one.beam = blade;
 }
 
 std::vector<Variant> variants_of(const ElastoDyn& turbine) {
@@ -531,9 +543,7 @@ std::string write_deck(ElastoDyn turbine, const std::filesystem::path& folder, R
   report_masses(turbine, report);
   report_midpoint_mass(turbine, report);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
-    if (i == 0 || sections_of(turbine, i) != sections_of(turbine, 0)) {
-      report_blade(turbine.blades[i].beam, report);
-    }
+    if (is_first_of_its_file(turbine, i)) report_blade(name_of(i), turbine.blades[i].beam, report);
   }
   const TurbineLayout layout(turbine);
   report_yaw(turbine, layout, report);

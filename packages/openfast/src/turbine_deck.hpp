@@ -14,8 +14,8 @@ namespace culm::openfast {
 /// Scales the mass of each blade to `mass` [kg], the inertia of its sections with it.
 void scale_blades(ElastoDyn& turbine, double mass, Report& report);
 
-/// Takes this blade for all of a turbine.
-void replace_blades(ElastoDyn& turbine, const BeamDyn& blade, Report& report);
+/// Takes these blades, one for each of the turbine.
+void replace_blades(ElastoDyn& turbine, const std::vector<BeamDyn>& blades, Report& report);
 
 /// Variants of the deck that show what tower torsion and yaw drive do to its modes.
 std::vector<Variant> variants_of(const ElastoDyn& turbine);

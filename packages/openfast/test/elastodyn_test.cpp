@@ -281,6 +281,13 @@ TEST_F(ElastoDynFiles, TowersStandOnTheMembersOfSubDynInTheWaterOfHydroDyn) {
   EXPECT_THROW(import_file(path_of("scene.fst")), InputError);
 }
 
+TEST_F(ElastoDynFiles, BladesOfBeamDynNeedAFileEach) {
+  const std::string scene = change(glue, "1         CompElast", "2 CompElast");
+  write("scene.fst", scene + "\"blade1.inp\" BDBldFile(1) - (-)\n");
+  EXPECT_THAT([&] { import_file(path_of("scene.fst")); },
+              ThrowsMessage<InputError>(HasSubstr("BDBldFile(2): is missing: the turbine has 2")));
+}
+
 TEST_F(ElastoDynFiles, AServoDynFileThatIsNotThereIsMissed) {
   write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---", yawing));
   write("scene.fst", glue);

@@ -16,7 +16,8 @@ struct GlueFile {
   std::filesystem::path path;
   std::filesystem::path elastodyn;
   std::optional<std::filesystem::path> servodyn;
-  std::optional<std::filesystem::path> beamdyn;  ///< blade 1, where BeamDyn computes the blades
+  /// Primary files by blade, where BeamDyn computes the blades; as many as are named, else none.
+  std::vector<std::filesystem::path> beamdyn;
   std::optional<std::filesystem::path> aerodyn;
   std::optional<std::filesystem::path> inflow;
   std::optional<std::filesystem::path> seastate;
