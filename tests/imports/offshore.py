@@ -132,7 +132,31 @@ def axes(way):
     return np.array([x, np.cross(z, x), z])
 
 
-def frame_frequencies(parts=48):
+# Of the ground below joint 12: a pile by its head, which sways and turns at once, and the soil that goes with it.
+GROUND_STIFFNESS = np.diag([4e8, 6e8, 3e9, 9e10, 7e10, 2e10])
+GROUND_STIFFNESS[0, 4] = GROUND_STIFFNESS[4, 0] = -3e9
+GROUND_STIFFNESS[1, 3] = GROUND_STIFFNESS[3, 1] = 4e9
+GROUND_MASS, GROUND_CENTRE, GROUND_INERTIA = 3e5, np.array([0.5, 0, -3.0]), np.diag([2e6, 3e6, 1e6])
+
+
+def body(mass, c, inertia):
+    """Mass matrix about a point, with the centre at c from there."""
+    skew = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
+    return np.block([[mass * np.eye(3), -mass * skew], [mass * skew, inertia - mass * skew @ skew]])
+
+
+def ground_file():
+    """The upper triangles, column by column."""
+    names = ["x", "y", "z", "tx", "ty", "tz"]
+    text = "Ground below a pile\nValue Name\n"
+    for letter, matrix in (("K", GROUND_STIFFNESS), ("M", body(GROUND_MASS, GROUND_CENTRE, GROUND_INERTIA))):
+        for j in range(6):
+            text += "".join(f"{matrix[i, j]:.12E}  {letter}{names[i]}{names[j]}\n" for i in range(j + 1))
+    return text
+
+
+def frame_frequencies(parts=48, soft=False):
+    """@param soft  whether joint 12 stands on the ground alone"""
     place = {joint: i for i, joint in enumerate(JOINTS)}
     size = 6 * (len(JOINTS) + (parts - 1) * len(MEMBERS))
     K, M = np.zeros((size, size)), np.zeros((size, size))
@@ -148,14 +172,15 @@ def frame_frequencies(parts=48):
             at = [6 * node + j for node in nodes[i:i + 2] for j in range(6)]
             K[np.ix_(at, at)] += T.T @ k @ T
             M[np.ix_(at, at)] += T.T @ m @ T
-    body, c = place[14], np.array([0, 0, 2.0])
-    skew = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
-    at = range(6 * body, 6 * body + 6)
-    M[np.ix_(at, at)] += 5e4 * np.block([[np.eye(3), -skew], [skew, -skew @ skew]])
-    M[np.ix_(at, at)] += scipy.linalg.block_diag(np.zeros((3, 3)), np.diag([1e5, 2e5, 3e5]))
+    at = range(6 * place[14], 6 * place[14] + 6)
+    M[np.ix_(at, at)] += body(5e4, np.array([0, 0, 2.0]), np.diag([1e5, 2e5, 3e5]))
     for j in range(3):
         M[6 * place[15] + j, 6 * place[15] + j] += 1e3
-    held = [*range(6 * place[11], 6 * place[11] + 6), *range(6 * place[12], 6 * place[12] + 3)]
+    held = [*range(6 * place[11], 6 * place[11] + 6), *range(6 * place[12], 6 * place[12] + (0 if soft else 3))]
+    if soft:
+        at = range(6 * place[12], 6 * place[12] + 6)
+        K[np.ix_(at, at)] += GROUND_STIFFNESS
+        M[np.ix_(at, at)] += body(GROUND_MASS, GROUND_CENTRE, GROUND_INERTIA)
     left = [i for i in range(size) if i not in held]
     squares = scipy.linalg.eigh(K[np.ix_(left, left)], M[np.ix_(left, left)], eigvals_only=True, subset_by_index=[0, 5])
     return np.sqrt(squares) / (2 * np.pi)
@@ -175,6 +200,11 @@ def subdyn(imports):
     weight = sum(history[f"joint {joint} Fz [N]"] for joint in (11, 12))
     imports.check("SubDyn, weight on its supports [N]", weight, 9.80665 * (beams + 51000), 1e-6)
     imports.check("SubDyn, frequencies [Hz]", frequencies[:6], frame_frequencies(), 5e-4)
+    soft = change(text, " 12        1        1        1        0        0        0       \"\"",
+                  " 12        0        0        0        0        0        0       \"ground.dat\"")
+    _, _, frequencies = imports.run({"sub.dat": soft, "ground.dat": ground_file()},
+                                    ["Analyses/modes/Start From=Reference", "Analyses/modes/Inactive={weight}"])
+    imports.check("SubDyn on soft ground, frequencies [Hz]", frequencies[:6], frame_frequencies(soft=True), 5e-4)
 
 
 def coefficient(table, depth):

@@ -29,10 +29,15 @@ std::size_t look_up(const Rows& rows, const TextTable& table, std::size_t row,
                    fmt::format("there is no {} {}", what, table.integer(row, names)));
 }
 
-double bounded(const TextTable& table, std::size_t row, const std::string& name, double otherwise) {
-  const double value = table.number(row, {name.c_str()}, otherwise);
+double bounded(const TextTable& table, std::size_t row, const std::string& name) {
+  const double value = table.number(row, {name.c_str()});
   if (value >= 0.0) return value;
   throw InputError(table.where(row, {name.c_str()}), fmt::format("must be >= 0, got {:g}", value));
+}
+
+// The same, or `otherwise` where there is no such column.
+double bounded(const TextTable& table, std::size_t row, const std::string& name, double otherwise) {
+  return table.has({name.c_str()}) ? bounded(table, row, name) : otherwise;
 }
 
 // Columns such as SimplCd and SimplCdMG, MemberCd1 and MemberCdMG1.
@@ -43,7 +48,7 @@ HydroPair read_pair(const TextTable& table, std::size_t row, const std::string& 
     const std::string end = (grown == 1 ? "MG" : "") + after;
     const auto required = [&](const char* name) {
       const std::string column = before + name + end;
-      if (table.has({column.c_str()})) return bounded(table, row, column, 0.0);
+      if (table.has({column.c_str()})) return bounded(table, row, column);
       throw InputError(table.where(row, {column.c_str()}), "the table has no such column");
     };
     pair[grown] = {required("Cd"), required("Ca"), bounded(table, row, before + "Cp" + end, 1.0),
@@ -73,8 +78,8 @@ std::vector<HydroDepth> read_by_depth(InputFile& file) {
 void read_growth(InputFile& file, HydroDyn& hydro) {
   const TextTable table = read_table(file, "NMGDepths", "marine growth");
   for (std::size_t i = 0; i < table.size(); ++i) {
-    hydro.growth.push_back({table.number(i, {"MGDpth"}), bounded(table, i, "MGThck", 0.0),
-                            bounded(table, i, "MGDens", 0.0)});
+    hydro.growth.push_back(
+        {table.number(i, {"MGDpth"}), bounded(table, i, "MGThck"), bounded(table, i, "MGDens")});
   }
   std::sort(hydro.growth.begin(), hydro.growth.end(),
             [](const HydroGrowth& a, const HydroGrowth& b) { return a.height < b.height; });

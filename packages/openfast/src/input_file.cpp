@@ -146,11 +146,9 @@ std::vector<double> InputFile::numbers(const std::string& keyword) {
   return numbers;
 }
 
-std::filesystem::path InputFile::file(const std::string& keyword) {
-  return relative(text(keyword));
-}
+std::filesystem::path InputFile::file(const std::string& keyword) { return beside(text(keyword)); }
 
-std::filesystem::path InputFile::relative(std::string name) const {
+std::filesystem::path InputFile::beside(std::string name) const {
   std::replace(name.begin(), name.end(), '\\', '/');
   return (path_.parent_path() / name).lexically_normal();
 }
@@ -166,7 +164,7 @@ std::vector<std::filesystem::path> InputFile::files(const std::string& keyword, 
           where(static_cast<int>(i) + 1, keyword),
           fmt::format("must be {} lines with a name in quotes, found {}", count, found.size()));
     }
-    found.push_back(relative(words.front().text));
+    found.push_back(beside(words.front().text));
   }
   return found;
 }

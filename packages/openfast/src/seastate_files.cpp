@@ -104,8 +104,8 @@ void read_waves(InputFile& file, SeaState& sea, Report& report) {
     }
   }
   const double turn = 2.0 * std::numbers::pi, peak = 1.0 / sea.period;
-  const double lowest = file.number("WvLowCOff", 0.0) / turn;
-  const double highest = file.number("WvHiCOff", 0.0) / turn;
+  const double lowest = file.number("WvLowCOff") / turn;
+  const double highest = file.number("WvHiCOff") / turn;
   if (lowest > 0.0 && lowest < peak) sea.lowest = lowest;
   if (highest > peak) sea.highest = highest;
   if (lowest >= peak || (highest > 0.0 && highest <= peak)) {

@@ -79,6 +79,16 @@ class SubDeck {
     for (const SubSupport& support : sub_.supports) write_support(support);
   }
 
+  void write_ground() {
+    for (const SubSupport& support : sub_.supports) {
+      if (!support.is_soft()) continue;
+      deck_.open(body_at(sub_, support.joint) + ", ground", "Restoring");
+      deck_.set("Node", node_at(support.joint));
+      deck_.set_triangle("Stiffness", support.stiffness);
+      deck_.close();
+    }
+  }
+
   // A cable is a spring whose free length gives it its tension.
   void write_cables() {
     for (const SubMember& member : sub_.members) {
@@ -107,7 +117,9 @@ class SubDeck {
     };
     if (!sub_.interface.empty()) show("interface", "Displacement", sub_.interface.front());
     for (const SubSupport& support : sub_.supports) {
-      show(body_at(sub_, support.joint), "Reaction", support.joint);
+      const bool holds =
+          std::find(support.held.begin(), support.held.end(), true) != support.held.end();
+      show(body_at(sub_, support.joint), holds ? "Reaction" : "Displacement", support.joint);
     }
     if (sub_.interface.empty() && sub_.supports.empty()) show("first joint", "Displacement", 0);
   }
@@ -115,7 +127,7 @@ class SubDeck {
   bool is_held() const {
     std::array<bool, 6> held{};
     for (const SubSupport& support : sub_.supports) {
-      for (std::size_t k = 0; k < 6; ++k) held[k] = held[k] || support.held[k];
+      for (std::size_t k = 0; k < 6; ++k) held[k] = held[k] || support.resists(k);
     }
     return held[0] && held[1] && held[2];
   }
@@ -354,6 +366,10 @@ void write_cables(const SubDyn& sub, DeckWriter& deck, Report& report) {
   SubDeck(sub, deck, report).write_cables();
 }
 
+void write_ground(const SubDyn& sub, DeckWriter& deck, Report& report) {
+  SubDeck(sub, deck, report).write_ground();
+}
+
 void write_history(const SubDyn& sub, DeckWriter& deck, Report& report) {
   SubDeck(sub, deck, report).write_history();
 }
@@ -396,6 +412,7 @@ std::string write_deck(const SubDyn& sub, Report& report) {
   deck.set("Acceleration", Vec3(0.0, 0.0, -gravity));
   deck.close();
   lists.write_cables();
+  lists.write_ground();
   deck.close();
   report.add(assumed, fmt::format("weight by {:g} m/s^2, which this file does not say", gravity));
   deck.open("Analyses");

@@ -21,6 +21,8 @@ void write_masses(const SubDyn& sub, DeckWriter& deck, Report& report);
 void write_constraints(const SubDyn& sub, DeckWriter& deck, Report& report);
 /// Of the list Loads.
 void write_cables(const SubDyn& sub, DeckWriter& deck, Report& report);
+/// Of the list Loads: stiffness of the ground at reaction joints.
+void write_ground(const SubDyn& sub, DeckWriter& deck, Report& report);
 /// Of the list Output / History: the interface and reactions.
 void write_history(const SubDyn& sub, DeckWriter& deck, Report& report);
 

@@ -1,9 +1,11 @@
 #include <culm/base/error.hpp>
 #include <culm/base/text.hpp>
+#include <culm/math/rotation.hpp>
 #include <culm/openfast/subdyn.hpp>
 #include <culm/openfast/text_table.hpp>
 
 #include "file_end.hpp"
+#include "ground_file.hpp"
 #include "headings.hpp"
 
 #include <Eigen/Geometry>
@@ -230,6 +232,35 @@ void read_axes(InputFile& file, Lists& lists) {
   }
 }
 
+// The mass of the ground becomes one of the concentrated masses, if a body can have it.
+void read_ground_at(const std::filesystem::path& path, SubSupport& support, SubDyn& sub,
+                    Report& report) {
+  const Ground ground = read_ground(path, report);
+  support.stiffness = ground.stiffness;
+  if (!support.is_soft()) {
+    report.add(not_used, path.string() + ": what is held does not move on the ground");
+    return;
+  }
+  if (ground.mass.isZero(0.0)) return;
+  const double mass = ground.mass(0, 0);
+  const Vec3 centre = mass > 0.0 ? Vec3(ground.mass(1, 5) / mass, -ground.mass(0, 5) / mass,
+                                        ground.mass(0, 4) / mass)
+                                 : Vec3::Zero();
+  const Mat3 arm = skew(centre);
+  Mat6 body;
+  body << mass * Mat3::Identity(), -mass * arm, mass * arm, ground.mass.bottomRightCorner<3, 3>();
+  if (!(mass > 0.0) || !body.isApprox(ground.mass, 1e-6)) {
+    report.add(missing, fmt::format("{}: its mass, along x {:g} kg, is not that of a body",
+                                    path.string(), mass));
+    return;
+  }
+  sub.masses.push_back(
+      {support.joint, mass, centre, body.bottomRightCorner<3, 3>() + mass * arm * arm});
+  report.add(assumed, fmt::format("{}: its mass of {:g} kg is a concentrated one, which weighs; "
+                                  "that of SubDyn does not",
+                                  path.string(), mass));
+}
+
 void read_supports(InputFile& file, SubDyn& sub, const Lists& lists, Report& report) {
   constexpr const char* flags[] = {"RctTDXss", "RctTDYss", "RctTDZss",
                                    "RctRDXss", "RctRDYss", "RctRDZss"};
@@ -240,9 +271,7 @@ void read_supports(InputFile& file, SubDyn& sub, const Lists& lists, Report& rep
     SubSupport support{look_up(lists.joints, table, i, {"RJointID"}, "joint"), {}};
     for (std::size_t k = 0; k < 6; ++k) support.held[k] = table.integer(i, {flags[k]}) != 0;
     if (table.has({"SSIfile"}) && !table.text(i, {"SSIfile"}).empty()) {
-      report.add(missing, to_string(table.where(i, {"SSIfile"})) +
-                              ": stiffness of the ground in '" + table.text(i, {"SSIfile"}) +
-                              "' is not read: what is free there is free in the deck");
+      read_ground_at(file.beside(table.text(i, {"SSIfile"})), support, sub, report);
     }
     sub.supports.push_back(support);
   }
@@ -291,7 +320,12 @@ void read_settings(InputFile& file, SubDyn& sub, Report& report) {
     report.add(assumed, to_string(file.where("FEMMod")) +
                             ": elements without shear; in the deck beams have it");
   }
-  if (file.number("GuyanDampMod", 0.0) == 1.0) {
+  // files of some years have neither this switch nor the factors
+  const int guyan = file.has("RayleighDamp") ? file.integer("GuyanDampMod") : 0;
+  if (guyan < 0 || guyan > 2) {
+    throw InputError(file.where("GuyanDampMod"), fmt::format("must be 0, 1 or 2, got {}", guyan));
+  }
+  if (guyan == 1) {
     const std::vector<double> damping = file.numbers("RayleighDamp");
     if (damping.size() != 2) {
       throw InputError(file.where("RayleighDamp"),
@@ -303,7 +337,7 @@ void read_settings(InputFile& file, SubDyn& sub, Report& report) {
                                fmt::format(": damping by mass, {:g} 1/s", damping[0]));
     }
   }
-  if (file.number("GuyanDampMod", 0.0) == 2.0) {
+  if (guyan == 2) {
     report.add(not_used,
                to_string(file.where("GuyanDampMod")) + ": a matrix of damping at the interface");
   }

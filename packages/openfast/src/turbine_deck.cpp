@@ -325,6 +325,7 @@ void write_loads(const ElastoDyn& turbine, const TurbineLayout& layout,
   if (turbine.substructure) {
     const Substructure& base = *turbine.substructure;
     write_cables(base.frame, deck, report);
+    write_ground(base.frame, deck, report);
     if (base.water) write_members(*base.water, base.frame, deck, report);
     if (base.water && base.water->sea.kind != SeaState::Kind::still) {
       report.add(assumed, "weight and modes see the waves as they stand at time 0");

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <random>
@@ -59,12 +60,13 @@ class DamagedFiles : public SampleFiles {
     return !std::includes(before.begin(), before.end(), now.begin(), now.end());
   }
 
-  // Whether something is missing from the deck: a list or a number of one.
-  bool has_less(const Imported& made) const {
-    for (const char* part : {"<ParameterList", "<Parameter ", ", "}) {
-      if (count(made.deck, part) < count(whole_.deck, part)) return true;
-    }
-    return false;
+  // Whether something is missing from the deck: a list, or a number of one. A digit that is another
+  // one by the flip makes another number, for which an array may have fewer places.
+  bool has_less(const Imported& made, bool is_other_number) const {
+    const auto lost = [&](const char* part) {
+      return count(made.deck, part) < count(whole_.deck, part);
+    };
+    return lost("<ParameterList") || lost("<Parameter ") || (!is_other_number && lost(", "));
   }
 
   void expect_cuts_to_be_told() {
@@ -90,7 +92,9 @@ class DamagedFiles : public SampleFiles {
         damaged[place] =
             static_cast<char>(static_cast<unsigned char>(damaged[place]) ^ (1U << bit));
         const auto made = import_with(name, damaged);
-        if (!made || !has_less(*made) || says_more(*made)) continue;
+        const bool is_other_number = std::isdigit(static_cast<unsigned char>(text[place])) != 0 &&
+                                     std::isdigit(static_cast<unsigned char>(damaged[place])) != 0;
+        if (!made || !has_less(*made, is_other_number) || says_more(*made)) continue;
         ADD_FAILURE() << name << ", bit " << bit << " of byte " << place << " ('" << text[place]
                       << "') flipped: a deck without a word";
       }
@@ -116,7 +120,8 @@ class DamagedSubstructures : public DamagedFiles {
     write("scene.fst", joined +
                            "\"waves.dat\" HydroFile - (quoted string)\n\"jacket.dat\" SubFile - "
                            "(quoted string)\n\"sea.dat\" SeaStFile - (quoted string)\n");
-    files_ = {{"jacket.dat", write("jacket.dat", subdyn_file)},
+    files_ = {{"ground.dat", write("ground.dat", ground_file)},
+              {"jacket.dat", write("jacket.dat", on_ground(subdyn_file))},
               {"sea.dat", write("sea.dat", seastate_file)},
               {"waves.dat", write("waves.dat", hydrodyn_file)}};
     whole_ = import_file(scene_);
@@ -125,7 +130,7 @@ class DamagedSubstructures : public DamagedFiles {
 
 TEST_F(DamagedSubstructures, ThatAreCutMakeTheSameDeckOrAMessage) { expect_cuts_to_be_told(); }
 
-TEST_F(DamagedSubstructures, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(150); }
+TEST_F(DamagedSubstructures, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(500); }
 
 // The files of a platform that floats.
 class DamagedFloaters : public DamagedFiles {
@@ -152,7 +157,7 @@ TEST_F(DamagedFloaters, ThatAreCutMakeTheSameDeckOrAMessage) {
   expect_cuts_to_be_told();
 }
 
-TEST_F(DamagedFloaters, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(150); }
+TEST_F(DamagedFloaters, WithAFlippedBitLoseNothingInSilence) { expect_flips_to_be_told(500); }
 
 }  // namespace
 }  // namespace culm::openfast

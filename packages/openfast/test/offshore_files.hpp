@@ -1,6 +1,8 @@
 /// Files of SubDyn, SeaState, HydroDyn and MoorDyn with numbers of our own.
 #pragma once
 
+#include <string>
+
 namespace culm::openfast {
 
 // Two legs of a frame with a brace, a cable, a body on top.
@@ -85,6 +87,35 @@ CMJointID  JMass   JMXX  JMYY  JMZZ  JMXY  JMXZ  JMYZ  MCGX  MCGY  MCGZ
 False        SumPrint    - Summary
 END
 )~";
+
+// A column of soil that goes with the joint, 1 m below it.
+inline constexpr const char* ground_file = R"~(Ground below a joint
+1e8  Kxx
+2e8  kyy
+3e8  Kzz
+-4e8 Kxty
+5D8  Kytx
+6e9  Ktxtx
+7e9  Ktyty
+8e9  Ktztz
+0.0  Kxy
+1000 Mxx
+1000 Myy
+1000 Mzz
+-1e3 Mxty
+1e3  Mytx
+3000 Mtxtx
+3000 Mtyty
+4000 Mtztz
+)~";
+
+// The frame with a joint on soft ground.
+inline std::string on_ground(std::string subdyn) {
+  const std::string held = " 12        1        1        1        0        0        0       \"\"";
+  return subdyn.replace(subdyn.find(held), held.size(),
+                        " 12        0        0        0        0        0        0       "
+                        "\"ground.dat\"");
+}
 
 inline constexpr const char* seastate_file = R"~(------- SeaState Input File -------
 A sea

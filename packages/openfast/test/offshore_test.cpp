@@ -73,6 +73,39 @@ TEST_F(OffshoreFiles, MassesOfSubDynAreThoseOfItsTables) {
 }
 
 // SubDyn's own summary of the OC3 monopile has 5.000841E-01 for 6 m by 60 mm.
+TEST_F(OffshoreFiles, GroundOfSubDynResistsAndGoesWithItsJoint) {
+  write("ground.dat", ground_file);
+  const auto path = write("frame.dat", on_ground(subdyn_file));
+  const Imported soft = import_file(path);
+  std::string ground = soft.deck.substr(soft.deck.find(R"("joint 12, ground")"));
+  ground.resize(ground.find("</ParameterList>"));
+  std::erase_if(ground, [](char c) { return c == ' ' || c == '\n'; });
+  EXPECT_THAT(ground, HasSubstr("{100000000,0,0,0,-400000000,0,200000000,0,500000000,0,0,300000000,"
+                                "0,0,0,6000000000,0,0,7000000000,0,8000000000}"));
+  EXPECT_THAT(soft.deck, Not(HasSubstr("joint 12, held")));
+  EXPECT_THAT(soft.deck, HasSubstr(R"(<Parameter name="Centre" value="{0, 0, -1}"/>)"));
+  EXPECT_THAT(soft.deck, HasSubstr("{2000, 2000, 4000, 0, 0, 0}"));
+  EXPECT_THAT(soft.report, HasSubstr("zero, for they are not there: Ktxty, "));
+
+  write("ground.dat", change(ground_file, "1000 Mzz", "2000 Mzz"));
+  EXPECT_THAT(import_file(path).report, HasSubstr("along x 1000 kg, is not that of a body"));
+  const auto message = [&](const std::string& old, const std::string& by) -> std::string {
+    write("ground.dat", change(ground_file, old, by));
+    try {
+      import_file(path);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message("1e8  Kxx", "lots Kxx"), HasSubstr("ground.dat:2: Kxx: must be a number"));
+  EXPECT_THAT(message("1e8  Kxx", "1e8 Kxq"), HasSubstr("must have the name of its entry"));
+  EXPECT_THAT(message("2e8  kyy", "2e8 Kxx"),
+              HasSubstr("ground.dat:3: Kxx: stands in line 2, too"));
+  write("ground.dat", "Nothing\n");
+  EXPECT_THROW(import_file(path), InputError);
+}
+
 TEST_F(OffshoreFiles, ShearFactorsAreThoseOfSubDyn) {
   const std::string text = change(subdyn_file, " 1         2.1e11   8.08e10   7850     2.0    0.04",
                                   " 1         2.1e11   8.08e10   8500     6.0    0.06");

@@ -52,6 +52,8 @@ class InputFile {
   std::vector<double> numbers(const std::string& keyword);
   /// The same, or `otherwise` where there is no such entry.
   double number(const std::string& keyword, double otherwise);
+  /// The path of a file that is named in this one, from whose folder names count.
+  std::filesystem::path beside(std::string name) const;
   /// A file that the entry names, relative to this one.
   std::filesystem::path file(const std::string& keyword);
   /// As many files, the first in the line of the entry and each other one in the next line. Throws
@@ -99,7 +101,6 @@ class InputFile {
   std::size_t find_heading(const std::string& heading) const;
   std::vector<TextRow> rows_from(std::size_t line) const;
   std::vector<std::string> columns_of(std::size_t line) const;
-  std::filesystem::path relative(std::string name) const;
   std::vector<NumberRow> numbers_from(std::size_t line, int count, int columns) const;
 
   std::filesystem::path path_;

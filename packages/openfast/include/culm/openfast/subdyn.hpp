@@ -4,6 +4,7 @@
 #include <culm/math/types.hpp>
 #include <culm/openfast/report.hpp>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -51,10 +52,21 @@ struct SubMember {
   Vec3 x = Vec3::Zero();  ///< axis x of its sections
 };
 
-/// A joint that is held: displacements along x, y, z, rotations about them.
+/// A joint that is held or stands on soft ground: displacements along x, y, z, rotations about
+/// them.
 struct SubSupport {
   std::size_t joint = 0;
   std::array<bool, 6> held{};
+  Mat6 stiffness = Mat6::Zero();  ///< of the ground, against what is free [N/m, N, N m]
+
+  /// Whether the ground or a support resists a displacement or rotation.
+  bool resists(std::size_t k) const {
+    return held[k] || stiffness(static_cast<int>(k), static_cast<int>(k)) > 0.0;
+  }
+  /// Whether something is free on ground that resists.
+  bool is_soft() const {
+    return !stiffness.isZero(0.0) && std::find(held.begin(), held.end(), false) != held.end();
+  }
 };
 
 /// A body at a joint.
