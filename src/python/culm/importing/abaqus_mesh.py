@@ -50,7 +50,7 @@ def _nodes(reader, block):
         position = numpy.array([*values, 0.0, 0.0, 0.0][:3])
         if key in reader.model.nodes:
             refuse(place, f"node {cells[0]} is there twice")
-        reader.model.nodes[key] = _placed(reader, position)
+        reader.model.nodes[key] = placed(reader, position)
         found.append(key)
     reader.findings.count("nodes", len(found))
     _add_to_set(reader.model.node_sets, reader, block.get("NSET"), found)
@@ -86,7 +86,7 @@ def triad(a, b, place):
     return numpy.array([x, numpy.cross(z, x), z])
 
 
-def _placed(reader, position):
+def placed(reader, position):
     """In the place of the instance: turned after it is moved, as the manual of Abaqus has it."""
     if reader.transform is None:
         return position

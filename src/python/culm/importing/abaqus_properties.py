@@ -1,4 +1,4 @@
-"""Materials, sections and orientations of Abaqus and CalculiX."""
+"""Materials and sections of Abaqus and CalculiX."""
 
 import re
 
@@ -7,7 +7,8 @@ import numpy
 from .findings import did_you_mean, refuse
 from .keyword_file import NUMBER, number
 from .model import Layer, Material, Section, Wall
-from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, point_mass, triad
+from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, point_mass
+from .abaqus_orientations import Orientation, read_orientation
 from .profiles import i_section
 
 DEFAULT_UP = (0.0, 0.0, -1.0)  # the first axis of beam sections where the file has none
@@ -21,7 +22,7 @@ def read_property_block(reader, block):
         "MATERIAL": _material,
         "ELASTIC": _elastic,
         "DENSITY": _density,
-        "ORIENTATION": _orientation,
+        "ORIENTATION": read_orientation,
         "SHELL SECTION": _assignment,
         "BEAM SECTION": _assignment,
         "BEAM GENERAL SECTION": _assignment,
@@ -101,41 +102,6 @@ def _density(reader, block):
     _property(reader, block).values["Density"] = _values(block, 1, "the density")[0]
 
 
-def _orientation(reader, block):
-    """The axes of a rectangular system, as rows."""
-    name = reader.prefix + block.required("NAME")
-    system = block.get("SYSTEM") or "RECTANGULAR"
-    if block.get("DEFINITION") not in (None, "COORDINATES"):
-        refuse(block.place, f"*ORIENTATION with DEFINITION={block.get('DEFINITION')} is not read; COORDINATES is")
-    if not system.startswith("R"):
-        reader.orientations[name] = (None, system, block.place)
-        return
-    if not block.lines:
-        refuse(block.place, "*ORIENTATION needs two points")
-    place, cells = block.lines[0]
-    values = [number(cell, place, "a coordinate") for cell in cells if cell]
-    if len(values) not in (6, 9):
-        refuse(place, f"expected two points, or three with the origin, found {len(values)} numbers")
-    origin = numpy.array(values[6:] or (0.0, 0.0, 0.0))
-    axes = triad(numpy.array(values[:3]) - origin, numpy.array(values[3:6]) - origin, block.place)
-    if len(block.lines) > 1:
-        place, cells = block.lines[1]
-        axis = int(number(cells[0], place))
-        angle = numpy.radians(number(cells[1], place)) if len(cells) > 1 and cells[1] else 0.0
-        if axis not in (1, 2, 3):
-            refuse(place, f"the axis of the rotation must be 1, 2 or 3, got {axis}")
-        if axis != 3:  # for one program the axis that is normal to the shell, for the other one to turn about
-            reader.orientations[name] = (None, f"RECTANGULAR about its axis {axis}", block.place)
-            return
-        axes = _turned(axes, axes[axis - 1], angle)
-    reader.orientations[name] = (axes, system, block.place)
-
-
-def _turned(axes, axis, angle):
-    cross = numpy.cross(axis, axes)
-    return axes * numpy.cos(angle) + cross * numpy.sin(angle) + numpy.outer(axes @ axis, axis) * (1 - numpy.cos(angle))
-
-
 def _assignment(reader, block):
     reader.assignments.append((block, reader.prefix))
 
@@ -188,7 +154,6 @@ def _shell_section(reader, block, keys):
         refuse(block.place, "*SHELL SECTION with NODAL THICKNESS is not read: walls have one thickness")
     if not block.lines:
         refuse(block.place, "*SHELL SECTION without a thickness")
-    axis, fallback = DEFAULT_AXIS, FALLBACK_AXIS
     composite = block.has("COMPOSITE")
     if composite:
         layers = [_layer(reader, place, cells) for place, cells in block.lines]
@@ -199,27 +164,37 @@ def _shell_section(reader, block, keys):
         material = _find_material(reader, block.required("MATERIAL"), block.place)
         layers = [(_thickness(cells[0], place), material, 0.0)]
     isotropic = all(reader.model.materials[m].type == "Isotropic" for _, m, _ in layers)
+    orientation = None
     if block.get("ORIENTATION") and not isotropic:
-        axes, system, place = _find_orientation(reader, block.get("ORIENTATION"), block.place)
-        axis, fallback = _axis_of(axes, system, place), None
+        orientation = _find_orientation(reader, block.get("ORIENTATION"), block.place)
     if block.get("SYMMETRIC") is not None or block.has("SYMMETRIC"):
         layers += layers[::-1]
     name = (block.get("ELSET") or "wall").lower()
-    if not isotropic and any(isinstance(angle, numpy.ndarray) for _, _, angle in layers):
-        _walls_by_angle(reader, block, keys, layers, axis, name)
+    if not isotropic and any(isinstance(angle, Orientation) for _, _, angle in layers):
+        _walls_by_angle(reader, block, keys, layers, orientation, name)
         return
     wall = _free(f"{name}", reader.model.walls)
-    reader.model.walls[wall] = Wall(
-        [Layer(t, m, 0.0 if isinstance(a, numpy.ndarray) else a) for t, m, a in layers], block.place, axis, fallback
-    )
+    layers = [Layer(t, m, 0.0 if isinstance(a, Orientation) else a) for t, m, a in layers]
+    axis, fallback = DEFAULT_AXIS, FALLBACK_AXIS
+    if orientation is not None:
+        axis, fallback = orientation.pole, None
+    if orientation is not None and orientation.pole is None:
+        axis = tuple(map(float, orientation.axis(None)))
+    reader.model.walls[wall] = Wall(layers, block.place, axis, fallback)
     for key in keys:
-        reader.model.shells.append(element_of(reader, key, wall, None, None))
+        element = element_of(reader, key, wall, None, None)
+        if orientation is not None and orientation.pole is not None:
+            element.axis = tuple(map(float, orientation.axis(_centre(reader, key))))
+        reader.model.shells.append(element)
 
 
-def _axis_of(axes, system, place):
-    if axes is None:
-        refuse(place, f"orientations of SYSTEM {system} on shells that are not isotropic are not read; RECTANGULAR about 3 is")
-    return tuple(axes[0])
+def _corners(reader, key):
+    nodes = [reader.model.nodes[node] for node in reader.elements[key][1]]
+    return nodes[:4] if len(nodes) in (4, 8, 9) else nodes[:3]
+
+
+def _centre(reader, key):
+    return numpy.mean(_corners(reader, key), axis=0)
 
 
 def _thickness(cell, place):
@@ -230,7 +205,7 @@ def _thickness(cell, place):
 
 
 def _layer(reader, place, cells):
-    """(thickness, material, angle or direction of axis 1)"""
+    """(thickness, material, angle or Orientation)"""
     if len(cells) < 3:
         refuse(place, "expected thickness, points, material, orientation of a layer")
     material = _find_material(reader, cells[2], place)
@@ -239,33 +214,36 @@ def _layer(reader, place, cells):
         if re.fullmatch(NUMBER, cells[3].upper()):
             angle = number(cells[3], place)
         else:
-            axes, system, there = _find_orientation(reader, cells[3], place)
-            angle = numpy.array(_axis_of(axes, system, there))
+            angle = _find_orientation(reader, cells[3], place)
     return _thickness(cells[0], place), material, angle
 
 
-def _walls_by_angle(reader, block, keys, layers, axis, name):
+def _walls_by_angle(reader, block, keys, layers, orientation, name):
     """Layers with axes of their own: their angles from the axis of the wall are those between the
     projections on each element."""
     walls = {}
     for key in keys:
-        nodes = [reader.model.nodes[node] for node in reader.elements[key][1]]
-        corners = nodes[:4] if len(nodes) in (4, 8, 9) else nodes[:3]
+        corners, centre = _corners(reader, key), _centre(reader, key)
         normal = numpy.cross(corners[1] - corners[0], corners[-1] - corners[0])
         normal = normal / (numpy.linalg.norm(normal) or 1.0)
-        reference = numpy.array(axis)
+        reference = numpy.array(DEFAULT_AXIS) if orientation is None else orientation.axis(centre)
         if numpy.linalg.norm(numpy.cross(reference, normal)) < 1e-3:
-            reference = numpy.array(FALLBACK_AXIS)
+            if orientation is not None and not all(isinstance(a, Orientation) for _, _, a in layers):
+                refuse(block.place, "the axis that angles of layers count from is normal to an element")
+            reference = numpy.array(FALLBACK_AXIS if abs(normal[2]) < 0.9 else DEFAULT_AXIS)
         angles = tuple(
-            round(_angle(reference, a, normal, block.place), 6) if isinstance(a, numpy.ndarray) else a
+            round(_angle(reference, a.axis(centre), normal, block.place), 6) if isinstance(a, Orientation) else a
             for _, _, a in layers
         )
-        wall_key = (tuple(reference), angles)
-        if wall_key not in walls:
-            walls[wall_key] = _free(name, reader.model.walls)
+        if angles not in walls:
+            walls[angles] = _free(name, reader.model.walls)
             of_layers = [Layer(t, m, a) for (t, m, _), a in zip(layers, angles)]
-            reader.model.walls[walls[wall_key]] = Wall(of_layers, block.place, tuple(reference))
-        reader.model.shells.append(element_of(reader, key, walls[wall_key], None, None))
+            pole = None if orientation is None else orientation.pole
+            axis = pole or tuple(map(float, reference))
+            reader.model.walls[walls[angles]] = Wall(of_layers, block.place, axis)
+        element = element_of(reader, key, walls[angles], None, None)
+        element.axis = tuple(map(float, reference))
+        reader.model.shells.append(element)
 
 
 def _angle(reference, direction, normal, place):
