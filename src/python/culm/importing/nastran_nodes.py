@@ -1,0 +1,75 @@
+"""Systems of coordinates and nodes of Nastran."""
+
+import numpy
+
+from .findings import refuse
+from .model import cylinder_axes
+
+
+def read_systems(reader):
+    """Systems by three points: (origin, rows of axes)."""
+    reader.systems = {0: (numpy.zeros(3), numpy.eye(3))}
+    reader.curved = {}  # their cards: of these places are read, and directions refused
+    for card in reader.cards("CORD2R", "CORD2C", "CORD2S"):
+        number = reader.unique(reader.systems, card, "coordinate system")
+        origin, axes = reader.find(reader.systems, card.integer(2, default=0), card, "coordinate system")
+        a, b, c = (numpy.array([card.real(i + k, default=0.0) for k in range(3)]) for i in (3, 6, 9))
+        z, x = b - a, c - a
+        if numpy.linalg.norm(numpy.cross(z, x)) <= 1e-9 * numpy.linalg.norm(z) * numpy.linalg.norm(x):
+            refuse(card.place, "the three points of the system are on one line")
+        z = z / numpy.linalg.norm(z)
+        y = numpy.cross(z, x) / numpy.linalg.norm(numpy.cross(z, x))
+        local = numpy.array([numpy.cross(y, z), y, z])
+        reader.systems[number] = (origin + a @ axes, local @ axes)
+        if card.name != "CORD2R":
+            reader.curved[number] = card
+
+
+def find_system(reader, card, i):
+    number = card.integer(i, default=0)
+    if number in reader.curved:
+        refuse(card.place, f"directions in the system {number}, {reader.curved[number].name}, are not read")
+    return reader.find(reader.systems, number, card, "coordinate system")
+
+
+def _position(reader, card, i):
+    """A place in any system: x, y, z, or r, theta, z."""
+    number = card.integer(i, default=0)
+    origin, axes = reader.find(reader.systems, number, card, "coordinate system")
+    place = numpy.array([card.real(i + k, default=0.0) for k in (1, 2, 3)])
+    if number in reader.curved:
+        if reader.curved[number].name == "CORD2S":
+            refuse(card.place, f"places in the system {number}, CORD2S, are not read")
+        angle = numpy.radians(place[1])
+        place = numpy.array([place[0] * numpy.cos(angle), place[0] * numpy.sin(angle), place[2]])
+    return origin + place @ axes
+
+
+def vector_of(reader, card, system, first):
+    """A direction in a system of coordinates, in space."""
+    _, axes = find_system(reader, card, system)
+    return numpy.array([card.real(first + k, default=0.0) for k in range(3)]) @ axes
+
+
+def read_nodes(reader):
+    reader.axes = {}  # rows of the system of a node's degrees of freedom
+    reader.held = {}  # by the cards of the nodes
+    for card in reader.cards("GRID"):
+        number = reader.unique(reader.model.nodes, card, "node")
+        reader.model.nodes[number] = _position(reader, card, 2)
+        if card.integer(6, default=0) > 0:
+            reader.axes[number] = _axes_at(reader, reader.model.nodes[number], card, 6)
+        if card.text(7).strip("0"):
+            reader.held[number] = (card.text(7), card)
+    if not reader.model.nodes:
+        refuse(reader.deck.cards[0].place if reader.deck.cards else reader.path, "the file has no GRID")
+
+
+def _axes_at(reader, position, card, i):
+    number = card.integer(i)
+    origin, axes = reader.find(reader.systems, number, card, "coordinate system")
+    if number not in reader.curved:
+        return axes
+    if reader.curved[number].name == "CORD2S":
+        refuse(card.place, f"directions in the system {number}, CORD2S, are not read")
+    return cylinder_axes(origin, axes[2], position, card.place)
