@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks that the documentation has not drifted from the code.
 
+- Formulas in $$ stand between empty lines: others are not drawn on the site.
 - Links between pages, also to headings, and paths in `code`, lead somewhere.
 - The table of packages in doc/developer/architecture.md says what their CMakeLists.txt say.
 - CHANGELOG.md knows the version, and that of the format of decks.
@@ -54,6 +55,15 @@ def check_page(page):
             continue
         if not exists(ROOT, name.rstrip("/.,")):
             yield f"{place}: there is no '{name}'"
+
+
+def check_formulas(page):
+    """Those of doc, of which tools/site makes pages."""
+    text = re.sub(r"^```.*?^```", lambda code: re.sub(r"[^\n]", " ", code[0]), page.read_text(), flags=re.M | re.S)
+    for found in re.finditer(r"\$\$.+?\$\$", text, re.S):
+        before, after = text[: found.start()], text[found.end() :]
+        if not re.search(r"\n[ \t]*\n[ \t]*$", before) or not re.match(r"[ \t]*\n([ \t]*\n|$)", after):
+            yield f"{page.relative_to(ROOT)}:{before.count(chr(10)) + 1}: the formula does not stand between empty lines"
 
 
 def check_packages():
@@ -124,6 +134,8 @@ def main():
     for page in pages():
         count += 1
         errors += check_page(page)
+        if page.is_relative_to(DOC):
+            errors += check_formulas(page)
     errors += check_packages()
     errors += check_sources()
     errors += check_changes()
