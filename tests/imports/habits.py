@@ -73,6 +73,11 @@ def cdb(lines):
     return made_of_text("ansys", CDB + lines + "SOLVE\nFINISH\n", "model.cdb")
 
 
+def case_control(solution, cases, cards):
+    text = BDF.format("PSHELL,1,1,.1,1,,1\n" + SQUARE + cards)
+    return made_of_text("nastran", text.replace("SOL 101", f"SOL {solution}").replace("LOAD=2\n", cases), "model.bdf")
+
+
 def node_force(made, step=0):
     return sum(len(load.nodes) * load.vector for load in made.made.node_loads if step in load.steps)
 
@@ -110,6 +115,8 @@ def of_abaqus():
     yield "supports along a cylinder", any(numpy.allclose(x, [[0.5**0.5, 0.5**0.5, 0]]) for x in directions(turned))
     yield "gravities add up, by direction", numpy.allclose(one(pulled, "gravity").value, [5, 0, -9.81])
     yield "what is moved anew is moved once", at_3 == {0: [0.01], 1: [0.02]}
+    again = made_of_text("abaqus", INP + STEP.format("*cload\n3,1,10\n") + STEP.format("*cload\n3,2,4\n").replace("*step", "*step,perturbation"))
+    yield "a static perturbation is told", any("PERTURBATION" in text for text in again.findings.assumed)
     yield "a density of a section is told", "DENSITY of *SHELL SECTION" in inp(
         "", base=INP.replace("e,material", "e,density=3,material")
     ).findings.left_out
@@ -131,6 +138,16 @@ def of_nastran():
     yield "arms to a beam beside its nodes", numpy.allclose(rod.made.nodes[arm.followers[0]] - rod.made.nodes[arm.reference], [0, 0, 0.2])
     yield "a load along a line", numpy.allclose(one(rod, "line").value, [0, 0, 5])
     yield "shear of PBEAM", numpy.isclose(shearing.made.sections["beam 1"].values["GA1"], 0.5 * G * 0.01)
+    prestressed = case_control("103", "SUBCASE 1\nLOAD=2\nSUBCASE 2\nSTATSUB=1\nMETHOD=4\n", "EIGRL,4,,,5\n")
+    steps = [(step.kind, step.preloaded) for step in prestressed.made.steps]
+    yield "modes of a loaded structure", steps == [("static", None), ("modal", "case 1")]
+    short = case_control("105", "SUBC 1\nLOAD=2\nSUBC 2\nMETH=4\n", "EIGRL,4,,,5\n")
+    yield "names that are cut", [step.kind for step in short.made.steps] == ["static", "buckling"]
+    combined = case_control("101", "TEMP(LOAD)=5\nSUBCASE 1\nLOAD=2\nSUBCOM 3\nSUBSEQ=2.\n", "PARAM,INREL,-1\n")
+    told = " ".join(combined.findings.left_out)
+    yield "combined cases, heat and forces of inertia are told", all(word in told for word in ("SUBCOM", "TEMPERATURE", "INREL"))
+    alone = case_control("101", "SUBCASE 1\nLOAD=2\nSUBCASE 2\nDEFORM=7\n", "")
+    yield "a case without loads is told", {"a case without LOAD", "DEFORM of the case control"} <= set(alone.findings.left_out)
     yield "thicknesses of an element and a membrane are told", {"field 10 of CQUAD4"} < set(membrane.findings.left_out)
 
 
@@ -143,6 +160,8 @@ def of_ansys():
     # the beam lies along x, z of its section is up
     yield "a load along a line", numpy.allclose(one(turned, "line").value, [0, 0, -4])
     yield "a modulus that depends on temperature is told", "field 4 of MP" in turned.findings.left_out
+    modes = cdb("ANTYPE,2\nPSTRES,ON\n")
+    yield "prestress of modes is told", any("PSTRES" in text for text in modes.findings.left_out)
     yield "the first of two analyses is told", any("static analysis before" in text for text in both.findings.left_out)
 
 
@@ -157,6 +176,7 @@ REFUSED = {
     "a line of another card": ("nastran", BDF.format("PCOMP   1" + " " * 63 + "+A\n+B      1       .1      0.\n"), "calls its next line 'A'"),
     "more values than a line has": ("nastran", BDF.format("SPC1,1,123,1,2,3,4,5,6,7,8\n"), "more than 8 values"),
     "layers that do not bend": ("nastran", BDF.format("PCOMP,1,,,,,,,MEM\n,1,.1,0.\n" + SQUARE), "LAM = MEM"),
+    "nodes in a system of their own": ("ansys", CDB + "LOCAL,11,0,1,1,1\nCSYS,11\nN,9,1,1,1\n", "N in the coordinate system 11"),
     "directions on a cylinder": (
         "ansys",
         CDB.replace("        1        1        1        1        0        0", "        1        1        1        1        9        0")

@@ -319,6 +319,9 @@ def _make_steps(reader, kept):
         preloaded = None
         if step.kind != "static" and before is not None and (step.perturbation or before.nonlinear):
             preloaded = before.name
+        if step.kind == "static" and step.perturbation and before is not None:
+            text = "a static PERTURBATION step gives the whole state, under all loads that act, not its part of it"
+            reader.findings.assume(text, step.place)
         if step.kind == "buckling" and preloaded:
             reader.findings.leave_out("the static step before *BUCKLE: factors are those of the load of the step alone", step.place)
             preloaded = None

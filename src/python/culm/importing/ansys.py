@@ -4,7 +4,7 @@ import collections
 
 import numpy
 
-from .ansys_analysis import read_count, read_kind, read_large, read_solution, read_title
+from .ansys_analysis import read_count, read_kind, read_large, read_prestress, read_solution, read_title
 from .ansys_elements import make_elements
 from .ansys_file import read_commands
 from .ansys_loads import make_loads, read_force, read_gravity, read_pressure, read_support
@@ -12,6 +12,7 @@ from .ansys_nodes import (
     modify_element,
     read_component,
     read_elements,
+    read_active,
     read_node,
     read_nodes,
     read_system,
@@ -40,9 +41,9 @@ FILE = "archive, .cdb"
 SILENT = {
     "*DIM", "*ELSE", "*ENDIF", "*GET", "*IF", "*PREAD", "*SET", "END PREAD", "/BATCH", "/COM", "/CONFIG", "/EOF", "/GO", "/GOLIST",
     "/GOPR", "/GST", "/NOLIST", "/NOPR", "/POST1", "/PREP7", "/SOLU", "/UNITS", "/WB", "/XML", "/NERR", "/VIEW", "/ANG", "/CLEAR",
-    "AUTOTS", "CDWRITE", "CEWRITE", "CM", "CNTR", "CNVTOL", "CSYS", "DMPOPT", "DMPOPTION", "DOF", "EMUNIT", "EQSL", "EQSLV", "ERESX",
+    "AUTOTS", "CDWRITE", "CEWRITE", "CM", "CNTR", "CNVTOL", "DMPOPT", "DMPOPTION", "DOF", "EMUNIT", "EQSL", "EQSLV", "ERESX",
     "ETCON", "EXTOPT", "FINI", "FINISH", "IRLF", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
-    "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "PSTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
+    "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
     "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "BFUNIF", "MPDELE", "TBDELE",
     "SECFUNCTION", "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
     "CRPLIM", "TRNOPT", "RATE", "UIMP", "BUCOPT",
@@ -57,8 +58,8 @@ ACTIONS = {
     "KEYOPT": read_key, "KEYOP": read_key, "KEYO": read_key, "R": read_constants, "RLBLOCK": read_constants_block, "MP": read_property,
     "MPDATA": read_property_data, "SECTYPE": read_section_type, "SECDATA": read_section_data,
     "SECBLOCK": read_section_block, "SECOFFSET": read_section_offset, "SECOFF": read_section_offset,
-    "LOCAL": read_system, "D": read_support, "F": read_force, "SFE": read_pressure, "ACEL": read_gravity,
-    "ANTYPE": read_kind, "NLGEOM": read_large, "MODOPT": read_count, "BUCOPT": read_count,
+    "LOCAL": read_system, "CSYS": read_active, "D": read_support, "F": read_force, "SFE": read_pressure, "ACEL": read_gravity,
+    "ANTYPE": read_kind, "NLGEOM": read_large, "PSTRES": read_prestress, "MODOPT": read_count, "BUCOPT": read_count,
     "/TITLE": read_title, "TB": read_table, "CMBLOCK": read_component, "CMSEL": select_component,
     "SOLVE": read_solution, "LSWRITE": read_solution,
     "NSEL": select_nodes, "ALLSEL": select_nodes, "EMOD": modify_element, "EMODIF": modify_element,
@@ -89,6 +90,7 @@ class Reader:
         self.sections = {}
         self.systems = {0: numpy.eye(3)}
         self.curved = set()  # systems that are not Cartesian
+        self.active = "0"  # the system in which N counts
         self.axes = {}  # rows of the systems of nodes that are turned
         self.current = None  # the section that SECDATA adds to
         self.components = {}  # name -> nodes or elements
@@ -101,6 +103,7 @@ class Reader:
         self.pressures = {}  # (element, face) -> the command that stands
         self.gravity = numpy.zeros(3)
         self.kind, self.modes, self.nonlinear = None, 10, False
+        self.prestress = None  # the command PSTRES,ON
         self.solutions = 0  # SOLVE, or LSWRITE
         self.kind_place = self.commands[0].place if self.commands else None
 

@@ -16,6 +16,10 @@ def read_large(reader, command):
     reader.nonlinear = command.text(1).upper() in ("ON", "1")
 
 
+def read_prestress(reader, command):
+    reader.prestress = command if command.text(1).upper() in ("ON", "1", "YES") else None
+
+
 def read_count(reader, command):
     if command.text(2):
         reader.modes = min(max(command.integer(2, "the number of modes"), 1), 100000)

@@ -61,6 +61,8 @@ def make_loads(reader):
     reader.model.steps.append(Step(name, name, reader.kind_place, reader.modes, reader.nonlinear))
     if name == "static" and not reader.nonlinear:
         reader.findings.assume("a linear static step becomes a nonlinear one, which agrees where displacements are small")
+    if name == "modal" and reader.prestress:
+        reader.findings.leave_out("PSTRES: modes are those of the unloaded structure", reader.prestress.place)
     if name == "modal":
         if reader.forces or reader.pressures or reader.gravity.any():
             reader.findings.leave_out("loads: modes are those of the unloaded structure")

@@ -17,7 +17,13 @@ def read_nodes(reader, command):
 def read_node(reader, command):
     if command.text(1).upper().startswith("R"):
         return  # the end of a block
+    if reader.active != "0":
+        refuse(command.place, f"N in the coordinate system {reader.active} is not read: only 0 is")
     _add_node(reader, command.integer(1), [command.text(i) for i in range(2, 8)], command.place)
+
+
+def read_active(reader, command):
+    reader.active = command.text(1) or "0"
 
 
 def _add_node(reader, number_, cells, place):

@@ -118,3 +118,5 @@ class Reader:
             if card.text(1).upper() == "WTMASS":
                 self.masses_by = card.real(2, "a factor")
                 self.findings.assume(f"masses are those of the file times WTMASS = {self.masses_by:g}", card.place)
+            if card.text(1).upper() == "INREL" and card.text(2).strip("0"):
+                self.findings.leave_out("PARAM INREL: forces of inertia that balance the loads", card.place)

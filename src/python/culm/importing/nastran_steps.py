@@ -11,6 +11,14 @@ SOLUTIONS = {"SESTATIC": STATIC, "STATIC": STATIC, "STATICS": STATIC, "MODES": M
              "BUCKLING": BUCKLING, "SEBUCKL": BUCKLING, "NLSTATIC": NONLINEAR}  # fmt: skip
 
 
+READ = ("LOAD", "SPC", "METHOD", "STATSUB", "MPC", "TEMPERATURE")
+# What acts and is not read; requests of output do not.
+ACTING = (
+    "DEFORM", "SUBCOM", "SUBSEQ", "SYM", "SYMCOM", "SYMSEQ", "REPCASE", "K2GG", "M2GG", "B2GG", "P2G", "NSM", "SUPORT1",
+    "BCONTACT",
+)  # fmt: skip
+
+
 def read_steps(reader):
     solution, cases = _case_control(reader)
     if not cases:
@@ -34,31 +42,52 @@ def _case_control(reader):
     """The number of the solution, and the cases that are done, with what all have in common."""
     solution, common, cases = None, {}, []
     for place, text in reader.deck.control:
+        word = re.match(r"\w*", text)[0].upper()
+        command = next((name for name in READ + ACTING if _means(word, name)), None)
         if found := re.match(r"SOL\s+(\w+)", text, re.I):
             solution = SOLUTIONS.get(found[1].upper(), found[1])
             if solution not in (STATIC, MODAL, BUCKLING, NONLINEAR):
                 reader.findings.leave_out(f"SOL {found[1]}", place)
-        elif found := re.match(r"SUBCASE\s+(\d+)", text, re.I):
+        elif _means(word, "SUBCASE") and (found := re.match(r"\w+\s*=?\s*(\d+)", text)):
             cases.append({**common, "NUMBER": found[1], "PLACE": place})
-        elif found := re.match(r"(LOAD|SPC|METHOD|STATSUB|MPC|TEMPERATURE)(\(\w+\))?\s*=\s*(\d+)", text, re.I):
-            (cases[-1] if cases else common)[found[1].upper()] = found[3]
-            if found[1].upper() in ("MPC", "TEMPERATURE"):
-                reader.findings.leave_out(found[1].upper(), place)
+        elif command in ACTING:
+            reader.findings.leave_out(f"{command} of the case control", place)
+        elif command and (found := re.match(r"\w+\s*(\([\w, ]+\))?\s*=\s*(\d+)", text)):
+            (cases[-1] if cases else common)[command] = found[2]
+            if command in ("MPC", "TEMPERATURE"):
+                reader.findings.leave_out(command, place)
         elif found := re.match(r"TITLE\s*=\s*(.*)", text, re.I):
             reader.model.title = found[1] or reader.model.title
     if not cases and reader.deck.control and common:
         cases = [{**common, "NUMBER": "1", "PLACE": reader.deck.control[0][0]}]
     if solution not in (STATIC, MODAL, BUCKLING, NONLINEAR):
         return solution, []
-    return solution, [case for case in cases if "LOAD" in case or "METHOD" in case or solution == MODAL]
+    done = [case for case in cases if "LOAD" in case or "METHOD" in case or solution == MODAL]
+    for case in cases:
+        if case not in done:
+            reader.findings.leave_out("a case without LOAD", case["PLACE"])
+    return solution, done
+
+
+def _means(word, name):
+    """Names may be cut after their fourth letter."""
+    return name.startswith(word) and len(word) >= min(4, len(name))
 
 
 def _add_steps(reader, solution, cases):
+    preloads = {case["STATSUB"] for case in cases if "STATSUB" in case} if solution == MODAL else set()
+    numbers = {case["NUMBER"] for case in cases}
     for case in cases:
         name, place = f"case {case['NUMBER']}", case["PLACE"]
-        if solution == MODAL or (solution == BUCKLING and "METHOD" in case):
+        is_preload = case["NUMBER"] in preloads
+        if (solution == MODAL and not is_preload) or (solution == BUCKLING and "METHOD" in case):
             kind = "modal" if solution == MODAL else "buckling"
-            reader.model.steps.append(Step(name, kind, place, _modes(reader, case)))
+            step = Step(name, kind, place, _modes(reader, case))
+            if kind == "modal" and "STATSUB" in case:
+                if case["STATSUB"] not in numbers:
+                    refuse(place, f"there is no case {case['STATSUB']} that STATSUB names")
+                step.preloaded = f"case {case['STATSUB']}"
+            reader.model.steps.append(step)
             if kind == "buckling" and "LOAD" not in case:
                 before = [one for one in cases if "LOAD" in one and "METHOD" not in one]
                 chosen = [one for one in before if one["NUMBER"] == case.get("STATSUB", one["NUMBER"])]
@@ -67,7 +96,7 @@ def _add_steps(reader, solution, cases):
                 case["LOAD"] = chosen[0]["LOAD"]
         else:
             reader.model.steps.append(Step(name, "static", place, nonlinear=solution == NONLINEAR))
-    if solution in (STATIC, BUCKLING) and any(step.kind == "static" for step in reader.model.steps):
+    if solution != NONLINEAR and any(step.kind == "static" for step in reader.model.steps):
         reader.findings.assume("linear static cases become nonlinear ones, which agree where displacements are small")
 
 
