@@ -72,6 +72,21 @@ def replaces_nothing(program, complaints):
         complaints.append(f"a second import: exit {second.returncode}, {second.stderr}")
 
 
+def stops_quietly(program, complaints):
+    """Where nobody reads what it prints, as behind `| head`; the deck is there."""
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "sample.inp").write_text(FRAME)
+        read, write = os.pipe()
+        os.close(read)
+        environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        command = [program, "import", "abaqus", "sample.inp"]
+        done = subprocess.run(command, cwd=folder, stdout=write, stderr=subprocess.PIPE, text=True, env=environment)
+        os.close(write)
+        is_there = (pathlib.Path(folder) / "sample.xml").exists()
+    if done.returncode != 0 or "Traceback" in done.stderr or not is_there:
+        complaints.append(f"a closed pipe: exit {done.returncode}, deck {is_there}, {done.stderr}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True)
@@ -81,6 +96,7 @@ def main():
         refused(name, change, code, words, complaints)
     leaves_nothing(program, complaints)
     replaces_nothing(program, complaints)
+    stops_quietly(program, complaints)
     unknown = imported(program, ".", "abacus", "x.inp")
     if unknown.returncode != 2 or "abaqus" not in unknown.stderr:
         complaints.append(f"an unknown format: exit {unknown.returncode}, {unknown.stderr}")

@@ -13,6 +13,7 @@ import tempfile
 
 import numpy
 import turbine_samples as samples
+import yaml
 from reading import made_of_text
 from culm.program import Program
 
@@ -54,6 +55,15 @@ def windio_is_whole(complaints):
         complaints.append(f"the blade weighs {made.mass}, not {mass}")
     if not numpy.allclose(values(curve_of(made, "blade")["Pre-Twist"]), [-0.25, -0.1, 0.02]):
         complaints.append("the twist turns about -z")
+
+
+def windio_tells_its_masses(complaints):
+    """Those at one place that are not read."""
+    root = yaml.safe_load(samples.windio())
+    root["components"]["blade"]["joint"] = {"position": 0.5, "mass": 3000.0}
+    told = made_of_text("windio", yaml.safe_dump(root, sort_keys=False), "turbine.yaml").findings.left_out
+    if "joint of the blade: 3000.0 kg" not in told:
+        complaints.append(f"the mass of a joint is not told: {list(told)}")
 
 
 def both_forms_of_windio_are_alike(complaints):
@@ -151,6 +161,7 @@ def main():
     complaints = []
     windio_is_whole(complaints)
     both_forms_of_windio_are_alike(complaints)
+    windio_tells_its_masses(complaints)
     hawc2_finds_its_files(complaints)
     tower_weighs(program, complaints)
     hawc2_has_its_centres(complaints)

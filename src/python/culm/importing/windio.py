@@ -169,8 +169,18 @@ def _blade(root, parts, path, findings):
     findings.read["form"] = "windIO 2" if is_new else "windIO 1"
     findings.read["blade"] = f"{len(stations)} stations, {length:.6g} m, {weight:.6g} kg"
     findings.assume("axes and twist are those of BeamDyn: x to the suction side, z to the tip, twist about -z")
+    _tell_masses(blade, "blade", ("joint",), findings)
     findings.leave_out("everything of the turbine but the blade")
     return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
+
+
+def _tell_masses(part, name, keys, findings):
+    """What weighs at one place and is not read."""
+    for key in keys:
+        value = part.get(key)
+        mass = value.get("mass") if isinstance(value, dict) else value
+        if mass:
+            findings.leave_out(f"{key} of the {name}: {str(mass)[:20]} kg")
 
 
 def _material(root, name, path):
@@ -203,6 +213,9 @@ def _tower(root, parts, path, findings):
         if isinstance(extra, (int, float)) and 0.0 < extra < 1e12:
             deck.lists["Masses"].list("transition piece", type="Point Mass").add("Node", "tower/first").add("Mass", float(extra))
             deck.mass += extra
+        elif extra:
+            _tell_masses(parts["monopile"], "monopile", ("transition_piece_mass",), findings)
+        _tell_masses(parts["monopile"], "monopile", ("gravity_foundation_mass",), findings)
     deck.clamp(f"{below or 'tower'}/first", "the foot: put springs of the soil in its place")
     findings.leave_out("nacelle and rotor, the soil and the water")
     return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
