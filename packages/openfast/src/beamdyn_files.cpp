@@ -93,7 +93,7 @@ void read_damping(InputFile& file, BeamDynBlade& blade, Report& report) {
     }
     std::copy_n(rows.front().values.begin(), 6, blade.damping.begin());
   } else if (type == 2) {
-    report.add(assumed, "damp_type 2, damping of modes, has no counterpart in culm: no damping");
+    report.add(assumed, "damp_type 2, damping of modes, has no counterpart in culm: no mu");
   } else if (type != 0) {
     throw InputError(file.where(keyword), fmt::format("must be 0, 1 or 2, got {}", type));
   }

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -498,9 +499,14 @@ void replace_blades(ElastoDyn& turbine, const std::vector<BeamDyn>& blades, Repo
   const double wanted = turbine.tip_radius - turbine.hub_radius;
   report.add(assumed,
              "blades: those of BeamDyn; what ElastoDyn's blade files say is left out but for "
-             "the mode shapes");
+             "the mode shapes, and the damping of blades that have none of their own");
   for (std::size_t i = 0; i < blades.size(); ++i) {
     turbine.blades[i].beam = blades[i];
+    const auto& damping = blades[i].blade.damping;
+    if (is_first_of_its_file(turbine, i) && damping == std::array<double, 6>{}) {
+      report.add(assumed, fmt::format("{}: without damping by mu it has that of ElastoDyn's blade",
+                                      blades[i].path.string()));
+    }
     const double length = BladeAxis(blades[i].key_points).curve.length();
     if (!is_first_of_its_file(turbine, i) || std::abs(length - wanted) <= 1e-3 * wanted) continue;
     report.add(unknown, fmt::format("{}: the blade is {:.6g} m long, TipRad - HubRad is {:.6g} m",
