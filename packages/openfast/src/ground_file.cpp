@@ -12,6 +12,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::openfast {
@@ -44,16 +45,21 @@ std::map<std::string, Entry> entries_of(Ground& ground) {
 
 void report_absent(const std::filesystem::path& path, const std::map<std::string, Entry>& entries,
                    Report& report) {
-  std::vector<std::string> absent;
+  std::vector<std::string> stiffness, mass;
   for (const auto& [key, entry] : entries) {
-    if (entry.line == 0) absent.push_back(entry.name);
+    if (entry.line == 0) (key.starts_with('k') ? stiffness : mass).push_back(entry.name);
   }
-  if (absent.size() == entries.size()) {
+  const std::size_t all = entries.size() / 2;
+  if (stiffness.size() == all && mass.size() == all) {
     throw InputError({path.string(), 0, ""},
                      "has no entry of a stiffness or a mass, such as '1e9 Kxx'");
   }
-  if (!absent.empty()) {
-    report.add(assumed, path.string() + ": zero, for they are not there: " + join(absent, ", "));
+  for (auto& [absent, what] : {std::pair(stiffness, "stiffness"), std::pair(mass, "mass")}) {
+    if (absent.empty()) continue;
+    report.add(assumed, path.string() + (absent.size() == all
+                                             ? fmt::format(": no {}", what)
+                                             : fmt::format(": {}: zero, for they are not there: {}",
+                                                           what, join(absent, ", "))));
   }
 }
 

@@ -271,6 +271,9 @@ TEST_F(ElastoDynFiles, TowersStandOnTheMembersOfSubDynInTheWaterOfHydroDyn) {
   EXPECT_THAT(imported.report, HasSubstr("member 2 of HydroDyn: 10 m of 10 m lie along no"));
   EXPECT_THAT(imported.report, HasSubstr("0.5 m between the foot of the tower and joint 13"));
   EXPECT_THAT(imported.report, Not(HasSubstr("not imported")));
+  write("ground.dat", ground_file);
+  write("jacket.dat", on_ground(subdyn_file));
+  EXPECT_THAT(import_file(path_of("scene.fst")).deck, HasSubstr("joint 12, ground"));
   // a second beam in the place of a leg
   write("jacket.dat",
         change(subdyn_file, " 6          15        12         2           2         1     -1",
