@@ -185,7 +185,7 @@ class Errors(StudyTest):
 
     def test_of_values(self):
         self.says("--target 2: must be between 0 and 1", "--vary", "step=1,2", "--target", "2")
-        self.says("--repeat 0: must be at least 1", "--vary", "step=1,2", "--repeat", "0")
+        self.says("argument --repeat: needs a whole number from 1 on, got '0'", "--vary", "step=1,2", "--repeat", "0")
 
     def test_of_values_that_the_deck_refuses(self):
         errors = self.study(FLIGHT, "--vary", "scheme=Conserving,Verlet", exit_code=3)

@@ -130,6 +130,8 @@ class Errors(unittest.TestCase):
         self.says("step=1:2", "first:last")
         self.says("step=0:2*2", "positive ends")
         self.says("step=1:2*1", "other than 1")
+        self.says("step=1:1e999*2", "positive ends")
+        self.says("step=1e-300:1e300*2", "positive ends")
 
     def test_endless_range(self):
         self.says("step=1:1e9*1.01", "more than 64")

@@ -12,8 +12,15 @@ from .commands import PYTHON_VERBS, explain_unknown_word, module_of
 from .errors import CulmError
 
 
+class Parser(argparse.ArgumentParser):
+    """Its errors are one line."""
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
 def main():
-    parser = argparse.ArgumentParser(prog="culm")
+    parser = Parser(prog="culm")
     verbs = parser.add_subparsers(dest="verb", required=True)
     for name in PYTHON_VERBS:
         module = module_of(name)

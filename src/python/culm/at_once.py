@@ -7,9 +7,11 @@ import argparse
 import concurrent.futures
 import re
 
+from .option_types import at_least_one
+
 
 def declare_jobs(parser, what):
-    parser.add_argument("--jobs", type=_at_least_one, default=1, metavar="N", help=f"{what} at once; 1 if not given")
+    parser.add_argument("--jobs", type=at_least_one, default=1, metavar="N", help=f"{what} at once; 1 if not given")
 
 
 def declare_part(parser, what):
@@ -40,12 +42,6 @@ def at_once(work, cases, jobs):
         finally:
             for future in futures:
                 future.cancel()
-
-
-def _at_least_one(text):
-    if not re.fullmatch(r"[1-9]\d*", text):
-        raise argparse.ArgumentTypeError(f"needs a whole number from 1 on, got '{text}'")
-    return int(text)
 
 
 def _part(text):

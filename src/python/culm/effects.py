@@ -8,6 +8,7 @@ from . import effects_table, quantities, removals
 from .at_once import at_once, declare_jobs
 from .errors import CulmError
 from .footnotes import Footnotes
+from .option_types import positive
 from .page import Page
 from .resolved_deck import ResolvedDeck
 
@@ -36,7 +37,7 @@ def declare(parser):
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", dest="settings")
     parser.add_argument("--watch", nargs="+", metavar="QUANTITY", help="entries of the history; all by default")
     parser.add_argument("--norm", choices=quantities.NORMS, default="rms", help="of changes of histories")
-    parser.add_argument("--accuracy", type=float, default=0.01, help="change that matters; 0.01 by default")
+    parser.add_argument("--accuracy", type=positive, default=0.01, help="change that matters; 0.01 by default")
     parser.add_argument("--only", nargs="+", metavar="EFFECT", help="effects to take away; all by default")
     declare_jobs(parser, "runs without an effect")
     parser.add_argument("--output", type=pathlib.Path, help="folder; effects/<name of the deck> by default")

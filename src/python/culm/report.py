@@ -8,6 +8,7 @@ from . import effects_table, statistics, stresses
 from .errors import CulmError
 from .history import History, quantity_of
 from .mode_names import name_modes
+from .option_types import finite
 from .page import Page
 from .results import Results
 
@@ -21,13 +22,15 @@ def declare(parser):
         "--output", type=pathlib.Path, help="page to write; report.html in the folder if not given"
     )
     parser.add_argument(
-        "--window", type=float, nargs=2, metavar=("BEGIN", "END"), help="times of statistics [s]; all of each motion if not given"
+        "--window", type=finite, nargs=2, metavar=("BEGIN", "END"), help="times of statistics [s]; all of each motion if not given"
     )
     parser.add_argument("--quiet", action="store_true", help="do not name the page")
 
 
 def main(arguments, program):
     del program  # what is drawn stands in the files
+    if arguments.window and not arguments.window[0] < arguments.window[1]:
+        raise CulmError("--window {:g} {:g}: must end after its beginning".format(*arguments.window))
     path = arguments.folder / "run.h5"
     if not path.exists():
         raise CulmError(f"there is no run.h5 in '{arguments.folder}'", 6)

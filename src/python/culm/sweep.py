@@ -7,6 +7,7 @@ import pathlib
 from . import quantities
 from .at_once import declare_jobs, declare_part, share
 from .errors import CulmError
+from .option_types import positive
 from .program import DONE
 from .resolved_deck import ResolvedDeck
 from .results import Results
@@ -34,7 +35,7 @@ def declare(parser):
     declare_part(parser, "runs")
     parser.add_argument("--collect", action="store_true", help="run nothing: write what was run")
     parser.add_argument(
-        "--time-limit", type=float, metavar="S", help="after which a run counts as failed"
+        "--time-limit", type=positive, metavar="S", help="after which a run counts as failed"
     )
     parser.add_argument(
         "--output", type=pathlib.Path, help="folder; sweeps/<name of the deck> if not given"

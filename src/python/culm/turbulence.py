@@ -12,6 +12,8 @@ import struct
 
 import numpy as np
 
+from .option_types import finite, positive
+
 # of the components along, across and upwards, in deviations and scales of length of the first
 DEVIATIONS = (1.0, 0.8, 0.5)
 LENGTHS = (8.1, 2.7, 0.66)
@@ -77,22 +79,21 @@ def write(path, velocities, arguments):
 def parser():
     result = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     result.add_argument("file")
-    result.add_argument("--speed", type=float, required=True, help="mean wind [m/s]")
-    result.add_argument("--deviation", type=float, required=True, help="standard deviation along the wind [m/s]")
-    result.add_argument("--height", type=float, required=True, help="of the middle of the box above the ground [m]")
-    result.add_argument("--size", type=float, nargs=2, required=True, help="across and upwards [m]")
+    result.add_argument("--speed", type=positive, required=True, help="mean wind [m/s]")
+    result.add_argument("--deviation", type=finite, required=True, help="standard deviation along the wind [m/s]")
+    result.add_argument("--height", type=positive, required=True, help="of the middle of the box above the ground [m]")
+    result.add_argument("--size", type=positive, nargs=2, required=True, help="across and upwards [m]")
     result.add_argument("--points", type=int, nargs=2, required=True, help="across and upwards")
-    result.add_argument("--duration", type=float, default=600.0, help="[s]")
-    result.add_argument("--step", type=float, default=0.1, help="of time [s]")
+    result.add_argument("--duration", type=positive, default=600.0, help="[s]")
+    result.add_argument("--step", type=positive, default=0.1, help="of time [s]")
     result.add_argument("--seed", type=int, default=1)
     return result
 
 
 def main():
     arguments = parser().parse_args()
-    positive = (arguments.speed, arguments.height, arguments.step, arguments.duration, *arguments.size)
-    if min(positive) <= 0.0 or arguments.deviation < 0.0 or min(arguments.points) < 2:
-        parser().error("sizes, speeds and times must be positive, points at least 2")
+    if arguments.deviation < 0.0 or min(arguments.points) < 2:
+        parser().error("the deviation must not be negative, points must be at least 2")
     velocities = fluctuations(arguments)
     velocities[..., 0] += arguments.speed
     write(arguments.file, velocities, arguments)

@@ -6,6 +6,7 @@ import tempfile
 
 from ..at_once import at_once, declare_jobs, declare_part, share
 from ..errors import CulmError
+from ..option_types import positive
 from . import margins
 from .case import KEYS
 
@@ -32,7 +33,7 @@ def declare(parser):
         "--output", type=pathlib.Path, metavar="FOLDER", help="keep the results of all runs there"
     )
     parser.add_argument(
-        "--time-limit", type=float, default=120.0, metavar="S", help="of each run [s]; default 120"
+        "--time-limit", type=positive, default=120.0, metavar="S", help="of each run [s]; default 120"
     )
 
 

@@ -2,6 +2,7 @@
 
 import collections
 
+from ..option_types import positive
 from .findings import Place, refuse
 from .gmsh_file import LINES, POINT, SURFACES, read_mesh
 from .model import Layer, Material, Model, ShellElement, Step, Wall
@@ -10,7 +11,7 @@ FILE = "mesh, .msh"
 
 
 def declare(parser):
-    parser.add_argument("--thickness", type=float, default=0.01, help="of the shell [m]; 0.01 if not given")
+    parser.add_argument("--thickness", type=positive, default=0.01, help="of the shell [m]; 0.01 if not given")
 
 
 def read(path, arguments):

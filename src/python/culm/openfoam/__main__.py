@@ -12,6 +12,7 @@ import sys
 import threading
 
 from ..errors import CulmError
+from ..option_types import positive
 from .case import Case
 from .coupling import Coupling
 from .flow import Flow
@@ -30,7 +31,7 @@ def parse():
     parser.add_argument("--analysis", default="", help="that makes the steps; the first one if absent")
     parser.add_argument("--command", help="the flow program; 'application' of controlDict if absent")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("results"), metavar="FOLDER")
-    parser.add_argument("--patience", type=float, default=600.0, metavar="SECONDS",
+    parser.add_argument("--patience", type=positive, default=600.0, metavar="SECONDS",
                         help="how long the flow program may work on a step (default: %(default)g)")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
                         help="overrides a value of the deck")

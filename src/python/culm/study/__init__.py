@@ -9,6 +9,7 @@ from .. import quantities
 from ..at_once import declare_jobs
 from ..errors import CulmError
 from ..history import History
+from ..option_types import at_least_one, positive
 from ..resolved_deck import ResolvedDeck
 from . import advice, variation
 from .judgement import Judgement, Plan
@@ -42,11 +43,11 @@ def declare(parser):
         "--truth", nargs="+", default=[], metavar="NAME=VALUE", help="compared values that the reference has"
     )
     parser.add_argument(
-        "--repeat", type=int, default=3, help="times each run is timed; 3 if not given"
+        "--repeat", type=at_least_one, default=3, help="times each run is timed; 3 if not given"
     )
     declare_jobs(parser, "reference runs, which are not timed,")
     parser.add_argument(
-        "--time-limit", type=float, metavar="S", help="after which a run counts as failed"
+        "--time-limit", type=positive, metavar="S", help="after which a run counts as failed"
     )
     parser.add_argument(
         "--target", type=float, metavar="ERROR", help="write the deck that reaches it most cheaply"
@@ -73,8 +74,6 @@ def main(arguments, program):
 
 
 def _check(arguments):
-    if arguments.repeat < 1:
-        raise CulmError(f"--repeat {arguments.repeat}: must be at least 1")
     if not 0 <= arguments.finer <= 3:
         raise CulmError(f"--finer {arguments.finer}: must be from 0 to 3")
     if arguments.target is not None and not 0.0 < arguments.target < 1.0:

@@ -279,7 +279,7 @@ def _range(text, first, last, sign, by):
     start, end, factor = float(first), float(last), float(by)
     if sign == "/":
         factor = 1.0 / factor if factor > 0.0 else 0.0
-    if start <= 0.0 or end <= 0.0 or factor <= 0.0 or factor == 1.0:
+    if start <= 0.0 or not 0.0 < end / start < math.inf or not 0.0 < factor < math.inf or factor == 1.0:
         raise CulmError(f"--vary {text}: a range has positive ends and a positive factor other than 1")
     steps = math.log(end / start) / math.log(factor)
     if steps < -1e-9:

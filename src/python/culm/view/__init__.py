@@ -3,6 +3,7 @@
 import pathlib
 
 from ..errors import CulmError
+from ..option_types import at_least_one
 from . import page_file
 from .recording import Recording
 from .scene import scene_of
@@ -22,7 +23,7 @@ def declare(parser):
         "--up", choices=("x", "y", "z"), help="axis that points up; found from gravity or the model if not given"
     )
     parser.add_argument(
-        "--states", type=int, default=MOST_STATES, help=f"most states to show; {MOST_STATES} if not given"
+        "--states", type=at_least_one, default=MOST_STATES, help=f"most states to show; {MOST_STATES} if not given"
     )
     parser.add_argument(
         "--unsolved", action="store_true", help="the file is that of a model, by culm check --view"
@@ -32,8 +33,6 @@ def declare(parser):
 
 def main(arguments, program):
     del program  # what is shown stands in the files
-    if arguments.states < 1:
-        raise CulmError(f"--states must be at least 1, got {arguments.states}")
     with Recording(arguments.run) as run:
         scene = scene_of(run, arguments.states, up=arguments.up)
         if arguments.unsolved:
