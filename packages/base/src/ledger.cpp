@@ -52,10 +52,12 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
 }  // namespace
 
 Ledger::Id Ledger::add(Entry entry) {
-  const auto same = std::ranges::find(entries_, entry.name, &Entry::name);
-  if (!entry.items && same != entries_.end()) {
-    same->unknowns = entry.unknowns;
-    return static_cast<Id>(same - entries_.begin());
+  if (!entry.items) {
+    const auto same = std::ranges::find(entries_, entry.name, &Entry::name);
+    if (same != entries_.end()) {
+      same->unknowns = entry.unknowns;
+      return static_cast<Id>(same - entries_.begin());
+    }
   }
   entries_.push_back(std::move(entry));
   return static_cast<Id>(entries_.size()) - 1;

@@ -112,23 +112,24 @@ const Schema& chosen_schema(const Schema::Slot& slot, const Options& options) {
   return *slot.find(slot.by_type() ? options.text("Type") : std::string());
 }
 
-/// The given values, without defaults.
-ParameterList given_values(const Options& options) {
-  ParameterList list(options.name());
+/// The given values, without defaults. Lists are filled where they stand, because a copy copies all
+/// that is in them.
+void add_given_values(const Options& options, ParameterList& list) {
+  list.setName(options.name());
   for (const Options::Parameter& parameter : options.parameters()) {
     if (parameter.given && parameter.value) {
       list.setEntry(parameter.name, make_entry(*parameter.value));
     }
   }
   for (const auto* lists : {&options.lists(), &options.entries()}) {
-    for (const Options& child : *lists) list.sublist(child.name()) = given_values(child);
+    for (const Options& child : *lists) add_given_values(child, list.sublist(child.name()));
   }
-  return list;
 }
 
 /// What the schema allows. Entries of the user and types that were chosen follow `options`.
-ParameterList valid_values(const Options& options, const Schema& schema, bool by_type) {
-  ParameterList list(options.name());
+void add_valid_values(const Options& options, const Schema& schema, bool by_type,
+                      ParameterList& list) {
+  list.setName(options.name());
   if (by_type) list.setEntry("Type", make_entry(options.text("Type")));
   for (const Field& field : schema.fields()) {
     // Teuchos would fill in whatever is valid; a parameter that may be absent stays absent.
@@ -141,10 +142,10 @@ ParameterList valid_values(const Options& options, const Schema& schema, bool by
   for (const auto* lists : {&options.lists(), &options.entries()}) {
     for (const Options& child : *lists) {
       const Schema::Slot& slot = *schema.find_slot(child.name());
-      list.sublist(child.name()) = valid_values(child, chosen_schema(slot, child), slot.by_type());
+      add_valid_values(child, chosen_schema(slot, child), slot.by_type(),
+                       list.sublist(child.name()));
     }
   }
-  return list;
 }
 
 template <class T>
@@ -180,8 +181,11 @@ std::string first_difference(const Options& options, const ParameterList& list) 
 
 std::string teuchos_objection(const Options& options, const Schema& schema) {
   try {
-    ParameterList list = given_values(options);
-    list.validateParametersAndSetDefaults(valid_values(options, schema, false));
+    ParameterList list;
+    add_given_values(options, list);
+    ParameterList valid;
+    add_valid_values(options, schema, false, valid);
+    list.validateParametersAndSetDefaults(valid);
     return first_difference(options, list);
   } catch (const std::exception& error) {
     return error.what();
