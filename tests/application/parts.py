@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""A slender model that is large enough for every rank to factor its own part: results agree with those of one
-rank, and a run that is stopped goes on, bit by bit on as many ranks, within rounding on others.
+"""Models that are large enough for all ranks to factor them together: results agree with those of one rank, and a
+run of a slender one, where each rank factors its own part, goes on after a stop, bit by bit on as many ranks, within
+rounding on others.
 
 usage: parts.py --culm PROGRAM --mpiexec PROGRAM
 """
@@ -16,6 +17,7 @@ import tempfile
 
 INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
 ELEMENTS = 4000  # 24 000 unknowns
+ACROSS = 60  # of a shell, 22 000 unknowns
 # The tangent of so many elements has a condition of 1e14; steps are converged to rounding of the forces.
 CLOSE = 1e-8
 
@@ -47,9 +49,11 @@ class Runs:
         return run.stdout
 
     def deck(self, ranks, output, *more, expect=0):
-        return self(ranks, "run", str(INPUTS / "beam/pendulum.xml"), "--output", output, "--set",
-                    f"Structures/beam/Curve/Elements={ELEMENTS}", "--set", "Analyses/motion/End Time=0.03", *more,
-                    expect=expect)
+        return self(ranks, "run", str(INPUTS / "beam/pendulum.xml"), "--output", output, "--set", f"N={ELEMENTS}",
+                    "--set", "Analyses/motion/End Time=0.03", *more, expect=expect)
+
+    def shell(self, ranks, output):
+        return self(ranks, "run", str(INPUTS / "shell/hypar.xml"), "--output", output, "--set", f"N={ACROSS}")
 
 
 def check(runs):
@@ -77,13 +81,25 @@ def check(runs):
         yield f"the run resumed on one rank differs by {found:.2e}, allowed {CLOSE}"
 
 
+def check_shell(runs):
+    alone, together = (runs.shell(ranks, f"shell {ranks}") for ranks in (1, 2))
+    for text in (alone, together):
+        if "linear solver: MUMPS, automatic" not in text:
+            yield f"the shell is not for MUMPS:\n{text}"
+    found = difference(*(history(runs.folder / f"shell {ranks}") for ranks in (1, 2)))
+    print(f"a shell on two ranks differs from one by {found:.1e}")
+    if found > CLOSE:
+        yield f"a shell on two ranks differs from one by {found:.2e}, allowed {CLOSE}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True)
     parser.add_argument("--mpiexec", default="mpiexec")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        complaints = list(check(Runs(options, pathlib.Path(folder))))
+        runs = Runs(options, pathlib.Path(folder))
+        complaints = [*check(runs), *check_shell(runs)]
     for complaint in complaints:
         print(complaint)
     return 1 if complaints else 0

@@ -2,6 +2,7 @@
 
 #include "mumps_solver.hpp"
 #include "one_factorisation.hpp"
+#include "one_rank_solver.hpp"
 #include "substructured_solver.hpp"
 
 #include <fmt/format.h>
@@ -37,14 +38,30 @@ ChosenSolver choose_iterative(const std::string& why,
           true, iterative_need * static_cast<double>(matrix->total_entries())};
 }
 
-// From here on ranks gain by factoring their own parts. Below, one rank factors all, which takes no
-// longer and gives the same digits on any number of ranks.
-constexpr std::size_t fewest_unknowns_of_parts = 20000;
+// From here on ranks gain by factoring together. Below, one rank factors all, which hardly takes
+// longer and gives the same digits on any number of ranks, and each time.
+constexpr std::size_t fewest_shared_unknowns = 20000;
+
+bool is_shared(const assembly::Matrix& matrix, const parallel::Comm& comm) {
+  return comm.size() > 1 && matrix.rows().total() >= fewest_shared_unknowns;
+}
 
 std::unique_ptr<LinearSolver> make_block_lu(const std::shared_ptr<const assembly::Matrix>& matrix,
                                             const parallel::Comm& comm) {
-  const bool in_parts = comm.size() > 1 && matrix->rows().total() >= fewest_unknowns_of_parts;
-  return in_parts ? make_substructured(matrix, comm) : make_rooted_block_lu(matrix, comm);
+  return is_shared(*matrix, comm) ? make_substructured(matrix, comm)
+                                  : make_rooted_block_lu(matrix, comm);
+}
+
+std::unique_ptr<LinearSolver> make_wide(const std::shared_ptr<const assembly::Matrix>& matrix,
+                                        Ordering ordering, const parallel::Comm& comm) {
+  const auto stored = assembly::tpetra(*matrix);
+  if (comm.size() == 1 || is_shared(*matrix, comm)) {
+    return make_mumps(stored, std::move(ordering), comm);
+  }
+  const auto alone = [&](const auto& whole, const parallel::Comm& one) {
+    return make_mumps(whole, std::move(ordering), one);
+  };
+  return make_one_rank_solver(stored, alone, comm);
 }
 
 using MakeSolver = std::unique_ptr<LinearSolver>(
@@ -59,7 +76,10 @@ ChosenSolver choose(const std::string& name, const std::shared_ptr<const assembl
   }
   if (name == "Block LU") return {make_slender(matrix, comm), "Block LU, as the deck says"};
   if (name == "KLU2") return {make_rooted_klu2(matrix, comm), "KLU2, as the deck says"};
-  if (name == "MUMPS") return {make_mumps(matrix, comm), "MUMPS, as the deck says"};
+  if (name == "MUMPS") {
+    return {make_wide(matrix, order_rows(*assembly::tpetra(*matrix), comm), comm),
+            "MUMPS, as the deck says"};
+  }
   if (name == "Iterative" && model.motions) {
     return choose_iterative("as the deck says", matrix, comm, model);
   }
@@ -74,8 +94,8 @@ ChosenSolver choose(const std::string& name, const std::shared_ptr<const assembl
   }
   const bool is_wide = fill.front() > widest_slender_front;
   ChosenSolver chosen;
-  chosen.solver = is_wide ? make_mumps(assembly::tpetra(*matrix), std::move(ordering), comm)
-                          : make_slender(matrix, comm);
+  chosen.solver =
+      is_wide ? make_wide(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
   chosen.reason = fmt::format(
       "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
       chosen.solver->name(), fill.front(), widest_slender_front, 1e-6 * bytes);

@@ -1,0 +1,81 @@
+#include "one_rank_solver.hpp"
+
+#include <culm/parallel/shared_failure.hpp>
+
+#include "rooted_matrix.hpp"
+
+#include <array>
+
+namespace culm::solver {
+namespace {
+
+class OneRankSolver final : public LinearSolver {
+ public:
+  OneRankSolver(const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const MakeSerialSolver& make,
+                const parallel::Comm& comm)
+      : comm_(comm), rooted_(matrix, comm) {
+    on_root([&] { serial_ = make(rooted_.matrix(), parallel::Comm(MPI_COMM_SELF)); });
+    name_ = comm_.broadcast(serial_ ? serial_->name() : std::string());
+  }
+
+  std::string name() const override { return name_; }
+
+  bool factor() override {
+    rooted_.gather_values();
+    bool sound = true;
+    on_root([&] { sound = serial_->factor(); });
+    return comm_.max(sound ? 0 : 1) == 0;
+  }
+
+  LinearResidual solve(const Vector& b, Vector& x) override {
+    rooted_.gather_rhs(b);
+    LinearResidual left;
+    on_root([&] { left = serial_->solve(rooted_.rhs(), rooted_.solution()); });
+    rooted_.scatter_solution(x);
+    std::array<double, 2> numbers = {left.size, left.allowed};
+    comm_.broadcast(numbers);
+    return {numbers[0], numbers[1]};
+  }
+
+  Determinant determinant() override {
+    Determinant found;
+    on_root([&] { found = serial_->determinant(); });
+    std::array<double, 2> numbers = {static_cast<double>(found.sign), found.log_size};
+    comm_.broadcast(numbers);
+    return {static_cast<int>(numbers[0]), numbers[1]};
+  }
+
+  double weakest_direction(Vector& v) override {
+    rooted_.gather_values();
+    std::array<double, 1> ratio = {0.0};
+    on_root([&] { ratio[0] = serial_->weakest_direction(rooted_.solution()); });
+    rooted_.scatter_solution(v);
+    comm_.broadcast(ratio);
+    return ratio[0];
+  }
+
+  std::string remark() const override { return serial_ ? serial_->remark() : std::string(); }
+
+ private:
+  template <class Work>
+  void on_root(const Work& work) const {
+    parallel::together(comm_, [&] {
+      if (comm_.is_root()) work();
+    });
+  }
+
+  parallel::Comm comm_;
+  RootedMatrix rooted_;
+  std::unique_ptr<LinearSolver> serial_;  // on the root
+  std::string name_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_one_rank_solver(
+    const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const MakeSerialSolver& make,
+    const parallel::Comm& comm) {
+  return std::make_unique<OneRankSolver>(matrix, make, comm);
+}
+
+}  // namespace culm::solver
