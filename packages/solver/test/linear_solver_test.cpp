@@ -304,10 +304,12 @@ TEST(ChooseLinearSolver, SolutionsOfSmallMatricesAreTheSameEachTime) {
   const auto solver = make("MUMPS", system);
   const Vector b = system.distribute(Eigen::VectorXd::LinSpaced(system.size(), -1.0, 2.0));
   Vector first(system.rows()), again(system.rows());
+  ASSERT_TRUE(solver->factor());
+  solver->solve(b, first);
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(solver->factor());
-    solver->solve(b, i == 0 ? first : again);
-    if (i > 0) EXPECT_TRUE(std::ranges::equal(first.values(), again.values()));
+    solver->solve(b, again);
+    EXPECT_TRUE(std::ranges::equal(first.values(), again.values()));
   }
 }
 
