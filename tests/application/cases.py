@@ -194,6 +194,24 @@ def entry(name, **values):
     return f'<ParameterList name="{name}">{lines}</ParameterList>'
 
 
+# A body on a base that stands, and one on that body, by joints.
+STACK = f"""<ParameterList name="culm">
+  <ParameterList name="Structures">{"".join(
+    entry(name, Type="Rigid Body", Position=f"{{{x}, 0, 0}}", Mass="10", Inertia="{1, 1, 1}")
+    for x, name in enumerate(("base", "box", "lid"))
+)}</ParameterList>
+  <ParameterList name="Constraints">
+    {entry("foot", Type="Rigid Support", Node="base")}
+    {entry("lower", Type="Weld", First="base", Second="box")}
+    {entry("upper", Type="Weld", First="box", Second="lid")}
+  </ParameterList>
+  <ParameterList name="Loads">{entry("push", Type="Force", Node="lid", Force="{0, 0, 100}", Function="Constant")}
+  </ParameterList>
+  {entry("Solver", Form="Null Space")}
+  <ParameterList name="Analyses">{entry("motion", Type="Dynamic", Step="0.1", End_Time="0.2")}</ParameterList>
+</ParameterList>
+"""
+
 # A square plate that is held along an edge, under loads.
 PLATE = f"""<ParameterList name="culm">
   <ParameterList name="Materials">{entry("m", Type="Isotropic", Young_Modulus="1e9", Poisson_Ratio="0.3")}</ParameterList>
@@ -525,6 +543,31 @@ CASES = [
         or ("" if '<p class="broken">idle load (bend, at 1): Force' in (folder / "out/report.html").read_text()
             else "it is not on the page"),
         ranks=True,
+    ),
+    *(
+        Case(
+            f"a load on what only joints hold, {form}",
+            8,
+            deck=STACK,
+            args=RUN,
+            change=[('"Null Space"', f'"{form}"')],
+            says=[IDLE % "Force 'push'", promise("idle load (motion)")],
+            silent=False,
+            leaves=["out"],
+            ranks=True,
+        )
+        for form in ("Null Space", "Multipliers")
+    ),
+    Case(
+        "a load on what a joint lets turn",
+        0,
+        deck=STACK,
+        args=RUN,
+        change=[('value="Weld"/><Parameter name="First" value="base"/>',
+                 'value="Revolute Joint"/><Parameter name="Axis" value="{0, 1, 0}"/><Parameter name="First" value="base"/>')],
+        never=["moves nothing"],
+        silent=False,
+        leaves=["out"],
     ),
     Case(
         "a load that is zero in all steps",

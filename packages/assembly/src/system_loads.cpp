@@ -6,33 +6,69 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace culm::assembly {
 namespace {
 
-// How h of a row changes with the slots of its only node.
-model::NodeSlots slot_gradient(const model::ConstraintRow& row, const model::NodeSlots& q) {
-  const Eigen::Map<const Eigen::RowVector4d> alpha(row.alpha.data());
-  if (row.linear()) return row.direction * alpha;
-  const Eigen::Map<const Eigen::RowVector4d> beta(row.beta.data());
+// How h of a row changes with the slots of one of its nodes.
+model::NodeSlots slot_gradient(const model::ConstraintRow& row, int place,
+                               const Eigen::Matrix3Xd& q) {
+  const auto size = static_cast<Eigen::Index>(row.alpha.size());
+  const Eigen::Map<const Eigen::RowVectorXd> alpha(row.alpha.data(), size);
+  const Eigen::RowVector4d own_alpha = alpha.segment<4>(4 * place);
+  if (row.linear()) return row.direction * own_alpha;
+  const Eigen::Map<const Eigen::RowVectorXd> beta(row.beta.data(), size);
   const Vec3 P = q * alpha.transpose();
   const Vec3 Q = row.direction + q * beta.transpose();
-  return Q * alpha + P * beta;
+  return Q * own_alpha + P * beta.segment<4>(4 * place);
 }
 
-// The directions in the unknowns of each node in which equations on it alone hold it.
-std::map<int, Eigen::MatrixXd> held_directions(const model::Model& model,
-                                               const model::Coordinates& q) {
-  std::map<int, Eigen::MatrixXd> held;
-  for (const model::Constraint& c : model.equations()) {
-    if (c.nodes.size() != 1) continue;
-    const model::UnknownTable& unknowns = model.unknowns();
-    const int node = c.nodes.front();
-    const model::Block& block = unknowns.block(unknowns.node_block(node));
-    if (block.owner != node) continue;  // it follows another node
-    Eigen::MatrixXd& directions = held[block.owner];
+// The directions in the unknowns of each node in which equations hold it: those on it alone, and
+// those that join it to nodes that are held themselves.
+class HeldDirections {
+ public:
+  HeldDirections(const model::Model& model, const model::Coordinates& q) : model_(model), q_(q) {
+    std::vector<const model::Constraint*> left;
+    for (const model::Constraint& c : model.equations()) left.push_back(&c);
+    do {
+      std::erase_if(left, [&](const model::Constraint* c) { return add(*c); });
+    } while (find_still_nodes());
+  }
+
+  // Null where nothing holds a node.
+  const Eigen::MatrixXd* of(int node) const {
+    const auto at = held_.find(node);
+    return at == held_.end() ? nullptr : &at->second;
+  }
+
+ private:
+  const model::Block& block_of(int node) const {
+    return model_.unknowns().block(model_.unknowns().node_block(node));
+  }
+
+  bool is_still(int node) const {
+    const model::Block& block = block_of(node);
+    return block.shape.active == 0 || still_.count(block.owner) > 0;
+  }
+
+  // @return whether the rows need no further look: at most one of the nodes can move
+  bool add(const model::Constraint& c) {
+    int moving = -1;
+    for (std::size_t k = 0; k < c.nodes.size(); ++k) {
+      if (is_still(c.nodes[k])) continue;
+      if (moving >= 0) return false;
+      moving = static_cast<int>(k);
+    }
+    if (moving < 0) return true;
+    const int node = c.nodes[index(moving)];
+    const model::Block& block = block_of(node);
+    if (block.owner != node) return false;  // it follows another node
+    Eigen::MatrixXd& directions = held_[node];
+    const Eigen::Matrix3Xd slots = model::slots_of(c, q_);
     for (const model::ConstraintRow& row : c.rows) {
-      const model::NodeSlots gradient = slot_gradient(row, model::NodeTable::slots(q, node));
+      if (row.alpha.empty()) continue;  // one on velocities
+      const model::NodeSlots gradient = slot_gradient(row, moving, slots);
       directions.conservativeResize(block.shape.active, directions.cols() + 1);
       for (int i = 0; i < block.shape.width; ++i) {
         const int at = block.shape.position[index(i)];
@@ -40,12 +76,29 @@ std::map<int, Eigen::MatrixXd> held_directions(const model::Model& model,
         std::array<double, 12> unit{};
         unit[index(i)] = 1.0;
         directions(at, directions.cols() - 1) =
-            gradient.cwiseProduct(slot_motion(model, node, unit, q)).sum();
+            gradient.cwiseProduct(slot_motion(model_, node, unit, q_)).sum();
       }
     }
+    return true;
   }
-  return held;
-}
+
+  // @return whether there are new ones
+  bool find_still_nodes() {
+    bool found = false;
+    for (const auto& [node, directions] : held_) {
+      const int unknowns = block_of(node).shape.active;
+      if (directions.cols() < unknowns || still_.count(node) > 0) continue;
+      if (directions.colPivHouseholderQr().rank() < unknowns) continue;
+      found = still_.insert(node).second;
+    }
+    return found;
+  }
+
+  const model::Model& model_;
+  const model::Coordinates& q_;
+  std::map<int, Eigen::MatrixXd> held_;
+  std::set<int> still_;  // nodes that cannot move at all
+};
 
 // What forces on the unknowns of a node amount to; those on a director do so by its arm.
 Vec6 force_and_moment(const model::Model& model, int node, const model::NodeSlots& q,
@@ -84,16 +137,14 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
   for (const double force : residual) share.whole = std::max(share.whole, std::abs(force));
   share.whole = comm_.max(share.whole);
   if (share.whole == 0.0) return share;  // it does not act now
-  const auto held = held_directions(model_, state.next);
+  const HeldDirections held(model_, state.next);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = model_.unknowns().block(local.block);
     if (!local.owned || block.kind != model::BlockKind::node || block.shape.active == 0) continue;
     Eigen::VectorXd f =
         Eigen::Map<const Eigen::VectorXd>(residual.data() + local.first_column, block.shape.active);
-    const auto at = held.find(block.owner);
-    if (at != held.end()) {
-      const Eigen::MatrixXd& directions = at->second;
-      f -= directions * directions.colPivHouseholderQr().solve(f);
+    if (const Eigen::MatrixXd* directions = held.of(block.owner)) {
+      f -= *directions * directions->colPivHouseholderQr().solve(f);
     }
     share.moving = std::max(share.moving, f.lpNorm<Eigen::Infinity>());
   }

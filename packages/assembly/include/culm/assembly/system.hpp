@@ -164,9 +164,9 @@ class System {
   /// The share of one constraint that is kept as equations, by its name.
   Vec6 reaction_of(const std::string& constraint, int node, const model::State& state) const;
 
-  /// What of a dead or follower load at state.next supports take: those that take unknowns away and
-  /// those on single nodes that are equations. Collective; changes neither residual() nor
-  /// reactions.
+  /// What of a dead or follower load at state.next supports take: those that take unknowns away,
+  /// those on single nodes that are equations, and joints to what is held. Collective; changes
+  /// neither residual() nor reactions.
   /// @param load  one of the model, with nothing to remember
   LoadShare share_of(model::Batch& load, const model::State& state) const;
   /// Force [N] and moment [N m] of such a load at state.next on each node, on the master of one
