@@ -123,14 +123,16 @@ void PostMortem::refuse_singular(const model::State& state) {
   }
   const bool solves = is_factored_ && context_.linear.solve(probe, response).is_sound();
   if (solves && response.largest() * size < 1e13 * probe.largest()) return;
-  // the factors at hand tell a soft model from a singular one; others would take as much memory
+  // most soft models show by the factors at hand that they are none; others take as much memory
   if (solves && resists(system, softest_direction(context_.linear, probe.rows()))) return;
   Vector direction(system.layout().rows());
-  context_.linear.weakest_direction(direction);
+  const double ratio = context_.linear.weakest_direction(direction);
   if (size == 0.0) {  // no motion is resisted
     direction = probe;
     direction.scale(1.0 / probe.largest());
   }
+  // without useful factors no step can be solved, whatever the ratio
+  if (solves && ratio > singular_ratio) return;
   throw NumericalError(system.comm().broadcast(fmt::format(
       "The equations are singular at {} {:.6g}, before the first step.\n{}", time_word(),
       state.time, WeakDirection(context_.system, state).singular_cause(direction))));
