@@ -3,6 +3,8 @@ of runs with it and without it."""
 
 import argparse
 import pathlib
+import re
+import shutil
 import sys
 import tempfile
 
@@ -12,6 +14,13 @@ from culm.program import Program  # noqa: E402
 
 SPAGHETTI = "flight/spaghetti_3d"
 FIDELITY = "Structures/beam/Fidelity"
+MAST = "drag of the mast, drag of the box"
+BRIEF = "Analyses/motion/End Time=0.2"
+
+
+def without(analysis, loads):
+    return [f"Analyses/{analysis}/Inactive={{{loads}}}"]
+
 
 # How the line of an effect begins, a deck that has it, the settings of that run, and those that switch it off.
 ADDED = [
@@ -27,6 +36,14 @@ ADDED = [
      ["Analyses/flutter/Levels={20, 60}", "Analyses/flutter/Inactive={air on the wing}"]),
     ("Vortex Lattice", "air/goland", ["Analyses/motion/End Time=0.01"],
      ["Analyses/motion/End Time=0.01", "Analyses/motion/Inactive={flow about the wing}"]),
+    ("Strip Drag", "air/mast_in_wind", [BRIEF], [BRIEF, *without("wind", MAST), *without("motion", MAST)]),
+    ("Rotor", "turbine/nrel5mw/rotor", [BRIEF], [BRIEF, *without("motion", "rotor")]),
+    ("Morison", "water/floating_pipe", [BRIEF], [BRIEF, *without("motion", "waves")]),
+    ("Potential Flow", "water/potential_cylinder", [BRIEF], [BRIEF, *without("motion", "water")]),
+    ("Soil", "soil/swaying_pile", [], [*without("sway", "soil")]),
+    ("Temperature", "heat/flying_bar", [], without("motion", "sun")),
+    ("Beam Contact", "contact/rolling_rod", [BRIEF], [BRIEF, *without("motion", "left, right")]),
+    ("Plane Contact", "contact/sliding_ball", [BRIEF], [BRIEF, *without("motion", "ground")]),
     ("Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
     ("Torsion held", SPAGHETTI, ["Structures/beam/Torsion=false"], []),
     ("Checkpoints", SPAGHETTI, [], ["Output/Checkpoints=false"]),
@@ -44,9 +61,33 @@ REPLACED = [
 ]
 
 
+# Entries of the history of these decks that watch the effect, so that they need it.
+WATCHING = {
+    "air/mast_in_wind": ["mast", "box"],
+    "turbine/nrel5mw/rotor": ["rotor"],
+    "water/floating_pipe": ["sea"],
+    "water/potential_cylinder": ["water"],
+    "contact/rolling_rod": ["left", "right"],
+    "contact/sliding_ball": ["ground"],
+}
+
+
+def unwatched(deck, folder):
+    """A deck without what watches the effect, beside copies of the files that it reads."""
+    source = ROOT / "inputs" / f"{deck}.xml"
+    if deck not in WATCHING:
+        return source
+    copied = pathlib.Path(shutil.copytree(source.parent, pathlib.Path(folder) / "deck")) / source.name
+    before, history = copied.read_text().split('<ParameterList name="History">')
+    for name in WATCHING[deck]:
+        history = re.sub(rf'<ParameterList name="{name}">.*?</ParameterList>', "", history, count=1, flags=re.DOTALL)
+    copied.write_text(before + '<ParameterList name="History">' + history)
+    return copied
+
+
 def effects(program, deck, settings):
     with tempfile.TemporaryDirectory(prefix="culm") as folder:
-        run = program.run(ROOT / "inputs" / f"{deck}.xml", folder, settings)
+        run = program.run(unwatched(deck, folder), pathlib.Path(folder) / "run", settings)
         if not run.succeeded:
             sys.exit(f"{deck} {settings}: {run.outcome}\n{run.errors}")
         return run.results.effects()
