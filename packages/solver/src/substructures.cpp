@@ -48,28 +48,6 @@ class Rows {
   std::vector<int> columns_;
 };
 
-// @param visit (column, place of the value)
-template <class Visit>
-void for_entries(const CrsMatrix& matrix, int row, const Visit& visit) {
-  const auto local = matrix.getLocalMatrixHost();
-  for (auto k = local.graph.row_map(index(row)); k < local.graph.row_map(index(row) + 1); ++k) {
-    visit(local.graph.entries(k), static_cast<std::size_t>(k));
-  }
-}
-
-std::size_t find_entry(const CrsMatrix& matrix, GlobalIndex row, GlobalIndex column) {
-  const int wanted = matrix.getColMap()->getLocalElement(column);
-  std::size_t found = 0;
-  bool is_there = false;
-  for_entries(matrix, matrix.getRowMap()->getLocalElement(row), [&](int here, std::size_t place) {
-    if (here != wanted) return;
-    found = place;
-    is_there = true;
-  });
-  if (!is_there) throw std::logic_error("substructures need a symmetric pattern");
-  return found;
-}
-
 std::span<double> values_of(const CrsMatrix& matrix) {
   const auto values = matrix.getLocalMatrixHost().values;
   return {values.data(), values.extent(0)};
@@ -78,11 +56,34 @@ std::span<double> values_of(const CrsMatrix& matrix) {
 }  // namespace
 
 Substructures::Substructures(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
-    : matrix_(std::move(matrix)), comm_(comm) {
+    : matrix_(std::move(matrix)), local_(matrix_->getLocalMatrixHost()), comm_(comm) {
   const std::vector<int> owners = owners_of_columns();
   const std::vector<bool> is_interface = find_interface(owners);
   build_piece(owners, is_interface);
   build_interface(is_interface);
+}
+
+// @param visit (column, place of the value)
+template <class Visit>
+void Substructures::for_entries(int row, const Visit& visit) const {
+  const auto& graph = local_.graph;
+  for (auto k = graph.row_map(index(row)); k < graph.row_map(index(row) + 1); ++k) {
+    visit(graph.entries(k), static_cast<std::size_t>(k));
+  }
+}
+
+// By global numbers.
+std::size_t Substructures::find_entry(long long row, long long column) const {
+  const int wanted = matrix_->getColMap()->getLocalElement(column);
+  std::size_t found = 0;
+  bool is_there = false;
+  for_entries(matrix_->getRowMap()->getLocalElement(row), [&](int here, std::size_t place) {
+    if (here != wanted) return;
+    found = place;
+    is_there = true;
+  });
+  if (!is_there) throw std::logic_error("substructures need a symmetric pattern");
+  return found;
 }
 
 std::vector<int> Substructures::owners_of_columns() const {
@@ -96,7 +97,7 @@ std::vector<int> Substructures::owners_of_columns() const {
 std::vector<bool> Substructures::find_interface(const std::vector<int>& owners) const {
   Vector rows(assembly::rows_of(matrix_->getRowMap()));
   for (std::size_t row = 0; row < rows.values().size(); ++row) {
-    for_entries(*matrix_, static_cast<int>(row), [&](int column, std::size_t) {
+    for_entries(static_cast<int>(row), [&](int column, std::size_t) {
       if (owners[index(column)] < comm_.rank()) rows.values()[row] = 1.0;
     });
   }
@@ -127,7 +128,7 @@ void Substructures::build_piece(const std::vector<int>& owners,
   }
   std::vector<int> kept;  // local columns
   for (int row : interior_) {
-    for_entries(*matrix_, row, [&](int column, std::size_t) {
+    for_entries(row, [&](int column, std::size_t) {
       if (is_interface[index(column)]) kept.push_back(column);
     });
   }
@@ -157,7 +158,7 @@ void Substructures::build_piece(const std::vector<int>& owners,
   for (std::size_t i = 0; i < interior_.size(); ++i) {
     const GlobalIndex here = rows.getGlobalElement(interior_[i]);
     entries.clear();
-    for_entries(*matrix_, interior_[i], [&](int column, std::size_t source) {
+    for_entries(interior_[i], [&](int column, std::size_t source) {
       const int there = place[index(column)];
       if (there < 0) throw std::logic_error("substructures need a symmetric pattern");
       entries.push_back({there, source});
@@ -166,7 +167,7 @@ void Substructures::build_piece(const std::vector<int>& owners,
       const int owner = owners[index(column)];
       const GlobalIndex other = columns.getGlobalElement(column);
       if (owner == comm_.rank()) {
-        below.push_back({static_cast<int>(i), find_entry(*matrix_, other, here)});
+        below.push_back({static_cast<int>(i), find_entry(other, here)});
         return;
       }
       below.push_back({static_cast<int>(i), from_others + owner_of_wanted.size()});
@@ -185,7 +186,7 @@ void Substructures::build_piece(const std::vector<int>& owners,
   for (const std::vector<long long>& requests : exchange_lists(wanted, comm_)) {
     std::vector<int>& out = values_out_.emplace_back();
     for (std::size_t k = 0; k < requests.size(); k += 2) {
-      out.push_back(static_cast<int>(find_entry(*matrix_, requests[k], requests[k + 1])));
+      out.push_back(static_cast<int>(find_entry(requests[k], requests[k + 1])));
     }
   }
 }
@@ -195,7 +196,7 @@ void Substructures::build_interface(const std::vector<bool>& is_interface) {
   std::vector<long long> entries;   // row and column of each
   for (int row : boundary_) {
     boundary.push_back(matrix_->getRowMap()->getGlobalElement(row));
-    for_entries(*matrix_, row, [&](int column, std::size_t source) {
+    for_entries(row, [&](int column, std::size_t source) {
       if (!is_interface[index(column)]) return;
       entries.push_back(boundary.back());
       entries.push_back(matrix_->getColMap()->getGlobalElement(column));

@@ -59,12 +59,16 @@ class Substructures {
     }
   };
 
+  template <class Visit>
+  void for_entries(int row, const Visit& visit) const;
+  std::size_t find_entry(long long row, long long column) const;
   std::vector<int> owners_of_columns() const;
   std::vector<bool> find_interface(const std::vector<int>& owners) const;
   void build_piece(const std::vector<int>& owners, const std::vector<bool>& is_interface);
   void build_interface(const std::vector<bool>& is_interface);
 
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
+  assembly::CrsMatrix::local_matrix_host_type local_;  ///< of it; to ask for it allocates
   parallel::Comm comm_;
   std::vector<int> interior_;    ///< rows of this rank
   std::vector<int> boundary_;    ///< rows of this rank that are of the interface
