@@ -1,7 +1,8 @@
 #include <culm/contact/beam_contact.hpp>
 
+#include "contact_laws.hpp"
+
 #include <Eigen/Geometry>
-#include <culm_kit/batch_laws.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +12,6 @@
 namespace culm::contact {
 namespace {
 
-constexpr const char* effect = "tested";
 constexpr double reach = 9.0;
 
 struct Case {
@@ -53,59 +53,14 @@ void fill(model::Model& model, const Case& data, bool with_slave) {
   }
 }
 
-TEST(BeamContact, TangentIsDerivativeOfResidual) {
-  for (const Case& data : cases) {
-    SCOPED_TRACE(testing::Message() << "case " << &data - cases);
-    for (const bool slave : {false, true}) {
-      kit::expect_tangent_is_derivative([&](model::Model& m) { fill(m, data, slave); }, effect,
-                                        3e-4);
-    }
-  }
-}
-
-TEST(BeamContact, NullSpaceResidualIsProjected) {
-  kit::expect_residual_is_projected([](model::Model& m) { fill(m, cases[3], true); }, effect);
-}
-
-TEST(BeamContact, AllocatesNothingAndLeavesNoTrace) {
-  const auto make = [](model::Model& m) { fill(m, cases[3], true); };
-  kit::expect_no_allocation(make, effect);
-  kit::expect_attempts_leave_no_trace(make, effect);
-}
+TEST(BeamContact, ObeysTheLawsOfBatches) { expect_laws_of_batches(cases, fill); }
 
 TEST(BeamContact, WorkOfAStepIsAccountedForAndMomentaBalance) {
-  for (const Case& data : cases) {
-    model::Model model;
-    fill(model, data, false);
-    model.freeze(model::Form::multipliers);
-    const model::State state = kit::random_state(model, 3);
-    kit::DenseAssembly dense(model);
-    model::Batch* batch = kit::find_batch(model, effect);
-    for (const Stencil& stencil : {Stencil::midpoint(0.4), Stencil{0.4, 0.5, 0.75}}) {
-      const Eigen::VectorXd r = dense.residual(state, stencil, {batch}).head(60);
-      const Eigen::Map<const Eigen::VectorXd> prev(state.prev.data(), 60),
-          next(state.next.data(), 60);
-      const double stored = batch->stored_energy(state.next) - batch->stored_energy(state.prev);
-      const model::StepWork work = batch->step_work(state, stencil);
-      EXPECT_GT(r.norm(), 1e-3);
-      EXPECT_NEAR(r.dot(next - prev), stored + work.damping + work.dissipation,
-                  1e-12 * (1.0 + std::abs(stored)));
-      EXPECT_GE(work.damping, -1e-12);
-      EXPECT_GE(work.dissipation, -1e-12);
-      if (data.friction.coefficient > 0.0) {
-        EXPECT_GT(work.damping, 1e-3);
-      }
-      Vec3 force = Vec3::Zero();
-      Vec3 moment = Vec3::Zero();
-      for (int s = 0; s < 20; ++s) {
-        const Vec3 f = r.segment<3>(3 * s);
-        if (s % 4 == 0) force += f;
-        moment += (0.5 * (prev.segment<3>(3 * s) + next.segment<3>(3 * s))).cross(f);
-      }
-      EXPECT_LT(force.norm(), 1e-12 * (1.0 + r.norm()));
-      EXPECT_LT(moment.norm(), 1e-11 * (1.0 + r.norm()));
-    }
-  }
+  expect_work_is_accounted_for(cases, fill,
+                               [](const Case&, const Stencil&, const ContactStep& step) {
+                                 EXPECT_EQ(step.work.force, Vec3::Zero());
+                                 expect_momenta_balance(step);
+                               });
 }
 
 /// Two straight lines of some length, the second turned about z and lifted.

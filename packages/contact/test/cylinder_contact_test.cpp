@@ -1,15 +1,14 @@
 #include <culm/contact/cylinder_contact.hpp>
 
+#include "contact_laws.hpp"
+
 #include <Eigen/Geometry>
-#include <culm_kit/batch_laws.hpp>
 #include <gtest/gtest.h>
 
 #include <memory>
 
 namespace culm::contact {
 namespace {
-
-constexpr const char* effect = "tested";
 
 struct Case {
   int node;      ///< of the bar, or in space
@@ -37,59 +36,16 @@ void fill(model::Model& model, const Case& data, bool with_slave) {
   if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
 }
 
-TEST(CylinderContact, TangentIsDerivativeOfResidual) {
-  for (const Case& data : cases) {
-    SCOPED_TRACE(testing::Message() << "case " << &data - cases);
-    for (const bool slave : {false, true}) {
-      kit::expect_tangent_is_derivative([&](model::Model& m) { fill(m, data, slave); }, effect,
-                                        3e-4);
-    }
-  }
-}
-
-TEST(CylinderContact, NullSpaceResidualIsProjected) {
-  kit::expect_residual_is_projected([](model::Model& m) { fill(m, cases[1], true); }, effect);
-}
-
-TEST(CylinderContact, AllocatesNothingAndLeavesNoTrace) {
-  const auto make = [](model::Model& m) { fill(m, cases[3], true); };
-  kit::expect_no_allocation(make, effect);
-  kit::expect_attempts_leave_no_trace(make, effect);
-}
+TEST(CylinderContact, ObeysTheLawsOfBatches) { expect_laws_of_batches(cases, fill); }
 
 TEST(CylinderContact, WorkOfAStepIsAccountedForAndMomentaBalance) {
-  for (const Case& data : cases) {
-    model::Model model;
-    fill(model, data, false);
-    model.freeze(model::Form::multipliers);
-    const model::State state = kit::random_state(model, 3);
-    kit::DenseAssembly dense(model);
-    model::Batch* batch = kit::find_batch(model, effect);
-    for (const Stencil& stencil : {Stencil::midpoint(0.4), Stencil{0.4, 0.5, 0.75}}) {
-      const Eigen::VectorXd r = dense.residual(state, stencil, {batch}).head(36);
-      const Eigen::Map<const Eigen::VectorXd> prev(state.prev.data(), 36),
-          next(state.next.data(), 36);
-      const double stored = batch->stored_energy(state.next) - batch->stored_energy(state.prev);
-      const model::StepWork work = batch->step_work(state, stencil);
-      EXPECT_GT(r.norm(), 1e-3);
-      EXPECT_NEAR(r.dot(next - prev), stored + work.damping + work.dissipation,
-                  1e-12 * (1.0 + std::abs(stored)));
-      EXPECT_GE(work.damping, -1e-12);
-      if (stencil.theta_strain == 0.5) {
-        EXPECT_NEAR(work.dissipation, 0.0, 1e-12 * (1.0 + std::abs(stored)));
-      }
-      Vec3 force = work.force;
-      Vec3 moment = work.moment;
-      for (int s = 0; s < 12; ++s) {
-        const Vec3 f = r.segment<3>(3 * s);
-        const Vec3 q = 0.5 * (prev.segment<3>(3 * s) + next.segment<3>(3 * s));
-        if (s % 4 == 0) force += f;
-        moment += q.cross(f);
-      }
-      EXPECT_LT(force.norm(), 1e-12 * (1.0 + r.norm()));
-      EXPECT_LT(moment.norm(), 1e-12 * (1.0 + r.norm()));
-    }
-  }
+  expect_work_is_accounted_for(
+      cases, fill, [](const Case&, const Stencil& stencil, const ContactStep& step) {
+        if (stencil.theta_strain == 0.5) {
+          EXPECT_NEAR(step.work.dissipation, 0.0, 1e-12 * (1.0 + std::abs(step.stored)));
+        }
+        expect_momenta_balance(step);
+      });
 }
 
 // Beside the axis and beyond its end.

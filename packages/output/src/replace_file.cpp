@@ -20,10 +20,16 @@ void write_file(const std::filesystem::path& path,
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) give_up(path, errno);
   int error = 0;
-  write([&](std::string_view piece) {
-    const bool written = std::fwrite(piece.data(), 1, piece.size(), file) == piece.size();
-    if (!written && error == 0) error = errno;
-  });
+  try {
+    write([&](std::string_view piece) {
+      if (error != 0) return;
+      if (std::fwrite(piece.data(), 1, piece.size(), file) != piece.size()) error = errno;
+    });
+  } catch (...) {  // nothing half-written stays, whatever went wrong with the content
+    std::fclose(file);
+    std::remove(path.c_str());
+    throw;
+  }
   // A full disk may show only when the last bytes leave the buffer.
   if (std::fclose(file) != 0 && error == 0) error = errno;
   if (error != 0) {

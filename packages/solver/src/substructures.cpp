@@ -1,5 +1,7 @@
 #include "substructures.hpp"
 
+#include <culm/base/error.hpp>
+
 #include "serial_matrix.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace culm::solver {
@@ -18,6 +19,8 @@ using assembly::GlobalIndex;
 using assembly::Vector;
 
 std::size_t index(long long i) { return static_cast<std::size_t>(i); }
+
+constexpr const char* symmetric_pattern = "substructures need a symmetric pattern";
 
 // An entry of a matrix that is put together, and where its value comes from.
 struct Entry {
@@ -82,7 +85,7 @@ std::size_t Substructures::find_entry(long long row, long long column) const {
     found = place;
     is_there = true;
   });
-  if (!is_there) throw std::logic_error("substructures need a symmetric pattern");
+  internal_check(is_there, symmetric_pattern);
   return found;
 }
 
@@ -160,7 +163,7 @@ void Substructures::build_piece(const std::vector<int>& owners,
     entries.clear();
     for_entries(interior_[i], [&](int column, std::size_t source) {
       const int there = place[index(column)];
-      if (there < 0) throw std::logic_error("substructures need a symmetric pattern");
+      internal_check(there >= 0, symmetric_pattern);
       entries.push_back({there, source});
       if (!is_interface[index(column)]) return;
       std::vector<Entry>& below = rows_below[index(there) - interior_.size()];
