@@ -5,6 +5,8 @@
 #include "rooted_matrix.hpp"
 
 #include <array>
+#include <span>
+#include <vector>
 
 namespace culm::solver {
 namespace {
@@ -54,6 +56,21 @@ class OneRankSolver final : public LinearSolver {
     return ratio[0];
   }
 
+  std::vector<int> pivots() const override {
+    return serial_ ? serial_->pivots() : std::vector<int>{};
+  }
+  void remember_pivots() override {
+    if (serial_) serial_->remember_pivots();
+  }
+  void restore_pivots() override {
+    if (serial_) serial_->restore_pivots();
+  }
+  bool set_pivots(std::span<const int> pivots) override {
+    bool fit = true;
+    on_root([&] { fit = serial_->set_pivots(pivots); });
+    return comm_.max(fit ? 0 : 1) == 0;
+  }
+
   std::string remark() const override { return serial_ ? serial_->remark() : std::string(); }
 
  private:
@@ -75,6 +92,7 @@ class OneRankSolver final : public LinearSolver {
 std::unique_ptr<LinearSolver> make_one_rank_solver(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const MakeSerialSolver& make,
     const parallel::Comm& comm) {
+  if (comm.size() == 1) return make(matrix, comm);
   return std::make_unique<OneRankSolver>(matrix, make, comm);
 }
 

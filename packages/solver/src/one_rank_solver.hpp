@@ -14,7 +14,8 @@ namespace culm::solver {
 using MakeSerialSolver = std::function<std::unique_ptr<LinearSolver>(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const parallel::Comm& alone)>;
 
-/// Brings values to rank 0 in global order, and solutions back: they are the same for any number of
+/// Brings values to rank 0 in global order, and solutions back; where there is one rank, the serial
+/// solver itself. Solutions are the same for any number of
 /// ranks, and the same each time, also of solvers that sum up as messages come in. Collective.
 std::unique_ptr<LinearSolver> make_one_rank_solver(
     const Teuchos::RCP<const assembly::CrsMatrix>& matrix, const MakeSerialSolver& make,
