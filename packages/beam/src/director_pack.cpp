@@ -215,14 +215,23 @@ CULM_INLINE void add_geometry(const Pack* A, const Pack* force, const Pack* mid,
 template <int Order>
 CULM_INLINE void add_inertia(const Pack* mass, const Pack* acceleration, double inertia, Pack* A,
                              Pack* force) {
-  constexpr int S = 4 * (Order + 1);
-  for (int s = 0; s < S; ++s) {
-    if (s % 4 == 3) continue;
-    for (int t = 0; t < S; ++t) {
-      if (t % 4 == 3) continue;
-      const Pack& m = mass[S * s + t];
-      for (int c = 0; c < 3; ++c) force[3 * s + c] += m * acceleration[3 * t + c];
-      A[S * s + t] += inertia * m;
+  using Beam = DirectorPack<Order>;
+  constexpr int N = Order + 1;
+  constexpr int S = 4 * N;
+  for (int a = 0; a < N; ++a) {
+    for (int b = 0; b < N; ++b) {
+      const Pack* between = mass + Beam::entries(3) * Beam::entry(N, a, b);
+#pragma GCC unroll 3
+      for (int r = 0; r < 3; ++r) {
+        const int s = 4 * a + r;
+#pragma GCC unroll 3
+        for (int q = 0; q < 3; ++q) {
+          const int t = 4 * b + q;
+          const Pack& m = between[Beam::entry(3, r, q)];
+          for (int c = 0; c < 3; ++c) force[3 * s + c] += m * acceleration[3 * t + c];
+          A[S * s + t] += inertia * m;
+        }
+      }
     }
   }
 }
@@ -254,9 +263,17 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     Pack e[6], stress[6];
     compute_strain<Order>(p, next_frame, e);
     for (std::size_t i = 0; i < 6; ++i) e[i] = weight * e[i] + (1.0 - weight) * prev[6 * g + i];
-    for (std::size_t i = 0; i < 6; ++i) {
-      stress[i] = p.stiffness[6 * i] * e[0];
-      for (std::size_t j = 1; j < 6; ++j) stress[i] += p.stiffness[6 * i + j] * e[j];
+    Pack C[36];
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+#pragma GCC unroll 6
+      for (int j = 0; j < 6; ++j) {
+        C[6 * i + j] = p.stiffness.numbers[DirectorPack<Order>::entry(6, i, j)];
+      }
+    }
+    for (int i = 0; i < 6; ++i) {
+      stress[i] = C[6 * i] * e[0];
+      for (int j = 1; j < 6; ++j) stress[i] += C[6 * i + j] * e[j];
     }
     add_force<Order>(p, mid_frame, stress, force);
     if (!with_tangent) continue;
@@ -269,7 +286,7 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     Pack R_next[6 * W], R_mid[6 * W];
     compute_rows<Order>(p, next_frame, motion.next.data(), R_next);
     compute_rows<Order>(p, mid_frame, mid, R_mid);
-    add_product<Order>(p.stiffness.data(), weight, R_mid, R_next, sum.tangent.data());
+    add_product<Order>(C, weight, R_mid, R_next, sum.tangent.data());
   }
   if (with_tangent && predicted == nullptr) {
     for (int c = 0; c < 12 * N; ++c) tangent_force[c] = force[c];
@@ -314,13 +331,23 @@ DirectorPack<Order>::DirectorPack(
       }
       for (int i = 0; i < 6; ++i) {
         point.reference.of(l, i) = element.reference_strain(g)[i];
-        for (int j = 0; j < 6; ++j) {
-          point.stiffness.of(l, 6 * i + j) = element.stiffness(g)(i, j);
+        for (int j = i; j < 6; ++j) {
+          point.stiffness.of(l, entry(6, i, j)) =
+              0.5 * (element.stiffness(g)(i, j) + element.stiffness(g)(j, i));
         }
       }
     }
     const SlotMatrix<4 * num_nodes> mass = element.mass();
-    for (int s = 0; s < mass.size(); ++s) mass_.of(l, s) = mass.data()[s];
+    for (int a = 0; a < num_nodes; ++a) {
+      for (int b = a; b < num_nodes; ++b) {
+        const int between = entries(3) * entry(num_nodes, a, b);
+        for (int r = 0; r < 3; ++r) {
+          for (int q = r; q < 3; ++q) {
+            mass_.of(l, between + entry(3, r, q)) = mass(4 * a + r, 4 * b + q);
+          }
+        }
+      }
+    }
   }
 }
 

@@ -119,6 +119,7 @@ double add_all(const Place& to, Add&& add) {
 template <class Beam>
 double add_full(const std::string& effect, const Place& to) {
   auto& batch = model::elements<Beam>(to.model, effect, to.damping);
+  batch.expect(static_cast<int>((to.chain.size() - 1) / (Beam::num_nodes - 1)));
   return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
     const int item = batch.add(element, stretch.nodes);
     set_expansion(batch, item, stretch, to.sections);

@@ -25,16 +25,24 @@ class DirectorPack {
   void evaluate(const Motion& motion, const Pack* prev, const Pack* predicted,
                 const Stencil& stencil, bool with_tangent, Sum& sum) const noexcept;
 
+  /// Where the entry (i, j) of a symmetric matrix of n rows is among those on and above the
+  /// diagonal, by rows.
+  static constexpr int entry(int n, int i, int j) {
+    return i <= j ? i * (2 * n - 1 - i) / 2 + j : entry(n, j, i);
+  }
+  static constexpr int entries(int n) { return n * (n + 1) / 2; }
+
   /// Constants of the elements at a Gauss point.
   struct Point {
     std::array<double, num_nodes> N;
     Packs<num_nodes> dN;
     Packs<6> reference;
-    Packs<36> stiffness;
+    Packs<entries(6)> stiffness;  ///< see entry
   };
   using Points = std::array<Point, Order>;
-  /// Scalars between slots, by rows.
-  using Mass = Packs<16 * num_nodes * num_nodes>;
+  /// Scalars between the slots x, d1, d2 of each two nodes a <= b: a symmetric matrix of three rows
+  /// for each entry (a, b) of a symmetric matrix of num_nodes rows.
+  using Mass = Packs<entries(3) * entries(num_nodes)>;
 
  private:
   Points points_;

@@ -56,6 +56,16 @@ class ElementBatch final : public Batch,
     return size() - 1;
   }
 
+  /// So many elements will be added.
+  void expect(int more) {
+    const auto total = static_cast<std::size_t>(size() + more);
+    if (total <= elements_.capacity()) return;
+    // batches grow by many short chains, too
+    const std::size_t room = std::max(total, elements_.capacity() + elements_.capacity() / 4);
+    elements_.reserve(room);
+    connectivity_.reserve(room);
+  }
+
   const E& element(int item) const { return elements_[static_cast<std::size_t>(item)]; }
   const std::array<int, N>& nodes(int item) const {
     return connectivity_[static_cast<std::size_t>(item)];
@@ -101,10 +111,12 @@ class ElementBatch final : public Batch,
 
   void prepare(const State& state, const Stencil& stencil) override {
     use_predicted_ = false;
-    if (stencil.inertia != 0.0 && masses_.empty()) {
+    const bool wants_strains = laws_.prepare(stencil);
+    if (stencil.inertia != 0.0 && masses_.empty() && !comes_in_packs(laws_.damped(stencil))) {
+      masses_.reserve(placement_.items.size());
       for (int item : placement_.items) masses_.push_back(element(item).mass());
     }
-    if (!laws_.prepare(stencil)) return;
+    if (!wants_strains) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.prev);
       const E& element = this->element(placement_.items[i]);
@@ -169,8 +181,8 @@ class ElementBatch final : public Batch,
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
     const Stencil damped = laws_.damped(stencil);
     if constexpr (ComesInPacks<E>) {
-      const bool is_in_packs = form_ == Form::null_space && want != Want::mass;
-      if (is_in_packs && laws_.is_plain(damped)) return assemble_packs(state, damped, want, target);
+      if (want != Want::mass && comes_in_packs(damped))
+        return assemble_packs(state, damped, want, target);
     }
     return in_space(
         [&](auto space) { return assemble_as<decltype(space)>(state, damped, want, target); });
@@ -368,6 +380,11 @@ class ElementBatch final : public Batch,
     return action(NullSpace{});
   }
 
+  // Whether items are evaluated in packs, which know their masses. @param stencil  damped
+  bool comes_in_packs(const Stencil& stencil) const {
+    return ComesInPacks<E> && form_ == Form::null_space && laws_.is_plain(stencil);
+  }
+
   template <class Space>
   Verdict assemble_as(const State& state, const Stencil& stencil, Want want, Target& target) {
     Verdict verdict = Verdict::ok;
@@ -544,7 +561,7 @@ class ElementBatch final : public Batch,
   std::vector<const AddedStresses*> added_;
   Placement placement_;
   Form form_ = Form::null_space;
-  std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia is wanted
+  std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia wants them
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
   struct NoPacks {};

@@ -25,6 +25,7 @@ class ElementPacks {
   template <class ElementOf>
   void make(std::size_t count, ElementOf element) {
     packs_.clear();
+    packs_.reserve((count + pack_lanes - 1) / pack_lanes);
     for (std::size_t first = 0; first < count; first += pack_lanes) {
       std::array<const E*, pack_lanes> lanes;
       for (std::size_t l = 0; l < pack_lanes; ++l)
