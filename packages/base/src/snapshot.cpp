@@ -12,13 +12,15 @@
 namespace culm {
 namespace {
 
-void put(std::uint64_t number, std::string& bytes) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+using Take = std::function<void(std::string_view)>;
+
+void put(std::uint64_t number, const Take& take) {
+  take({reinterpret_cast<const char*>(&number), sizeof number});
 }
 
-void put(std::string_view text, std::string& bytes) {
-  put(text.size(), bytes);
-  bytes += text;
+void put(std::string_view text, const Take& take) {
+  put(text.size(), take);
+  take(text);
 }
 
 [[noreturn]] void fail() { throw FileError("the checkpoint is damaged"); }
@@ -189,23 +191,27 @@ bool Snapshot::has(std::string_view name) const {
 
 std::string Snapshot::encode() const {
   std::string bytes;
+  encode([&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+void Snapshot::encode(const Take& take) const {
   std::vector<const Entry*> in_order;  // of the alphabet
   for (const Entry& entry : entries_) in_order.push_back(&entry);
   std::ranges::sort(in_order, {}, [this](const Entry* entry) { return name_of(*entry); });
-  put(in_order.size(), bytes);
+  put(in_order.size(), take);
   for (const Entry* entry : in_order) {
     const std::span<const double> numbers = numbers_of(*entry);
-    put(name_of(*entry), bytes);
+    put(name_of(*entry), take);
     put(std::string_view(reinterpret_cast<const char*>(numbers.data()),
                          numbers.size() * sizeof(double)),
-        bytes);
+        take);
   }
-  put(texts_.size(), bytes);
+  put(texts_.size(), take);
   for (const auto& [name, text] : texts_) {
-    put(name, bytes);
-    put(text, bytes);
+    put(name, take);
+    put(text, take);
   }
-  return bytes;
 }
 
 Snapshot Snapshot::decode(std::string_view bytes) {

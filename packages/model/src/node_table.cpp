@@ -9,7 +9,7 @@ int NodeTable::add(const NodeSlots& slots, NodeKind kind) {
   reference_.insert(reference_.end(), slots.data(), slots.data() + slots.size());
   kinds_.push_back(kind);
   fixed_.emplace_back();
-  links_.emplace_back();
+  link_of_.push_back(-1);
   return size() - 1;
 }
 
@@ -33,15 +33,18 @@ bool NodeTable::link(int slave, int master) {
   if (is_slave(slave) || root == slave) return false;
   // a triad cannot follow a director
   if (kind(slave) == NodeKind::node12 && kind(root) == NodeKind::node6) return false;
-  links_[index(slave)] = make_link(slave, root);
   for (int node = 0; node < size(); ++node) {
-    if (links_[index(node)].master == slave) links_[index(node)] = make_link(node, root);
+    if (is_slave(node) && this->master(node) == slave) {
+      links_[index(link_of_[index(node)])] = make_link(node, root);
+    }
   }
+  link_of_[index(slave)] = static_cast<int>(links_.size());
+  links_.push_back(make_link(slave, root));
   return true;
 }
 
 void NodeTable::follow_master(int slave, Coordinates& q) const {
-  const RigidLink& link = links_[index(slave)];
+  const RigidLink& link = rigid_link(slave);
   const NodeSlots m = slots(q, link.master);
   auto s = slots(q, slave);
   s.col(0) = m.col(0) + m.rightCols<3>() * link.lever;

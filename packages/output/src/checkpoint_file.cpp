@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -55,17 +56,63 @@ bool write_all(int file, std::span<const std::byte> bytes) {
   return true;
 }
 
-void write_to_disk(const std::filesystem::path& path, std::string_view content) {
-  const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  const auto body = std::as_bytes(std::span(content));
-  const Header header{magic, body.size(), checksum(body)};
-  if (write_all(file.number(), std::as_bytes(std::span(&header, 1))) &&
-      write_all(file.number(), body) && ::fsync(file.number()) == 0) {
-    return;
+// The body of a checkpoint, which grows piece by piece behind its header.
+class Body {
+ public:
+  explicit Body(int file) : file_(file) { write(std::as_bytes(std::span(&header_, 1))); }
+
+  void take(std::string_view piece) {
+    while (!piece.empty() && error_ == 0) {
+      const std::size_t count = std::min(piece.size(), whole_words - waiting_.size());
+      waiting_ += piece.substr(0, count);
+      piece.remove_prefix(count);
+      if (waiting_.size() == whole_words) flush();
+    }
   }
-  const int error = errno;
-  ::unlink(path.c_str());
-  give_up(path, error);
+  // @return errno of what could not be written, or 0
+  int finish() {
+    flush();
+    header_.magic = magic;
+    note(::lseek(file_, 0, SEEK_SET) == 0);
+    write(std::as_bytes(std::span(&header_, 1)));
+    note(::fsync(file_) == 0);
+    return error_;
+  }
+
+ private:
+  static constexpr std::size_t whole_words = std::size_t{1} << 20;
+
+  void note(bool is_done) {
+    if (!is_done && error_ == 0) error_ = errno;
+  }
+  void write(std::span<const std::byte> bytes) {
+    if (error_ == 0) note(write_all(file_, bytes));
+  }
+  void flush() {
+    const auto bytes = std::as_bytes(std::span(waiting_));
+    header_.checksum = checksum(bytes, header_.checksum);
+    header_.length += bytes.size();
+    write(bytes);
+    waiting_.clear();
+  }
+
+  int file_;
+  int error_ = 0;
+  std::string waiting_;
+  Header header_{0, 0, checksum({})};  // without its magic number until all is written
+};
+
+void write_to_disk(const std::filesystem::path& path,
+                   const std::function<void(const TakePiece&)>& content) {
+  const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  try {
+    Body body(file.number());
+    content([&](std::string_view piece) { body.take(piece); });
+    if (const int error = body.finish(); error != 0) give_up(path, error);
+  } catch (...) {
+    ::unlink(path.c_str());
+    throw;
+  }
 }
 
 // Names reach the disk with their folder. Some network file systems refuse this; then there is
@@ -83,6 +130,11 @@ std::filesystem::path previous_checkpoint(const std::filesystem::path& path) {
 }
 
 void write_checkpoint(const std::filesystem::path& path, std::string_view content) {
+  write_checkpoint(path, [&](const TakePiece& take) { take(content); });
+}
+
+void write_checkpoint(const std::filesystem::path& path,
+                      const std::function<void(const TakePiece&)>& content) {
   const std::filesystem::path temporary = temporary_name(path);
   write_to_disk(temporary, content);
   std::error_code ignored;

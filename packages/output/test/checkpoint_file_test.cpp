@@ -42,6 +42,33 @@ TEST(CheckpointFile, TheLastTwoAreKept) {
   EXPECT_EQ(std::distance(begin(files), end(files)), 2);
 }
 
+TEST(CheckpointFile, PiecesAreReadAsOneContent) {
+  const TemporaryFolder folder;
+  std::string whole;
+  for (int i = 0; i < 700'000; ++i) whole += static_cast<char>(i * i % 251);
+  write_checkpoint(folder / "whole", whole + whole + whole + "end");
+  write_checkpoint(folder / "pieces", [&](const TakePiece& take) {
+    for (int i = 0; i < 3; ++i) take(whole);
+    for (const char* letter : {"e", "", "n", "d"}) take(letter);
+  });
+  EXPECT_EQ(read_text_file(folder / "whole"), read_text_file(folder / "pieces"));
+  EXPECT_EQ(read_checkpoint(folder / "pieces"), whole + whole + whole + "end");
+}
+
+TEST(CheckpointFile, WhatFailsHalfwayLeavesTheLastOne) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "c";
+  write_checkpoint(path, "sound");
+  const auto fail = [](const TakePiece& take) {
+    take("half");
+    throw std::bad_alloc();
+  };
+  EXPECT_THROW(write_checkpoint(path, fail), std::bad_alloc);
+  EXPECT_EQ(read_checkpoint(path), "sound");
+  const auto files = std::filesystem::directory_iterator(folder.path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
 TEST(CheckpointFile, EveryChangedByteAndEveryLengthIsNoticed) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "c";

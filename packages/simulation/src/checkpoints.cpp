@@ -52,7 +52,10 @@ Checkpoints::Demand Checkpoints::demand() {
 
 void Checkpoints::write(const Snapshot& snapshot) {
   const double before = request_.elapsed();
-  on_root(comm_, [&] { output::write_checkpoint(checkpoint_path(folder_), snapshot.encode()); });
+  on_root(comm_, [&] {
+    output::write_checkpoint(checkpoint_path(folder_),
+                             [&](const output::TakePiece& take) { snapshot.encode(take); });
+  });
   const double now = request_.elapsed();
   due_ = now + (interval_ > 0.0 ? std::max(interval_, (now - before) / largest_share) : 0.0);
 }

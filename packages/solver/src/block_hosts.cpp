@@ -31,8 +31,7 @@ void equilibrate(Eigen::MatrixXd& A) {
 
 class Parts {
  public:
-  explicit Parts(const assembly::CrsMatrix& matrix)
-      : local_(matrix.getLocalMatrixHost()), blocks_(find_blocks(matrix)) {
+  explicit Parts(const BlockRows& rows) : rows_(rows), blocks_(find_blocks(rows)) {
     first_row_.resize(blocks_.sizes.size());
     std::exclusive_scan(blocks_.sizes.begin(), blocks_.sizes.end(), first_row_.begin(), 0);
     place_.resize(blocks_.rows.size(), -1);
@@ -55,11 +54,10 @@ class Parts {
     Eigen::MatrixXd part = Eigen::MatrixXd::Zero(size, size);
     for (int block : blocks) {
       for_rows(block, 0, [&](int row, int) {
-        for (auto k = local_.graph.row_map(index(row)); k < local_.graph.row_map(index(row) + 1);
-             ++k) {
-          const int column = place_[index(local_.graph.entries(k))];
-          if (column >= 0) part(place_[index(row)], column) = local_.values(k);
-        }
+        rows_.for_entries(row, [&](int other, std::size_t source) {
+          const int column = place_[index(other)];
+          if (column >= 0) part(place_[index(row)], column) = rows_.value(source);
+        });
       });
     }
     for (int block : blocks) for_rows(block, 0, [&](int row, int) { place_[index(row)] = -1; });
@@ -80,7 +78,7 @@ class Parts {
     return pivots.minCoeff() > smallest_pivot * lu.maxPivot();
   }
 
-  assembly::CrsMatrix::local_matrix_host_type local_;
+  const BlockRows& rows_;
   Blocks blocks_;
   std::vector<int> first_row_;
   std::vector<int> place_;  // of the rows of a part; else -1
@@ -88,8 +86,8 @@ class Parts {
 
 }  // namespace
 
-std::vector<int> choose_hosts(const assembly::CrsMatrix& matrix, int first_kept) {
-  return Parts(matrix).find_hosts(first_kept);
+std::vector<int> choose_hosts(const BlockRows& rows, int first_kept) {
+  return Parts(rows).find_hosts(first_kept);
 }
 
 }  // namespace culm::solver

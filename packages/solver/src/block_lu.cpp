@@ -48,11 +48,8 @@ auto with_sizes(const BlockPlan::Panel& panel, const Visit& visit) {
 
 }  // namespace
 
-BlockLu::BlockLu(const assembly::CrsMatrix& matrix, int kept)
-    : matrix_(matrix),
-      local_(matrix.getLocalMatrixHost()),
-      block_of_(block_of_row(find_blocks(matrix))),
-      kept_(kept) {
+BlockLu::BlockLu(const BlockRows& rows, int kept)
+    : rows_(rows), block_of_(block_of_row(find_blocks(rows))), kept_(kept) {
   num_blocks_ = block_of_.empty() ? 0 : block_of_.back() + 1;
   first_kept_ = kept == 0 ? num_blocks_ : block_of_[block_of_.size() - index(kept)];
 }
@@ -62,7 +59,7 @@ bool BlockLu::factor() {
 }
 
 bool BlockLu::factor_with_new_hosts() {
-  const std::vector<int> hosts = choose_hosts(matrix_, first_kept_);
+  const std::vector<int> hosts = choose_hosts(rows_, first_kept_);
   return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rounding);
 }
 
@@ -80,7 +77,7 @@ bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
 // Pivots have to exceed so much of what has been on the diagonal.
 bool BlockLu::factor_as_planned(double least) {
   failed_ = nullptr;
-  copy(local_.values.data());
+  copy();
   return std::ranges::all_of(eliminated(),
                              [&](const auto& panel) { return eliminate(panel, least); });
 }
@@ -120,7 +117,7 @@ bool BlockLu::set_hosts(std::span<const int> host) {
 }
 
 void BlockLu::plan() {
-  plan_ = plan_blocks(matrix_, host_, first_kept_);
+  plan_ = plan_blocks(rows_, host_, first_kept_);
   const std::size_t rows = plan_.unknown.size();
   values_.assign(plan_.num_values, 0.0);
   before_.assign(rows, 0.0);
@@ -131,9 +128,9 @@ void BlockLu::plan() {
   for (std::size_t place = 0; place < rows; ++place) {
     const std::size_t row = index(plan_.unknown[place]);
     place_[row] = static_cast<int>(place);
-    for (auto k = local_.graph.row_map(row); k < local_.graph.row_map(row + 1); ++k) {
-      if (index(local_.graph.entries(k)) == row) diagonal_[place] = k;
-    }
+    rows_.for_entries(plan_.unknown[place], [&](int column, std::size_t source) {
+      if (index(column) == row) diagonal_[place] = source;
+    });
   }
   int widest = 0;
   int tallest = 0;
@@ -145,13 +142,13 @@ void BlockLu::plan() {
   row_weight_.assign(index(tallest), 0.0);
 }
 
-void BlockLu::copy(const double* values) {
+void BlockLu::copy() {
   for (const auto& [begin, end] : plan_.gaps) {
     std::fill(values_.begin() + static_cast<std::ptrdiff_t>(begin),
               values_.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
   }
   const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns) {
-    const double* source = values + c.source;
+    const double* source = rows_.values(c.source);
     double* target = values_.data() + c.target;
     for (int i = 0; i < c.rows; ++i, source += c.source_stride, target += c.target_stride) {
       for (int k = 0; k < columns; ++k) target[k] = source[k];
@@ -165,7 +162,7 @@ void BlockLu::copy(const double* values) {
     }
   }
   for (std::size_t place = 0; place < before_.size(); ++place) {
-    before_[place] = diagonal_[place] == none ? 0.0 : std::abs(values[diagonal_[place]]);
+    before_[place] = diagonal_[place] == none ? 0.0 : std::abs(rows_.value(diagonal_[place]));
   }
 }
 
@@ -189,9 +186,9 @@ bool BlockLu::has_grown(const BlockPlan::Panel& panel) {
 
 double BlockLu::largest_in_row(int row) const {
   double largest = 0.0;
-  for (auto k = local_.graph.row_map(index(row)); k < local_.graph.row_map(index(row) + 1); ++k) {
-    largest = std::max(largest, std::abs(local_.values(k)));
-  }
+  rows_.for_entries(row, [&](int, std::size_t source) {
+    largest = std::max(largest, std::abs(rows_.value(source)));
+  });
   return largest;
 }
 
@@ -199,14 +196,14 @@ double BlockLu::largest_in_row(int row) const {
 // to a heavy one is eliminated, the mass of that one.
 double BlockLu::largest_behind_joints(int row) const {
   const auto for_entries = [&](int of, const auto& visit) {
-    for (auto k = local_.graph.row_map(index(of)); k < local_.graph.row_map(index(of) + 1); ++k) {
-      if (local_.values(k) != 0.0) visit(local_.graph.entries(k), std::abs(local_.values(k)));
-    }
+    rows_.for_entries(of, [&](int column, std::size_t source) {
+      if (rows_.value(source) != 0.0) visit(column, std::abs(rows_.value(source)));
+    });
   };
   double largest = 0.0;
   for_entries(row, [&](int joint, double here) {
     const std::size_t diagonal = diagonal_[index(place_[index(joint)])];
-    if (diagonal != none && local_.values(diagonal) != 0.0) return;
+    if (diagonal != none && rows_.value(diagonal) != 0.0) return;
     const double least = smallest_share * largest_in_row(joint);
     for_entries(joint, [&](int other, double there) {
       const double ratio = here / std::max(there, least);

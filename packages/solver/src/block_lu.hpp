@@ -24,7 +24,7 @@ class BlockLu {
  public:
   /// The matrix stays with the caller. @param kept rows at the end that are not eliminated; they
   /// form blocks of their own
-  explicit BlockLu(const assembly::CrsMatrix& matrix, int kept = 0);
+  explicit BlockLu(const BlockRows& rows, int kept = 0);
 
   /// Factors the present values. @return false if a pivot is nothing but rounding or not a number,
   /// or entries grow too much; the matrix may yet have factors with other pivots
@@ -55,7 +55,7 @@ class BlockLu {
   bool merge_failed();
   void plan();
   std::span<const BlockPlan::Panel> eliminated() const;
-  void copy(const double* values);
+  void copy();
   bool eliminate(const BlockPlan::Panel& panel, double least);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
@@ -66,16 +66,15 @@ class BlockLu {
   template <class Size, class Width>
   void substitute_back(const BlockPlan::Panel& panel, Size size, Width width);
 
-  const assembly::CrsMatrix& matrix_;
-  assembly::CrsMatrix::local_matrix_host_type local_;  ///< of it; to ask for it allocates
-  std::vector<int> block_of_;                          ///< of each row
+  BlockRows rows_;
+  std::vector<int> block_of_;  ///< of each row
   int num_blocks_ = 0;
   int kept_ = 0;        ///< rows
   int first_kept_ = 0;  ///< block
   std::vector<int> host_;
   BlockPlan plan_;
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
-  std::vector<std::size_t> diagonal_;         ///< by place: its entry of the matrix; `none`
+  std::vector<std::size_t> diagonal_;         ///< by place: source of its entry; `none`
   std::vector<int> place_;                    ///< of each row
   std::vector<double> values_;
   std::vector<double> before_;      ///< by place: largest size of the diagonal so far

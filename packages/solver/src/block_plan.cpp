@@ -13,9 +13,9 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 class Planner {
  public:
-  Planner(const assembly::CrsMatrix& matrix, const std::vector<int>& host, int first_kept)
-      : matrix_(matrix),
-        blocks_(find_blocks(matrix)),
+  Planner(const BlockRows& rows, const std::vector<int>& host, int first_kept)
+      : rows_(rows),
+        blocks_(find_blocks(rows)),
         block_of_(block_of_row(blocks_)),
         graph_(couple(blocks_, block_of_)),
         first_row_(blocks_.sizes.size()),
@@ -117,27 +117,27 @@ class Planner {
   }
 
   void list_copies() {
-    const auto begin = matrix_.getLocalMatrixHost().graph.row_map;
-    std::size_t at = 0;
+    std::vector<std::pair<int, std::size_t>> entries;  // column and source
     for (std::size_t b = 0; b < blocks_.sizes.size(); ++b) {
-      const std::size_t source = begin(index(first_row_[b]));
-      const std::size_t end = at + index(blocks_.widths[b]);
-      for (std::size_t k = at; k < end;) {
-        const auto column = static_cast<int>(blocks_.columns[k]);
+      entries.clear();
+      rows_.for_entries(first_row_[b], [&](int column, std::size_t source) {
+        entries.emplace_back(column, source);
+      });
+      std::ranges::sort(entries);
+      for (std::size_t k = 0; k < entries.size();) {
+        const auto [column, source] = entries[k];
         const int other = block_of_[index(column)];
         const int last = first_row_[index(other)] + blocks_.sizes[index(other)];
         int run = 1;
-        while (k + index(run) < end && column + run < last &&
-               blocks_.columns[k + index(run)] == column + run) {
+        while (k + index(run) < entries.size() && column + run < last &&
+               entries[k + index(run)] == std::pair(column + run, source + index(run))) {
           ++run;
         }
         const Place target = find(static_cast<int>(b), other);
-        plan_.copies.push_back({source + (k - at),
-                                target.at + index(column - first_row_[index(other)]),
+        plan_.copies.push_back({source, target.at + index(column - first_row_[index(other)]),
                                 blocks_.widths[b], target.stride, blocks_.sizes[b], run});
         k += index(run);
       }
-      at = end;
     }
   }
 
@@ -185,7 +185,7 @@ class Planner {
     }
   }
 
-  const assembly::CrsMatrix& matrix_;
+  const BlockRows& rows_;
   Blocks blocks_;
   std::vector<int> block_of_;  // of each row
   parallel::Graph graph_;
@@ -199,9 +199,8 @@ class Planner {
 
 }  // namespace
 
-BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host,
-                      int first_kept) {
-  return Planner(matrix, host, first_kept).take();
+BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept) {
+  return Planner(rows, host, first_kept).take();
 }
 
 }  // namespace culm::solver

@@ -1,7 +1,7 @@
 /// Everything about factors of dense blocks that follows from the graph.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
+#include "block_rows.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -37,7 +37,7 @@ struct BlockPlan {
   };
   /// A rectangle of the matrix that goes to the factors.
   struct Copy {
-    std::size_t source = 0;
+    std::size_t source = 0;  ///< of the first entry, see BlockRows
     std::size_t target = 0;
     int source_stride = 0;
     int target_stride = 0;
@@ -55,10 +55,9 @@ struct BlockPlan {
   std::size_t num_values = 0;
 };
 
-/// @param matrix with all rows on this rank @param host of each block, see `find_hosts`
+/// @param host of each block, see `find_hosts`
 /// @param first_kept  the first of the blocks at the end that are not eliminated; if there are any,
 /// the D of the last panel is what remains for them
-BlockPlan plan_blocks(const assembly::CrsMatrix& matrix, const std::vector<int>& host,
-                      int first_kept);
+BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept);
 
 }  // namespace culm::solver

@@ -33,6 +33,26 @@ Blocks find_blocks(const assembly::CrsMatrix& matrix) {
   return blocks;
 }
 
+Blocks find_blocks(const BlockRows& rows) {
+  Blocks blocks;
+  std::vector<int> columns, last;
+  for (int row = 0; row < rows.size(); ++row) {
+    columns.clear();
+    rows.for_entries(row, [&](int column, std::size_t) { columns.push_back(column); });
+    std::ranges::sort(columns);
+    blocks.rows.push_back(row);
+    if (row > 0 && columns == last) {
+      ++blocks.sizes.back();
+      continue;
+    }
+    blocks.sizes.push_back(1);
+    blocks.widths.push_back(static_cast<int>(columns.size()));
+    blocks.columns.insert(blocks.columns.end(), columns.begin(), columns.end());
+    last.swap(columns);
+  }
+  return blocks;
+}
+
 std::vector<int> block_of_row(const Blocks& blocks) {
   std::vector<int> block_of(blocks.rows.size());
   std::size_t at = 0;

@@ -4,6 +4,8 @@
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/partition.hpp>
 
+#include "block_rows.hpp"
+
 #include <vector>
 
 namespace culm::solver {
@@ -18,6 +20,8 @@ struct Blocks {
 
 /// Those of this rank's rows.
 Blocks find_blocks(const assembly::CrsMatrix& matrix);
+/// Those of rows of one rank; columns rise within a block.
+Blocks find_blocks(const BlockRows& rows);
 
 /// Block of each row, by its global number. @param blocks of all rows
 std::vector<int> block_of_row(const Blocks& blocks);

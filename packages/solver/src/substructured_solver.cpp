@@ -30,7 +30,7 @@ class SubstructuredSolver final : public LinearSolver {
         comm_(comm),
         parts_(matrix, comm),
         piece_(parts_.piece(), parts_.kept()),
-        x_(parts_.piece().getNodeNumRows(), 0.0),
+        x_(static_cast<std::size_t>(parts_.piece().size()), 0.0),
         check_(matrix, comm),
         correction_(assembly::rows_of(matrix->getRowMap())) {
     if (parts_.interface_size() > 0 && comm_.is_root()) {

@@ -44,6 +44,8 @@ class Rows {
     }
     begin_.push_back(columns_.size());
   }
+  const std::vector<std::size_t>& begin() const { return begin_; }
+  const std::vector<int>& columns() const { return columns_; }
   Teuchos::RCP<CrsMatrix> make_matrix() const { return make_serial_matrix(begin_, columns_); }
 
  private:
@@ -119,18 +121,20 @@ void Substructures::build_piece(const std::vector<int>& owners,
                                 const std::vector<bool>& is_interface) {
   const auto& rows = *matrix_->getRowMap();
   const auto& columns = *matrix_->getColMap();
-  std::vector<int> place(owners.size(), -1);  // of local columns in the piece
+  std::vector<int>& interior = piece_.rows;
+  std::vector<int>& place = piece_.place;
+  place.assign(owners.size(), -1);
   for (int row = 0; row < static_cast<int>(rows.getNodeNumElements()); ++row) {
     const std::size_t column = index(columns.getLocalElement(rows.getGlobalElement(row)));
     if (is_interface[column]) {
       boundary_.push_back(row);
     } else {
-      place[column] = static_cast<int>(interior_.size());
-      interior_.push_back(row);
+      place[column] = static_cast<int>(interior.size());
+      interior.push_back(row);
     }
   }
   std::vector<int> kept;  // local columns
-  for (int row : interior_) {
+  for (int row : interior) {
     for_entries(row, [&](int column, std::size_t) {
       if (is_interface[index(column)]) kept.push_back(column);
     });
@@ -138,35 +142,21 @@ void Substructures::build_piece(const std::vector<int>& owners,
   std::ranges::sort(kept, {}, [&](int column) { return columns.getGlobalElement(column); });
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    place[index(kept[k])] = static_cast<int>(interior_.size() + k);
+    place[index(kept[k])] = static_cast<int>(interior.size() + k);
     kept_.push_back(columns.getGlobalElement(kept[k]));
   }
 
-  Rows built;
   Lists rows_below(kept.size());
   ByRank<long long> wanted(index(comm_.size()));  // row and column of each value
   std::vector<int> owner_of_wanted;
   const std::size_t from_others = values_of(*matrix_).size();  // sources above it are wanted
-  std::vector<int> place_of_wanted;
-  const auto note = [&](std::size_t source, std::size_t to) {
-    if (source >= from_others) {
-      place_of_wanted[source - from_others] = static_cast<int>(to);
-    } else if (!runs_here_.empty() && runs_here_.back().continues(source, to)) {
-      ++runs_here_.back().count;
-    } else {
-      runs_here_.push_back({source, to, 1});
-    }
-  };
-  std::vector<Entry> entries;
-  for (std::size_t i = 0; i < interior_.size(); ++i) {
-    const GlobalIndex here = rows.getGlobalElement(interior_[i]);
-    entries.clear();
-    for_entries(interior_[i], [&](int column, std::size_t source) {
+  for (std::size_t i = 0; i < interior.size(); ++i) {
+    const GlobalIndex here = rows.getGlobalElement(interior[i]);
+    for_entries(interior[i], [&](int column, std::size_t) {
       const int there = place[index(column)];
       internal_check(there >= 0, symmetric_pattern);
-      entries.push_back({there, source});
       if (!is_interface[index(column)]) return;
-      std::vector<Entry>& below = rows_below[index(there) - interior_.size()];
+      std::vector<Entry>& below = rows_below[index(there) - interior.size()];
       const int owner = owners[index(column)];
       const GlobalIndex other = columns.getGlobalElement(column);
       if (owner == comm_.rank()) {
@@ -177,11 +167,21 @@ void Substructures::build_piece(const std::vector<int>& owners,
       owner_of_wanted.push_back(owner);
       wanted[index(owner)].insert(wanted[index(owner)].end(), {other, here});
     });
-    built.add(entries, note);
   }
-  place_of_wanted.resize(owner_of_wanted.size());
-  for (std::vector<Entry>& row : rows_below) built.add(row, note);
-  piece_ = built.make_matrix();
+  std::vector<int> place_of_wanted(owner_of_wanted.size());
+  Rows added;
+  for (std::vector<Entry>& row : rows_below) {
+    added.add(row, [&](std::size_t source, std::size_t to) {
+      if (source >= from_others) {
+        place_of_wanted[source - from_others] = static_cast<int>(to);
+      } else {
+        values_here_.emplace_back(source, to);
+      }
+    });
+  }
+  piece_.begin = added.begin();
+  piece_.columns = added.columns();
+  piece_.values.assign(piece_.columns.size(), 0.0);
   values_in_.resize(wanted.size());
   for (std::size_t k = 0; k < owner_of_wanted.size(); ++k) {
     values_in_[index(owner_of_wanted[k])].push_back(place_of_wanted[k]);
@@ -253,9 +253,8 @@ void Substructures::build_interface(const std::vector<bool>& is_interface) {
 
 void Substructures::gather_values() {
   const std::span<const double> from = values_of(*matrix_);
-  const std::span<double> to = values_of(*piece_);
-  for (const Run& run : runs_here_)
-    std::ranges::copy(from.subspan(run.from, run.count), &to[run.to]);
+  std::vector<double>& to = piece_.values;
+  for (const auto& [source, place] : values_here_) to[place] = from[source];
   if (comm_.size() == 1) return;
   ByRank<double> out(values_out_.size());
   for (std::size_t rank = 0; rank < out.size(); ++rank) {
@@ -281,12 +280,12 @@ void Substructures::gather_interface(std::span<const double> remainder) {
 
 void Substructures::take(std::span<const double> b, std::span<double> piece) const {
   std::ranges::fill(piece, 0.0);
-  for (std::size_t i = 0; i < interior_.size(); ++i) piece[i] = b[index(interior_[i])];
+  for (std::size_t i = 0; i < piece_.rows.size(); ++i) piece[i] = b[index(piece_.rows[i])];
 }
 
 void Substructures::gather(std::span<const double> b, std::span<const double> piece,
                            std::span<double> whole) {
-  const auto ends = piece.subspan(interior_.size());
+  const auto ends = piece.subspan(piece_.rows.size());
   mine_.assign(ends.begin(), ends.end());
   for (int row : boundary_) mine_.push_back(b[index(row)]);
   all_.resize(index(row_funnel_.total()));
@@ -302,14 +301,14 @@ void Substructures::scatter(std::span<const double> whole, std::span<double> pie
   mine_.resize(kept_.size() + boundary_.size());
   row_funnel_.scatter(all_, mine_);
   const auto own = mine_.begin() + static_cast<std::ptrdiff_t>(kept_.size());
-  std::copy(mine_.begin(), own, piece.begin() + static_cast<std::ptrdiff_t>(interior_.size()));
+  std::copy(mine_.begin(), own, piece.begin() + static_cast<std::ptrdiff_t>(piece_.rows.size()));
   for (std::size_t k = 0; k < boundary_.size(); ++k) {
     x[index(boundary_[k])] = own[static_cast<std::ptrdiff_t>(k)];
   }
 }
 
 void Substructures::put(std::span<const double> piece, std::span<double> x) const {
-  for (std::size_t i = 0; i < interior_.size(); ++i) x[index(interior_[i])] = piece[i];
+  for (std::size_t i = 0; i < piece_.rows.size(); ++i) x[index(piece_.rows[i])] = piece[i];
 }
 
 }  // namespace culm::solver

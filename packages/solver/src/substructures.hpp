@@ -5,9 +5,11 @@
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 
+#include "block_rows.hpp"
 #include "exchange.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace culm::solver {
@@ -23,10 +25,12 @@ namespace culm::solver {
 class Substructures {
  public:
   Substructures(Teuchos::RCP<const assembly::CrsMatrix> matrix, const parallel::Comm& comm);
+  Substructures(const Substructures&) = delete;
+  Substructures& operator=(const Substructures&) = delete;
 
   /// [A_II A_IB; A_BI 0] of this rank, with the interface unknowns that its interior meets at the
-  /// end.
-  const assembly::CrsMatrix& piece() const { return *piece_; }
+  /// end. The rows of the interior are those of the matrix itself.
+  BlockRows piece() const { return {*matrix_, piece_}; }
   /// Unknowns at its end that are of the interface.
   int kept() const { return static_cast<int>(kept_.size()); }
   /// S; on the root only.
@@ -34,7 +38,7 @@ class Substructures {
   /// Unknowns of the interface; on all ranks.
   int interface_size() const { return interface_size_; }
 
-  /// Brings the present values to the pieces. Collective, as all that follows.
+  /// Brings the present values of A_BI to the pieces. Collective, as all that follows.
   void gather_values();
   /// Puts S together. @param remainder  of this rank, -A_BI A_II^-1 A_IB, row by row
   void gather_interface(std::span<const double> remainder);
@@ -50,15 +54,6 @@ class Substructures {
   void put(std::span<const double> piece, std::span<double> x) const;
 
  private:
-  struct Run {
-    std::size_t from = 0;
-    std::size_t to = 0;
-    std::size_t count = 0;
-    bool continues(std::size_t next_from, std::size_t next_to) const {
-      return next_from == from + count && next_to == to + count;
-    }
-  };
-
   template <class Visit>
   void for_entries(int row, const Visit& visit) const;
   std::size_t find_entry(long long row, long long column) const;
@@ -70,14 +65,13 @@ class Substructures {
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
   assembly::CrsMatrix::local_matrix_host_type local_;  ///< of it; to ask for it allocates
   parallel::Comm comm_;
-  std::vector<int> interior_;    ///< rows of this rank
   std::vector<int> boundary_;    ///< rows of this rank that are of the interface
   std::vector<long long> kept_;  ///< global numbers
   int interface_size_ = 0;
-  Teuchos::RCP<assembly::CrsMatrix> piece_;
-  std::vector<Run> runs_here_;  ///< from the values of the matrix to those of the piece
-  ByRank<int> values_out_;      ///< values of the matrix that other ranks need
-  ByRank<int> values_in_;       ///< places in the piece of what they send
+  PartOfRows piece_;
+  std::vector<std::pair<std::size_t, std::size_t>> values_here_;  ///< of the matrix, to the piece
+  ByRank<int> values_out_;  ///< values of the matrix that other ranks need
+  ByRank<int> values_in_;   ///< places in the piece of what they send
   Teuchos::RCP<assembly::CrsMatrix> interface_;
   std::vector<std::size_t> interface_values_;  ///< those of the matrix between its unknowns
   parallel::Funnel value_funnel_;

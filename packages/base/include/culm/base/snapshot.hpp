@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <span>
@@ -44,6 +45,8 @@ class Snapshot {
 
   /// As bytes, in the order of this machine.
   std::string encode() const;
+  /// The same piece by piece.
+  void encode(const std::function<void(std::string_view)>& take) const;
   /// Throws FileError if the bytes are not what encode() made.
   static Snapshot decode(std::string_view bytes);
 

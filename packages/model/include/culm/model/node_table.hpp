@@ -56,10 +56,11 @@ class NodeTable {
   /// @return false when that would close a loop of links or give a node a second master
   bool link(int slave, int master);
   /// Whether a node has no unknowns of its own.
-  bool is_slave(int node) const { return links_[index(node)].master >= 0; }
+  bool is_slave(int node) const { return link_of_[index(node)] >= 0; }
   /// The node whose unknowns move this one: its master, or itself.
-  int master(int node) const { return is_slave(node) ? links_[index(node)].master : node; }
-  const RigidLink& rigid_link(int node) const { return links_[index(node)]; }
+  int master(int node) const { return is_slave(node) ? rigid_link(node).master : node; }
+  /// @pre is_slave(node)
+  const RigidLink& rigid_link(int node) const { return links_[index(link_of_[index(node)])]; }
 
   /// Recomputes an eliminated node from its master.
   void follow_master(int slave, Coordinates& q) const;
@@ -83,6 +84,7 @@ class NodeTable {
   Coordinates reference_;
   std::vector<NodeKind> kinds_;
   std::vector<std::bitset<6>> fixed_;
+  std::vector<int> link_of_;  // of each node among the links, or -1: few nodes have one
   std::vector<RigidLink> links_;
 };
 
