@@ -18,6 +18,8 @@
 namespace culm::strip {
 namespace {
 
+constexpr double three_quarters = 0.75;
+
 void check(const Options& options, InputIssues& issues) {
   check_places(options, {"Chords", "Twists", "Axes At", "Airfoils"}, issues);
   check_one_of("Chord", "Chords", options, issues);
@@ -28,6 +30,12 @@ void check(const Options& options, InputIssues& issues) {
         options.where("Lag"),
         "constants of airfoils stand for apparent mass, too: take 'Apparent Mass' = false, or "
         "'Lag' = Jones");
+  }
+  if (options.number("Angle At") != three_quarters &&
+      (lag == "Jones" || options.flag("Apparent Mass"))) {
+    issues.add(options.where("Angle At"),
+               "must be 0.75 with 'Lag' = Jones and with 'Apparent Mass', which belong to the "
+               "angle at the three-quarter chord");
   }
   if (Vec<2>(options.numbers("Nose").data()).norm() < 1e-12) {
     issues.add(options.where("Nose"), "must not be zero");
@@ -50,6 +58,13 @@ Schema strip_schema() {
       .add(numbers("Twists", "rad", "The same at the positions.").optional())
       .add(number("Axis At", "1", "Place of the axis behind the nose, in chords.").optional(0.25))
       .add(numbers("Axes At", "1", "The same at the positions.").optional())
+      .add(number("Angle At", "1",
+                  "Place behind the nose, in chords, whose wind has the angle of attack and the "
+                  "speed that count: three quarters, as in the theory of thin airfoils, where a "
+                  "section that turns about its span meets another angle; a quarter, as programs "
+                  "do that leave this out.")
+               .between(0.0, 1.0)
+               .optional(three_quarters))
       .add(numbers("Nose", "1", "Direction from the axis to the nose, along the directors 1 and 2.")
                .size(2)
                .optional(std::vector<double>{-1.0, 0.0}))
@@ -149,6 +164,7 @@ void make(const Options& options, StripContext& context) {
     station.across = std::cos(turn) * suction + std::sin(turn) * tail;
     const Between between =
         airfoils.size() > 1 ? find_between(options.numbers("Positions"), place.s) : Between{};
+    station.angle_at = options.number("Angle At");
     station.airfoil = airfoils[between.index];
     station.blend = between.share;
     station.next_airfoil = airfoils[std::min(between.index + 1, airfoils.size() - 1)];
