@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """C20: mooring lines at rest, a spar on three of them. Page: doc/verification/mooring.md."""
 
+import numpy as np
 from verify import main
 
 DECK = "offshore/moored_spar.xml"
@@ -15,25 +16,51 @@ LINES = {
 ALONE = [f"Analyses/{one}/Inactive={{weight, buoyancy, waterplane, line 2, line 3}}" for one in ("rest", "pulled", "decay")]
 
 
-def pulled_line(culm, data, H, V):
-    """How far the fairlead of line 1 moves from (h, z) under H and V, and its length on the ground."""
+def pulled_line(culm, data, H, V, friction=0.0):
+    """How far the fairlead of line 1 moves from (h, z) under H and V, its length on the ground, and the tension at its anchor."""
     h, z, length, weight, stiffness, seabed = data
     entry = "Loads/line 1"
     # nothing moves, so the certificate of the motion that follows has nothing to relate rounding to
     history = culm.run(DECK, [
         f"{entry}/Offset={{0, 0, 0}}", f"{entry}/Anchor={{{h}, 0, {-z}}}", f"{entry}/Length={length}",
-        f"{entry}/Weight={weight}", f"{entry}/EA={stiffness}", f"{entry}/Seabed={seabed}", *HELD, *ALONE,
+        f"{entry}/Weight={weight}", f"{entry}/EA={stiffness}", f"{entry}/Seabed={seabed}", f"{entry}/Friction={friction}", *HELD, *ALONE,
         f"Loads/pull/Force={{{-H}, 0, {V}}}", "Loads/pull/Function=Constant", "Output/History/line 2/Load=line 1",
         "Analyses/decay/End Time=0.5"]).history
-    return max(abs(history.column(f"spar u{x} [m]")[1]) for x in "xz"), history.column("line 1 grounded [m]")[1]
+    return (max(abs(history.column(f"spar u{x} [m]")[1]) for x in "xz"),
+            *(history.column(f"line 1 {name}")[1] for name in ("grounded [m]", "anchor [N]")))
+
+
+def place_by_pieces(H, V, length, weight, stiffness, friction, pieces=100000):
+    """Where the fairlead is, and the tension at the anchor: sums over pieces of the line, from the fairlead down."""
+    s = length - (np.arange(pieces) + 0.5) * length / pieces  # from the anchor
+    vertical = np.maximum(V - weight * (length - s), 0.0)
+    grounded = length - V / weight
+    tension = np.where(vertical > 0.0, np.hypot(H, vertical), np.maximum(H - friction * weight * (grounded - s), 0.0))
+    stretched = (1.0 + tension / stiffness) * length / pieces
+    cosine = np.where(vertical > 0.0, H / np.hypot(H, vertical), 1.0)
+    return np.sum(stretched * cosine), np.sum(stretched * np.sqrt(1.0 - cosine**2)), max(H - friction * weight * grounded, 0.0)
 
 
 def verify_lines(culm, report):
     report.title("C20: a fairlead pulled by H and V stays at (h, z) [m]")
     for name, (data, (H, V, grounded), allowed) in LINES.items():
-        moved, found = pulled_line(culm, data, H, V)
+        moved, found, _ = pulled_line(culm, data, H, V)
         report.check(f"{name}: moves", moved, 0.0, allowed)
         report.check(f"{name}: on the ground", found, grounded, 1e-4)
+
+
+def verify_friction(culm, report):
+    report.title("friction on the seabed")
+    *_, anchor = pulled_line(culm, (400, 200, 500, 800, 7.51e12, "true"), 96643.428, 237751.755, 0.1)
+    report.relative("tension at the anchor, MoorPy [N]", anchor, 80418.604, 1e-6)
+    for friction in (0.1, 1.0):
+        h, z, wanted = place_by_pieces(9e4, 2.3e5, 500, 800, 2e6, friction)
+        moved, _, anchor = pulled_line(culm, (h, z, 500, 800, 2e6, "true"), 9e4, 2.3e5, friction)
+        report.check(f"a soft line, C_B = {friction}, by sums over pieces: moves [m]", moved, 0.0, 1e-5)
+        report.check("tension at the anchor [N]", anchor, wanted, 1.0)
+    run = culm.run(DECK, [f"Loads/line {i}/Friction=0.5" for i in (1, 2, 3)], quiet=False)
+    report.holds("free decay, C_B = 0.5: energy balance", run.drift("energy balance"), 1e-9)
+    report.note(f"work of friction {run.books()['work of loads']:.4g} J")
 
 
 def verify_spar(culm, report):
@@ -53,6 +80,7 @@ def verify_spar(culm, report):
 
 def verify(culm, report):
     verify_lines(culm, report)
+    verify_friction(culm, report)
     verify_spar(culm, report)
 
 

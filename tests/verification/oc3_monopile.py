@@ -2,6 +2,7 @@
 """The NREL 5 MW turbine on the OC3 monopile, clamped and in sand. Page: doc/verification/oc3_monopile.md."""
 
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -165,7 +166,8 @@ def fine(culm, report):
     with tempfile.TemporaryDirectory(prefix="culm") as folder:
         box = pathlib.Path(folder) / "wind.bts"
         subprocess.run([sys.executable, "-m", "culm.turbulence", box, *"--speed 12 --deviation 2.04 --height 90 --size 145 145 "
-                        "--points 13 13 --duration 620 --step 0.2 --seed 1".split()], check=True)
+                        "--points 13 13 --duration 620 --step 0.2 --seed 1".split()], check=True,
+                       env={**os.environ, "PYTHONPATH": str(INPUTS.parent / "src/python")})
         deck = (INPUTS / OPERATION).read_text()
         flow = re.search(r'<ParameterList name="wind">.*?</ParameterList>', deck, re.S)[0]
         turbulent = f'''<ParameterList name="wind">

@@ -55,16 +55,39 @@ Vec<2> first_guess(const CatenaryLine& line, double h, double z) {
   return {H, 0.5 * line.weight * (z / std::tanh(lambda) + L)};
 }
 
+/// What friction takes from h: the stretch on the ground less that without friction, and its
+/// derivatives by H and V. Over the moving length m the tension is H - C_B w s.
+struct Held {
+  double h = 0.0;
+  Vec<2> gradient = Vec<2>::Zero();
+};
+
+Held held(const CatenaryLine& line, const Vec<2>& force) {
+  const double H = force[0];
+  const double fall = line.friction * line.weight;
+  const double grounded = std::max(0.0, line.length - force[1] / line.weight);
+  if (fall == 0.0 || grounded == 0.0) return {};
+  const double m = std::min(grounded, H / fall);
+  const double at_anchor = std::max(H - fall * grounded, 0.0);
+  return {((m - grounded) * H - 0.5 * fall * m * m) / line.stiffness,
+          Vec<2>(m - grounded, (H - at_anchor) / line.weight) / line.stiffness};
+}
+
 // On the seabed, or as deep as a fairlead gets that reaches it: a spring without weight.
 CatenaryEnds lie(const CatenaryLine& line, double h) {
   CatenaryEnds ends;
   const double k = line.stiffness / line.length;
   const double stretch = std::max(0.0, h - line.length);
-  ends.horizontal = k * stretch;
   ends.grounded = line.length;
   ends.energy = 0.5 * k * stretch * stretch;
-  if (stretch > 0.0) ends.K(0, 0) = k;
   ends.found = true;
+  if (stretch == 0.0) return ends;
+  // H^2 / (2 C_B w EA) until the anchor feels it, then H / k less what friction holds
+  const double fall = line.friction * line.weight;
+  const double whole = 0.5 * fall * line.length / k;
+  const double partly = std::sqrt(2.0 * fall * line.stiffness * stretch);
+  ends.horizontal = stretch < whole ? partly : k * (stretch + whole);
+  ends.K(0, 0) = stretch < whole ? fall * line.stiffness / partly : k;
   return ends;
 }
 
@@ -119,6 +142,44 @@ CatenaryEnds solve(const CatenaryLine& line, double h, double z) {
   return ends;
 }
 
+// Newton's method from the line without friction. The determinant is positive for all H, V > 0.
+CatenaryEnds rub(const CatenaryLine& line, double h, double z, CatenaryEnds ends) {
+  const Vec<2> place(h, z);
+  Vec<2> force(ends.horizontal, ends.vertical);
+  const auto gap = [&](const Vec<2>& at, Mat<2, 2>& slope) {
+    const Complementary psi = complementary(line, at);
+    const Held less = held(line, at);
+    slope = psi.hessian;
+    slope.row(0) += less.gradient.transpose();
+    return Vec<2>(place - psi.gradient - less.h * Vec<2>::Unit(0));
+  };
+  Mat<2, 2> slope;
+  Vec<2> left = gap(force, slope);
+  ends.found = false;
+  for (int iteration = 0; iteration < 200 && !ends.found; ++iteration) {
+    const Vec<2> change = slope.inverse() * left;
+    if (!change.allFinite()) return ends;
+    ends.found =
+        std::max(std::abs(change[0]) / force[0], std::abs(change[1]) / force.norm()) < 1e-12;
+    double share = 1.0;
+    for (const int i : {0, 1}) {
+      if (change[i] < -0.9 * force[i]) share = std::min(share, -0.9 * force[i] / change[i]);
+    }
+    const double size = left.norm();
+    const Vec<2> start = force;
+    for (int halving = 0; halving < 60; ++halving, share *= 0.5) {
+      force = start + share * change;
+      left = gap(force, slope);
+      if (left.norm() <= size + 1e-15 * line.length) break;
+    }
+  }
+  ends.horizontal = force[0];
+  ends.vertical = force[1];
+  ends.grounded = std::max(0.0, line.length - force[1] / line.weight);
+  ends.K = slope.inverse();
+  return ends;
+}
+
 }  // namespace
 
 CatenaryEnds hang(const CatenaryLine& line, double h, double z) {
@@ -127,7 +188,9 @@ CatenaryEnds hang(const CatenaryLine& line, double h, double z) {
     const CatenaryEnds straight = hang_straight(line, z);
     if (h <= straight.grounded) return straight;
   }
-  return solve(line, h, z);
+  const CatenaryEnds ends = solve(line, h, z);
+  const bool rubs = line.on_seabed && line.friction > 0.0 && ends.found && ends.grounded > 0.0;
+  return rubs ? rub(line, h, z, ends) : ends;
 }
 
 }  // namespace culm::load

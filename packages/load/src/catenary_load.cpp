@@ -28,8 +28,7 @@ CatenaryEnds ends_at(const CatenaryLine& line, const Vec<2>& y) {
 }
 
 // By the chain rule with h^2 = L^2 (y1 - y2^2) and z = L y2; c = L^2 H / h.
-Potential potential(const CatenaryLine& line, const Vec<2>& y) {
-  const CatenaryEnds ends = ends_at(line, y);
+Potential by_forms(const CatenaryLine& line, const CatenaryEnds& ends, const Vec<2>& y) {
   const double L = line.length;
   const double h = L * std::max(std::sqrt(std::max(y[0] - y[1] * y[1], 0.0)), least_distance);
   const double H = ends.found ? ends.horizontal : std::nan("");
@@ -44,6 +43,24 @@ Potential potential(const CatenaryLine& line, const Vec<2>& y) {
   W.hessian.row(0) = 0.5 * c_y.transpose();
   W.hessian.row(1) = (L * V_y - y[1] * c_y - c * Vec<2>::Unit(1)).transpose();
   return W;
+}
+
+Potential potential(const CatenaryLine& line, const Vec<2>& y) {
+  const CatenaryLine smooth = line.without_friction();
+  return by_forms(smooth, ends_at(smooth, y), y);
+}
+
+/// What friction on the seabed adds to the gradient, with its derivative.
+struct Rubbing {
+  Vec<2> value = Vec<2>::Zero();
+  Mat<2, 2> derivative = Mat<2, 2>::Zero();
+};
+
+Rubbing rubbing(const CatenaryLine& line, const Vec<2>& y) {
+  if (line.friction == 0.0) return {};
+  const Potential with = by_forms(line, ends_at(line, y), y);
+  const Potential without = potential(line, y);
+  return {with.gradient - without.gradient, with.hessian - without.hessian};
 }
 
 // G(a, b) = g + (DW - g . d) d / |d|^2 with g in the middle and d = b - a, and its derivative by b.
@@ -92,12 +109,16 @@ CatenaryLoad::Response CatenaryLoad::respond(const Item& item, const model::Stat
   const double end = 2.0 * stencil.theta_strain - 1.0;
   const Vec<2> y = values_of(item.forms, slots_of(item.forms, state.next));
   const Potential W = potential(item.line, y);
-  Response response{W.gradient, W.hessian};
-  if (end == 1.0) return response;
+  const Rubbing last = rubbing(item.line, y);
+  if (end == 1.0) return {W.gradient, last.value, W.hessian + last.derivative};
   const Vec<2> y_prev = values_of(item.forms, slots_of(item.forms, state.prev));
+  const Rubbing middle = rubbing(item.line, 0.5 * (y_prev + y));
+  Response response;
   discrete_gradient(item.line, y_prev, y, W, response.stress, response.tangent);
   response.stress = (1.0 - end) * response.stress + end * W.gradient;
-  response.tangent = (1.0 - end) * response.tangent + end * W.hessian;
+  response.friction = (1.0 - end) * middle.value + end * last.value;
+  response.tangent = (1.0 - end) * (response.tangent + 0.5 * middle.derivative) +
+                     end * (W.hessian + last.derivative);
   return response;
 }
 
@@ -119,12 +140,12 @@ Verdict CatenaryLoad::assemble_item(std::size_t i, const model::State& state,
   const Motion motion(nodes_, item.forms.nodes, state, stencil.theta);
   const Response response = respond(item, state, stencil);
   const LinkGradient B = gradient_of(item.forms, motion.mid);
-  const LinkSlots r = on_slots(B, response.stress);
+  const LinkSlots r = on_slots(B, response.sum());
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
 
   Mat<12, 12> K = B * response.tangent * gradient_of(item.forms, motion.next).transpose();
-  const LinkScalars A = stencil.theta * curvature_of(item.forms, response.stress);
+  const LinkScalars A = stencil.theta * curvature_of(item.forms, response.sum());
   for (int s = 0; s < 4; ++s) {
     for (int t = 0; t < 4; ++t) K.block<3, 3>(3 * s, 3 * t) += A(s, t) * Mat3::Identity();
   }
@@ -153,13 +174,14 @@ model::StepWork CatenaryLoad::step_work(const model::State& state, const Stencil
     if (!placement().owned[i]) continue;
     const Item& item = local(i);
     const Motion motion(nodes_, item.forms.nodes, state, stencil.theta);
-    const Vec<2> stress = respond(item, state, stencil).stress;
-    add_item_work(LinkSlots(-on_slots(gradient_of(item.forms, motion.mid), stress)), motion,
+    const Response response = respond(item, state, stencil);
+    add_item_work(LinkSlots(-on_slots(gradient_of(item.forms, motion.mid), response.sum())), motion,
                   item.forms.nodes, state, false, work);
     const Vec<2> y = values_of(item.forms, slots_of(item.forms, state.next));
     const Vec<2> y_prev = values_of(item.forms, slots_of(item.forms, state.prev));
-    work.dissipation +=
-        stress.dot(y - y_prev) - potential(item.line, y).value + potential(item.line, y_prev).value;
+    work.external -= response.friction.dot(y - y_prev);
+    work.dissipation += response.stress.dot(y - y_prev) - potential(item.line, y).value +
+                        potential(item.line, y_prev).value;
   }
   return work;
 }

@@ -19,13 +19,20 @@ Schema schema() {
       .add(number("Length", "m", "Unstretched.").positive())
       .add(number("EA", "N", "Stiffness of the line in tension.").positive())
       .add(number("Weight", "N/m", "Per unstretched length, less buoyancy.").positive())
-      .add(flag("Seabed", "Whether the line rests, without friction, on the plane of its anchor.")
-               .optional(true))
+      .add(flag("Seabed", "Whether the line rests on the plane of its anchor.").optional(true))
+      .add(number("Friction", "1",
+                  "Coefficient of the seabed against a line that is pulled out: the tension falls "
+                  "towards the anchor by this times the weight.")
+               .at_least(0.0)
+               .optional(0.0))
       .add(model::vector_field("Up", "1", "Against gravity, of any length.")
                .optional({0.0, 0.0, 1.0}))
       .check([](const Options& options, InputIssues& issues) {
         if (model::vector(options, "Up").isZero(0.0)) {
           issues.add(options.where("Up"), "must not be zero");
+        }
+        if (!options.flag("Seabed") && options.number("Friction") > 0.0) {
+          issues.add(options.where("Friction"), "is that of a seabed, but 'Seabed' is false");
         }
       });
   return fields;
@@ -52,7 +59,7 @@ void build(const Options& options, model::BuildContext& context) {
   if (points.empty()) return;
   auto load = std::make_unique<CatenaryLoad>(effect_of("Catenary", options), context.model.nodes());
   const CatenaryLine line{options.number("Length"), options.number("EA"), options.number("Weight"),
-                          options.flag("Seabed")};
+                          options.flag("Seabed"), options.number("Friction")};
   for (const LinkPoint& point : points) {
     if (!is_above_seabed(point, options, context)) return;
     load->add(point, model::vector(options, "Anchor"), model::vector(options, "Up").normalized(),

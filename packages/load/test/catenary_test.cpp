@@ -33,6 +33,50 @@ TEST(Catenary, RestsOnTheSeabed) {
   EXPECT_NEAR(elastic.grounded, 202.810289957, 1e-8);
 }
 
+// h and z of a line with the forces H and V at its fairlead, by sums over pieces of the line.
+Vec<2> by_pieces(const CatenaryLine& line, double H, double V) {
+  constexpr int pieces = 200000;
+  const double ds = line.length / pieces;
+  const double grounded = std::max(0.0, line.length - V / line.weight);
+  Vec<2> place = Vec<2>::Zero();
+  for (int i = 0; i < pieces; ++i) {
+    const double s = (i + 0.5) * ds;  // from the anchor
+    const double low = line.weight * (s - grounded);
+    const double T = low > 0.0 ? std::hypot(H, low)
+                               : std::max(H - line.friction * line.weight * (grounded - s), 0.0);
+    const double stretched = (1.0 + T / line.stiffness) * ds;
+    place += low > 0.0 ? Vec<2>(stretched * Vec<2>(H, low) / T) : Vec<2>(stretched, 0.0);
+  }
+  return place;
+}
+
+// As MoorPy, and as the sum over pieces of a soft line, of which friction holds all or a part.
+TEST(Catenary, FrictionTakesFromTheTensionTowardsTheAnchor) {
+  const CatenaryLine stiff{500.0, 7.51e12, 800.0, true, 0.1};
+  EXPECT_NEAR(hang(stiff, 400.0, 200.0).anchor_tension(stiff), 80418.604, 5e-2);
+  for (const double friction : {0.1, 1.0}) {
+    const CatenaryLine line{500.0, 2e6, 800.0, true, friction};
+    const CatenaryEnds ends = hang(line, 420.0, 200.0);
+    ASSERT_TRUE(ends.found);
+    ASSERT_GT(ends.grounded, 50.0);
+    EXPECT_EQ(ends.anchor_tension(line) == 0.0, friction == 1.0);
+    EXPECT_LT((by_pieces(line, ends.horizontal, ends.vertical) - Vec<2>(420.0, 200.0)).norm(),
+              1e-5);
+    EXPECT_GT(std::abs(ends.horizontal - hang(line.without_friction(), 420.0, 200.0).horizontal),
+              1e-3 * ends.horizontal);
+  }
+}
+
+// All of the line on the ground, of which a part moves or all.
+TEST(Catenary, FrictionHoldsALineThatLies) {
+  const CatenaryLine line{100.0, 1e6, 50.0, true, 0.5};
+  for (const double h : {100.02, 100.2}) {
+    const CatenaryEnds ends = hang(line, h, 0.0);
+    EXPECT_NEAR(by_pieces(line, ends.horizontal, 0.0)[0], h, 1e-6);
+    EXPECT_EQ(ends.anchor_tension(line) > 0.0, h == 100.2);
+  }
+}
+
 struct Hung {
   double h, z;
   bool on_seabed;
@@ -74,6 +118,29 @@ TEST(Catenary, ForcesAreDerivativesOfTheEnergyAndStiffnessOfForces) {
   }
 }
 
+TEST(Catenary, StiffnessWithFrictionIsDerivativeOfForces) {
+  for (const double friction : {0.2, 3.0}) {
+    for (const Hung& at : hung) {
+      if (!at.on_seabed || at.h < 1e-3) continue;
+      const CatenaryLine line{100.0, 1e5, 50.0, true, friction};
+      const CatenaryEnds ends = hang(line, at.h, at.z);
+      ASSERT_TRUE(ends.found) << at.h << " " << at.z;
+      const auto forces = [&](double h, double z) {
+        const CatenaryEnds e = hang(line, at.h + h, at.z + z);
+        return Vec<2>(e.horizontal, e.vertical);
+      };
+      constexpr double step = 1e-4;
+      const double K = ends.K.norm() + 1.0;
+      EXPECT_LT(((forces(step, 0.0) - forces(-step, 0.0)) / (2.0 * step) - ends.K.col(0)).norm(),
+                1e-4 * K)
+          << at.h << " " << at.z;
+      EXPECT_LT(((forces(0.0, step) - forces(0.0, -step)) / (2.0 * step) - ends.K.col(1)).norm(),
+                1e-4 * K)
+          << at.h << " " << at.z;
+    }
+  }
+}
+
 // What hangs down without reaching the anchor weighs w z, and nothing pulls sideways.
 TEST(Catenary, SlackLineHangsStraight) {
   const CatenaryEnds ends = hang({100.0, inextensible, 50.0, true}, 20.0, 60.0);
@@ -95,10 +162,9 @@ void fill(model::Model& model, const CatenaryLine& line, bool with_slave) {
 }
 
 // Slack on the seabed, resting on it, lifted, hanging free, taut.
-const CatenaryLine lines[] = {{24.0, 500.0, 0.3, true},
-                              {17.0, 500.0, 0.3, true},
-                              {14.6, 500.0, 0.3, true},
-                              {24.0, 500.0, 0.3, false},
+const CatenaryLine lines[] = {{24.0, 500.0, 0.3, true},      {17.0, 500.0, 0.3, true},
+                              {15.5, 500.0, 0.3, true, 0.5}, {15.5, 20.0, 0.3, true, 2.0},
+                              {14.6, 500.0, 0.3, true},      {24.0, 500.0, 0.3, false},
                               {12.0, 20.0, 0.3, false}};
 
 TEST(CatenaryLoad, TangentIsDerivativeOfResidual) {
@@ -133,14 +199,18 @@ TEST(CatenaryLoad, WorkOfAStepIsTheEnergyItStores) {
     const Eigen::Map<const Eigen::VectorXd> next(state.next.data(), 12);
     const double stored = batch->stored_energy(state.next) - batch->stored_energy(state.prev);
     EXPECT_GT(std::abs(stored), 1e-3);
-    EXPECT_NEAR(r.dot(next - prev), stored, 1e-11 * (1.0 + std::abs(stored)));
-    EXPECT_NEAR(batch->step_work(state, stencil).dissipation, 0.0, 1e-11);
+    const model::StepWork work = batch->step_work(state, stencil);
+    EXPECT_NEAR(r.dot(next - prev), stored - work.external, 1e-11 * (1.0 + std::abs(stored)));
+    EXPECT_EQ(work.external == 0.0, line.friction == 0.0);
+
+    EXPECT_NEAR(work.dissipation, 0.0, 1e-11);
   }
 }
 
 // The mean force of a step makes up for what rounding leaves of DW over a short one.
 TEST(CatenaryLoad, SmallStepsKeepTheEnergyToRounding) {
   for (const CatenaryLine& line : lines) {
+    if (line.friction > 0.0) continue;
     model::Model model;
     fill(model, line, false);
     model.freeze(model::Form::multipliers);

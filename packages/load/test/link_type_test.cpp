@@ -121,6 +121,16 @@ TEST_F(LinkTypes, CatenaryNeedsToKnowWhereUpIs) {
               ElementsAre("must not be zero"));
 }
 
+TEST_F(LinkTypes, FrictionOfACatenaryNeedsASeabed) {
+  EXPECT_THAT(mistakes("Catenary", node({{"Anchor", Numbers{0.0, 0.0, -20.0}},
+                                         {"Length", 130.0},
+                                         {"EA", 1e9},
+                                         {"Weight", 1000.0},
+                                         {"Seabed", false},
+                                         {"Friction", 0.5}})),
+              ElementsAre("is that of a seabed, but 'Seabed' is false"));
+}
+
 TEST_F(LinkTypes, GroundSpringActsAtItsOffset) {
   build("Ground Spring", node({{"Stiffness", 10.0}, {"Offset", Numbers{0.0, 0.0, 1.0}}}));
   const Vec6 f = force_on_second(Vec3(0.5, 0.0, 0.0), Vec3::Zero());

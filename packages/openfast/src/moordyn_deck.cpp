@@ -52,13 +52,14 @@ std::vector<std::string> write_lines(const MoorDyn& moorings, const std::string&
     deck.set("Length", line.length);
     deck.set("EA", type.stiffness);
     deck.set("Weight", weight);
+    if (type.friction > 0.0) deck.set("Friction", type.friction);
     deck.close();
     report.add(checked, fmt::format("{}: {:.10g} N/m in water, {:.10g} kg", names.back(), weight,
                                     type.mass * line.length));
   }
   report.add(assumed,
-             "lines are at rest at each moment, on a seabed without friction at the depth of "
-             "their anchors: no inertia, no drag, no damping");
+             "lines are at rest at each moment, on a seabed at the depth of their anchors, with the "
+             "friction CB of MAP++ only: no inertia, no drag, no damping");
   return names;
 }
 

@@ -93,7 +93,11 @@ std::vector<LineType> read_types(const InputFile& file, Report& report) {
     types.push_back({table.text(i, {"Name", "LineType", "TypeName"}),
                      positive(table, i, {"Diam", "Diameter"}),
                      positive(table, i, {"MassDen", "MassDenInAir", "Mass/m"}),
-                     read_stiffness(table, i, report)});
+                     read_stiffness(table, i, report), table.number(i, {"CB"}, 0.0)});
+    if (types.back().friction < 0.0) {
+      throw InputError(table.where(i, {"CB"}),
+                       fmt::format("must be >= 0, got {:g}", types.back().friction));
+    }
     if (table.number(i, {"EI"}, 0.0) != 0.0) {
       report.add(not_used, to_string(table.where(i, {"EI"})) + ": stiffness in bending");
     }

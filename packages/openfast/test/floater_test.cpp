@@ -153,6 +153,7 @@ repeat 90 180
   const Imported imported = import_file(path_of("scene.fst"));
   EXPECT_THAT(imported.deck, HasSubstr(parameter("Anchor", "{800, 0, -200}")));
   EXPECT_THAT(imported.deck, HasSubstr("name=\"line 3\""));
+  EXPECT_THAT(imported.deck, HasSubstr(parameter("Friction", "0.001")));
   EXPECT_THAT(imported.deck, HasSubstr("800, -200}"));
   EXPECT_THAT(imported.deck, HasSubstr(R"("Anchor" value="{-800, )"));
 }

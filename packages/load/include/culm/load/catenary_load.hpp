@@ -15,6 +15,7 @@ namespace culm::load {
 ///   y = (|p|^2 / L^2, e . p / L)      p from the anchor to the fairlead, e upwards
 /// and the force on the slots is f = -B(q_theta)^T G, with G . Dy = DW in the conserving step, so
 /// that a step keeps the energy, and the angular momentum about the vertical through the anchor.
+/// What friction on the seabed changes of it has no potential, so it is external work.
 class CatenaryLoad final : public model::MemorylessBatch, public model::Booked {
  public:
   CatenaryLoad(model::Effect effect, const model::NodeTable& nodes)
@@ -41,10 +42,14 @@ class CatenaryLoad final : public model::MemorylessBatch, public model::Booked {
     Link forms;
     CatenaryLine line;
   };
-  /// Derivative of W by the forms in a step, and its derivative by those of the end.
+  /// Derivative of W by the forms in a step, what friction adds to it, and the derivative of their
+  /// sum by the forms of the end.
   struct Response {
     Vec<2> stress = Vec<2>::Zero();
+    Vec<2> friction = Vec<2>::Zero();
     Mat<2, 2> tangent = Mat<2, 2>::Zero();
+
+    Vec<2> sum() const { return stress + friction; }
   };
 
   Response respond(const Item& item, const model::State& state, const Stencil& stencil) const;

@@ -18,6 +18,7 @@ struct LineType {
   double diameter = 0.0;   ///< [m]
   double mass = 0.0;       ///< in air [kg/m]
   double stiffness = 0.0;  ///< EA [N]
+  double friction = 0.0;   ///< on the seabed, of MAP++ [-]
 };
 
 /// Where lines end.
