@@ -16,6 +16,10 @@ SPAGHETTI = "flight/spaghetti_3d"
 FIDELITY = "Structures/beam/Fidelity"
 MAST = "drag of the mast, drag of the box"
 BRIEF = "Analyses/motion/End Time=0.2"
+LINES = "line 1, line 2, line 3"
+# A spar that needs no line, for a second.
+HELD = ["Analyses/decay/End Time=1", *(f"Loads/hold/{one}" for one in ("Type=Ground Spring", "Node=spar", "Stiffness=1e5")),
+        *(f"Constraints/yaw/{one}" for one in ("Type=Rotation", "Node=spar", "Axis={0, 0, 1}"))]
 
 
 def without(analysis, loads):
@@ -43,6 +47,9 @@ ADDED = [
     ("Soil", "soil/swaying_pile", [], [*without("sway", "soil")]),
     ("Temperature", "heat/flying_bar", [], without("motion", "sun")),
     ("Beam Contact", "contact/rolling_rod", [BRIEF], [BRIEF, *without("motion", "left, right")]),
+    ("Cylinder Contact", "contact/struck_beam", [BRIEF], [BRIEF, *without("motion", "blow")]),
+    ("Catenary", "offshore/moored_spar", HELD, [*HELD, *without("rest", f"pull, {LINES}"), *without("pulled", LINES),
+                                                *without("decay", f"pull, {LINES}")]),
     ("Plane Contact", "contact/sliding_ball", [BRIEF], [BRIEF, *without("motion", "ground")]),
     ("Kirchhoff", SPAGHETTI, [f"{FIDELITY}=Kirchhoff"], [f"{FIDELITY}=Full"]),
     ("Torsion held", SPAGHETTI, ["Structures/beam/Torsion=false"], []),
@@ -69,6 +76,8 @@ WATCHING = {
     "water/potential_cylinder": ["water"],
     "contact/rolling_rod": ["left", "right"],
     "contact/sliding_ball": ["ground"],
+    "contact/struck_beam": ["blow"],
+    "offshore/moored_spar": ["line 1", "line 2"],
 }
 
 

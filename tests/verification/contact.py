@@ -2,6 +2,7 @@
 """C22: contact with planes, bars and other beams: impacts, friction, a chain, a line on the seabed. Page: doc/verification/contact.md."""
 
 import math
+import re
 
 from verify import main
 
@@ -64,6 +65,65 @@ def verify_friction(culm, report):
     rolls = 2.0 / (7.0 * 0.2 * 9.81)
     way = rolls - 0.981 * rolls**2 + 5.0 / 7.0 * (0.3 - rolls)
     report.relative("way [m]", last(run.history, "place x [m]"), way, 2e-4)
+
+
+def verify_friction_on_a_bar(culm, report):
+    report.title("The same along a round bar without ends, which is harder")
+    hard = ["Loads/ground/Stiffness=1e9", "Loads/ground/Smoothing=1e-6", "Structures/ball/Position={0, 0, 0.1 - 9.81e-6}"]
+    bar = ["Loads/ground/Type=Cylinder Contact", "Loads/ground/From={0, 0, -0.5}", "Loads/ground/To={1, 0, -0.5}",
+           "Loads/ground/Bar Radius=0.5", "Loads/ground/Ends=false"]
+    run = culm.run(BALL, [*bar, *hard], quiet=False)
+    report.relative("speed [m/s]", last(run.history, "ball vx [m/s]"), 5.0 / 7.0, 2e-4)
+    report.relative("spin [rad/s]", last(run.history, "spin wy [rad/s]"), 50.0 / 7.0, 2e-4)
+    report.relative("taken by friction [J]", taken(run), 1.0 / 7.0, 2e-4)
+    report.holds("energy balance", run.drift("energy balance"), 1e-10)
+    report.title("A bar that strikes a free tube, with friction and damping")
+    run = culm.run("contact/struck_beam.xml", ["Loads/blow/Friction=0.3", "Loads/blow/Slip Speed=0.1", "Loads/blow/Damping=0.05"], quiet=False)
+    for what in ("energy balance", "linear momentum", "angular momentum"):
+        report.holds(what, run.drift(what), 1e-10)
+    report.holds("they take energy", 0.0 if taken(run) > 0.0 else 1.0, 0.0)
+    report.title("A ball of 100 m/s, which would pass a bar in one step, bounces")
+    bar = [*bar[:3], "Loads/ground/From={-1, 0, -0.05}", "Loads/ground/To={1, 0, -0.05}", "Loads/ground/Bar Radius=0.05", "Loads/ground/Friction=0",
+           "Structures/ball/Position={0, 0, 0.8}", "Initial Conditions/throw/Velocity={0, 0, -100}", "Analyses/motion/Step=0.03",
+           "Loads/ground/Smoothing=0", "Loads/ground/Stiffness=1e10"]
+    run = culm.run(BALL, bar, quiet=False)
+    flown = math.sqrt(100.0**2 - 2.0 * 9.81 * (last(run.history, "place z [m]") - 0.8))
+    report.relative("speed upwards [m/s]", last(run.history, "ball vz [m/s]"), flown, 1e-6)
+    report.holds("energy balance", run.drift("energy balance"), 1e-10)
+    report.note(f"{run.cut_back()} steps cut back")
+
+
+def verify_friction_at_rest(culm, report):
+    report.title("Friction in statics: a bar dragged over rough ground, let go, and dragged again")
+    run = culm.run("contact/dragged_bar.xml", quiet=False)
+    whole = 300.0**2 / (2.0 * 1e6 * 50.0)
+    for level, share in ((0.6, 0.36), (1.0, 1.0), (2.0, 0.5), (3.0, 1.0)):
+        row = next(i for i, one in enumerate(run.history.levels) if abs(one - level) < 1e-9)
+        report.relative(f"its end at {level} [mm]", 1e3 * run.history.column("end ux [m]")[row], 1e3 * share * whole, 2e-3)
+    report.note(f"iterations per step {run.iterations() / 15:.1f}, at most {run.most_iterations()}; {run.cut_back()} steps cut back")
+    report.title("A rope around a bar: Euler and Eytelwein, with the lever of the rope's own radius")
+    radius, axis, tension, stiffness = 0.5, 0.501, 100.0, 1e5
+    mu = 0.3 * radius / axis
+    # a radius that gives way adds to what stretches
+    per_force = axis / stiffness + 1.0 / (axis * 5e8 * 0.02)
+
+    def end(ratio):
+        """How far the end comes that is pulled with the ratio times the force at the other: it slips up to an angle."""
+        slips = 0.5 * math.pi + math.log(ratio) / (2.0 * mu)
+        slid = ratio * (1.0 - math.exp(-mu * slips))
+        before = math.exp(-mu * (math.pi - slips)) - math.exp(-0.5 * mu * math.pi)
+        return per_force * tension / mu * (slid - before)
+
+    run = culm.run("contact/capstan.xml", quiet=False)
+    come = [-z for z in run.history.column("right uz [m]")]
+    report.relative("end pulled with 1.75 times the force, less with 1 [mm]", 1e3 * (come[15] - come[10]), 1e3 * (end(1.75) - end(1.0)), 1.5e-2)
+    report.relative("with 2.5 times the force [mm]", 1e3 * come[20], 1e3 * end(2.5), 1e-2)
+    report.relative("with the same force at both [mm]", 1e3 * come[10], 1e3 * end(1.0), 1e-4)
+    report.note(f"iterations per step {run.iterations() / 20:.1f}, at most {run.most_iterations()}; {run.cut_back()} steps cut back")
+    run = culm.run("contact/capstan.xml", ["most=2.6"], quiet=False)
+    report.holds("beyond the limit it fails", 0.0 if run.exit == 4 else 1.0, 0.0)
+    level = float(re.search(r"No equilibrium beyond level (\S+)", run.output + run.errors)[1])
+    report.relative("the last ratio", 1.0 + 1.6 * (level - 1.0), math.exp(mu * math.pi), 2e-3)
 
 
 def verify_chain(culm, report):
@@ -150,6 +210,8 @@ def verify_crossing(culm, report):
     report.relative("end of the lower [mm]", 1e3 * last(run.history, "lower end z [m]"),
                     1e3 * (200.0 * (length**3 / (3 * EI) + length / GA) - force * end), 1e-3)
     report.relative("end of the upper [mm]", 1e3 * (last(run.history, "upper end z [m]") - 0.06), 1e3 * force * end, 1e-3)
+    rough = culm.run("contact/crossed_cantilevers.xml", ["Loads/touch/Friction=0.3"], quiet=False)
+    report.holds("friction between beams at rest is said to be missing", 0.0 if "rubs in dynamics only" in rough.errors else 1.0, 0.0)
     report.note(f"depth {1e3 * depth:.3f} mm; iterations per step {run.iterations() / 4:.1f}, at most {run.most_iterations()}")
 
 
@@ -217,6 +279,8 @@ def verify(culm, report):
     verify_impacts(culm, report)
     verify_restitution(culm, report)
     verify_friction(culm, report)
+    verify_friction_on_a_bar(culm, report)
+    verify_friction_at_rest(culm, report)
     verify_chain(culm, report)
     verify_bars(culm, report)
     verify_line(culm, report)

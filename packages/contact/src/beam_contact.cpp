@@ -28,7 +28,7 @@ struct Sums {
 
 /// A point of a line with its directors.
 SurfaceCarrier carrier(const LineElement& element, const Vec<4>& shape, const model::State& state,
-                       double theta, double share) {
+                       double theta, const Vec3& arm) {
   SurfaceCarrier point;
   for (std::size_t a = 0; a < element.nodes.size(); ++a) {
     const double N = shape[static_cast<int>(a)];
@@ -38,7 +38,7 @@ SurfaceCarrier carrier(const LineElement& element, const Vec<4>& shape, const mo
     point.moved += N * (next.rightCols<3>() - prev.rightCols<3>());
     point.directors += N * ((1.0 - theta) * prev.rightCols<3>() + theta * next.rightCols<3>());
   }
-  point.share = share;
+  point.arm = arm;
   return point;
 }
 
@@ -157,6 +157,11 @@ std::string BeamContact::objection(const model::Coordinates& q) const {
   return fmt::format("lies {:.3g} m deep in the other beam, more than half of both radii", depth);
 }
 
+std::string BeamContact::left_out_at_rest() const {
+  if (friction_.coefficient == 0.0) return {};
+  return "rubs in dynamics only: nothing sticks to a beam at rest";
+}
+
 Verdict BeamContact::assemble(const model::State& state, const Stencil& stencil, Want want,
                               model::Target& target) {
   if (want == Want::mass) return Verdict::ok;
@@ -171,18 +176,32 @@ std::optional<Sliding> BeamContact::friction_of(int item, const Pair& pair,
                                                 const model::State& state, const Stencil& stencil,
                                                 bool tangent) const {
   if (friction_.coefficient == 0.0 || stencil.step == 0.0 || response.stress == 0.0) return {};
+  const double theta = stencil.theta;
+  const double share = 0.5 * width_ / law_.reach;  // of r, up to where both surfaces meet
+  const Vec3 r = (1.0 - theta) * pair.prev + theta * pair.next;
+  const double distance = r.norm();
   Pressed pressed;
-  const double share = 0.5 * width_ / law_.reach;
-  pressed.first =
-      carrier(first_of(item), first_of(item).shapes[pair.g], state, stencil.theta, share);
+  pressed.first = carrier(first_of(item), first_of(item).shapes[pair.g], state, theta, share * r);
   pressed.second =
-      carrier(second_of(item), second_of(item).shapes[pair.h], state, stencil.theta, 1.0 - share);
-  pressed.r = (1.0 - stencil.theta) * pair.prev + stencil.theta * pair.next;
-  const double distance = pressed.r.norm();
-  pressed.normal = -2.0 * pair.weight * response.stress * distance;
-  pressed.normal_by_r = -2.0 * pair.weight *
-                        (2.0 * response.tangent * distance * pair.next +
-                         stencil.theta * response.stress / distance * pressed.r);
+      carrier(second_of(item), second_of(item).shapes[pair.h], state, theta, (share - 1.0) * r);
+  pressed.normal = r / distance;
+  pressed.force = -2.0 * pair.weight * response.stress * distance;
+  if (tangent) {
+    const Mat3 turn =
+        theta / distance * (Mat3::Identity() - pressed.normal * pressed.normal.transpose());
+    const Vec3 by_r =
+        -2.0 * pair.weight *
+        (2.0 * response.tangent * distance * pair.next + theta * response.stress / distance * r);
+    pressed.place_by_slot.fill(Mat3::Zero());
+    pressed.normal_by_slot.fill(Mat3::Zero());
+    pressed.force_by_slot.fill(Vec3::Zero());
+    pressed.place_by_slot[0] = theta * (1.0 - share) * Mat3::Identity();
+    pressed.place_by_slot[4] = theta * share * Mat3::Identity();
+    pressed.normal_by_slot[0] = -turn;
+    pressed.normal_by_slot[4] = turn;
+    pressed.force_by_slot[0] = -by_r;
+    pressed.force_by_slot[4] = by_r;
+  }
   return slide(pressed, friction_, stencil, tangent);
 }
 
@@ -272,7 +291,7 @@ model::StepWork BeamContact::step_work(const model::State& state, const Stencil&
           pair.weight * (response.elastic * (next - prev) - law_.energy(next) + law_.energy(prev));
       const std::optional<Sliding> sliding =
           friction_of(placement().items[i], pair, response, state, stencil, false);
-      if (sliding) work.damping += sliding->taken;
+      if (sliding) work.damping -= sliding->force.dot(sliding->way);
     });
   }
   return work;

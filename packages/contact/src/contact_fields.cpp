@@ -85,13 +85,11 @@ Penalty read_penalty(const Options& options) {
 }
 
 Field friction_field() {
-  return number("Friction", "1", "Coefficient of friction, in dynamics.")
-      .at_least(0.0)
-      .optional(0.0);
+  return number("Friction", "1", "Coefficient of friction.").at_least(0.0).optional(0.0);
 }
 
 Field slip_speed_field() {
-  return number("Slip Speed", "m/s", "Speed at which 71 % of the friction is there.")
+  return number("Slip Speed", "m/s", "In dynamics, speed at which 71 % of the friction is there.")
       .positive()
       .optional(1e-3);
 }

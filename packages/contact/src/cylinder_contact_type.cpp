@@ -14,7 +14,7 @@ namespace {
 Schema schema() {
   Schema fields("Cylinder Contact",
                 "Contact of a line, or of spheres at nodes, with a round bar on a body or in "
-                "space, without friction.");
+                "space, with friction.");
   add_contact_fields(fields);
   fields.add(text("Body", "Node that the bar moves with; fixed in space without it.").optional())
       .add(model::vector_field("From", "m", "Begin of the axis, in the reference."))
@@ -22,6 +22,8 @@ Schema schema() {
       .add(number("Bar Radius", "m", "Of the bar.").positive())
       .add(flag("Ends", "Whether the bar ends in half spheres about From and To, or goes on.")
                .optional(true))
+      .add(friction_field())
+      .add(slip_speed_field())
       .check([](const Options& options, InputIssues& issues) {
         check_contact_fields(options, issues);
         if (model::vector(options, "From") == model::vector(options, "To")) {
@@ -56,9 +58,9 @@ void build(const Options& options, model::BuildContext& context) {
   const std::vector<ContactPoint> points = read_points(options, context);
   const std::optional<Cylinder> cylinder = read_cylinder(options, context);
   if (points.empty() || !cylinder) return;
-  auto load =
-      std::make_unique<CylinderContact>(model::Effect("Cylinder Contact", options.name()),
-                                        context.model.nodes(), *cylinder, read_penalty(options));
+  auto load = std::make_unique<CylinderContact>(model::Effect("Cylinder Contact", options.name()),
+                                                context.model.nodes(), *cylinder,
+                                                read_penalty(options), read_friction(options));
   for (const ContactPoint& point : points) {
     if (std::ranges::find(point.centre.nodes, cylinder->node) != point.centre.nodes.end()) {
       context.issues.add(options.where("Body"), "is a node of what it shall touch");

@@ -25,18 +25,16 @@ Factors factors_of(const model::Marker& point) {
 struct PlaneContact::Evaluation {
   Motion motion;
   PenaltyResponse law;
-  bool slides = false;        ///< there is friction
   Factors T = {}, U = {};     ///< of its centre, and of the material point that touches
   Mat3 moved = Mat3::Zero();  ///< by which the directors at the centre change
-  Vec3 v = Vec3::Zero();      ///< velocity in the plane
-  Vec3 share = Vec3::Zero();  ///< friction per unit of the normal force
+  Vec3 way = Vec3::Zero();    ///< of that point in the plane [m]
+  Rubbing friction = {};      ///< on it
   double normal = 0.0;        ///< normal force [N]
 
-  Vec3 friction() const { return normal * share; }
   // forces on the slots
   Motion::Slots forces(const Vec3& n) const {
     Motion::Slots f(3, motion.mid.cols());
-    for (int s = 0; s < f.cols(); ++s) f.col(s) = T[s] * normal * n + U[s] * friction();
+    for (int s = 0; s < f.cols(); ++s) f.col(s) = T[s] * normal * n + U[s] * friction.force;
     return f;
   }
 };
@@ -62,17 +60,16 @@ std::vector<int> PlaneContact::blocks(int item, const model::UnknownTable& unkno
   return blocks_of(points_[static_cast<std::size_t>(item)].centre.nodes, unknowns);
 }
 
-PlaneContact::Evaluation PlaneContact::evaluate(const ContactPoint& point,
-                                                const model::State& state,
+PlaneContact::Evaluation PlaneContact::evaluate(int item, const model::State& state,
                                                 const Stencil& stencil) const {
-  const model::Marker& centre = point.centre;
-  Evaluation found{Motion(nodes_, centre.nodes, state, stencil.theta),
-                   respond(penalty_, depth(point, state.prev), depth(point, state.next), stencil)};
+  const auto& [centre, radius, area] = point(item);
+  Evaluation found{
+      Motion(nodes_, centre.nodes, state, stencil.theta),
+      respond(penalty_, depth(point(item), state.prev), depth(point(item), state.next), stencil)};
   found.T = factors_of(centre);
   found.U = found.T;
-  found.normal = point.area * found.law.pressure;
-  found.slides = friction_.coefficient > 0.0 && stencil.step > 0.0 && found.normal > 0.0;
-  if (!found.slides) return found;
+  found.normal = area * found.law.pressure;
+  if (friction_.coefficient == 0.0 || found.normal == 0.0) return found;
 
   Mat3 directors = Mat3::Zero();
   for (std::size_t a = 0; a < centre.nodes.size(); ++a) {
@@ -82,15 +79,24 @@ PlaneContact::Evaluation PlaneContact::evaluate(const ContactPoint& point,
     found.moved +=
         centre.weights[a] * (found.motion.next.middleCols<3>(at + 1) - prev.rightCols<3>());
   }
-  const Vec3 xi = -point.radius * directors.transpose() * plane_.normal;
-  Vec3 way = place_of(centre, state.next) - place_of(centre, state.prev) + found.moved * xi;
-  way -= plane_.normal * plane_.normal.dot(way);
+  const Vec3 xi = -radius * directors.transpose() * plane_.normal;
+  const Vec3 way = place_of(centre, state.next) - place_of(centre, state.prev) + found.moved * xi;
+  found.way = way - plane_.normal * plane_.normal.dot(way);
   for (std::size_t a = 0; a < centre.nodes.size(); ++a) {
     found.U.segment<3>(4 * static_cast<int>(a) + 1) += centre.weights[a] * xi;
   }
-  found.v = way / stencil.step;
-  found.share = friction_.share(found.v);
+  const double k = area * penalty_.stiffness;
+  found.friction = stencil.step > 0.0
+                       ? rub(friction_, found.normal, found.way, stencil.step)
+                       : stick(friction_, found.normal, k, found.way - grip(item) / k);
   return found;
+}
+
+void PlaneContact::accept(model::State& state) {
+  if (!has_grips()) return;
+  for (const int item : placement().items) {
+    grip(item) = evaluate(item, state, stencil()).friction.force;
+  }
 }
 
 Verdict PlaneContact::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -102,41 +108,39 @@ Verdict PlaneContact::assemble(const model::State& state, const Stencil& stencil
   });
 }
 
-// With N the normal force and u the share of friction, r_s = -T_s N n - U_s N u, where
+// With the normal force N and the friction F, r_s = -T_s N n - U_s F, where
 //   dN/dq_t = -N' T_t n^T,   dU_s/dq_t = -r theta N_a N_b n^T   for the same director of two nodes,
-//   dv/dq_t = (U_t 1 - r theta N_b Dd_i n^T) / step             in the plane
+//   dway/dq_t = U_t 1 - r theta N_b Dd_i n^T                    in the plane
 template <class Space>
 Verdict PlaneContact::assemble_item(std::size_t i, const model::State& state,
                                     const Stencil& stencil, bool tangent,
                                     model::Target& target) const {
-  const ContactPoint& point = local(i);
-  const Evaluation found = evaluate(point, state, stencil);
+  const int item = placement().items[i];
+  const auto& [centre, radius, area] = point(item);
+  const Evaluation found = evaluate(item, state, stencil);
   const Vec3& n = plane_.normal;
   const Motion::Slots r = -found.forces(n);
   const Verdict verdict =
       load::add_slot_residual<Space>(placement(), i, r, found.motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
 
-  const Mat3 by_depth = point.area * found.law.tangent * n * n.transpose();
-  const Mat3 friction_by_depth = point.area * found.law.tangent * found.share * n.transpose();
-  Mat3 by_velocity = Mat3::Zero();
-  if (found.slides) {
-    by_velocity = found.normal / stencil.step * friction_.derivative(found.v) *
-                  (Mat3::Identity() - n * n.transpose());
-  }
-  const auto& weights = point.centre.weights;
+  const Mat3 by_depth = area * found.law.tangent * n * n.transpose();
+  const Mat3 friction_by_depth =
+      area * found.law.tangent * found.friction.by_normal * n.transpose();
+  const Mat3 by_way = found.friction.by_way * (Mat3::Identity() - n * n.transpose());
+  const auto& weights = centre.weights;
   const auto by_slots = [&](int a, int b) {
     Mat<12, 12> K;
     const double N_a = weights[static_cast<std::size_t>(a)];
-    const double lever = point.radius * stencil.theta * weights[static_cast<std::size_t>(b)];
+    const double lever = radius * stencil.theta * weights[static_cast<std::size_t>(b)];
     for (int t = 0; t < 4; ++t) {
       const int column = 4 * b + t;
-      Mat3 slide = found.U[column] * by_velocity - found.T[column] * friction_by_depth;
-      if (t > 0) slide -= lever * by_velocity * found.moved.col(t - 1) * n.transpose();
+      Mat3 slide = found.U[column] * by_way - found.T[column] * friction_by_depth;
+      if (t > 0) slide -= lever * by_way * found.moved.col(t - 1) * n.transpose();
       for (int s = 0; s < 4; ++s) {
         const int row = 4 * a + s;
         Mat3 block = found.T[row] * found.T[column] * by_depth - found.U[row] * slide;
-        if (s == t && t > 0) block += N_a * lever * found.friction() * n.transpose();
+        if (s == t && t > 0) block += N_a * lever * found.friction.force * n.transpose();
         K.block<3, 3>(3 * s, 3 * t) = block;
       }
     }
@@ -150,7 +154,9 @@ Verdict PlaneContact::assemble_item(std::size_t i, const model::State& state,
 double PlaneContact::stored_energy(const model::Coordinates& q) const {
   double energy = 0.0;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
-    if (placement().owned[i]) energy += local(i).area * penalty_.energy(depth(local(i), q));
+    if (!placement().owned[i]) continue;
+    const ContactPoint& one = point(placement().items[i]);
+    energy += one.area * penalty_.energy(depth(one, q));
   }
   return energy;
 }
@@ -159,16 +165,17 @@ model::StepWork PlaneContact::step_work(const model::State& state, const Stencil
   model::StepWork work;
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
-    const ContactPoint& point = local(i);
-    const Evaluation found = evaluate(point, state, stencil);
-    load::add_item_work(found.forces(plane_.normal), found.motion, point.centre.nodes, state, false,
+    const int item = placement().items[i];
+    const ContactPoint& one = point(item);
+    const Evaluation found = evaluate(item, state, stencil);
+    load::add_item_work(found.forces(plane_.normal), found.motion, one.centre.nodes, state, false,
                         work);
-    const double prev = depth(point, state.prev);
-    const double next = depth(point, state.next);
+    const double prev = depth(one, state.prev);
+    const double next = depth(one, state.next);
     const double stored = penalty_.energy(next) - penalty_.energy(prev);
-    work.damping += point.area * (found.law.pressure - found.law.elastic) * (next - prev) -
-                    found.friction().dot(found.v) * stencil.step;
-    work.dissipation += point.area * (found.law.elastic * (next - prev) - stored);
+    work.damping += one.area * (found.law.pressure - found.law.elastic) * (next - prev) -
+                    found.friction.force.dot(found.way);
+    work.dissipation += one.area * (found.law.elastic * (next - prev) - stored);
   }
   return work;
 }

@@ -4,52 +4,53 @@
 
 namespace culm::contact {
 
-// With dslot_t the changes at the end of the step and e_t those of r, dr = sum_t e_t dslot_t:
-//   dxi  = D^-1 sum_t c_t dslot_t             c: +-s theta e_t of r, -theta xi_k of its directors
-//   dway = sum_t (U_t 1 + c2_t M2 - c1_t M1) dslot_t      M = (moved) D^-1
-//   dv_t = P dv - (n dn^T + dn n^T) v,  dn = theta P dr / |r|
-//   df   = N share' dv_t + share dN
+// With the place p where both surfaces meet, M = (moved) D^-1, and w the way of one point past the
+// other less what the friction of before stands for:
+//   dxi_t  = D^-1 (dp_t - theta (1 | xi_k) of its own slots)
+//   dw_t   = +-(1 | xi_k) + M2 D2 dxi2_t - M1 D1 dxi1_t - theta grip_k / stiffness
+//   dway_t = P dw_t - (n w^T + n . w 1) dn_t
+//   df_t   = by_way dway_t + by_normal dN_t
 Sliding slide(const Pressed& pressed, const Friction& friction, const Stencil& stencil,
               bool tangent) {
-  const auto& [first, second, r, N, N_r] = pressed;
-  const double distance = r.norm();
-  const Vec3 n = r / distance;
+  const auto& [first, second, n, N, stiffness, grip, place_by, normal_by, force_by] = pressed;
   const Mat3 P = Mat3::Identity() - n * n.transpose();
   const Mat3 inverse1 = first.directors.inverse();
   const Mat3 inverse2 = second.directors.inverse();
-  const Vec3 xi1 = first.share * inverse1 * r;
-  const Vec3 xi2 = -second.share * inverse2 * r;
+  const Vec3 xi1 = inverse1 * first.arm;
+  const Vec3 xi2 = inverse2 * second.arm;
+  const bool rests = stencil.step == 0.0;
+  const Vec3 held = rests ? Vec3(grip / stiffness) : Vec3(Vec3::Zero());
   Sliding found;
   found.factors << -1.0, -xi1, 1.0, xi2;
-  const Vec3 v = (second.way + second.moved * xi2 - first.way - first.moved * xi1) / stencil.step;
-  const Vec3 slip = P * v;
-  const Vec3 share = friction.share(slip);
-  found.force = N * share;
-  found.taken = -found.force.dot(slip) * stencil.step;
+  const Vec3 moved = second.way + second.moved * xi2 - first.way - first.moved * xi1;
+  const Vec3 w = moved - first.directors * held;
+  found.way = P * moved;
+  const Rubbing rubbing =
+      rests ? stick(friction, N, stiffness, P * w) : rub(friction, N, found.way, stencil.step);
+  found.force = rubbing.force;
   if (!tangent) return found;
 
   const double theta = stencil.theta;
-  Vec<8> e, c1, c2;
-  e << -1.0, Vec3::Zero(), 1.0, Vec3::Zero();
-  c1 = theta * first.share * e;
-  c2 = -theta * second.share * e;
-  c1.segment<3>(1) = -theta * xi1;
-  c2.segment<3>(5) = -theta * xi2;
-  const Mat3 M1 = first.moved * inverse1;
-  const Mat3 M2 = second.moved * inverse2;
-  const Mat3 by_slip = N * friction.derivative(slip);
-  const Mat3 by_r =
-      share * N_r.transpose() - theta / distance * by_slip * (n * slip.transpose() + n.dot(v) * P);
+  const Mat3 turned = n * w.transpose() + n.dot(w) * Mat3::Identity();
   for (int t = 0; t < 8; ++t) {
-    const Mat3 by_slot = by_slip * P / stencil.step *
-                             (found.factors[t] * Mat3::Identity() + c2[t] * M2 - c1[t] * M1) +
-                         e[t] * by_r;
+    const auto at = static_cast<std::size_t>(t);
+    const bool of_first = t < 4;
+    const double lever = theta * (of_first ? -1.0 : 1.0) * found.factors[t];
+    Mat3 dxi1 = place_by[at];
+    Mat3 dxi2 = place_by[at];
+    (of_first ? dxi1 : dxi2) -= lever * Mat3::Identity();
+    dxi1 = inverse1 * dxi1;
+    dxi2 = inverse2 * dxi2;
+    Mat3 dw = found.factors[t] * Mat3::Identity() + second.moved * dxi2 - first.moved * dxi1;
+    if (of_first && t > 0) dw -= theta * held[t - 1] * Mat3::Identity();
+    const Mat3 by_slot = rubbing.by_way * (P * dw - turned * normal_by[at]) +
+                         rubbing.by_normal * force_by[at].transpose();
     for (int s = 0; s < 8; ++s) {
       auto block = found.tangent.block<3, 3>(3 * s, 3 * t);
       block = -found.factors[s] * by_slot;
       if (s % 4 == 0) continue;
-      if (s < 4) block += c1[t] * found.force * inverse1.row(s - 1);
-      if (s > 4) block -= c2[t] * found.force * inverse2.row(s - 5);
+      if (s < 4) block += found.force * dxi1.row(s - 1);
+      if (s > 4) block -= found.force * dxi2.row(s - 5);
     }
   }
   return found;

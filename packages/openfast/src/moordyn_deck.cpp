@@ -57,9 +57,10 @@ std::vector<std::string> write_lines(const MoorDyn& moorings, const std::string&
     report.add(checked, fmt::format("{}: {:.10g} N/m in water, {:.10g} kg", names.back(), weight,
                                     type.mass * line.length));
   }
-  report.add(assumed,
-             "lines are at rest at each moment, on a seabed at the depth of their anchors, with the "
-             "friction CB of MAP++ only: no inertia, no drag, no damping");
+  report.add(
+      assumed,
+      "lines are at rest at each moment, on a seabed at the depth of their anchors, with the "
+      "friction CB of MAP++ only: no inertia, no drag, no damping");
   return names;
 }
 

@@ -10,7 +10,7 @@
 #include <culm/simulation/simulation.hpp>
 #include <culm/solver/fill.hpp>
 
-#include "deep_contacts.hpp"
+#include "contact_findings.hpp"
 #include "gravity_and_sea.hpp"
 #include "lost_moments.hpp"
 #include "model_picture.hpp"
@@ -263,6 +263,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     };
     warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
     warn("overlap", deep_contacts(*phase.model, state.next));
+    if (entries[i].text("Type") != "Dynamic") warn("friction", contacts_at_rest(*phase.model));
     warn("lost moment", moments_that_are_not_carried(*phase.model));
     const auto warn_of_kinks = [&](model::Coordinates q) {
       phase.system->complete(q);

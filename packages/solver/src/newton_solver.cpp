@@ -174,9 +174,9 @@ std::string describe(StepEnd end) {
     case StepEnd::not_finite:
       return "a force became infinite or not a number";
     case StepEnd::out_of_range:
-      return "an element turned beyond its range, a law left its domain, or beams in contact would "
-             "pass "
-             "through each other";
+      return "an element turned beyond its range, a law left its domain, or what is in contact "
+             "would "
+             "pass through";
     case StepEnd::turned_too_far:
       return "a node turned too far in one step";
     case StepEnd::off_path:

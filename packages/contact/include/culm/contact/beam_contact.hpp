@@ -33,6 +33,7 @@ class BeamContact final : public model::MemorylessBatch, public Contact, public 
 
   Touch touch(const model::Coordinates& q) const override;
   std::string objection(const model::Coordinates& q) const override;
+  std::string left_out_at_rest() const override;
   int size() const override { return static_cast<int>(first_.size() * second_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }

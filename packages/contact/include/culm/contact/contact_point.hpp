@@ -33,6 +33,8 @@ class Contact {
     (void)q;
     return {};
   }
+  /// What analyses without time leave out of it, as what follows its name; empty if nothing.
+  virtual std::string left_out_at_rest() const { return {}; }
 };
 
 /// The place of a marker.

@@ -3,9 +3,9 @@
 
 #include <culm/contact/contact_point.hpp>
 #include <culm/contact/friction.hpp>
+#include <culm/contact/gripping_batch.hpp>
 #include <culm/contact/penalty.hpp>
 #include <culm/model/booked.hpp>
-#include <culm/model/memoryless_batch.hpp>
 
 #include <cstddef>
 #include <utility>
@@ -23,21 +23,25 @@ struct Plane {
 /// so that its work is the difference of its energy; friction acts where the surface touches,
 ///   x_c = x + sum_i xi_i d_i,   xi_i = -r n . d_i   in the middle of the step,
 /// against the velocity Dx_c / step of this material point, so that it only takes energy. In
-/// statics there is none. @source fluids B8
-class PlaneContact final : public model::MemorylessBatch, public Contact, public model::Booked {
+/// statics this point sticks, by the stiffness of the pressure, until it slides.
+/// @source fluids B8
+class PlaneContact final : public GrippingBatch, public Contact, public model::Booked {
  public:
   static constexpr int max_nodes = 4;
 
   PlaneContact(model::Effect effect, const model::NodeTable& nodes, Plane plane,
                const Penalty& penalty, const Friction& friction)
-      : MemorylessBatch(std::move(effect)),
+      : GrippingBatch(std::move(effect)),
         Booked("contact"),
         nodes_(nodes),
         plane_(std::move(plane)),
         penalty_(penalty),
         friction_(friction) {}
 
-  void add(ContactPoint point) { points_.push_back(std::move(point)); }
+  void add(ContactPoint point) {
+    points_.push_back(std::move(point));
+    if (friction_.coefficient > 0.0) add_grip();
+  }
 
   Touch touch(const model::Coordinates& q) const override;
 
@@ -46,21 +50,19 @@ class PlaneContact final : public model::MemorylessBatch, public Contact, public
   bool has_tangent() const override { return true; }
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
+  void accept(model::State& state) override;
   double stored_energy(const model::Coordinates& q) const override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
 
  private:
   struct Evaluation;
   double depth(const ContactPoint& point, const model::Coordinates& q) const;
-  Evaluation evaluate(const ContactPoint& point, const model::State& state,
-                      const Stencil& stencil) const;
+  Evaluation evaluate(int item, const model::State& state, const Stencil& stencil) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, model::Target& target) const;
 
-  const ContactPoint& local(std::size_t i) const {
-    return points_[static_cast<std::size_t>(placement().items[i])];
-  }
+  const ContactPoint& point(int item) const { return points_[static_cast<std::size_t>(item)]; }
 
   const model::NodeTable& nodes_;
   Plane plane_;

@@ -1,4 +1,4 @@
-/// Contacts that begin inside each other.
+/// What contacts cannot do as their deck asks.
 #pragma once
 
 #include <culm/model/model.hpp>
@@ -10,5 +10,7 @@ namespace culm::simulation {
 
 /// A sentence for each contact whose structure lies too deep in what it should touch.
 std::vector<std::string> deep_contacts(const model::Model& model, const model::Coordinates& q);
+/// A sentence for each contact of which an analysis without time leaves something out.
+std::vector<std::string> contacts_at_rest(const model::Model& model);
 
 }  // namespace culm::simulation
