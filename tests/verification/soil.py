@@ -58,6 +58,7 @@ DIAMETER, TOP, CLAY, SAND = 6.0, 8.0, (40e3, 2e3, 8e3, 0.01, 0.5), (math.radians
 def sand(X, y, cyclic):
     """API RP 2A: p by A p_u tanh [N/m]."""
     phi, weight, modulus = SAND
+    weight = (CLAY[2] * TOP + weight * (X - TOP)) / X  # of all that lies above
     a, b, K0 = phi / 2, math.pi / 4 + phi / 2, 0.4
     Ka = math.tan(math.pi / 4 - phi / 2) ** 2
     C1 = math.tan(b) ** 2 * math.tan(a) / math.tan(b - phi) + K0 * (
@@ -133,6 +134,15 @@ def verify_laws(culm, report):
         report.relative(f"{z} m down [N]", abs(found), wanted, 1e-9)
 
 
+def verify_widths(culm, report):
+    report.title("A radius in place of the diameter is told, also of the water; half as much again is not")
+    wave = "water/wave_on_pile.xml"
+    for deck, load, diameter, says in ((MONOPILE, "soil", 3.0, True), (MONOPILE, "soil", 12.0, True), (MONOPILE, "soil", 5.0, False),
+                                       (wave, "waves", 3.0, True), (wave, "waves", 7.0, False)):
+        run = culm.run(deck, [f"Loads/{load}/Diameter={diameter}"], quiet=False)
+        report.holds(f"{load}, {diameter} m", 0.0 if says == ("is one of them a radius" in run.errors) else 1.0, 0.0)
+
+
 def verify_hysteresis(culm, report):
     report.title("Swaying pile in soil that remembers")
     for form in ("Null Space", "Multipliers"):
@@ -145,6 +155,7 @@ def verify_hysteresis(culm, report):
 
 def verify(culm, report):
     verify_laws(culm, report)
+    verify_widths(culm, report)
     verify_hysteresis(culm, report)
     verify_long_pile(culm, report)
     verify_stations(culm, report)

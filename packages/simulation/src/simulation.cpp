@@ -22,6 +22,7 @@
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
 #include "taut_beams.hpp"
+#include "widths_in_media.hpp"
 
 #include <fmt/format.h>
 
@@ -262,6 +263,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
       for (const std::string& sentence : sentences) p.findings.warn(kind, sentence, state.time);
     };
     warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
+    warn("width", widths_that_differ(p.deck, entries[i], *phase.model));
     warn("overlap", deep_contacts(*phase.model, state.next));
     if (entries[i].text("Type") != "Dynamic") warn("friction", contacts_at_rest(*phase.model));
     warn("lost moment", moments_that_are_not_carried(*phase.model));

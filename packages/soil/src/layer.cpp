@@ -34,6 +34,15 @@ Schema layer_schema(std::string type, std::string doc) {
   return schema;
 }
 
+// Of a layer whose own curves do not depend on it.
+Field weight_upon_others() {
+  return number("Unit Weight", "N/m^3",
+                "Effective weight per volume, which presses layers below; if absent, that of the "
+                "next layer below that has one.")
+      .positive()
+      .optional();
+}
+
 // --- shafts ------------------------------------------------------------------------------------
 
 // Resistance of the shaft along the pile, with the shape of its curve.
@@ -66,15 +75,17 @@ void register_sand(LayerRegistry& registry) {
       .add(number("Friction Angle", "rad", "Angle of internal friction.")
                .greater_than(0.0)
                .less_than(1.2))
-      .add(number("Unit Weight", "N/m^3", "Effective weight per volume.").positive())
+      .add(number("Unit Weight", "N/m^3",
+                  "Effective weight per volume; formulas take the mean of all that lies above.")
+               .positive())
       .add(number("Initial Modulus", "N/m^3", "Growth of the initial lateral stiffness per depth.")
                .positive());
   add_shaft("sand", schema);
   registry.add("Sand", schema, [](const Options& options) -> Layer {
-    const Sand sand{options.number("Friction Angle"), options.number("Unit Weight"),
-                    options.number("Initial Modulus")};
-    return [sand, options](double X, const Pile& pile) {
-      return Grip{std::make_shared<SandCurve>(sand, X, pile.diameter, pile.cyclic),
+    return [options](const Depth& depth, const Pile& pile) {
+      const Sand sand{options.number("Friction Angle"), depth.unit_weight,
+                      options.number("Initial Modulus")};
+      return Grip{std::make_shared<SandCurve>(sand, depth.below, pile.diameter, pile.cyclic),
                   shaft_of(options, sand_shaft(), pile)};
     };
   });
@@ -86,7 +97,9 @@ void register_clay(LayerRegistry& registry) {
       .add(number("Strength", "N/m^2", "Undrained shear strength at the top of the layer.")
                .positive())
       .add(number("Strength Growth", "N/m^3", "Its growth per depth.").non_negative().optional(0.0))
-      .add(number("Unit Weight", "N/m^3", "Effective weight per volume.").positive())
+      .add(number("Unit Weight", "N/m^3",
+                  "Effective weight per volume; formulas take the mean of all that lies above.")
+               .positive())
       .add(number("Strain", "1", "Strain at half of the strength, epsilon 50.").positive())
       .add(number("J", "1", "Factor of shallow resistance: 0.5 in soft, 0.25 in stiffer clay.")
                .non_negative()
@@ -97,10 +110,11 @@ void register_clay(LayerRegistry& registry) {
                .optional(0.9));
   add_shaft("clay", schema, more);
   registry.add("Clay", schema, [](const Options& options) -> Layer {
-    return [options](double X, const Pile& pile) {
+    return [options](const Depth& depth, const Pile& pile) {
+      const double X = depth.below;
       const Clay clay{options.number("Strength") +
                           options.number("Strength Growth") * (X - options.number("Top")),
-                      options.number("Unit Weight"), options.number("Strain"), options.number("J")};
+                      depth.unit_weight, options.number("Strain"), options.number("J")};
       const double residual =
           options.has_list("Shaft") ? options.list("Shaft").number("Residual") : 0.0;
       return Grip{std::make_shared<ClayCurve>(clay, X, pile.diameter, pile.cyclic),
@@ -119,6 +133,7 @@ void check_same_size(const char* one, const char* other, const Options& options,
 
 void register_springs(LayerRegistry& registry) {
   Schema schema = layer_schema("Springs", "Springs that never yield, by depth.");
+  schema.add(weight_upon_others());
   schema.add(numbers("Depths", "m", "Depths below the ground, rising.").min_size(1))
       .add(numbers("Stiffnesses", "N/m^2",
                    "Lateral stiffness per length at the depths, linear in between.")
@@ -134,10 +149,10 @@ void register_springs(LayerRegistry& registry) {
         }
       });
   registry.add("Springs", schema, [](const Options& options) -> Layer {
-    return [options](double X, const Pile&) {
+    return [options](const Depth& depth, const Pile&) {
       const auto curve = [&](const char* name) {
         return std::make_shared<LinearCurve>(
-            at_depth(options.numbers("Depths"), options.numbers(name), X));
+            at_depth(options.numbers("Depths"), options.numbers(name), depth.below));
       };
       Grip grip{curve("Stiffnesses"), nullptr};
       if (options.has("Axial Stiffnesses")) grip.axial = curve("Axial Stiffnesses");
@@ -163,6 +178,7 @@ void check_table(const Options& options, InputIssues& issues) {
 
 void register_table(LayerRegistry& registry) {
   Schema schema = layer_schema("Table", "Curves p-y by points, at some depths.");
+  schema.add(weight_upon_others());
   schema.add(numbers("Depths", "m", "Depths below the ground, rising.").min_size(1))
       .add(numbers("Displacements", "m",
                    "Displacements of the points, rising; zero is left out, beyond the last one the "
@@ -175,7 +191,7 @@ void register_table(LayerRegistry& registry) {
       .check(check_table);
   add_shaft("", schema);
   registry.add("Table", schema, [](const Options& options) -> Layer {
-    return [options](double X, const Pile& pile) {
+    return [options](const Depth& depth, const Pile& pile) {
       const auto& all = options.numbers("Forces");
       const auto& points = options.numbers("Displacements");
       const auto& depths = options.numbers("Depths");
@@ -187,7 +203,7 @@ void register_table(LayerRegistry& registry) {
           by_depth.push_back(all[i * points.size() + k]);
         }
         y.push_back(points[k]);
-        p.push_back(at_depth(depths, by_depth, X));
+        p.push_back(at_depth(depths, by_depth, depth.below));
       }
       return Grip{std::make_shared<TableCurve>(y, p, TableCurve::Sides::both),
                   shaft_of(options, {}, pile)};

@@ -66,7 +66,7 @@ Schema soil_schema() {
       });
 }
 
-// The layers with their tops.
+// The layers with their tops and weights.
 class Ground {
  public:
   explicit Ground(const Options& list) {
@@ -74,18 +74,34 @@ class Ground {
     for (const Options& entry : list.entries()) {
       tops_.push_back(entry.number("Top"));
       layers_.push_back(types.make(entry.text("Type"), entry));
+      weights_.push_back(entry.has("Unit Weight") ? entry.number("Unit Weight") : 0.0);
+    }
+    for (std::size_t i = weights_.size() - 1; i-- > 0;) {
+      if (weights_[i] == 0.0) weights_[i] = weights_[i + 1];
     }
   }
   /// Nothing above the first layer.
   std::optional<Grip> at(double depth, const Pile& pile) const {
     for (std::size_t i = tops_.size(); i-- > 0;) {
-      if (depth > tops_[i]) return layers_[i](depth, pile);
+      if (depth > tops_[i]) return layers_[i]({depth, weight_above(depth) / depth}, pile);
     }
     return {};
   }
 
  private:
+  // Of all soil down to a depth, per area [N/m^2]; what is missing above the first layer counts.
+  double weight_above(double depth) const {
+    double weight = 0.0;
+    for (std::size_t i = 0; i < tops_.size() && (i == 0 || tops_[i] < depth); ++i) {
+      const double from = i == 0 ? 0.0 : tops_[i];
+      const double to = i + 1 < tops_.size() ? std::min(depth, tops_[i + 1]) : depth;
+      weight += weights_[i] * (to - from);
+    }
+    return weight;
+  }
+
   std::vector<double> tops_;
+  std::vector<double> weights_;  // [N/m^3]; what says none has that of the next below
   std::vector<Layer> layers_;
 };
 

@@ -20,8 +20,14 @@ struct Pile {
   bool cyclic = false;    ///< loads that have come many times
 };
 
-/// What a layer does at a depth below the ground [m].
-using Layer = std::function<Grip(double depth, const Pile&)>;
+/// A depth below the ground.
+struct Depth {
+  double below = 0.0;        ///< [m]
+  double unit_weight = 0.0;  ///< effective, mean of all soil above [N/m^3]
+};
+
+/// What a layer does at a depth.
+using Layer = std::function<Grip(const Depth&, const Pile&)>;
 
 /// Types of layers in the list "Layers" of a soil: Sand, Clay, Springs, Table.
 using LayerRegistry = Registry<Layer>;
