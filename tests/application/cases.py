@@ -437,6 +437,13 @@ CASES = [
         says=["'beam' has the strips 'air' in the same place: the air would act on it twice"],
     ),
     Case(
+        "an angle at the quarter chord with what thin airfoils have at three quarters",
+        3,
+        args=RUN,
+        change=[in_wind(strip("air", Angle_At="0.25", Lag="Jones"))],
+        says=["Angle At", "must be 0.75 with 'Lag' = Jones and with 'Apparent Mass'"],
+    ),
+    Case(
         "a beam, and one of its nodes by two names",
         3,
         args=RUN,

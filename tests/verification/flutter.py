@@ -11,7 +11,7 @@ from verify import INPUTS, figure, main, save
 PARKED = "turbine/nrel5mw/turbine_parked.xml"
 # Jones' states; divergence is exact
 SECTION = (25.379599, 16.695289, 36.084392)  # m/s, rad/s, m/s
-GOLAND = (137.335, 69.346, 252.28)
+GOLAND = (137.335, 69.346, 252.27796)
 DECKS = (("Typical section", "air/flutter.xml", SECTION, 2e-6),
          ("Goland's wing, 8 elements, 24 stations", "air/goland_flutter.xml", GOLAND, 1e-3))
 
@@ -46,6 +46,45 @@ def section_eigenvalues(speed, lag=True):
     return np.linalg.eigvals(system)
 
 
+def swept_divergence(sweep, count=60):
+    """Speed at which Goland's wing, swept by an angle, diverges [m/s]: cubic beam, linear twist, strips across the axis."""
+    bending, torsion, length, chord, arm = 9.77e6, 0.987e6, 6.096, 1.8288, 0.08
+    h, size = length / count, 3 * count + 3  # deflection, slope and twist of each node
+    K, A = np.zeros((size, size)), np.zeros((size, size))
+    cubic = bending / h**3 * np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
+                                       [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]])
+    for k in range(count):
+        bent, twisted = [3 * k, 3 * k + 1, 3 * k + 3, 3 * k + 4], [3 * k + 2, 3 * k + 5]
+        K[np.ix_(bent, bent)] += cubic
+        K[np.ix_(twisted, twisted)] += torsion / h * np.array([[1, -1], [-1, 1]])
+        for point, weight in zip(*np.polynomial.legendre.leggauss(3)):
+            s = 0.5 * (point + 1.0)
+            up, slope, twist = np.zeros(size), np.zeros(size), np.zeros(size)
+            up[bent] = [1 - 3 * s**2 + 2 * s**3, h * (s - 2 * s**2 + s**3), 3 * s**2 - 2 * s**3, h * (s**3 - s**2)]
+            slope[bent] = [6 * (s**2 - s) / h, 1 - 4 * s + 3 * s**2, 6 * (s - s**2) / h, 3 * s**2 - 2 * s]
+            twist[twisted] = [1 - s, s]
+            force = 0.5 * h * weight * 2.0 * math.pi * chord
+            A += force * np.outer(up + arm * chord * twist, twist - math.tan(sweep) * slope)
+    quotients = np.linalg.eigvals(np.linalg.solve(K[3:, 3:], A[3:, 3:]))
+    largest = max(q.real for q in quotients if abs(q.imag) < 1e-6 * abs(q))
+    return math.sqrt(2.0 / (1.225 * largest)) / math.cos(sweep)
+
+
+def verify_sweep(culm, report):
+    report.title("Divergence of Goland's wing swept forwards and a little aft, beside a beam of 60 elements [m/s]")
+    text = (INPUTS / "air/goland_flutter.xml").read_text()
+    for degrees in (-30.0, -20.0, -10.0, 1.5):
+        sweep = math.radians(degrees)
+        c, s = math.cos(sweep), math.sin(sweep)
+        swept = text.replace('value="{0, 6.096, 0}"', f'value="{{{6.096 * s!r}, {6.096 * c!r}, 0}}"')
+        swept = swept.replace('"Up" value="{1, 0, 0}"', f'"Up" value="{{{c!r}, {-s!r}, 0}}"')
+        with tempfile.TemporaryDirectory() as folder:
+            deck = pathlib.Path(folder) / "swept.xml"
+            deck.write_text(swept)
+            onset = culm.table("flutter/onset", deck, ["Analyses/flutter/Levels={100, 170, 190, 220, 270}"])
+        report.relative(f"{degrees:g} degrees", onset.at(2, "level"), swept_divergence(sweep), 2e-4)
+
+
 def verify(culm, report):
     for title, deck, (speed, omega, divergence), tolerance in DECKS:
         report.title(title)
@@ -53,6 +92,7 @@ def verify(culm, report):
         report.relative("speed of flutter [m/s]", onset.at(1, "level"), speed, tolerance)
         report.relative("frequency [rad/s]", 2.0 * math.pi * onset.at(1, "frequency [Hz]"), omega, tolerance)
         report.relative("speed of divergence [m/s]", onset.at(2, "level"), divergence, tolerance)
+    verify_sweep(culm, report)
     report.title("Typical section below flutter and above, against its equations with six states")
     table = culm.table("flutter/flutter", "air/flutter.xml")
     for row, speed in enumerate(table.column("level"), 1):

@@ -6,6 +6,7 @@
 #include "whole_matrix.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,6 +88,14 @@ bool is_rigid(const Shape& shape, const model::Coordinates& q) {
   return (moved - fitted).norm() < 1e-3 * moved.norm();
 }
 
+int sign_of_determinant(SparseMatrix matrix) {
+  matrix.makeCompressed();
+  Eigen::SparseLU<SparseMatrix> factors;
+  factors.compute(matrix);
+  if (factors.info() != Eigen::Success) return 0;
+  return factors.signDeterminant() > 0.0 ? 1 : -1;
+}
+
 std::string name_of(std::size_t number, const Mode& mode) {
   if (mode.is_zero()) return fmt::format("mode {}, 0 Hz", number);
   if (mode.frequency() == 0.0) {
@@ -125,6 +134,9 @@ class Finder {
           "them");
     }
     set_.is_complex ? find_complex() : find_real();
+    if (settings_.stiffness_sign) {
+      set_.stiffness_sign = sign_of_determinant(whole(*linear_.stiffness, context_.system.comm()));
+    }
     if (!settings_.expects_zero) warn_of_rounding();
     warn_of_relaxation();
     const ModeMasses masses(context_.system.model(), state_);

@@ -71,12 +71,34 @@ Growth instability_of(const ModeSet& set) {
 
 using Measure = Growth (*)(const ModeSet&);
 
+int count_growing(const ModeSet& set) {
+  return static_cast<int>(std::ranges::count_if(set.modes, [](const Mode& mode) {
+    return !mode.is_zero() && mode.frequency() == 0.0 && mode.eigenvalue.real() > 0.0;
+  }));
+}
+
 struct Crossing {
   const char* name;
-  Measure measure;
+  Measure of_modes;
+  bool by_stiffness = false;  // where the sign of the stiffness is known, it decides
+  int stable_sign = 0;        // of a stiffness with which no motion grows; 0: not known
   std::optional<double> below, above = {};  // levels between which it happens
   double rate_below = 0.0, rate_above = 0.0;
 
+  void begin(const ModeSet& first) {
+    if (!by_stiffness) return;
+    const bool is_free =
+        std::ranges::any_of(first.modes, [](const Mode& m) { return m.is_zero(); });
+    stable_sign = is_free ? 0 : first.stiffness_sign * (count_growing(first) % 2 == 0 ? 1 : -1);
+  }
+  // The mode that begins to grow is not always among those that are found, the sign is.
+  Growth measure(const ModeSet& set) const {
+    Growth found = of_modes(set);
+    if (stable_sign == 0 || set.stiffness_sign == 0) return found;
+    found.rate = set.stiffness_sign == stable_sign ? -1.0 : 1.0;
+    if (found.mode.frequency() != 0.0) found.mode.eigenvalue = found.mode.eigenvalue.real();
+    return found;
+  }
   void see(double level, const ModeSet& set) {
     if (above) return;
     const double rate = measure(set).rate;
@@ -154,7 +176,7 @@ Schema Flutter::schema() {
 std::unique_ptr<Inspection> Flutter::make(const Options& options) {
   ModalSettings modes = read_mode_settings(options);
   modes.damping = true;
-  modes.expects_zero = true;  // at divergence
+  modes.expects_zero = modes.stiffness_sign = true;  // at divergence
   return std::make_unique<Flutter>(CampbellSettings{options.numbers("Levels"), std::move(modes),
                                                     newton_settings(options.list("Newton"))});
 }
@@ -163,14 +185,18 @@ AnalysisReport Flutter::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Flutter"));
   ModeDiagram diagram(context, settings_.modes, settings_.newton, "flutter");
   const bool looks_for_flutter = knows_all_forces(context.system.model());
-  Crossing crossings[] = {{"flutter", flutter_of, {}},
-                          {"divergence", looks_for_flutter ? divergence_of : instability_of, {}}};
+  Crossing crossings[] = {
+      {"flutter", flutter_of, false, 0, {}},
+      {"divergence", looks_for_flutter ? divergence_of : instability_of, true, 0, {}}};
   state.time = state.time_prev = std::min(state.time, settings_.levels.front());
   std::optional<ModeSet> first;
   double largest_change = settings_.levels.size() > 1 ? 0.0 : infinity;
   for (double level : settings_.levels) {
     const ModeSet set = diagram.find(state, level);
-    if (!first) first = set;
+    if (!first) {
+      first = set;
+      for (Crossing& crossing : crossings) crossing.begin(set);
+    }
     largest_change = std::max(largest_change, change_of(set, *first));
     diagram.add(state, set);
     for (Crossing& crossing : crossings) crossing.see(level, set);
@@ -186,7 +212,7 @@ AnalysisReport Flutter::inspect(Context& context, model::State& state) {
   report.tables.push_back(diagram.table());
   ReportTable onset{"onset", {"level", "frequency [Hz]"}, {}, {}};
   for (Crossing& crossing : crossings) {
-    if (crossing.measure == flutter_of && !looks_for_flutter) {
+    if (crossing.of_modes == flutter_of && !looks_for_flutter) {
       report.text += "flutter is not looked for: linear analyses do not know all forces here\n";
       onset.rows.push_back({absent, absent});
       onset.remarks.push_back("flutter is not looked for");

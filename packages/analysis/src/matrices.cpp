@@ -123,7 +123,7 @@ AnalysisReport Matrices::inspect(Context& context, model::State& state) {
   for (std::size_t k = 0; k < linear.branches.size(); ++k) {
     const std::string name = fmt::format("relaxation_{}", k + 1);
     add(name, *linear.branches[k].stiffness);
-    if (!linear.branches[k].damping) add(name + "_damping", *linear.branches[k].damping);
+    if (linear.branches[k].damping) add(name + "_damping", *linear.branches[k].damping);
     report.text += fmt::format("{}: relaxation time {} s\n", name, linear.branches[k].time);
   }
   if (system.model().unknowns().num_forces() > 0) {

@@ -59,16 +59,46 @@ Eigen::VectorXcd derivative(const RelaxingPencil& pencil, Complex lambda,
                   std::abs(start) / (2.0 * std::numbers::pi)));
 }
 
+// x^H of all branches x
+Complex of_branches(const RelaxingPencil& pencil, Complex lambda, const Eigen::VectorXcd& x) {
+  Complex sum = 0.0;
+  for (const BranchTerm& term : pencil.terms) {
+    sum += follows(term, lambda).value * x.dot(term.matrix * x);
+  }
+  return sum;
+}
+
+// Whether a motion only grows: then what branches do to it is real, and so is what it becomes.
+bool only_grows(Complex lambda) {
+  return lambda.real() > 0.0 && std::abs(lambda.imag()) <= 1e-9 * lambda.real();
+}
+
+// The zero of x^H T(lambda) x on the positive axis, between which and zero the stiffness that
+// lasts keeps its sign; by halves.
+Complex approached_on_axis(const RelaxingPencil& pencil, double lambda, const Eigen::VectorXcd& x) {
+  const double m = x.dot(pencil.M * x).real();
+  const double c = x.dot(pencil.C * x).real();
+  const double k = x.dot(pencil.K * x).real();
+  const auto value = [&](double s) {
+    return m * s * s + c * s + k + of_branches(pencil, s, x).real();
+  };
+  constexpr int halves = 60;
+  double low = 0.0, high = lambda;
+  for (int i = 0; i < halves && value(high) * k > 0.0; ++i) high *= 2.0;
+  for (int i = 0; i < halves; ++i) {
+    const double middle = 0.5 * (low + high);
+    (value(middle) * k > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 // A value near the zero of x^H T(lambda) x: branches stand still as they are at the value before,
 // so strong ones lead to no creep and to no conjugate, as Newton's method would from far away.
 Complex approached(const RelaxingPencil& pencil, Complex lambda, const Eigen::VectorXcd& x) {
   const Complex m = x.dot(pencil.M * x);
   const Complex c = x.dot(pencil.C * x);
   for (int i = 0; i < approaches; ++i) {
-    Complex k = x.dot(pencil.K * x);
-    for (const BranchTerm& term : pencil.terms) {
-      k += follows(term, lambda).value * x.dot(term.matrix * x);
-    }
+    const Complex k = x.dot(pencil.K * x) + of_branches(pencil, lambda, x);
     const Complex root = std::sqrt(c * c - 4.0 * m * k);
     const Complex one = (-c + root) / (2.0 * m), other = (-c - root) / (2.0 * m);
     lambda = std::abs(one - lambda) < std::abs(other - lambda) ? one : other;
@@ -91,7 +121,9 @@ Complex value_along(const RelaxingPencil& pencil, Complex lambda, const Eigen::V
 }  // namespace
 
 ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMode& start) {
-  const Complex near = approached(pencil, start.value, start.vector);
+  const Complex near = only_grows(start.value)
+                           ? approached_on_axis(pencil, start.value.real(), start.vector)
+                           : approached(pencil, start.value, start.vector);
   ComplexMode mode{value_along(pencil, near, start.vector), start.vector};
   const Eigen::VectorXcd v = start.vector;  // x is kept at v^H x = v^H v
   const double size = v.squaredNorm();
@@ -115,6 +147,10 @@ ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMod
     last = moved;
   }
   mode.value = value_along(pencil, mode.value, mode.vector);
+  if (mode.value.imag() < 0.0) {  // the other one of a pair, which says the same
+    mode.value = std::conj(mode.value);
+    mode.vector = mode.vector.conjugate().eval();
+  }
   const Eigen::VectorXd terms = pencil.K.cwiseAbs() * mode.vector.cwiseAbs();
   mode.residual = (at(pencil, mode.value) * mode.vector).cwiseAbs().maxCoeff() / terms.maxCoeff();
   return mode;

@@ -75,13 +75,16 @@ std::optional<SurfaceGrid> beam_surface(const Options& options, const model::Str
   const Eigen::Vector2d forward = nose.normalized();
   const Eigen::Vector2d up(-forward.y(), forward.x());  // chord x span
   SurfaceGrid grid{panels_of(options), {}};
+  // panels have the slope of the mean line 4 h xi (1 - xi) at their collocation points, not the
+  // mean one: so the lift of the camber does not miss a share of 1/m
+  const double ahead = 0.5 / grid.panels.chord;
   for (int i = 0; i <= grid.panels.chord; ++i) {
     const double xi = static_cast<double>(i) / grid.panels.chord;
     for (const double station : stations) {
       const double chord = chords.at(station);
       const Eigen::Vector2d offset =
           chord * ((options.number("Axis At") - xi) * forward +
-                   4.0 * options.number("Camber") * xi * (1.0 - xi) * up);
+                   4.0 * options.number("Camber") * xi * (1.0 - xi - ahead) * up);
       model::Marker marker = *model::marker_at_fraction(beam, station);
       marker.offset += Vec3(offset.x(), offset.y(), 0.0);
       grid.points.push_back(std::move(marker));

@@ -37,7 +37,8 @@ Points Lattice::forces(const Points& grid, const Points& relative,
   return result;
 }
 
-// F = rho G w x l on all segments but those at the trailing edges, where the wake takes over.
+// F = rho G w x l on all segments but those at the trailing edges, where the wake takes over, and
+// those in the mirror, which are no vortices: what comes from both sides is nothing.
 void Lattice::add_joukowski(const Points& grid, const Points& relative,
                             const Eigen::VectorXd& circulation, Points& forces) const {
   const Points corners = bound_.corners(grid);
@@ -53,7 +54,14 @@ void Lattice::add_joukowski(const Points& grid, const Points& relative,
   for (const Panelling& s : bound_.surfaces()) {
     for (int i = 0; i < s.panels.chord; ++i) {
       for (int j = 0; j < s.panels.span; ++j) add(s.across(i, j), s.point(i, j), s.point(i, j + 1));
-      for (int j = 0; j <= s.panels.span; ++j) add(s.along(i, j), s.point(i, j), s.point(i + 1, j));
+      for (int j = 0; j <= s.panels.span; ++j) {
+        const std::size_t from = s.point(i, j), to = s.point(i + 1, j);
+        if (touches_mirror(bound_, s, corners.at(from)) &&
+            touches_mirror(bound_, s, corners.at(to))) {
+          continue;
+        }
+        add(s.along(i, j), from, to);
+      }
     }
   }
   bound_.add_corner_forces(at_corners, forces);

@@ -42,6 +42,10 @@ double half_disc(double x) {
 
 // At which flows leave thin surfaces.
 constexpr double good_angle = std::numbers::pi / 12.0;
+// Of the wind across a mirror, over that which the surfaces feel.
+constexpr double good_crossing = 0.02;
+// `range_used` of a wind that crosses it; angles are less.
+constexpr double through_mirror = 100.0;
 
 bool is_finite(const Points& points) {
   const auto finite = [](const std::vector<double>& values) {
@@ -175,7 +179,7 @@ void LatticeLoad::accept(model::State& state) {
   accepted_forces_ = result.forces;
   if (step_ == 0.0) {
     resultant_ = resultant_of(result.forces, end);
-    range_used_ = largest_angle(end, Points(end.size()), state.time) / good_angle;
+    range_used_ = used_at(end, Points(end.size()), state.time);
     accepted_ = lattice_.steady_state(result, end, state.time);
     return;
   }
@@ -185,7 +189,7 @@ void LatticeLoad::accept(model::State& state) {
     velocity.set(i, (end.at(i) - start_.at(i)) / step_);
   }
   resultant_ = resultant_of(result.forces, middle);
-  range_used_ = largest_angle(middle, velocity, state.time - 0.5 * step_) / good_angle;
+  range_used_ = used_at(middle, velocity, state.time - 0.5 * step_);
   accepted_ = Lattice::state_after(result, coming_.wake);
 }
 
@@ -194,28 +198,44 @@ std::optional<flow::FluidForce::Resultant> LatticeLoad::resultant() const {
   return Resultant{};
 }
 
-// Between the undisturbed wind and the surfaces at their leading edges.
-double LatticeLoad::largest_angle(const Points& grid, const Points& velocity, double time) const {
-  double largest = 0.0;
+// The largest angle between the undisturbed wind and the surfaces at their leading edges; and of
+// the wind with the plane of the mirror, behind which it would blow the other way.
+double LatticeLoad::used_at(const Points& grid, const Points& velocity, double time) const {
+  double largest = 0.0, crossing = 0.0;
+  const std::optional<Vec3>& mirror = lattice_.bound().mirror();
   for (const Panelling& s : lattice_.bound().surfaces()) {
     for (int j = 0; j <= s.panels.span; ++j) {
       const std::size_t point = s.point(0, j);
-      const Vec3 wind = lattice_.flow().velocity(grid.at(point), time) - velocity.at(point);
-      const double speed = wind.norm();
-      if (speed == 0.0) continue;
+      const Vec3 wind = lattice_.flow().velocity(grid.at(point), time);
+      const Vec3 relative = wind - velocity.at(point);
+      const Vec3 chord = (grid.at(s.point(s.panels.chord, j)) - grid.at(point)).normalized();
       largest = std::max(
-          largest, std::asin(std::min(1.0, std::abs(wind.dot(normal_at(point, grid))) / speed)));
+          largest, std::atan2(std::abs(relative.dot(normal_at(point, grid))), relative.dot(chord)));
+      if (mirror) crossing = std::max(crossing, std::abs(wind.dot(*mirror)) / relative.norm());
     }
   }
-  return largest;
+  return crossing > good_crossing ? through_mirror : largest / good_angle;
 }
 
 std::string LatticeLoad::range_warning(double used) const {
+  if (used == through_mirror) {
+    return effect().quoted() +
+           ": the wind blows through its 'Mirror', behind which it would blow the other way: what "
+           "is "
+           "computed is no half of anything. Take a wind along that plane, or the whole without it";
+  }
+  const double degrees = used * good_angle * 180.0 / std::numbers::pi;
+  if (degrees > 90.0) {
+    return effect().quoted() +
+           ": the wind comes from behind, onto the edges where wakes begin; 'Nose', or which edge "
+           "is "
+           "the leading one, says where it should come from";
+  }
   return fmt::format(
       "{}: the wind meets surfaces at angles up to {:.3g} degrees: its flow never leaves them, "
       "real "
       "ones do from some 15 degrees on",
-      effect().quoted(), used * good_angle * 180.0 / std::numbers::pi);
+      effect().quoted(), degrees);
 }
 
 std::string LatticeLoad::left_out_of_modes() const {

@@ -293,8 +293,6 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
     rotor.wind += element.area * flows_[i].wind;
     area += element.area;
   }
-  rotor.wind /= area;
-  const bool induces = kind_.follow != Follow::none;
   Vec3 hub_velocity = Vec3::Zero();
   if (stencil.step > 0.0) {
     const auto place = [&](const model::Coordinates& q) -> Vec3 {
@@ -302,6 +300,8 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
     };
     hub_velocity = (place(state.next) - place(state.prev)) / stencil.step;
   }
+  rotor.wind = rotor.wind / area - hub_velocity;  // a rotor that moves meets another wind
+  const bool induces = kind_.follow != Follow::none;
   trial_.turns_otherwise = induces && turns_otherwise(rotor, hub_velocity);
   trial_.unbalanced = 0;
   trial_.turning = induces ? share_of(rotor) : 0.0;

@@ -301,8 +301,9 @@ void register_fluid_quantities(QuantityRegistry& registry) {
           "Rotor",
           "Thrust, torque about the axis downwind, power and speed of a rotor in the step; its "
           "coefficients of thrust, power and torque and its tip speed ratio, by the mean wind "
-          "over its disc and the radius of its tips in the reference; this wind, its angle to "
-          "the axis, and the mean axial induction that the balance of momentum asks for; last how "
+          "over its disc, as the moving hub feels it, and the radius of its tips in the reference; "
+          "this wind, its angle to the axis, and the mean axial induction that the balance of "
+          "momentum asks for; last how "
           "far the hub has turned about the axis at the end of the step, from 0 to 2 pi.")
           .add(text("Load", "Name of the rotor in the list Loads.")),
       make_rotor);

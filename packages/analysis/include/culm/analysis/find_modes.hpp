@@ -20,6 +20,7 @@ struct ModalSettings {
   std::string solver = "Automatic";    ///< one of solver::eigen_solver_names()
   std::optional<RotorSettings> rotor;  ///< a rotor that turns while the rest stands
   bool expects_zero = false;           ///< whether frequencies next to zero are no news
+  bool stiffness_sign = false;         ///< whether that of `ModeSet` is found
 };
 
 /// Motion with exp(lambda t).
@@ -39,6 +40,9 @@ struct ModeSet {
   std::vector<Mode> modes;
   Vec6 total = Vec6::Zero();  ///< mass [kg] and inertia [kg m^2] of the model, see ModeMasses
   double rotor_speed = 0.0;   ///< of a rotor that turns while the rest stands [rad/s]
+  /// Of the determinant of the stiffness that lasts, which changes where one motion begins to grow
+  /// without oscillation; 0 if it is singular or was not asked for.
+  int stiffness_sign = 0;
   bool is_complex = false;
   std::string solver;
   double worst_residual = 0.0;

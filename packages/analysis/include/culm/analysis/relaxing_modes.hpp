@@ -35,9 +35,11 @@ struct ComplexMode {
   double residual = 0.0;  ///< largest |T x| over the largest | |K| |x| |
 };
 
-/// The eigenpair of a pencil that a motion without branches becomes: Newton's method for the pair,
-/// from the value that the pencil has in the direction of that motion. Throws NumericalError where
-/// it does not converge. @source Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689, algorithm 4.8
+/// The eigenpair of a pencil that a motion without branches becomes, of a pair of conjugates that
+/// with the positive frequency: Newton's method for the pair, from the value that the pencil has in
+/// the direction of that motion. One that grows without oscillation becomes one that does so, too.
+/// Throws NumericalError where it does not converge.
+/// @source Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689, algorithm 4.8
 ComplexMode compute_relaxing_mode(const RelaxingPencil& pencil, const ComplexMode& start);
 
 }  // namespace culm::analysis

@@ -118,7 +118,8 @@ class LatticeLoad final : public model::MemorylessBatch,
   static Resultant resultant_of(const Points& forces, const Points& places);
   const FluidResult& result_at(const model::State& state) const;
   Vec3 normal_at(std::size_t point, const Points& grid) const;
-  double largest_angle(const Points& grid, const Points& velocity, double time) const;
+  /// How far the surfaces go beyond what a lattice is good for, `range_used`.
+  double used_at(const Points& grid, const Points& velocity, double time) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, const Points& forces, model::Target& target) const;

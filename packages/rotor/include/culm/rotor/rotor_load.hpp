@@ -42,7 +42,7 @@ struct RotorState {
   Vec3 centre = Vec3::Zero();  ///< [m]
   Vec3 axis = Vec3::Zero();    ///< unit vector downwind
   double speed = 0.0;          ///< about the axis, with its sign [rad/s]
-  Vec3 wind = Vec3::Zero();    ///< mean, without induction [m/s]
+  Vec3 wind = Vec3::Zero();    ///< mean against the hub, without induction [m/s]
   double induction = 0.0;      ///< mean of a, as the momentum balance asks for it [-]
 
   static constexpr std::size_t size = 11;
