@@ -1,14 +1,26 @@
 #!/usr/bin/python3
 """Flutter and divergence by eigenvalues with the lag of strips. Page: doc/verification/strips.md."""
 
+import io
 import math
 import pathlib
 import tempfile
 
 import numpy as np
+from scipy.io import mmread
 from verify import INPUTS, figure, main, save
 
 PARKED = "turbine/nrel5mw/turbine_parked.xml"
+MATRICES = """  <ParameterList name="Analyses">
+    <ParameterList name="rest">
+      <Parameter name="Type" value="Static"/>
+      <Parameter name="Steps" value="1"/>
+    </ParameterList>
+    <ParameterList name="matrices">
+      <Parameter name="Type" value="Matrices"/>
+    </ParameterList>
+  </ParameterList>
+"""
 # Jones' states; divergence is exact
 SECTION = (25.379599, 16.695289, 36.084392)  # m/s, rad/s, m/s
 GOLAND = (137.335, 69.346, 252.27796)
@@ -85,6 +97,29 @@ def verify_sweep(culm, report):
         report.relative(f"{degrees:g} degrees", onset.at(2, "level"), swept_divergence(sweep), 2e-4)
 
 
+def verify_matrices(culm, report, speed=20.0):
+    report.title("Matrices of the typical section, with its lag: the stiffness at its eigenvalues is singular")
+    text = (INPUTS / "air/flutter.xml").read_text()
+    begin = text.index('  <ParameterList name="Analyses">')
+    end = text.index("\n  </ParameterList>\n", begin) + len("\n  </ParameterList>\n")
+    with tempfile.TemporaryDirectory() as folder:
+        deck = pathlib.Path(folder) / "matrices.xml"
+        deck.write_text(text[:begin] + MATRICES + text[end:])
+        run = culm.run(deck, [f"Functions/speed/Expression={speed}"], quiet=False)
+    read = {name: mmread(io.StringIO(matrix)).toarray() for name, matrix in run.matrices.items()}
+    times = [float(line.split()[-2]) for line in run.output.splitlines() if ": relaxation time" in line]
+    report.check("lags", len(times), 2, 0)
+    for value in section_eigenvalues(speed):
+        if value.imag <= 0.0:
+            continue
+        total = read["stiffness"] + value * read["damping"] + value**2 * read["mass"]
+        for k, time in enumerate(times, 1):
+            total = total + value * time / (1.0 + value * time) * (
+                read[f"relaxation_{k}"] + value * read[f"relaxation_{k}_damping"])
+        sizes = np.linalg.svd(total, compute_uv=False)
+        report.holds(f"at {value:.5g} 1/s: least over next singular value", sizes[-1] / sizes[-2], 1e-6)
+
+
 def verify(culm, report):
     for title, deck, (speed, omega, divergence), tolerance in DECKS:
         report.title(title)
@@ -93,6 +128,7 @@ def verify(culm, report):
         report.relative("frequency [rad/s]", 2.0 * math.pi * onset.at(1, "frequency [Hz]"), omega, tolerance)
         report.relative("speed of divergence [m/s]", onset.at(2, "level"), divergence, tolerance)
     verify_sweep(culm, report)
+    verify_matrices(culm, report)
     report.title("Typical section below flutter and above, against its equations with six states")
     table = culm.table("flutter/flutter", "air/flutter.xml")
     for row, speed in enumerate(table.column("level"), 1):
