@@ -122,6 +122,21 @@ def of_abaqus():
     ).findings.left_out
 
 
+def of_beams():
+    """What Abaqus and CalculiX have in common, and what not (CalculiX 2.20: section4.inp of its tests stretches like a bar
+    of this diameter)."""
+    bars = INP.replace("type=s4r", "type=b31").replace("1,1,2,3,4\n", "1,1,2,9\n2,2,3\n").replace("1000.,", "1000.")
+    bars = bars.replace("*shell section", "*beam section,section={}").replace("0.01,5", "{}\n0,0,-1")
+    round_ = {format: made_of_text(format, bars.format("circ", "0.02")) for format in ("abaqus", "calculix")}
+    ups = [beam.up for beam in round_["abaqus"].made.beams]
+    yield "the number of CIRC is a radius in Abaqus", numpy.isclose(round_["abaqus"].mass, 2000 * numpy.pi * 0.02**2)
+    yield "and that is said", any("calculix" in text for text in round_["abaqus"].findings.assumed)
+    yield "a diameter in CalculiX", numpy.isclose(round_["calculix"].mass, 2000 * numpy.pi * 0.01**2)
+    pair = made_of_text("calculix", bars.format("circ", "0.02,0.02"))
+    yield "of which there may be two", numpy.isclose(pair.mass, round_["calculix"].mass)
+    yield "a node beyond its own is the direction of an element", ups == [(5.0, 5.0, 5.0), (0.0, 0.0, -1.0)]
+
+
 def of_nastran():
     shell = "PSHELL,1,1,.01,1,,1,,2.5\n"
     cylinder = bdf(shell + SQUARE.replace("0.,1.,0.\n", "0.,1.,0.,5\n") + "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nSPC1,1,1,4\n")
@@ -132,6 +147,9 @@ def of_nastran():
     membrane = bdf("PSHELL,1,1,.01\n" + SQUARE.replace("3,4\n", "3,4\n,,.01,.01,.02,.02\n"))
     G = 2e11 / 2.6
     arm = rod.made.couplings[0]
+    written = bdf("PBARL,1,1,,ROD\n,.1\nGRID,1,,0.,0.,0.,,456\n=,*1,=,*(.5),==\n=(2)\nCBAR,1,1,1,2,0.,0.,1.\n=       *1      =       *1      *1      ==\n=,*1,=,*1,*1,==\nFORCE,2,4,,1.,1.,0.,0.\n")
+    yield "cards that say how they differ", abs(written.mass - 1000 * numpy.pi * 0.01 * 1.5) < 1e-9 and len(written.made.beams) == 3
+    yield "their other fields", any(set(s.held) == {4, 5, 6} and s.nodes == [4] for s in written.made.supports)
     yield "mass that is not structural, of shells", cylinder.mass == 12.5 and abs(loaded.mass - 34) < 1e-12
     yield "mass that is not structural, of bars", abs(rod.mass - (1000 * numpy.pi * 0.1**2 + 3) * 2) < 1e-9
     yield "supports along a cylinder", any(numpy.allclose(x, [[0, 1, 0]]) for x in directions(cylinder))
@@ -175,6 +193,14 @@ REFUSED = {
     ),
     "a line of another card": ("nastran", BDF.format("PCOMP   1" + " " * 63 + "+A\n+B      1       .1      0.\n"), "calls its next line 'A'"),
     "more values than a line has": ("nastran", BDF.format("SPC1,1,123,1,2,3,4,5,6,7,8\n"), "more than 8 values"),
+    "differences of a card that is none": ("nastran", BDF.format("=,*1,==\n").replace("MAT1,1,2.+11,,.3,1000.\nSPC1,1,123456,1\n", ""), "repetition"),
+    "differences of nothing": ("nastran", BDF.format("=3\n"), "which must stand before it"),
+    "differences of words": ("nastran", BDF.format("=,*1,*1\nSPC1,1,A,1\n=,*1,*1\n"), "expected a number"),
+    "an ellipse": (
+        "abaqus",
+        INP.replace("s4r", "b31").replace("1,1,2,3,4", "1,1,2").replace("*shell section", "*beam section,section=circ").replace("0.01,5", "0.1,0.2"),
+        "culm import calculix",
+    ),
     "layers that do not bend": ("nastran", BDF.format("PCOMP,1,,,,,,,MEM\n,1,.1,0.\n" + SQUARE), "LAM = MEM"),
     "nodes in a system of their own": ("ansys", CDB + "LOCAL,11,0,1,1,1\nCSYS,11\nN,9,1,1,1\n", "N in the coordinate system 11"),
     "directions on a cylinder": (
@@ -188,7 +214,7 @@ REFUSED = {
 
 def main():
     complaints = []
-    for facts in (of_abaqus, of_nastran, of_ansys):
+    for facts in (of_abaqus, of_beams, of_nastran, of_ansys):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     for name, (format, text, words) in REFUSED.items():
         try:

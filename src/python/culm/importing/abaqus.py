@@ -41,7 +41,12 @@ HARMLESS = {
 def read(path, arguments):
     """@return the Model of an input file"""
     del arguments
-    reader = Reader(path)
+    return read_dialect(path, "Abaqus")
+
+
+def read_dialect(path, program):
+    """@param program  whose file it is, Abaqus or CalculiX, where one word means two things"""
+    reader = Reader(path, program)
     reader.read(read_blocks(path))
     return reader.model
 
@@ -51,13 +56,15 @@ class Reader:
 
     @param prefix  of names and numbers in the instance that is read; empty outside"""
 
-    def __init__(self, path):
+    def __init__(self, path, program):
+        self.program = program
         self.model = Model(title=path.stem)
         self.findings = self.model.findings
         self.prefix = ""
         self.transform = None
         self.element_sets = {}  # upper-case name -> numbers
         self.elements = {}  # number -> its type and nodes
+        self.direction_nodes = {}  # beam element -> the node that its first axis points to
         self.surfaces = {}
         self.orientations = {}
         self.axes = {}  # node -> rows of *TRANSFORM

@@ -137,26 +137,33 @@ def _elements(reader, block):
     if size is None:
         refuse(block.place, f"elements of type {type} have no counterpart in culm: it has shells, beams, point masses")
     found = []
-    for place, numbers in _records(block, size + 1):
+    for place, numbers in _records(block, size + 1, 1 if type in BEAMS else 0):
         key = reader.key(numbers[0])
         if key in reader.elements:
             refuse(place, f"element {numbers[0]} is there twice")
-        _add_element(reader, type, key, [reader.key(node) for node in numbers[1:]], place)
+        nodes = [reader.key(node) for node in numbers[1:]]
+        _add_element(reader, type, key, nodes[:size], place)
+        for node in nodes[size:]:
+            if node not in reader.model.nodes:
+                refuse(place, f"there is no node {numbers[-1]}")
+            reader.direction_nodes[key] = node
         found.append(key)
     reader.findings.count(f"elements {type}", len(found))
     _add_to_set(reader.element_sets, reader, block.get("ELSET"), found)
 
 
-def _records(block, size):
-    """Elements may go over several lines."""
+def _records(block, size, more=0):
+    """Elements may go over several lines.
+
+    @param more  numbers that may follow on the last of these"""
     numbers, start = [], None
     for place, cells in block.lines:
         start = start or place
         numbers += [integer(cell, place, "the number of a node") for cell in cells if cell]
         if len(numbers) >= size:
-            if len(numbers) > size and size != 2:
+            if len(numbers) > size + more and size != 2:
                 refuse(start, f"expected {size} numbers for an element, found {len(numbers)}")
-            yield start, numbers[:size]
+            yield start, numbers[: size + more]
             numbers, start = [], None
     if numbers:
         refuse(start, f"expected {size} numbers for an element, found {len(numbers)}")
@@ -181,6 +188,8 @@ def _generate_elements(reader, block):
         if key not in reader.elements:
             refuse(place, f"there is no element {values[0]}")
         type, nodes, _ = reader.elements[key]
+        if key in reader.direction_nodes:
+            refuse(place, f"*ELGEN from element {values[0]}, which has a node for its direction, is not read")
         counts = [values[1], *values[4:5], *values[7:8]]
         steps = [(values[i] if len(values) > i else 1, values[i + 1] if len(values) > i + 1 else 1) for i in (2, 5, 8)]
         made = []

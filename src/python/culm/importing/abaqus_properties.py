@@ -289,7 +289,19 @@ def _beam_section(reader, block, keys):
         place, cells = block.lines[1]
         up = tuple(number(cell, place, "a direction") for cell in cells[:3])
     for key in keys:
-        reader.model.beams.append(element_of(reader, key, None, name, up))
+        own = _direction_of(reader, key, block.place)
+        reader.model.beams.append(element_of(reader, key, None, name, up if own is None else own))
+
+
+def _direction_of(reader, key, place):
+    """From the first node of a beam element to the one beyond its own, if there is one."""
+    if key not in reader.direction_nodes:
+        return None
+    nodes, first = reader.model.nodes, reader.elements[key][1][0]
+    direction = nodes[reader.direction_nodes[key]] - nodes[first]
+    if numpy.linalg.norm(direction) == 0.0:
+        refuse(place, "the node for the direction of a beam element is where its first one is")
+    return tuple(map(float, direction))
 
 
 def _modulus_line(block):
@@ -306,8 +318,6 @@ def _profile(reader, shape, block, solid):
     needed = {"RECT": 2, "CIRC": 1, "PIPE": 2, "BOX": 6, "I": 7}
     if shape not in needed:
         refuse(block.place, f"beam sections of shape {shape or 'none'} are not read; {', '.join(needed)} and GENERAL are")
-    if shape == "CIRC" and len(sizes) == 2 and sizes[0] != sizes[1]:
-        refuse(place, "an ellipse has no counterpart among the sections of culm")
     if len(sizes) < needed[shape] or min(sizes[: needed[shape]]) <= 0.0:
         refuse(place, f"a section of shape {shape} needs {needed[shape]} positive dimensions")
     density = solid["Density"]
@@ -315,7 +325,8 @@ def _profile(reader, shape, block, solid):
         a, b = sizes[:2]
         return "Rectangle", {**solid, "Width": a, "Height": b}, density * a * b
     if shape == "CIRC":
-        return "Circle", {**solid, "Radius": sizes[0]}, density * numpy.pi * sizes[0] ** 2
+        radius = _radius(reader, sizes, place)
+        return "Circle", {**solid, "Radius": radius}, density * numpy.pi * radius**2
     if shape == "PIPE":
         r, t = sizes[:2]
         return "Tube", {**solid, "Outer Radius": r, "Wall Thickness": t}, density * numpy.pi * (r**2 - (r - t) ** 2)
@@ -328,6 +339,18 @@ def _profile(reader, shape, block, solid):
     reader.findings.assume("an I section has shear areas of its web and of 5/6 of its flanges", block.place)
     values = i_section(*sizes[:7], solid)
     return "Stiffness Values", values, values["rhoA"]
+
+
+def _radius(reader, sizes, place):
+    """Of CIRC: Abaqus gives the radius, CalculiX two diameters, the second of which may be absent."""
+    if reader.program == "CalculiX":
+        if len(sizes) > 1 and sizes[0] != sizes[1]:
+            refuse(place, "an ellipse has no counterpart among the sections of culm")
+        return sizes[0] / 2
+    if len(sizes) > 1:
+        refuse(place, "CIRC with two numbers, the diameters of an ellipse, is CalculiX's: culm import calculix")
+    reader.findings.assume("the number of CIRC is the radius, as in Abaqus; CalculiX has the diameter: culm import calculix", place)
+    return sizes[0]
 
 
 def _general(block):

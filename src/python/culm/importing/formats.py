@@ -9,6 +9,7 @@ import importlib
 
 FORMATS = {
     "abaqus": "A model of Abaqus or CalculiX, .inp",
+    "calculix": "A model of CalculiX, .inp: like abaqus, with the sections of CalculiX",
     "ansys": "A model of ANSYS, archive of CDWRITE, .cdb",
     "nastran": "A model of Nastran, .bdf: SOL 101, 103, 105, 106",
     "gmsh": "A mesh of Gmsh, .msh 2.2 or 4.1, text or binary, first or second order",

@@ -6,6 +6,7 @@ import re
 
 from .findings import Place, refuse
 from .keyword_file import DEEPEST, read_text
+from .nastran_replication import Replication
 
 REAL = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([ED]?[+-]?[0-9]+)?"
 
@@ -123,8 +124,14 @@ def _lines(path, depth):
 
 def _cards(lines):
     cards, mark = [], ""
+    replication = Replication()
     for place, text in lines:
         name, fields, next_mark = _fields(text, place)
+        if name.startswith("="):
+            cards += replication.cards(cards[-1] if cards else None, name, fields, place)
+            mark = ""
+            continue
+        replication.end()
         if name[:1] in ("", "+", "*"):
             if not cards:
                 refuse(place, "a line that goes on, without a card before it")
@@ -142,7 +149,7 @@ def _cards(lines):
 
 def _fields(text, place):
     """(name, or what calls a line that goes on; fields; what calls the next line)"""
-    if "," in text:
+    if "," in text[:10]:  # else commas belong to a field
         first, *rest = [cell.strip() for cell in text.split(",")]
         size = 4 if first.startswith("*") or first.endswith("*") else 8
         mark = rest[size] if len(rest) > size else ""
