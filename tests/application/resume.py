@@ -420,6 +420,22 @@ def start_from_another_run(program, folder, options):
     refuse_start("'Start From' may name other/run.checkpoint.old")
 
 
+def start_from_another_run_remembers(program, folder, options):
+    """What flowed, or slid, goes on in another run; what has no counterpart there is told."""
+    def last(name):
+        return (folder / name / "history.csv").read_text().splitlines()[-1].split(",")[:4]
+
+    for deck, analysis, half, end in (("plasticity/bent_bar.xml", "bending", 0.5, 1), ("contact/dragged_bar.xml", "pulling", 1, 2)):
+        path, levels = INPUTS / deck, f"Analyses/{analysis}"
+        program("run", path, *settings(f"{levels}/Final Level={half}", f"{levels}/Steps=5"), "--output", "half")
+        split = settings(f"{levels}/Start From=half", f"{levels}/Start Level={half}", f"{levels}/Final Level={end}", f"{levels}/Steps=5")
+        program("run", path, *split, "--output", "rest")
+        program("run", path, *settings(f"{levels}/Final Level={end}", f"{levels}/Steps=10"), "--output", "whole")
+        demand(last("rest") == last("whole"), f"{deck}: {last('rest')}, in one run {last('whole')}")
+    _, _, err = program("run", path, *split, *settings("Loads/ground/Friction=0"), "--output", "rest")
+    demand("leaves out what Plane Contact, ground remembers" in err, f"stderr is {err}")
+
+
 def flipped_bits(program, folder, options):
     """A bit that turned over in run.h5 or a checkpoint is found, or changes nothing."""
     program("run", *TORSION, "--output", "whole")
@@ -623,6 +639,7 @@ ALWAYS = [
     foreign_checkpoints,
     changed_table,
     start_from_another_run,
+    start_from_another_run_remembers,
     flipped_bits,
     checkpoints_can_be_switched_off,
     other_number_of_processes,

@@ -13,7 +13,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -62,6 +64,10 @@ void check_results(const Path& run, const Snapshot& snapshot) {
   output::find_recorded(run, snapshot.text("run/id"), restore_mark(snapshot));
 }
 
+std::string memory_key(const char* what, std::size_t i) {
+  return fmt::format("run/memory {} {}", what, i);
+}
+
 std::vector<std::string> structures_of(const Snapshot& snapshot) {
   std::vector<std::string> names(static_cast<std::size_t>(snapshot.integer("run/structures")));
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = snapshot.text(key("name", i));
@@ -102,6 +108,52 @@ void save_structures(const model::Model& model, Snapshot& snapshot) {
     ++i;
   }
   snapshot.set("run/structures", static_cast<double>(i));
+}
+
+void save_memory_owners(const model::Model& model, Snapshot& snapshot) {
+  std::size_t i = 0;
+  for (const model::Batch* batch : model.batches()) {
+    if (batch->memory_size() == 0) continue;
+    snapshot.set_text(memory_key("of", i), batch->effect().title());
+    snapshot.set(memory_key("size", i), static_cast<double>(batch->memory_size()));
+    ++i;
+  }
+  snapshot.set("run/memories", static_cast<double>(i));
+}
+
+std::vector<std::string> take_memories(const Snapshot& other, const model::Model& model,
+                                       Snapshot& snapshot) {
+  std::span<const double> rest = other.numbers("system/batches");
+  const auto is_empty = [](std::span<const double> memory) {
+    return std::ranges::all_of(memory, [](double one) { return one == 0.0; });
+  };
+  // checkpoints of before do not say whose they are
+  if (!other.has("run/memories")) {
+    return is_empty(rest) ? std::vector<std::string>{} : std::vector<std::string>{"the model"};
+  }
+  std::multimap<std::string, std::span<const double>> there;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(other.integer("run/memories")); ++i) {
+    const auto size = static_cast<std::size_t>(other.integer(memory_key("size", i)));
+    there.emplace(other.text(memory_key("of", i)), rest.first(size));
+    rest = rest.subspan(size);
+  }
+  std::vector<double> memory = snapshot.copy("system/batches");
+  auto to = memory.begin();
+  for (const model::Batch* batch : model.batches()) {
+    const std::size_t size = batch->memory_size();
+    const auto found = there.find(batch->effect().title());  // of equal ones the first
+    if (size > 0 && found != there.end() && found->second.size() == size) {
+      std::ranges::copy(found->second, to);
+      there.erase(found);
+    }
+    to += static_cast<std::ptrdiff_t>(size);
+  }
+  snapshot.set("system/batches", std::move(memory));
+  std::vector<std::string> lost;
+  for (const auto& [title, numbers] : there) {
+    if (!is_empty(numbers)) lost.push_back(title);
+  }
+  return lost;
 }
 
 Snapshot find_state_of_run(const parallel::Comm& comm, const Options& analysis,

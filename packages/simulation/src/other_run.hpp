@@ -7,12 +7,23 @@
 #include <culm/parallel/comm.hpp>
 
 #include <string>
+#include <vector>
 
 namespace culm::simulation {
 
 /// Says in a checkpoint which structures the model has: names, and checksums of the nodes of each
 /// in the reference.
 void save_structures(const model::Model& model, Snapshot& snapshot);
+
+/// Says in a checkpoint whose memories "system/batches" holds: effects and how many numbers.
+void save_memory_owners(const model::Model& model, Snapshot& snapshot);
+/// Moves what batches of another run remember to those of the same effect and size in a model: what
+/// flowed, slid, or was counted.
+/// @param other     of find_state_of_run
+/// @param snapshot  of the model, with "system/batches" as it begins
+/// @return titles of what remembers something there and has no place here
+std::vector<std::string> take_memories(const Snapshot& other, const model::Model& model,
+                                       Snapshot& snapshot);
 
 /// Reads the newest checkpoint of the run that 'Start From' of an analysis names. Unlike a run that
 /// goes on, it takes no older one in its place, which would be another state.

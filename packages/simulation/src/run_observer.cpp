@@ -204,6 +204,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set("run/ranks", context_->system.comm().size());
   snapshot.set("run/analysis", static_cast<double>(number_));
   save_structures(context_->system.model(), snapshot);
+  save_memory_owners(context_->system.model(), snapshot);
   source_.save(snapshot);
   findings_.save(snapshot);
   loads_.save(snapshot);

@@ -361,13 +361,22 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
   }
 }
 
-// The nodes of a checkpoint of another run; multipliers and memories begin anew.
+// The nodes of a checkpoint of another run, and what batches of the same effect remember there;
+// multipliers begin anew.
 Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::State& state) {
   const Snapshot found = find_state_of_run(parts_->comm, analysis, *phase.model);
   Snapshot snapshot;
   phase.system->save(state, snapshot);
   for (const char* name : {"state/position", "state/velocity", "state/time", "state/at rest"}) {
     snapshot.set(name, found.numbers(name));
+  }
+  for (const std::string& title : take_memories(found, *phase.model, snapshot)) {
+    parts_->findings.warn("memory",
+                          fmt::format("'Start From' of '{}' leaves out what {} remembers in that "
+                                      "run, such as what flowed or slid: here is none of its kind "
+                                      "and size",
+                                      analysis.name(), title),
+                          state.time);
   }
   return snapshot;
 }
