@@ -58,7 +58,7 @@ bool covers(const PotentialBody& body, const Sea& sea, const Options& options,
       return false;
     }
     const double heading = std::atan2(wave.direction.y(), wave.direction.x());
-    if (heading < body.headings.front() - near || heading > body.headings.back() + near) {
+    if (!heading_in(body, heading)) {
       issues.add(
           options.where("File Name"),
           fmt::format("has waves with headings from {:.4g} to {:.4g} rad, but '{}' has one "

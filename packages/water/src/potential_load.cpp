@@ -32,7 +32,8 @@ PotentialLoad::PotentialLoad(model::Effect effect, const model::NodeTable& nodes
   const Vec3 place = model::NodeTable::slots(nodes.reference(), node).col(0);
   for (const Wave& wave : sea_->waves()) {
     const double heading = std::atan2(wave.direction.y(), wave.direction.x());
-    const auto forces = excitation_of(body_.flow, wave.frequency, heading);
+    const auto forces = excitation_of(body_.flow, wave.frequency,
+                                      heading_in(body_.flow, heading).value_or(heading));
     // the wave at the node: cos(omega t - lag)
     const double lag = wave.phase + wave.number * wave.direction.dot(place);
     WaveForce one;

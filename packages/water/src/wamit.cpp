@@ -107,8 +107,10 @@ void read_radiation(const std::string& path, const WamitScale& scale, const Wher
   std::map<double, Radiation> found;
   Entries entries(path);
   bool has_limit = false;
+  std::map<std::pair<int, int>, int> lines;  // of entries
   for (const Row& row : read_rows(path, 4, 5, asking)) {
     const int i = direction(row, 1, path), j = direction(row, 2, path);
+    lines.try_emplace({i, j}, row.line);
     const double period = row.values[0];
     const double volume = scale.density * power(scale.length, 3, i, j);
     const double mass = in_range(volume * row.values[3], row, path);
@@ -131,6 +133,12 @@ void read_radiation(const std::string& path, const WamitScale& scale, const Wher
     throw InputError({path, 0, ""}, "lacks the added mass at infinite frequency, of period 0");
   }
   entries.require_all();
+  for (const auto& [entry, line] : lines) {
+    if (lines.contains({entry.second, entry.first})) continue;
+    throw InputError({path, line, ""}, fmt::format("has {} here, but {} nowhere: both are the same",
+                                                   entry_of(entry.first, entry.second),
+                                                   entry_of(entry.second, entry.first)));
+  }
   for (auto& [frequency, one] : found) body.radiation.push_back(one);
 }
 
@@ -201,6 +209,16 @@ PotentialBody read_wamit(const std::string& path, const WamitScale& scale, const
   read_excitation(name + ".3", scale, asking, body);
   read_hydrostatics(name + ".hst", scale, asking, body);
   return body;
+}
+
+std::optional<double> heading_in(const PotentialBody& body, double heading) {
+  constexpr double near = 1e-9;
+  if (body.headings.empty()) return {};
+  for (const double turns : {0.0, turn, -turn}) {
+    const double same = heading + turns;
+    if (same >= body.headings.front() - near && same <= body.headings.back() + near) return same;
+  }
+  return {};
 }
 
 Forces excitation_of(const PotentialBody& body, double frequency, double heading) {

@@ -78,8 +78,8 @@ class WamitFiles : public testing::Test {
  protected:
   WamitFiles() {
     write("1",
-          "0 1 1 2.0\n0 1 5 1.0\n-1 1 1 9.0\n6.283185307179586 1 1 3.0 0.5\n6.283185307179586 1 5 "
-          "4.0 0.25\n");
+          "0 1 1 2.0\n0 1 5 1.0\n0 5 1 1.0\n-1 1 1 9.0\n6.283185307179586 1 1 3.0 0.5\n"
+          "6.283185307179586 1 5 4.0 0.25\n6.283185307179586 5 1 4.0 0.25\n");
     write("3",
           "6.283185307179586 0 1 5 0 3.0 4.0\n6.283185307179586 90 1 1 0 1.0 0.0\n"
           "3.141592653589793 0 1 7 0 7.0 0.0\n3.141592653589793 90 1 1 0 1.0 0.0\n");
@@ -131,6 +131,19 @@ TEST_F(WamitFiles, MistakesHaveTheirPlace) {
   write("1", "0 1 1 2.0\n6.28 1 1 3.0 0.5\n");
   write("3", "6.28 0 1 5 0 3.0 4.0\n3.14 90 1 5 0 3.0 4.0\n");
   EXPECT_THAT(message(), HasSubstr("body.3: lacks the heading 90 at the period 6.28 s"));
+}
+
+TEST_F(WamitFiles, HeadingsCountWholeTurns) {
+  const PotentialBody body = read();
+  constexpr double turn = 2.0 * std::numbers::pi;
+  EXPECT_EQ(heading_in(body, 0.5), 0.5);
+  EXPECT_EQ(heading_in(body, 0.5 - turn), 0.5 - turn + turn);
+  EXPECT_FALSE(heading_in(body, -0.5));
+}
+
+TEST_F(WamitFiles, EntriesComeInPairs) {
+  write("1", "0 1 1 2.0\n0 1 5 1.0\n6.28 1 1 3.0 0.5\n6.28 1 5 1.0 0.5\n");
+  EXPECT_THAT(message(), HasSubstr("body.1:2: has the entry 1 5 here, but the entry 5 1 nowhere"));
 }
 
 // What is missing would be zero, and of what is there twice the last would count.

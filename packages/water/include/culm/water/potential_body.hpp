@@ -5,6 +5,7 @@
 #include <culm/math/types.hpp>
 
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct WamitScale {
 /// heading; hydrostatics. Throws InputError with file and line, or for `asking` where a file cannot
 /// be read. @source WAMIT user manual, output files
 PotentialBody read_wamit(const std::string& path, const WamitScale& scale, const Where& asking);
+
+/// A heading as the files count it, by whole turns more or less; none if it lies outside of theirs.
+std::optional<double> heading_in(const PotentialBody& body, double heading);
 
 /// Forces per amplitude of waves of a frequency and heading, linear between those of the files.
 /// @pre within their range
