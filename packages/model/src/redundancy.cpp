@@ -391,13 +391,33 @@ std::vector<RedundantSet> dependent_sets(const RowTable& table, const Factors& f
   return sets;
 }
 
+std::vector<int> independent_columns(const Factors& factors) {
+  std::vector<int> columns;
+  for (int place = 0; place < factors.rank(); ++place) columns.push_back(factors.column(place));
+  return columns;
+}
+
+// Gradients at a position nearby where the rows that are independent at the start are so, too: one
+// where they are not is singular by itself and tells nothing of the start. Nothing where no such
+// position is found: there is none, or it is out of reach.
+std::optional<Sparse> gradients_nearby(RowTable& table, const Factors& reference,
+                                       const Coordinates& start) {
+  const std::vector<int> independent = independent_columns(reference);
+  for (double size : {1.0, -0.5, 0.25}) {
+    Coordinates moved = start;
+    table.move(size * table.perturbation(), moved);
+    const auto nearby = admissible(table, std::move(moved));
+    if (!nearby) continue;
+    Sparse gradients = table.gradients(*nearby);
+    if (Factors(gradients, independent).rank() == reference.rank()) return gradients;
+  }
+  return {};
+}
+
 // Whether the rows of a set that were independent before no longer imply the others.
 bool gains_rank(const RowTable& table, const Sparse& gradients, const Factors& reference,
                 const RedundantSet& set) {
-  std::vector<int> columns;
-  for (int place = 0; place < reference.rank(); ++place) columns.push_back(reference.column(place));
-  const auto rank = [&] { return Factors(gradients, columns).rank(); };
-  const int without = rank();
+  std::vector<int> columns = independent_columns(reference);
   for (int place = reference.rank(); place < reference.cols(); ++place) {
     const int column = reference.column(place);
     const RedundantSet::Row row = table.places()[static_cast<std::size_t>(column)];
@@ -406,7 +426,7 @@ bool gains_rank(const RowTable& table, const Sparse& gradients, const Factors& r
     });
     if (belongs) columns.push_back(column);
   }
-  return rank() > without;
+  return Factors(gradients, columns).rank() > reference.rank();
 }
 
 }  // namespace
@@ -424,14 +444,9 @@ std::vector<RedundantSet> find_redundant_rows(const NodeTable& nodes,
   const Factors factors(at_start, doubtful);
   if (factors.rank() == factors.cols()) return {};
   std::vector<RedundantSet> sets = dependent_sets(table, factors, q);
-  // where no other position is found there is none, or it is out of reach
-  Coordinates moved = q;
-  table.move(table.perturbation(), moved);
-  if (const auto nearby = admissible(table, std::move(moved))) {
-    const Sparse gradients = table.gradients(*nearby);
+  if (const auto nearby = gradients_nearby(table, factors, q)) {
     for (RedundantSet& set : sets) {
-      if (set.kind == RedundantSet::Kind::structural &&
-          gains_rank(table, gradients, factors, set)) {
+      if (set.kind == RedundantSet::Kind::structural && gains_rank(table, *nearby, factors, set)) {
         set.kind = RedundantSet::Kind::position;
       }
     }

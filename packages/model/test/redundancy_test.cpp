@@ -17,8 +17,12 @@ int add_node(NodeTable& nodes, const Vec3& position) {
   return nodes.add(slots);
 }
 
-// Five rows: common point, parallel axis z.
-Constraint hinge(const NodeTable& nodes, int a, int b, const Vec3& point) {
+// x becomes y, y becomes z and z becomes x
+const Mat3 turn_once = (Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished();
+
+// Five rows: common point, parallel axis z of some axes.
+Constraint hinge(const NodeTable& nodes, int a, int b, const Vec3& point,
+                 const Mat3& axes = Mat3::Identity()) {
   Constraint c;
   c.type = "Revolute Joint";
   c.name = std::to_string(a) + "-" + std::to_string(b);
@@ -31,7 +35,7 @@ Constraint hinge(const NodeTable& nodes, int a, int b, const Vec3& point) {
   for (int i = 0; i < 3; ++i) c.rows.push_back(linear_row(Vec3::Unit(i), gap, q));
   for (int i = 0; i < 2; ++i) {
     c.rows.push_back(
-        product_row(attached_vector(0, 2, Vec3::Unit(i)), attached_vector(1, 2, Vec3::UnitZ()), q));
+        product_row(attached_vector(0, 2, axes.col(i)), attached_vector(1, 2, axes.col(2)), q));
   }
   return c;
 }
@@ -88,6 +92,33 @@ TEST(Redundancy, PlaneFourBarLoopHasThreeRowsTooMany) {
   EXPECT_EQ(sets[0].kind, Kind::structural);
   EXPECT_EQ(sets[0].dependent.size(), 3U);  // 20 rows, 18 unknowns, one degree of freedom
   EXPECT_THAT(sets[0].members, ElementsAre(0, 1, 2, 3));
+}
+
+// Parallel links under two bars: rotations out of the plane lead such loops back to positions that
+// are singular themselves, in which more rows depend on each other than at the start.
+TEST(Redundancy, TheVerdictOnParallelLoopsDoesNotDependOnTheAxes) {
+  const std::array<Vec3, 5> centres = {Vec3(0.0, 0.5, 0.0), Vec3(1.0, 0.5, 0.0),
+                                       Vec3(2.0, 0.5, 0.0), Vec3(0.5, 1.0, 0.0),
+                                       Vec3(1.5, 1.0, 0.0)};
+  Mat3 turn = Mat3::Identity();
+  for (int axes = 0; axes < 3; ++axes, turn = turn * turn_once) {
+    NodeTable nodes;
+    add_node(nodes, Vec3::Zero());
+    nodes.fix(0, std::bitset<6>("111111"));
+    for (const Vec3& centre : centres) add_node(nodes, turn * centre);
+    std::vector<Constraint> hinges;
+    const auto add = [&](int a, int b, const Vec3& point) {
+      hinges.push_back(hinge(nodes, a, b, turn * point, turn));
+    };
+    for (int i = 0; i < 3; ++i) add(0, i + 1, Vec3(i, 0.0, 0.0));
+    for (int bar = 0; bar < 2; ++bar) {
+      for (int i = 0; i < 2; ++i) add(bar + i + 1, bar + 4, Vec3(bar + i, 1.0, 0.0));
+    }
+    const auto sets = find(nodes, hinges);
+    ASSERT_EQ(sets.size(), 1U);
+    EXPECT_EQ(sets[0].kind, Kind::structural);
+    EXPECT_EQ(sets[0].dependent.size(), 6U);  // 35 rows, 30 unknowns, one degree of freedom
+  }
 }
 
 TEST(Redundancy, AStretchedLoopDependsInThisPositionOnly) {
