@@ -45,11 +45,29 @@ void BlockBatch::connect(const model::Signal& output, std::vector<model::Amplitu
       items_, [&](const Item& one) { return one.unknowns.front().index == output.index; });
   internal_check(item != items_.end(), "inputs of a block that is not there");
   item->inputs = std::move(inputs);
-  double start =
-      initial ? *initial : item->block->start(values_of(item->inputs, model_.initial_state(), 1.0));
-  // of inputs that are not known before the first state has been found
-  if (!std::isfinite(start)) start = 0.0;
-  model_.set_initial(item->unknowns[static_cast<std::size_t>(item->block->state())], start);
+  item->initial = initial;
+}
+
+void BlockBatch::settle() {
+  std::vector<double> starts(items_.size(), 0.0);
+  for (std::size_t pass = 0; pass < items_.size(); ++pass) {
+    const model::State state = model_.initial_state();
+    bool is_settled = true;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      const Item& item = items_[i];
+      double start =
+          item.initial ? *item.initial : item.block->start(values_of(item.inputs, state, 1.0));
+      // of inputs that are not known before the first state has been found
+      if (!std::isfinite(start)) start = 0.0;
+      is_settled = is_settled && pass > 0 && start == starts[i];
+      starts[i] = start;
+    }
+    if (is_settled) return;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      const Item& item = items_[i];
+      model_.set_initial(item.unknowns[static_cast<std::size_t>(item.block->state())], starts[i]);
+    }
+  }
 }
 
 std::vector<int> BlockBatch::blocks(int item, const model::UnknownTable& unknowns) const {

@@ -52,6 +52,7 @@ void ControlContext::finish() {
     if (!is_complete) continue;
     blocks_->connect(one.output, std::move(inputs), one.initial);
   }
+  blocks_->settle();
   model::Model& model = build_.model;
   if (libraries_->size() > 0) model.add_load(std::move(libraries_));
   if (samples_->size() > 0) model.add_load(std::move(samples_));

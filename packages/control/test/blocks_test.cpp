@@ -47,6 +47,7 @@ void fill(const Subject& subject, model::Model& model) {
   }
   batch->connect(tested, std::move(inputs), 0.1);
   batch->connect(other, {model::Amplitude::of_signal(tested)}, -0.2);
+  batch->settle();
   model.add_load(std::move(batch));
 }
 
@@ -141,6 +142,23 @@ INSTANTIATE_TEST_SUITE_P(
                 3}),
     [](const auto& tested) { return tested.param.name; });
 
+// A chain that is added from its end: the last one starts at rest with what the first one is told.
+TEST(BlockStarts, FollowTheirInputsInAnyOrder) {
+  model::Model model;
+  BlockBatch batch(effect, model);
+  std::vector<model::Signal> lags;
+  for (int i = 0; i < 4; ++i) {
+    lags.push_back(batch.add("lag", std::make_unique<Lag>(0.3, wide, wide, 1.0)));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    batch.connect(lags[i], {model::Amplitude::of_signal(lags[i + 1])}, {});
+  }
+  batch.connect(lags[3], {model::Amplitude::constant()}, 0.7);
+  batch.settle();
+  const model::State state = model.initial_state();
+  for (const model::Signal& lag : lags) EXPECT_EQ(lag.in_step(state, 1.0), 0.7);
+}
+
 // The response of a block to an input of 1, step by step, as Newton's method finds it.
 class Response {
  public:
@@ -150,6 +168,7 @@ class Response {
           output_ = batch->add("block", std::move(block));
           batch->connect(output_, {model::Amplitude::constant(), model::Amplitude::constant(0.0)},
                          initial);
+          batch->settle();
           model_.add_load(std::move(batch));
           model_.freeze(model::Form::null_space);
           return kit::DenseAssembly(model_);

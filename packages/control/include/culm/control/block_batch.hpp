@@ -25,9 +25,13 @@ class BlockBatch final : public model::MemorylessBatch {
   /// @return the output
   model::Signal add(const std::string& name, std::unique_ptr<Block> block);
   /// Gives a block its inputs, by its output, up to Block::max_inputs. Where it is not told how to
-  /// start, it starts at rest with the inputs of time 0.
+  /// start, it starts at rest with the inputs of time 0, once settle() has found them.
   void connect(const model::Signal& output, std::vector<model::Amplitude> inputs,
                std::optional<double> initial);
+  /// After all blocks are connected: finds what they start with, each from what its inputs start
+  /// with, in whatever order they were added. In a circle without a block that is told how to
+  /// start, as far as it was followed once round.
+  void settle();
 
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
@@ -41,6 +45,7 @@ class BlockBatch final : public model::MemorylessBatch {
     std::unique_ptr<Block> block;
     std::vector<model::Signal> unknowns;
     std::vector<model::Amplitude> inputs;
+    std::optional<double> initial;
   };
   /// Where in a step the equations of a block hold.
   static double place(const Stencil& stencil) { return stencil.step > 0.0 ? 0.5 : 1.0; }
