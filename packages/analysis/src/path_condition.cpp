@@ -61,6 +61,11 @@ void PathCondition::begin(double size) {
   tangent_.reset();
 }
 
+void PathCondition::begin_back(double size) {
+  begin(-size);
+  present_ = PathControl::normal_plane;
+}
+
 void PathCondition::begin_first(double level_increment) {
   begin(0.0);
   first_increment_ = level_increment;
@@ -84,6 +89,8 @@ double PathCondition::begin_branch(const model::State& state, const Vector& moti
   const double sense = std::copysign(1.0, is_watched ? watched : direction_(row, node));
   const double norm = sense * std::sqrt(dot(direction_, direction_));
   direction_ *= std::copysign(1.0, size) / norm;
+  read_way(state);
+  size_ += dot(direction_, way_);
   return size / norm;
 }
 

@@ -249,10 +249,11 @@ StepReport PathFollowing::do_attempt(double size) {
   StepReport report;
   report.outcome = go_on(size);
   if (!known_.is_examined && condition_.tangent()) {
-    const bool crosses = examine(*condition_.tangent(), report.outcome.first_determinant);
-    if (crosses && !known_.is_ended) {
+    if (examine(*condition_.tangent(), report.outcome.first_determinant)) {
       system().discard(state());
-      std::optional<solver::StepOutcome> found = branch_off();
+      locate_crossing();
+      std::optional<solver::StepOutcome> found;
+      if (is_to_branch()) found = branch_off();
       is_on_branch_ = found.has_value();
       report.outcome = is_on_branch_ ? std::move(*found) : go_on(size);
     }
@@ -293,7 +294,68 @@ bool PathFollowing::examine(const PathTangent& tangent, const solver::Determinan
   }
   if (crosses && settings_.at_bifurcation == AtBifurcation::stop) known_.is_ended = true;
   if (passed_limit_points()) known_.is_ended = true;
-  return crosses && settings_.at_bifurcation == AtBifurcation::follow && !known_.has_branched;
+  return crosses;
+}
+
+bool PathFollowing::is_to_branch() const {
+  return settings_.at_bifurcation == AtBifurcation::follow && !known_.has_branched &&
+         !known_.is_ended;
+}
+
+std::optional<solver::Determinant> PathFollowing::go_back(double length) {
+  const Stencil stencil = Stencil::statics();
+  condition_.begin_back(length);
+  system().prepare(state(), stencil);
+  const solver::StepOutcome outcome = newton().solve(state(), stencil, &condition_);
+  if (!outcome.converged() || -condition_.straightness(state()) < least_straightness) return {};
+  system().evaluate(state(), stencil, Want::residual_and_tangent);
+  if (!context().linear.factor()) return {};
+  return context().linear.determinant();
+}
+
+// By regula falsi (Illinois) on the way back from the later point. The determinant of a large model
+// changes by many powers of ten, so where this hardly moves the middle is taken.
+void PathFollowing::locate_crossing() {
+  const solver::Determinant reference = known_.here.determinant;
+  const auto relative = [&](const solver::Determinant& d) {
+    return d.sign * std::exp(std::clamp(d.log_size - reference.log_size, -600.0, 600.0));
+  };
+  back_ = 0.0;
+  double near = 0.0, far = last_length_;
+  double at_near = relative(reference), at_far = relative(known_.behind.determinant);
+  if (at_near * at_far >= 0.0) return;  // two zeros that the signs do not tell
+  constexpr int most_points = 20;
+  constexpr double close = 1e-6;  // over the length of the step
+  int same_side = 0;
+  for (int i = 0; i < most_points && far - near > close * last_length_; ++i) {
+    double share = std::clamp(at_near / (at_near - at_far), 0.01, 0.99);
+    if (std::abs(same_side) > 2) share = 0.5;
+    const double length = near + share * (far - near);
+    const auto determinant = go_back(length);
+    if (!determinant) break;
+    back_ = length;
+    PathEvent& crossing = *std::find_if(
+        known_.events.rbegin(), known_.events.rend(),
+        [](const PathEvent& event) { return event.kind == PathEventKind::bifurcation; });
+    crossing.level = state().time;
+    crossing.watched = condition_.watched_displacement(state().next);
+    const double value = relative(*determinant);
+    if (std::abs(value) < close * std::min(std::abs(relative(reference)),
+                                           std::abs(relative(known_.behind.determinant))))
+      break;
+    if (value * at_near > 0.0) {
+      near = length;
+      at_near = value;
+      same_side = std::max(same_side, 0) + 1;
+      if (same_side > 1) at_far *= 0.5;
+    } else {
+      far = length;
+      at_far = value;
+      same_side = std::min(same_side, 0) - 1;
+      if (same_side < -1) at_near *= 0.5;
+    }
+  }
+  system().discard(state());
 }
 
 void PathFollowing::tell_events() {
@@ -357,19 +419,24 @@ std::optional<solver::StepOutcome> PathFollowing::branch_off() {
   const Stencil stencil = Stencil::statics();
   model::State& state = this->state();
   known_.has_branched = true;
-  system().prepare(state, stencil);
+  const auto go_to_crossing = [&] {
+    if (back_ > 0.0 && go_back(back_)) return;
+    system().discard(state);
+    system().prepare(state, stencil);
+  };
+  go_to_crossing();
   system().evaluate(state, stencil, Want::residual_and_tangent);
   Vector motion(system().layout().rows());
   context().linear.weakest_direction(motion);
   double amplitude = settings_.branch_amplitude.value_or(last_length_);
   constexpr int most_attempts = 8;
   for (int i = 0; i < most_attempts; ++i, amplitude *= 0.5) {
+    if (i > 0) go_to_crossing();
     const double factor = condition_.begin_branch(state, motion, amplitude);
-    system().prepare(state, stencil);
     system().move(state, motion, factor);
     solver::StepOutcome outcome = newton().solve(state, stencil, &condition_);
     refuse_mirrored(context(), state, outcome);
-    if (outcome.converged()) return outcome;
+    if (outcome.converged() && may_cross_at(state.time)) return outcome;
     system().discard(state);
   }
   context().findings.warn(
@@ -377,12 +444,26 @@ std::optional<solver::StepOutcome> PathFollowing::branch_off() {
   return {};
 }
 
+// The crossing lies between the last two points, and the branch begins there. Limit points between
+// them hide how far the level has gone, so the slopes count, too.
+bool PathFollowing::may_cross_at(double level) const {
+  const PathPoint &behind = known_.behind, &here = known_.here;
+  const double slope = std::max(std::abs(behind.tangent.level), std::abs(here.tangent.level));
+  const double reach =
+      0.5 * std::max(std::abs(here.level - behind.level), slope * std::abs(last_length_));
+  const auto [low, high] = std::minmax(behind.level, here.level);
+  return level >= low - reach && level <= high + reach;
+}
+
 AnalysisReport PathFollowing::do_finish() {
   // reactions, too, are those of this state afterwards
   const auto [tangent, determinant] = compute_tangent();
   if (!known_.is_examined) {
     before_ = known_;
-    examine(tangent, determinant);
+    if (examine(tangent, determinant)) {
+      locate_crossing();
+      compute_tangent();
+    }
   }
   tell_events();
   if (!known_.is_ended) report_early_end();

@@ -42,14 +42,17 @@ class PathCondition final : public solver::LevelCondition {
 
   /// Before an attempt that goes by `size` [m], the arc length or the displacement.
   void begin(double size);
+  /// Before an attempt that goes back on the path, by `size` [m] along the tangent at the last
+  /// accepted point.
+  void begin_back(double size);
   /// Before the first attempt, where the arc length is to follow from the change of the level.
   void begin_first(double level_increment);
   /// After an attempt: goes on from its end to where the watched displacement has changed by
   /// `distance` [m] in the step.
   void begin_to_displacement(double distance);
-  /// The attempt leaves the path: in the direction of `motion` it goes by `size` [m], from a state
-  /// that has been moved there. With a positive size the watched displacement grows. @return factor
-  /// of `motion` that makes it such a move
+  /// The attempt leaves the path at state.next: in the direction of `motion` it goes by `size` [m],
+  /// from a state that has been moved there. With a positive size the watched displacement grows.
+  /// @return factor of `motion` that makes it such a move
   double begin_branch(const model::State& state, const assembly::Vector& motion, double size);
 
   /// The displacement that a rotation by 1 rad counts as: a tenth of the length of the model [m].

@@ -69,23 +69,35 @@ class PathFollowing final : public Stepper {
   /// Where an attempt went beyond the end of the path, goes back to it.
   void land(solver::StepOutcome& outcome);
   /// Looks for events between the last two points once the tangent of the later one is known.
-  /// @return whether the path that crosses there is to be taken
+  /// @return whether another path crosses there; locate_crossing() is to follow
   bool examine(const PathTangent& tangent, const solver::Determinant& determinant);
+  /// Solves on the path at a `length` [m] of arc before the last accepted point. @return the
+  /// determinant there; nothing if no solution is found
+  std::optional<solver::Determinant> go_back(double length);
+  /// Finds where the determinant changes its sign between the last two points, and corrects the
+  /// event that was found there.
+  void locate_crossing();
   /// Tells the events that were found since the last step was accepted or failed.
   void tell_events();
+  /// Whether the path that crosses behind the last accepted point is to be taken.
+  bool is_to_branch() const;
   /// A step onto the path that crosses at the bifurcation just passed; nothing if none is found.
   std::optional<solver::StepOutcome> branch_off();
+  /// Whether a path that crosses between the last two points may begin at this level.
+  bool may_cross_at(double level) const;
   std::string describe(const PathEvent& event) const;
   AnalysisReport report() const;
 
   PathSettings settings_;
   PathCondition condition_;
   PathPace pace_;
-  int failures_ = 0;           ///< since the last step that was taken
-  double size_ = 0.0;          ///< of the next step [m]
-  double attempted_ = 0.0;     ///< of the last attempt [m]
-  double first_size_ = 0.0;    ///< of the first step
-  double last_length_ = 0.0;   ///< between the last two points [m]
+  int failures_ = 0;          ///< since the last step that was taken
+  double size_ = 0.0;         ///< of the next step [m]
+  double attempted_ = 0.0;    ///< of the last attempt [m]
+  double first_size_ = 0.0;   ///< of the first step
+  double last_length_ = 0.0;  ///< between the last two points [m]
+  double back_ =
+      0.0;  ///< length from the last point back to the crossing, or as near as it was found [m]
   bool is_on_branch_ = false;  ///< the last attempt took a crossing path
   Knowledge known_, before_;   ///< now, and before the last attempt
 };
