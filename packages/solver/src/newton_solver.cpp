@@ -1,3 +1,4 @@
+#include <culm/model/method_limits.hpp>
 #include <culm/solver/newton_solver.hpp>
 
 #include "late_search.hpp"
@@ -76,19 +77,22 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const assembly::RoundingCheck check = group.check_rounding(from);
     if (check.share > 1.0) return false;
     // inertia lets no direction be soft, so that what is as small as rounding moves nothing; what
-    // old factors leave always points the same way
+    // old factors leave, or a tangent without some force, always points the same way
     const bool is_usual =
-        problem_.stencil.inertia != 0.0 && problem_.direction_is_fresh && check.share <= usual;
+        problem_.stencil.inertia != 0.0 && has_whole_direction() && check.share <= usual;
     if (residual > limit && !is_usual && !has_ended(residual)) return false;
     if (residual > limit) held_unknown_ = check.unknown;
     return true;
+  }
+  bool has_whole_direction() const {
+    return problem_.direction_is_fresh && problem_.tangent_is_whole;
   }
   // A new tangent squares the ratio of two residuals. What is far above that no iteration will
   // lower, and neither what stands still.
   bool has_ended(double residual) const {
     if (!problem_.direction_is_fresh) return false;
     if (residual > still * previous_residual_) return true;
-    if (residual_before_ == 0.0) return false;
+    if (residual_before_ == 0.0 || !problem_.tangent_is_whole) return false;
     const double fall = previous_residual_ / residual_before_;
     return residual > far_above * fall * fall * previous_residual_;
   }
@@ -106,6 +110,13 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   std::optional<int> held_unknown_;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
+
+bool has_whole_tangent(const model::Model& model) {
+  return std::ranges::none_of(model.batches(), [](const model::Batch* batch) {
+    const auto* partly = dynamic_cast<const model::LeftOutOfModes*>(batch);
+    return partly != nullptr && !partly->left_out_of_modes().empty();
+  });
+}
 
 Teuchos::RCP<Teuchos::ParameterList> nox_parameters(const std::shared_ptr<NewtonProblem>& problem) {
   auto list = Teuchos::rcp(new Teuchos::ParameterList);
@@ -197,6 +208,7 @@ NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
   const Ledger::Id solve_effect = ledger.add("Solution, " + linear.name());
   nox_->problem = std::make_shared<NewtonProblem>(
       NewtonProblem{system, linear, settings, ledger, factor_effect, solve_effect, nullptr, {}});
+  nox_->problem->tangent_is_whole = has_whole_tangent(system.model());
   nox_->group = Teuchos::rcp(new NewtonGroup(nox_->problem));
   nox_->balance = Teuchos::rcp(new BalanceTest(*nox_->problem));
   nox_->origin = Teuchos::rcp(new NewtonVector(system.layout().rows()));
