@@ -150,6 +150,11 @@ def of_nastran():
     written = bdf("PBARL,1,1,,ROD\n,.1\nGRID,1,,0.,0.,0.,,456\n=,*1,=,*(.5),==\n=(2)\nCBAR,1,1,1,2,0.,0.,1.\n=       *1      =       *1      *1      ==\n=,*1,=,*1,*1,==\nFORCE,2,4,,1.,1.,0.,0.\n")
     yield "cards that say how they differ", abs(written.mass - 1000 * numpy.pi * 0.01 * 1.5) < 1e-9 and len(written.made.beams) == 3
     yield "their other fields", any(set(s.held) == {4, 5, 6} and s.nodes == [4] for s in written.made.supports)
+    by_default = bdf(shell + SQUARE.replace("0.,1.,0.\n", "0.,1.,0.,,0\n") + "GRDSET,,,,,,,6\n")
+    fixed = [(sorted(s.held), s.nodes) for s in by_default.made.supports]
+    yield "what GRDSET holds, where a node does not say otherwise", fixed.count(([6], [2])) == 1 and all(n != [4] for _, n in fixed)
+    marked = bdf("PCOMP   1" + " " * 63 + "CPLY\n+PLY    1       .1      0.\n" + SQUARE)
+    yield "the first character of a name of the next line does not count", abs(marked.mass - 100.0) < 1e-9
     yield "mass that is not structural, of shells", cylinder.mass == 12.5 and abs(loaded.mass - 34) < 1e-12
     yield "mass that is not structural, of bars", abs(rod.mass - (1000 * numpy.pi * 0.1**2 + 3) * 2) < 1e-9
     yield "supports along a cylinder", any(numpy.allclose(x, [[0, 1, 0]]) for x in directions(cylinder))

@@ -57,16 +57,25 @@ HydroPair read_pair(const TextTable& table, std::size_t row, const std::string& 
   return pair;
 }
 
-// The line below the simple coefficients has no count.
+// Since OpenFAST 4 there are tables of their own for rectangular members, and names that say so.
+const char* one_of(const InputFile& file, const char* cylindrical, const char* all) {
+  return file.has(cylindrical) ? cylindrical : all;
+}
+
+// The line below the simple coefficients has no count. Of headings there are several spellings;
+// that of rectangular members comes second.
 HydroPair read_simple(const InputFile& file) {
-  const TextTable table(file, "simple coefficients",
-                        file.rows_below("SIMPLE HYDRODYNAMIC COEFFICIENTS"), 1);
+  constexpr const char* since_2_3 = "COEFFICIENTS (model 1)";
+  const char* heading =
+      file.has_heading(since_2_3) ? since_2_3 : "SIMPLE HYDRODYNAMIC COEFFICIENTS";
+  const TextTable table(file, "simple coefficients", file.rows_below(heading), 1);
   return read_pair(table, 0, "Simpl", "");
 }
 
 std::vector<HydroDepth> read_by_depth(InputFile& file) {
   std::vector<HydroDepth> depths;
-  const TextTable table = read_table(file, "NCoefDpth", "coefficients by depth");
+  const char* keyword = one_of(file, "NCoefDpthCyl", "NCoefDpth");
+  const TextTable table = read_table(file, keyword, "coefficients by depth");
   for (std::size_t i = 0; i < table.size(); ++i) {
     depths.push_back({table.number(i, {"Dpth"}), read_pair(table, i, "Dpth", "")});
   }
@@ -119,7 +128,7 @@ void read_joints(InputFile& file, HydroDyn& hydro, Lists& lists, Report& report)
 }
 
 void read_sections(InputFile& file, Lists& lists) {
-  const char* keyword = file.has("NPropSetsCyl") ? "NPropSetsCyl" : "NPropSets";
+  const char* keyword = one_of(file, "NPropSetsCyl", "NPropSets");
   const TextTable table = read_table(file, keyword, "section");
   lists.sections = index_rows(table, {"PropSetID", "MPropSetID"});
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -137,7 +146,7 @@ void read_sections(InputFile& file, Lists& lists) {
 }
 
 void read_own_coefficients(InputFile& file, Lists& lists) {
-  const char* keyword = file.has("NCoefMembersCyl") ? "NCoefMembersCyl" : "NCoefMembers";
+  const char* keyword = one_of(file, "NCoefMembersCyl", "NCoefMembers");
   const TextTable table = read_table(file, keyword, "coefficients of a member");
   lists.own = index_rows(table, {"MemberID"});
   for (std::size_t i = 0; i < table.size(); ++i) {

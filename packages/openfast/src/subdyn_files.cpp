@@ -90,7 +90,7 @@ SubSection read_tube(const TextTable& table, std::size_t i) {
   section.id = table.integer(i, {"PropSetID"});
   section.is_tube = true;
   section.young = positive(table, i, {"YoungE"});
-  section.shear = positive(table, i, {"ShearG"});
+  section.shear = positive(table, i, {"ShearG", "ShearG1"});
   section.density = non_negative(table, i, {"MatDens"});
   section.diameter = positive(table, i, {"XsecD"});
   section.wall = positive(table, i, {"XsecT"});
@@ -108,7 +108,7 @@ SubSection read_arbitrary(const TextTable& table, std::size_t i) {
   SubSection section;
   section.id = table.integer(i, {"PropSetID"});
   section.young = positive(table, i, {"YoungE"});
-  section.shear = positive(table, i, {"ShearG"});
+  section.shear = positive(table, i, {"ShearG", "ShearG1"});
   section.density = non_negative(table, i, {"MatDens"});
   section.area = positive(table, i, {"XsecA"});
   section.shear_area = {positive(table, i, {"XsecAsx"}), positive(table, i, {"XsecAsy"})};
@@ -166,7 +166,7 @@ SubMember read_member(const TextTable& table, std::size_t i, const Lists& lists,
   member.properties = {look_up(*rows, table, i, {"MPropSetID1"}, "property set"),
                        look_up(*rows, table, i, {"MPropSetID2"}, "property set")};
   member.x = usual_x(sub.joints[member.joints[0]].place, sub.joints[member.joints[1]].place);
-  if (table.has({"COSMID"}) && table.integer(i, {"COSMID"}) > 0) {
+  if (!table.optional_text(i, {"COSMID"}).empty() && table.integer(i, {"COSMID"}) > 0) {
     member.x = lists.x[look_up(lists.axes, table, i, {"COSMID"}, "matrix")];
   }
   if (kind == "4" && table.has({"MSpin", "MSpin/COSMID"})) {
@@ -177,15 +177,25 @@ SubMember read_member(const TextTable& table, std::size_t i, const Lists& lists,
   return member;
 }
 
+// Files exist that call both this count and that of circular sections NPropSets.
+void refuse_rectangles(InputFile& file) {
+  const bool is_named = file.has("NPropSetsRec");
+  if (!is_named && !file.has_heading("RECTANGULAR BEAM")) return;
+  const auto rows = is_named ? std::vector<TextRow>() : file.rows_below("RECTANGULAR BEAM");
+  const int line = rows.empty() ? 0 : rows.front().line;
+  const bool is_none = is_named ? file.integer("NPropSetsRec") == 0
+                                : !rows.empty() && rows.front().words.front() == "0";
+  if (is_none) return;
+  throw InputError(is_named ? file.where("NPropSetsRec") : file.where(line, "NPropSets"),
+                   "rectangular sections are not imported; must be 0");
+}
+
 void read_sections(InputFile& file, SubDyn& sub, Lists& lists) {
   const char* tubes = file.has("NPropSetsCyl") ? "NPropSetsCyl" : "NPropSets";
   const TextTable circular = read_table(file, tubes, "circular section");
   lists.tubes = index_rows(circular, {"PropSetID"});
   for (std::size_t i = 0; i < circular.size(); ++i) sub.sections.push_back(read_tube(circular, i));
-  if (has_lines(file, "NPropSetsRec", "RECTANGULAR BEAM")) {
-    throw InputError(file.where("NPropSetsRec"),
-                     "rectangular sections are not imported; must be 0");
-  }
+  refuse_rectangles(file);
   if (has_lines(file, "NXPropSets", "ARBITRARY BEAM")) {
     const TextTable table = read_table(file, "NXPropSets", "arbitrary section");
     for (const auto& [id, row] : index_rows(table, {"PropSetID"})) {
@@ -270,9 +280,8 @@ void read_supports(InputFile& file, SubDyn& sub, const Lists& lists, Report& rep
   for (std::size_t i = 0; i < table.size(); ++i) {
     SubSupport support{look_up(lists.joints, table, i, {"RJointID"}, "joint"), {}};
     for (std::size_t k = 0; k < 6; ++k) support.held[k] = table.integer(i, {flags[k]}) != 0;
-    if (table.has({"SSIfile"}) && !table.text(i, {"SSIfile"}).empty()) {
-      read_ground_at(file.beside(table.text(i, {"SSIfile"})), support, sub, report);
-    }
+    const std::string ground = table.optional_text(i, {"SSIfile"});
+    if (!ground.empty()) read_ground_at(file.beside(ground), support, sub, report);
     sub.supports.push_back(support);
   }
 }

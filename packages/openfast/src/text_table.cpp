@@ -48,6 +48,12 @@ std::string TextTable::text(std::size_t row, Names names) const {
                                                   words.size(), columns_.size()));
 }
 
+std::string TextTable::optional_text(std::size_t row, Names names) const {
+  const auto column = find(names);
+  const std::vector<std::string>& words = rows_[row].words;
+  return column && *column < words.size() ? words[*column] : std::string();
+}
+
 double TextTable::number(std::size_t row, Names names) const {
   const std::string word = text(row, names);
   const auto value = find_number(word);

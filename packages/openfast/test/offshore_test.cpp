@@ -184,6 +184,39 @@ TEST_F(OffshoreFiles, WhatHasNoCounterpartIsNamed) {
   EXPECT_THAT(import(bodies).report, HasSubstr("1 lines below BODIES are not in the deck"));
 }
 
+// As in files of the reference turbines of 10, 15 and 22 MW: optional columns end early, and names
+// are those of OpenFAST 4 or misspelt.
+TEST_F(OffshoreFiles, FilesOfOtherYearsSayTheSame) {
+  std::string sub = subdyn_file;
+  for (const auto& [old, other] : std::vector<std::pair<std::string, std::string>>{
+           {" 11        1        1        1        1        1        1       \"\"",
+            " 11        1        1        1        1        1        1"},
+           {"1           2         1     -1\n", "1           2         1\n"},
+           {"YoungE   ShearG   MatDens  XsecD", "YoungE   ShearG1   MatDens  XsecD"},
+           {"---- ARBITRARY BEAM",
+            "---- RECTANGULAR BEAM CROSS-SECTION PROPERTIES ----\n0   NPropSets   - Number\n"
+            "PropSetID YoungE ShearG2 MatDens XsecSa XsecSb XsecT\n(-) (-) (-) (-) (-) (-) (-)\n"
+            "---- ARBITRARY BEAM"}}) {
+    sub = change(sub, old, other);
+  }
+  EXPECT_EQ(import(sub).deck, import(subdyn_file).deck);
+  EXPECT_THAT(message_of(change(sub, "0   NPropSets", "2   NPropSets")),
+              HasSubstr("NPropSets: rectangular sections are not imported; must be 0"));
+
+  const std::string heading = "---- SIMPLE HYDRODYNAMIC COEFFICIENTS (model 1) ----";
+  std::string hydro = change(hydrodyn_file, "NCoefDpth ", "NCoefDpthCyl ");
+  hydro = change(hydro, "NCoefMembers ", "NCoefMembersCyl ");
+  hydro = change(hydro, "NPropSets ", "NPropSetsCyl ");
+  hydro = change(hydro, "---- DEPTH-BASED",
+                 "---- SIMPLE RECTANGULAR-MEMBER HYDRODYNAMIC COEFFICIENTS (model 1) ----\n"
+                 "SimplCdA SimplCdAMG\n(-) (-)\n7.0 7.0\n---- DEPTH-BASED");
+  for (const char* word : {"CYLINDRICAL-MEMBER HYDRODYNAMIC", "HCYLINDRICAL-MEMBER YDRODYNAMIC"}) {
+    const std::string other =
+        change(hydro, heading, "---- SIMPLE " + std::string(word) + " COEFFICIENTS (model 1) ----");
+    EXPECT_EQ(import(other).deck, import(hydrodyn_file).deck);
+  }
+}
+
 TEST_F(OffshoreFiles, MistakesHaveTheirPlace) {
   const std::pair<std::string, std::string> cases[] = {
       {change(subdyn_file, " 4          14        15 ", " 4          14        16 "),

@@ -61,7 +61,7 @@ def _values(block, count, what):
 
 def _elastic(reader, block):
     material = _property(reader, block)
-    kind = block.get("TYPE") or "ISOTROPIC"
+    kind = (block.get("TYPE") or "ISOTROPIC").replace("ENGINEERINGCONSTANTS", "ENGINEERING CONSTANTS")  # as CalculiX reads it
     if kind.startswith("ISO"):
         E, nu = _values(block, 2, "Young's modulus and Poisson's ratio")
         material.type = "Isotropic"

@@ -18,12 +18,13 @@ SILENT = {
 # Without these the deck would be another structure.
 STRUCTURE = {
     "CROD", "CONROD", "CTUBE", "CBEND", "CHEXA", "CPENTA", "CTETRA", "CPYRAM", "CSHEAR", "CBUSH", "CELAS1", "CELAS2",
-    "CELAS3", "CELAS4", "RBAR", "RBE1", "MPC", "CQUADX", "CTRIAX", "CTRIAX6", "CBAR3", "CBEAM3", "GRDSET", "CQUAD", "CGAP",
+    "CELAS3", "CELAS4", "RBAR", "RBE1", "MPC", "CQUADX", "CTRIAX", "CTRIAX6", "CBAR3", "CBEAM3", "CQUAD", "CGAP",
     "CBUSH1D", "CORD1R", "CORD1C", "CORD1S", "MAT2", "MAT9", "PCOMPG", "SPOINT", "CWELD", "CFAST",
 }  # fmt: skip
 # Fields that say nothing about the mechanics: names, points for stresses, temperatures, strengths.
 HARMLESS = {
     "GRID": (8,),
+    "GRDSET": (8,),
     "MAT1": range(6, 13),
     "MAT8": range(9, 20),
     "PBAR": range(9, 17),
@@ -34,7 +35,7 @@ HARMLESS = {
     "PCOMP": (4, 5, 6, 7, *range(12, 1000, 4)),
 }
 READ = {
-    "GRID", "MAT1", "MAT8", "PSHELL", "PCOMP", "PBAR", "PBARL", "PBEAML", "PBEAM", "CBAR", "CBEAM", "CONM2", "RBE2", "RBE3",
+    "GRID", "GRDSET", "MAT1", "MAT8", "PSHELL", "PCOMP", "PBAR", "PBARL", "PBEAML", "PBEAM", "CBAR", "CBEAM", "CONM2", "RBE2", "RBE3",
     "SPC", "SPC1", "FORCE", "MOMENT", "PLOAD4", "PLOAD2", "PLOAD1", "GRAV", *SHELLS,
 }  # fmt: skip
 

@@ -67,6 +67,14 @@ class Card:
                 i += 1
         return found
 
+    def fill_in(self, defaults):
+        """Puts values into fields that are empty.
+
+        @param defaults  by the numbers of fields"""
+        self.fields += [""] * (max(defaults, default=0) - len(self.fields))
+        for i, value in defaults.items():
+            self.fields[i - 1] = self.fields[i - 1].strip() or value
+
     def unread(self):
         """Numbers of fields that hold something and that nobody asked for."""
         return [i for i, text in enumerate(self.fields, 1) if text.strip() and i not in self.asked]
@@ -136,14 +144,15 @@ def _cards(lines):
             if not cards:
                 refuse(place, "a line that goes on, without a card before it")
             own = name.strip("+*")
-            if own and mark and own != mark:
-                refuse(place, f"goes on a card that calls its next line '{mark}', not '{own}': such lines must follow their card")
+            # the first of its eight characters, in column 73, does not count
+            if own and mark and own not in (mark.strip("+*"), mark[1:]):
+                refuse(place, f"goes on a card that calls its next line '{mark.strip('+*')}', not '{own}': such lines must follow their card")
             if len(fields) == 8:  # after half a line of wide fields
                 cards[-1].fields += [""] * (-len(cards[-1].fields) % 8)
             cards[-1].fields += fields
         else:
             cards.append(Card(name, fields, place))
-        mark = next_mark.strip("+*")
+        mark = next_mark
     return cards
 
 

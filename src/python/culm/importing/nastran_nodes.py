@@ -54,7 +54,9 @@ def vector_of(reader, card, system, first):
 def read_nodes(reader):
     reader.axes = {}  # rows of the system of a node's degrees of freedom
     reader.held = {}  # by the cards of the nodes
+    defaults = _defaults(reader)
     for card in reader.cards("GRID"):
+        card.fill_in(defaults)
         number = reader.unique(reader.model.nodes, card, "node")
         reader.model.nodes[number] = _position(reader, card, 2)
         if card.integer(6, default=0) > 0:
@@ -63,6 +65,14 @@ def read_nodes(reader):
             reader.held[number] = (card.text(7), card)
     if not reader.model.nodes:
         refuse(reader.deck.cards[0].place if reader.deck.cards else reader.path, "the file has no GRID")
+
+
+def _defaults(reader):
+    """What GRDSET says of nodes that leave fields empty, by the numbers of the fields: systems, and what is held."""
+    cards = list(reader.cards("GRDSET"))
+    if len(cards) > 1:
+        refuse(cards[1].place, "GRDSET is there twice")
+    return {i: card.text(i) for card in cards for i in (2, 6, 7)}
 
 
 def _axes_at(reader, position, card, i):

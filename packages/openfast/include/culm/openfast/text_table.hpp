@@ -35,6 +35,8 @@ class TextTable {
   int integer(std::size_t row, Names names) const;
   /// The same, or `otherwise` where there is no such column.
   double number(std::size_t row, Names names, double otherwise) const;
+  /// Empty where there is no such column, or the line ends before it.
+  std::string optional_text(std::size_t row, Names names) const;
   /// The lines as they are, for columns that hold lists.
   const TextRow& row(std::size_t row) const { return rows_[row]; }
   Where where(std::size_t row, Names names) const;
