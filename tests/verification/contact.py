@@ -120,6 +120,12 @@ def verify_friction_at_rest(culm, report):
     report.relative("with 2.5 times the force [mm]", 1e3 * come[20], 1e3 * end(2.5), 1e-2)
     report.relative("with the same force at both [mm]", 1e3 * come[10], 1e3 * end(1.0), 1e-4)
     report.note(f"iterations per step {run.iterations() / 20:.1f}, at most {run.most_iterations()}; {run.cut_back()} steps cut back")
+    brake = culm.run("contact/band_brake.xml", quiet=False).history
+    for level, sign in ((2.0, 1.0), (3.0, -1.0)):
+        row = max(i for i, one in enumerate(brake.levels) if abs(one - level) < 1e-9)
+        wanted = tension * math.exp(sign * mu * math.pi)
+        report.relative(f"band brake at {level}, end that is held [N]", -brake.column("hold Fz [N]")[row], wanted, 5e-4)
+        report.relative("moment on the drum [N m]", brake.column("drum My [N m]")[row], (wanted - tension) * axis, 5e-4)
     run = culm.run("contact/capstan.xml", ["most=2.6"], quiet=False)
     report.holds("beyond the limit it fails", 0.0 if run.exit == 4 else 1.0, 0.0)
     level = float(re.search(r"No equilibrium beyond level (\S+)", run.output + run.errors)[1])
