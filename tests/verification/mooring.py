@@ -1,8 +1,12 @@
 #!/usr/bin/python3
 """C20: mooring lines at rest, a spar on three of them. Page: doc/verification/mooring.md."""
 
+import pathlib
+import re
+import tempfile
+
 import numpy as np
-from verify import main
+from verify import INPUTS, main
 
 DECK = "offshore/moored_spar.xml"
 HELD = [f"Constraints/{axis}/{one}" for axis, direction in
@@ -78,10 +82,32 @@ def verify_spar(culm, report):
         report.holds(f"{form}: energy balance", run.drift("energy balance"), 1e-9)
 
 
+def verify_waves(culm, report):
+    report.title("the spar of water/spar.xml on these three lines in irregular waves, 30 s")
+    pattern = r'    <ParameterList name="line.*?\n    </ParameterList>\n'
+    lines = "".join(re.findall(pattern, (INPUTS / DECK).read_text(), re.S)[:3])
+    afloat = (INPUTS / "water/spar.xml").read_text()
+    springs = re.findall(pattern, afloat, re.S)
+    for spring in springs:
+        afloat = afloat.replace(spring, lines if spring == springs[0] else "")
+    variables = '<Variable name="Rf" value="5.2"/><Variable name="Ra" value="853.87"/>'
+    afloat = afloat.replace('<ParameterList name="Structures">', variables + '<ParameterList name="Structures">', 1).replace(
+        'value="spar"', 'value="turbine"')
+    with tempfile.TemporaryDirectory(prefix="culm") as folder:
+        deck = pathlib.Path(folder) / "moored.xml"
+        deck.write_text(afloat)
+        for friction in (0.0, 0.5):
+            run = culm.run(deck, [f"Loads/line {i}/Friction={friction}" for i in (1, 2, 3)], quiet=False)
+            for what in ("energy balance", "linear momentum", "angular momentum"):
+                report.holds(f"C_B = {friction}: {what}", run.drift(what), 1e-9)
+            report.note(f"it drifts by {max(map(abs, run.history.column('deck ux [m]'))):.3f} m")
+
+
 def verify(culm, report):
     verify_lines(culm, report)
     verify_friction(culm, report)
     verify_spar(culm, report)
+    verify_waves(culm, report)
 
 
 main(verify)
