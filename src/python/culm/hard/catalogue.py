@@ -468,6 +468,13 @@ CASES = [
         limit=1e12, growth=100, resolution=ROUNDING,
     ),
     Case(
+        "stiff rough ground", "ST", "contact/dragged_bar.xml",
+        "pressure per depth [Pa/m]", 1e9,
+        lambda x: [f"k={x!r}"],
+        [near("end ux [m]", 9e-4, 0.01)],
+        limit=1e16, growth=100, resolution=ROUNDING,
+    ),
+    Case(
         "faint load", "ST", "hard/faint_load.xml",
         "1 over load [1/N]", 1e2,
         lambda x: [f"Loads/touch/Force={{0, 0, {1 / x!r}}}"],
