@@ -3,12 +3,13 @@
 
 import math
 import pathlib
+import subprocess
 import tempfile
 import xml.etree.ElementTree as tree
 
 import numpy as np
 from rotor_cases import array, element
-from verify import main
+from verify import INPUTS, main
 
 SPEED, CHORD, ASPECT, PANELS, STEPS = 20.0, 1.0, 4.0, (4, 8), 20
 
@@ -104,6 +105,14 @@ def verify(culm, report):
         report.check(f"{name}: warned", words in run.errors + run.output, True, 0)
     run = Wing(whole=True, wind=(SPEED, 4.0, 0.0)).run(culm)
     report.check("the whole wing in that wind: not", "warning" in run.errors + run.output, False, 0)
+    report.title("Modes of many nodes that the air couples are refused before they take the memory")
+    with tempfile.TemporaryDirectory() as folder:
+        settings = ["Structures/wing/Curve/Elements=64", "n=60", "m=1", "Analyses/sweep/Levels={150}"]
+        run = subprocess.run(
+            [culm.program, "run", str(INPUTS / "air/lattice_flutter.xml"), "--max-memory", "200 MB", "--output", folder, "--quiet",
+             *(word for setting in settings for word in ("--set", setting))], capture_output=True, text=True)
+    report.check("exit code", run.returncode, 3, 0)
+    report.check("says why", "couples 125 nodes with each other by lags of the air" in run.stderr, True, 0)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,9 @@
 // The derivative of the forces of a lattice by the motion of all nodes that carry it.
 #include <culm/lattice/lattice_load.hpp>
 #include <culm/load/slot_kernel.hpp>
+#include <culm/model/size_budget.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,8 +79,25 @@ LatticeLoad::SlotMotions LatticeLoad::motions_of_slots() const {
   return all;
 }
 
+// Of all slots: damping, mass, stiffness and lags with what finds them; of the unknowns: the lags
+// as matrices of the model, and as complex ones of its eigenproblem.
+void LatticeLoad::refuse_large_linearisation() const {
+  constexpr double number = 8.0, entry = 16.0, complex_entry = 24.0;
+  constexpr double lags = 9.0, others = 8.0;
+  constexpr double slots = 12.0 * 12.0, unknowns = 6.0 * 6.0;
+  const auto nodes = static_cast<double>(carriers_.size());
+  model::MemoryNeed need;
+  need.elements = nodes * nodes *
+                  (number * (lags + others) * slots + (entry + complex_entry) * lags * unknowns);
+  model::refuse_above(
+      allowed_, need,
+      fmt::format("couples {:.0f} nodes with each other by lags of the air, which in modes", nodes),
+      where_);
+}
+
 const LaggedAir& LatticeLoad::air_at(const model::State& state) const {
   if (linearised_ == state.next && linearised_at_ == state.time) return air_;
+  refuse_large_linearisation();
   const SlotMotions moving = motions_of_slots();
   air_ = fit_lags(
       lattice_.small_motions(result_at(state), grid(state.next), state.time, moving.motions));

@@ -131,6 +131,7 @@ void build(const Options& options, flow::FluidContext& context) {
                                             std::move(surfaces), mirror, flow, setting_of(options),
                                             tangent);
   if (tangent == LatticeTangent::whole) take_memory_of_tangent(*load, options, context);
+  load->limit_linearisations(context.memory, options.where("Tangent"));
   if (const auto wrong =
           find_misplaced(load->lattice().bound(), load->grid(nodes.reference()), names)) {
     context.build.issues.add(options.list("Surfaces").entries()[wrong->surface].where(),

@@ -5,6 +5,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
 
+#include "air_words.hpp"
 #include "coupled_run.hpp"
 #include "finite.hpp"
 #include "other_run.hpp"
@@ -285,6 +286,7 @@ void RunObserver::finish(const analysis::AnalysisReport& report, const model::St
     files_.add_results(name_, report, state);
   }
   certificates_ += report.text;
+  air_ = describe_air(context_->system.model());
   const bool is_first = numbers_.empty();
   for (const auto& [name, value] : report.numbers) {
     numbers_.push_back({is_first ? name : name_ + ": " + name, "", value});
@@ -382,10 +384,10 @@ std::string RunObserver::convergence() const {
       "{} steps accepted, {} cut back; {} iterations, {:.1f} per step, at most {}\n"
       "worst accepted residual: forces {:.1e}, constraints {:.1e}\n"
       "{}"
-      "linear solver: {}\n",
+      "linear solver: {}\n{}",
       accepted_, rejected_, iterations_,
       accepted_ > 0 ? static_cast<double>(iterations_) / accepted_ : 0.0, most_iterations_,
-      worst_residual_, worst_constraint_, held, linear);
+      worst_residual_, worst_constraint_, held, linear, air_);
 }
 
 std::string RunObserver::closing_words() const {

@@ -135,6 +135,7 @@ class RunObserver final : public analysis::Observer {
   int rejected_ = 0;
   int iterations_ = 0;
   int most_iterations_ = 0;
+  std::string air_;  // what it did in the last analysis
   double worst_residual_ = 0.0;
   double worst_constraint_ = 0.0;
   int held_ = 0;                // accepted steps that rounding holds above the force tolerance

@@ -92,6 +92,7 @@ class Lattice {
 
   const BoundLattice& bound() const { return bound_; }
   const flow::Flow& flow() const { return *flow_; }
+  const LatticeSetting& setting() const { return setting_; }
   /// At rest, without circulation and wake.
   FluidState initial_state() const;
 

@@ -1,6 +1,7 @@
 /// Forces of a vortex lattice on the structures that carry it.
 #pragma once
 
+#include <culm/base/issue.hpp>
 #include <culm/flow/fluid_force.hpp>
 #include <culm/lattice/harmonic_air.hpp>
 #include <culm/lattice/lattice.hpp>
@@ -10,6 +11,7 @@
 #include <culm/model/structure.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -80,6 +82,11 @@ class LatticeLoad final : public model::MemorylessBatch,
   std::string left_out_of_modes() const override;
   /// That carry grid points, in rising order.
   const std::vector<int>& nodes() const { return carriers_; }
+  /// Refuses linearisations whose matrices need more memory, by an InputError at `where`.
+  void limit_linearisations(double bytes, Where where) {
+    allowed_ = bytes;
+    where_ = std::move(where);
+  }
   /// Grid points in a configuration.
   Points grid(const model::Coordinates& q) const;
 
@@ -107,6 +114,7 @@ class LatticeLoad final : public model::MemorylessBatch,
   /// Sets `stiffness_`, minus the derivative of the forces on all slots of the carriers by them at
   /// the end of the step, of a result that is at hand.
   void find_stiffness(const model::State& state);
+  void refuse_large_linearisation() const;
   /// What linearisations about a state have beside it.
   const LaggedAir& air_at(const model::State& state) const;
   SlotMotions motions_of_slots() const;
@@ -152,6 +160,8 @@ class LatticeLoad final : public model::MemorylessBatch,
   mutable FluidResult result_;
 
   // of a linearisation
+  double allowed_ = std::numeric_limits<double>::infinity();  ///< memory [B]
+  Where where_;
   bool linearises_ = false;
   mutable LaggedAir air_;
   mutable model::Coordinates linearised_;  ///< where air_ was found; empty: nowhere

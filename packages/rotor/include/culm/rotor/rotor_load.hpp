@@ -69,6 +69,7 @@ class RotorLoad final : public model::MemorylessBatch,
             std::vector<strip::StripLoad*> blades, RotorModel kind);
 
   const std::vector<strip::StripLoad*>& blades() const { return blades_; }
+  const RotorModel& kind() const { return kind_; }
   /// Where blades end, from the axis in the reference [m].
   double tip_radius() const { return tip_radius_; }
   double density() const { return blades_.front()->flow().density(); }
