@@ -7,7 +7,7 @@ import io
 STYLE = """
 body{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.6rem;margin-bottom:.2rem}h2{font-size:1.2rem;margin-top:2rem}
-table{border-collapse:collapse;margin:.8rem 0;font-variant-numeric:tabular-nums;font-size:.9rem}
+table{display:block;overflow-x:auto;border-collapse:collapse;margin:.8rem 0;font-variant-numeric:tabular-nums;font-size:.9rem}
 th,td{padding:.2rem .7rem;border-bottom:1px solid #ddd;text-align:right}
 th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #888}
 pre{background:#f6f6f4;padding:.8rem;overflow-x:auto;font-size:.82rem;line-height:1.35}
@@ -66,6 +66,7 @@ class Page:
         with open(path, "w", encoding="utf-8") as file:
             file.write(
                 '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+                '<meta name="viewport" content="width=device-width">'
                 f"<title>{html.escape(self.title)}</title><style>{STYLE}</style></head>\n"
                 f"<body>\n{body}\n</body></html>\n"
             )

@@ -263,11 +263,13 @@ def _free(name, taken):
 
 
 def _beam_section(reader, block, keys):
-    shape = block.get("SECTION") or ("GENERAL" if block.keyword == "BEAM GENERAL SECTION" else "")
+    # CalculiX has general sections of a material, with the shapes and lines of the others
+    has_moduli = block.keyword == "BEAM GENERAL SECTION" and block.get("MATERIAL") is None
+    shape = block.get("SECTION") or ("GENERAL" if has_moduli else "")
     shape = next((full for full in ("RECT", "CIRC") if shape.startswith(full)), shape)
-    if block.keyword == "BEAM GENERAL SECTION" and shape == "GENERAL":
+    if has_moduli and shape == "GENERAL":
         type, values, mass = _general(block)
-    elif block.keyword == "BEAM GENERAL SECTION":
+    elif has_moduli:
         E, G = _modulus_line(block)
         density = number(block.get("DENSITY"), block.place) if block.get("DENSITY") else 0.0
         solid = {"Young Modulus": E, "Shear Modulus": G, "Density": density}
@@ -279,7 +281,7 @@ def _beam_section(reader, block, keys):
         solid = {k: material.values[k] for k in ("Young Modulus", "Poisson Ratio")}
         solid["Density"] = material.values.get("Density", 0.0)
         type, values, mass = _profile(reader, shape, block, solid)
-    most = 3 if block.keyword == "BEAM GENERAL SECTION" else 2
+    most = 3 if has_moduli else 2
     if len(block.lines) > most:
         refuse(block.lines[most][0], f"*{block.keyword} has {most} lines of data, this is one more")
     name = _free((block.get("ELSET") or "section").lower(), reader.model.sections)

@@ -189,6 +189,8 @@ def _material(root, name, path):
             found = []
             for key in ("E", "G", "rho"):
                 value = one.get(key)
+                if key == "G" and value is None and isinstance(one.get("nu"), float):
+                    value = found[0] / (2.0 * (1.0 + one["nu"]))  # as older files have it
                 if not isinstance(value, (int, float)) or isinstance(value, bool) or not 0.0 < value < 1e30:
                     refuse(Place(str(path), 1), f"materials / {name} / {key} must be a number > 0, got {value!r}")
                 found.append(float(value))
