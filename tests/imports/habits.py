@@ -201,6 +201,8 @@ REFUSED = {
     "differences of a card that is none": ("nastran", BDF.format("=,*1,==\n").replace("MAT1,1,2.+11,,.3,1000.\nSPC1,1,123456,1\n", ""), "repetition"),
     "differences of nothing": ("nastran", BDF.format("=3\n"), "which must stand before it"),
     "differences of words": ("nastran", BDF.format("=,*1,*1\nSPC1,1,A,1\n=,*1,*1\n"), "expected a number"),
+    "a superelement before the rest": ("nastran", BDF.format(SQUARE).replace("BEGIN BULK", "BEGIN SUPER=1\nGRID,9\nBEGIN BULK"), "in parts"),
+    "a superelement after it": ("nastran", BDF.format(SQUARE + "begin bulk super=2\n"), "in parts, here 'BULK SUPER=2'"),
     "an ellipse": (
         "abaqus",
         INP.replace("s4r", "b31").replace("1,1,2,3,4", "1,1,2").replace("*shell section", "*beam section,section=circ").replace("0.01,5", "0.1,0.2"),

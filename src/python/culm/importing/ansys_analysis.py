@@ -9,6 +9,9 @@ def read_kind(reader, command):
         reader.findings.leave_out(f"ANTYPE,{kind}", command.place)
     elif reader.kind not in (None, KINDS[kind]):
         reader.findings.leave_out(f"the {reader.kind} analysis before: one is read, the last", reader.kind_place)
+    if command.text(2).upper() == "NEW":
+        for i in (3, 4, 5):
+            command.text(i)  # says where a restart would begin
     reader.kind, reader.kind_place = KINDS.get(kind), command.place
 
 

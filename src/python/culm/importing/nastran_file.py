@@ -100,6 +100,10 @@ class Deck:
 
 def read_deck(path):
     lines = list(_lines(pathlib.Path(path), 0))
+    for place, text in lines:
+        first, *others = text.upper().split()
+        if first == "BEGIN" and others not in ([], ["BULK"]):
+            refuse(place, f"a model in parts, here '{' '.join(others)[:20]}', is not read, as superelements are")
     begin = next((i for i, (_, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK", text.strip(), re.I)), None)
     control = [] if begin is None else [(place, text.strip()) for place, text in lines[:begin]]
     bulk = lines if begin is None else lines[begin + 1 :]
