@@ -107,6 +107,11 @@ def of_abaqus():
     pulled = inp("*dload\n1,grav,9.81,0,0,-2\n,grav,5,1,0,0\n")
     moved = inp("*boundary\n3,3,3,0.01\n", "*boundary\n3,3,3,0.02\n")
     at_3 = {step: [s.held[3] for s in moved.made.supports if s.nodes == [3] and step in s.steps] for step in (0, 1)}
+    upright = "5,1,0,1\n6,1,1,1\n*element,type=s4r,elset=f\n2,2,3,6,5\n*shell section,elset=f,material=m\n0.02,5\n"
+    corner = made_of_text("abaqus", INP.replace("9,5,5,5\n", upright) + "*boundary\n2,1,6\n")
+    flat = made_of_text("abaqus", INP.replace("9,5,5,5\n", upright.replace("1,0,1", "2,0,0").replace("1,1,1", "2,1,0").replace("2,2,3,6,5", "2,2,5,6,3")) + "*boundary\n2,1,6\n")
+    yield "a clamp at a fold holds the directors of both shells", corner.text.count('value="Director Support"') == 2
+    yield "of shells that go on into each other it holds one", flat.text.count('value="Director Support"') == 0
     yield "forces of one step add up", numpy.allclose(node_force(twice), [20, 0, 0, 0, 0, 0])
     yield "a force of a later step replaces", numpy.allclose(node_force(twice, 1), [4, 0, 0, 0, 0, 0])
     yield "pressures of one step add up, of a later one replace", pressures(twice) == [5, 5] and pressures(twice, 1) == [3]

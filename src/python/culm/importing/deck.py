@@ -7,12 +7,11 @@ import numpy
 from .beam_chains import beam_chains
 from .deck_text import List, unique_name
 from .findings import refuse
-from .places import Places, directors
+from .places import Places, directors, is_smooth
 from .quads import Quads
 from .shell_parts import is_isotropic, shell_parts
 from .supports import add_supports
 
-SMOOTH = 1e-6  # directors of two shells that go on into each other differ by less
 FARTHEST = 1e12  # m
 FAINT = 1e-9  # mass of a reference node that has none, of the mass of the model
 MOST_WATCHED = 5  # nodes in the history
@@ -230,9 +229,7 @@ class Deck:
                 if not leader.is_shell:
                     rigid[(self.places.names([node], "joint")[0], spot.is_shell)].append((node, spot))
                 else:
-                    a, b = directors(leader, node), directors(spot, node)
-                    smooth = len(a) == len(b) == 1 and numpy.linalg.norm(a[0] - b[0]) < SMOOTH
-                    kind = "Smooth Connection" if smooth else "Fold Connection"
+                    kind = "Smooth Connection" if is_smooth(leader, spot, node) else "Fold Connection"
                     seams[(leader.structure.name, spot.structure.name, kind)].append((node, leader, spot))
         for (master, _), members in rigid.items():
             for node, spot in members:

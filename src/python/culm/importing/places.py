@@ -10,6 +10,8 @@ from .beam_chains import BeamChain
 from .deck_text import safe_name, unique_name
 from .shell_parts import ShellPart
 
+SMOOTH = 1e-6  # directors of two shells that go on into each other differ by less
+
 
 @dataclasses.dataclass
 class Spot:
@@ -104,3 +106,9 @@ class Places:
 def directors(spot, node):
     """Directors of the shell nodes at a node of the file: (n, 3)."""
     return numpy.array([one.director for one in spot.structure.nodes[node]])
+
+
+def is_smooth(one, other, node):
+    """Whether two shells go on into each other at a node of the file."""
+    a, b = directors(one, node), directors(other, node)
+    return len(a) == len(b) == 1 and numpy.linalg.norm(a[0] - b[0]) < SMOOTH

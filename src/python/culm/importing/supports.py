@@ -4,7 +4,7 @@ import collections
 
 import numpy
 
-from .places import directors
+from .places import directors, is_smooth
 
 UNIT = numpy.eye(3)
 TRANSLATIONS, ROTATIONS = {1, 2, 3}, {4, 5, 6}
@@ -123,11 +123,12 @@ def _of_shell(support, node, places, model):
     spot = places.leader(node)
     at = directors(spot, node)
     rotations = sorted(ROTATIONS & set(held) - set(turned))
+    of_others = _of_other_shells(rotations, node, places, _axes(support))
     if set(held) >= TRANSLATIONS and rotations == [4, 5, 6] and not any(held.values()):
-        return _frozen([("Rigid Support", {}, None)])
-    entries = _translations(held, _axes(support))
+        return _frozen([("Rigid Support", {}, None), *of_others])
+    entries = _translations(held, _axes(support)) + of_others
     kept = [_held_directions(rotations, director, _axes(support)) for director in at]
-    if rotations and not any(len(one) for one in kept):
+    if rotations and not of_others and not any(len(one) for one in kept):
         model.findings.assume(
             "supports against turning about the normal of a shell hold nothing: its nodes have no such rotation",
             support.place,
@@ -139,6 +140,20 @@ def _of_shell(support, node, places, model):
             only = ((spot.structure.name, shell_node.number),)
             entries += [("Director Support", {"Direction": along}, only) for along in one]
     return _frozen(entries)
+
+
+def _of_other_shells(rotations, node, places, axes):
+    """Entries for the directors of further shells at a node that a fold joins to the first: of a rotation the fold hands on
+    that about itself alone."""
+    entries = []
+    for spot in places.spots[node][1:]:
+        if not spot.is_shell or is_smooth(places.leader(node), spot, node):
+            continue
+        for director, shell_node in zip(directors(spot, node), spot.structure.nodes[node]):
+            only = ((spot.structure.name, shell_node.number),)
+            along = _held_directions(rotations, director, axes)
+            entries += [("Director Support", {"Direction": one}, only) for one in along]
+    return entries
 
 
 def _held_directions(rotations, director, axes):
