@@ -43,6 +43,7 @@ Checkpoints::Demand Checkpoints::demand() {
   // the clock of one rank counts
   if (comm_.is_root() && active_ && now >= due_) found = due;
   if (comm_.is_root() && request_.is_time_over(longest_step_)) found = time_over;
+  StopRequest::listen();
   if (request_.signal() != 0) found = signalled + request_.signal();
   found = comm_.max(found);
   if (found > due) reason_ = found;

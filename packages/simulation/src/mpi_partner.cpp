@@ -3,9 +3,11 @@
 #include <culm/base/error.hpp>
 #include <culm/coupling/partner_error.hpp>
 #include <culm/coupling/remote_partner.hpp>
+#include <culm/simulation/stop_request.hpp>
 
 #include <fmt/format.h>
 #include <mpi.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -43,12 +45,18 @@ class MpiChannel final : public coupling::Channel {
     constexpr auto busy = std::chrono::milliseconds(1);
     constexpr auto pause = std::chrono::microseconds(50);
     const auto start = Clock::now();
+    bool listens = false;
     MPI_Status status;
     for (;;) {
       int is_there = 0;
       MPI_Iprobe(rank_, 0, MPI_COMM_WORLD, &is_there, &status);
       if (is_there != 0) break;
       const auto waited = Clock::now() - start;
+      if (waited > busy && !std::exchange(listens, true)) StopRequest::listen();
+      if (StopRequest::is_ended_by(::getppid())) {
+        throw PartnerError(
+            "the launcher ends all its programs, as it does when one of them has died");
+      }
       if (std::chrono::duration<double>(waited).count() > patience) {
         throw PartnerError(fmt::format("it said nothing for {:g} s", patience));
       }

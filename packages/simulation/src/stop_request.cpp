@@ -16,14 +16,16 @@ constexpr std::array signals = {SIGTERM, SIGUSR1};
 
 // The only way from a signal handler to the program.
 volatile std::sig_atomic_t received = 0;
+volatile std::sig_atomic_t sender = 0;
 
-void note(int signal) { received = signal; }
+void note(int signal, siginfo_t* info, void* /*context*/) {
+  received = signal;
+  sender = info->si_pid;
+  StopRequest::listen();  // to a second one, too
+}
 
-void set_handlers(void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
+void set_handlers(struct sigaction action) {
   sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // reading and writing go on
   for (const int signal : signals) sigaction(signal, &action, nullptr);
 }
 
@@ -76,12 +78,26 @@ std::optional<double> find_duration(std::string_view text) {
 
 StopRequest::StopRequest(std::optional<double> walltime) : walltime_(walltime) {
   received = 0;
-  set_handlers(note);
+  sender = 0;
+  listen();
 }
 
-StopRequest::~StopRequest() { set_handlers(SIG_DFL); }
+void StopRequest::listen() {
+  struct sigaction action {};
+  action.sa_sigaction = note;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;  // reading and writing go on
+  set_handlers(action);
+}
+
+StopRequest::~StopRequest() {
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  set_handlers(action);
+}
 
 int StopRequest::signal() const { return received; }
+
+bool StopRequest::is_ended_by(int process) { return received == SIGTERM && sender == process; }
 
 double StopRequest::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

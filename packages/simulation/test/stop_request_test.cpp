@@ -2,6 +2,8 @@
 #include <culm/simulation/stop_request.hpp>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <string>
@@ -50,6 +52,37 @@ TEST(StopRequest, HearsSignalsWhileItLives) {
   struct sigaction action {};
   sigaction(SIGTERM, nullptr, &action);
   EXPECT_EQ(action.sa_handler, SIG_DFL);
+}
+
+TEST(StopRequest, KnowsWhoEndsTheProgram) {
+  const StopRequest request;
+  EXPECT_FALSE(StopRequest::is_ended_by(0));
+  std::raise(SIGUSR1);
+  EXPECT_FALSE(StopRequest::is_ended_by(::getpid()));  // only to stop, or not to die
+  const pid_t other = ::fork();
+  if (other == 0) {
+    ::kill(::getppid(), SIGTERM);
+    ::_exit(0);
+  }
+  ::waitpid(other, nullptr, 0);
+  EXPECT_TRUE(StopRequest::is_ended_by(other));
+  EXPECT_FALSE(StopRequest::is_ended_by(::getppid()));
+}
+
+// As METIS does, which is compiled for the signal() of System V.
+TEST(StopRequest, ListensThoughAnotherHasPutItsHandlerBack) {
+  const StopRequest request;
+  struct sigaction action {};
+  sigaction(SIGTERM, nullptr, &action);
+  action.sa_flags = SA_RESETHAND | SA_NODEFER;
+  sigaction(SIGTERM, &action, nullptr);
+  std::raise(SIGTERM);
+  std::raise(SIGTERM);  // would end this program
+  EXPECT_EQ(request.signal(), SIGTERM);
+  sigaction(SIGTERM, &action, nullptr);
+  StopRequest::listen();
+  sigaction(SIGTERM, nullptr, &action);
+  EXPECT_EQ(action.sa_flags & (SA_RESTART | SA_SIGINFO | SA_RESETHAND), SA_RESTART | SA_SIGINFO);
 }
 
 TEST(StopRequest, LooksAhead) {

@@ -19,8 +19,14 @@ class StopRequest {
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
+  /// Listens anew while one lives. Wanted now and then: METIS, where it has ordered a matrix, puts
+  /// the handler of SIGTERM back as one that acts once and interrupts reading and writing.
+  static void listen();
   /// Number of the signal that this process received last; 0 if none.
   int signal() const;
+  /// Whether the last signal was SIGTERM, and this process sent it. The launcher, which is the
+  /// parent, does so to all its programs when one of them has died, and kills them soon after.
+  static bool is_ended_by(int process);
   /// Whether the time is over, or would be `ahead` seconds from now.
   bool is_time_over(double ahead) const;
   /// Since the beginning [s].
