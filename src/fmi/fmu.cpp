@@ -40,6 +40,7 @@ struct Instance {
   std::string results;
   culm_simulation* simulation = nullptr;
   Values now;
+  double last = 0.0;  // time at which the deck ends [s]
   bool has_begun = false;
 
   fmi3Status say(fmi3Status status, const std::string& text) const {
@@ -244,21 +245,20 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3F
   if (!it.results.empty() && !it.holds(culm_write_results(it.simulation, it.results.c_str()))) {
     return fmi3Error;
   }
-  double last = 0.0;
   if (!it.holds(culm_begin(it.simulation, nullptr)) ||
       !it.holds(culm_time(it.simulation, &it.now.time)) ||
-      !it.holds(culm_final_time(it.simulation, &last))) {
+      !it.holds(culm_final_time(it.simulation, &it.last))) {
     return fmi3Error;
   }
   it.has_begun = true;
-  const double near = 1e-9 * std::max(std::abs(last), std::abs(last - it.now.time));
+  const double near = 1e-9 * std::max(std::abs(it.last), std::abs(it.last - it.now.time));
   if (std::abs(start - it.now.time) > near) {
     return it.say(fmi3Error, "it shall start at " + std::to_string(start) +
                                  " s, and its deck does at " + std::to_string(it.now.time) + " s");
   }
-  if (has_stop && stop > last + near) {
+  if (has_stop && stop > it.last + near) {
     return it.say(fmi3Error, "it shall stop at " + std::to_string(stop) +
-                                 " s, and its deck ends at " + std::to_string(last) + " s");
+                                 " s, and its deck ends at " + std::to_string(it.last) + " s");
   }
   return read(it, true) ? fmi3OK : fmi3Error;
 }
@@ -278,6 +278,10 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
     return it.say(fmi3Error, "a step of " + std::to_string(step) + " s from " +
                                  std::to_string(time) + " s: the structure is at " +
                                  std::to_string(it.now.time) + " s");
+  }
+  if (time + step > it.last + 1e-9 * std::max(step, std::abs(it.last))) {
+    return it.say(fmi3Error, "a step to " + std::to_string(time + step) + " s: its deck ends at " +
+                                 std::to_string(it.last) + " s");
   }
   for (const Port& port : it.now.ports) {
     if (!it.holds(culm_port_set(it.simulation, port.name.c_str(), port.force.data(),

@@ -28,9 +28,11 @@ static void *find(const char *name) {
 }
 
 /* A pointer to a function is no pointer to an object in C: by their bytes. */
-#define FIND(name) \
-  void *name##_found = find(#name); \
-  memcpy(&name##_, &name##_found, sizeof name##_)
+#define FIND(name)                         \
+  do {                                     \
+    void *found = find(#name);             \
+    memcpy(&name##_, &found, sizeof found); \
+  } while (0)
 
 static void expect(int line, fmi3Status status, fmi3Status expected, const char *words) {
   if (status == expected && strstr(said, words) != NULL) {
@@ -142,9 +144,20 @@ int main(int argc, char **argv) {
   }
   EXPECT(fmi3GetFloat64_(mast, &position_of, 1, position, 3 * POINTS), fmi3OK, "");
   EXPECT(fmi3GetFloat64_(mast, &work_of, 1, &done, 1), fmi3OK, "");
+  EXPECT(fmi3DoStep_(mast, time, 0.5, false, &event, &over, &early, &last), fmi3Error, "its deck ends at 1.0");
   EXPECT(fmi3FreeFMUState_(mast, &start), fmi3OK, "");
   if (start != NULL) return 6;
   EXPECT(fmi3Terminate_(mast), fmi3OK, "");
+  fmi3FreeInstance_(mast);
+
+  /* importers do so for each simulation */
+  dlclose(library);
+  library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  if (library == NULL) return 7;
+  FIND(fmi3InstantiateCoSimulation);
+  FIND(fmi3FreeInstance);
+  mast = fmi3InstantiateCoSimulation_("mast again", "", resources, false, false, false, false, NULL, 0, NULL, note, NULL);
+  if (mast == NULL) return 8;
   fmi3FreeInstance_(mast);
   printf("%.10f m, %.10f J\n", position[15], work);
   return 0;
