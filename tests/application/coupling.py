@@ -687,6 +687,14 @@ class Leaders(CouplingTest):
         self.fails("no more wind", give_up)
 
     def test_that_ask_what_makes_no_sense(self):
+        def go_forward(mast):
+            mast.save(1)
+            self.step(mast, numpy.zeros((5, 6)), numpy.zeros((5, 3)))
+            mast.save(2)
+            mast.restore(1)
+            mast.restore(2)
+
+        self.fails("it asked for 'restore': the results that belong to the snapshot are gone", go_forward)
         self.fails("it asked for 'accept'", lambda mast: mast.accept())
         self.fails("nothing was saved under the number 3", lambda mast: mast.restore(3))
         self.fails("checkpoints have numbers above zero", lambda mast: mast.keep(0))

@@ -113,11 +113,21 @@ bool ResultFiles::has_saved(const Snapshot& snapshot) const {
 }
 
 void ResultFiles::go_back(const Snapshot& saved) {
-  restore_counts(saved);
   on_root(system_->comm(), [&] {
+    const auto meshes = meshes_of(*drawn_, settings_.layers);
+    const output::RecordMark present = files_->recorder.commit();
     files_.reset();
-    reopen(meshes_of(*drawn_, settings_.layers), restore_mark(saved));
+    try {
+      reopen(meshes, restore_mark(saved));
+    } catch (const FileError& error) {
+      reopen(meshes, present);
+      throw UsageError(
+          "the results that belong to the snapshot are gone: one of before was restored since, and "
+          "cut them back (" +
+          std::string(error.what()) + ")");
+    }
   });
+  restore_counts(saved);
 }
 
 void ResultFiles::save(Snapshot& snapshot) const {

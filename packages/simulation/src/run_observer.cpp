@@ -242,11 +242,11 @@ void RunObserver::go_back(const Snapshot& kept) {
   if (!files_.has_saved(kept)) {
     throw UsageError("the snapshot knows nothing of the results that are written here");
   }
+  files_.go_back(kept);
   steps_.rows.clear();
   numbers_.clear();
   restore(kept);
   resume(kept);
-  files_.go_back(kept);
 }
 
 void RunObserver::restore(const Snapshot& snapshot) {

@@ -227,8 +227,8 @@ void ServedRun::restore(std::uint32_t number, Course& course) {
   if (kept == kept_.end()) {
     throw UsageError(fmt::format("nothing was saved under the number {}", number));
   }
-  course.stepper.restore(kept->second.state);
   course.observer.go_back(kept->second.results);
+  course.stepper.restore(kept->second.state);
   work_ = kept->second.work;
   accepted_ = course.stepper.steps();
 }
