@@ -103,7 +103,8 @@ CULM_API int culm_finish(culm_simulation* simulation);
 /* Names the promises that did not hold in the analyses so far, such as the balance of energy, in one line; empty if all
  * do. Analyses look at theirs at the latest in culm_finish. Valid until the next call of this. Since 1002. */
 CULM_API int culm_broken_promises(culm_simulation* simulation, const char** text);
-/* The accepted state, in memory; loads are not in it. */
+/* The accepted state, in memory; loads are not in it. Where results are written, going back cuts them, so that later
+ * snapshots are refused from then on. */
 CULM_API int culm_save(culm_simulation* simulation, culm_snapshot** snapshot);
 CULM_API int culm_restore(culm_simulation* simulation, const culm_snapshot* snapshot);
 CULM_API void culm_snapshot_free(culm_snapshot* snapshot);
