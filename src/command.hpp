@@ -25,6 +25,7 @@ struct RunArguments : DeckArguments {
   std::filesystem::path folder;   ///< for results; results/<name of the deck> if empty
   std::string walltime;           ///< time the run may take; empty for any
   bool report = false;            ///< whether a page is wanted
+  std::string partner_command;    ///< starts the partner of type Socket; nobody is if empty
   int ranks = 0;                  ///< so many of the processes are ours; all if zero
   std::filesystem::path started;  ///< set by run(): folder of results, when there are some
 };

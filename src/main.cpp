@@ -70,6 +70,10 @@ std::string refuse_empty(const std::string& path) {
   return path.empty() ? "needs a path, got ''" : "";
 }
 
+std::string refuse_no_command(const std::string& command) {
+  return command.empty() ? "needs a command, got ''" : "";
+}
+
 template <class VerbArguments>
 void add_common_options(CLI::App& verb, VerbArguments& arguments) {
   verb.add_option("--set", arguments.overrides,
@@ -146,6 +150,10 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
   add_ending(verb, arguments.strict);
   add_ranks(verb, arguments.ranks);
   verb.add_flag("--report", arguments.report, "Write report.html beside the results");
+  verb.add_option("--with", arguments.partner_command,
+                  "Start the partner of type Socket by this command of the shell, and end it with "
+                  "the run")
+      ->check(refuse_no_command);
 }
 
 // Declares all verbs; the chosen one becomes `action`.

@@ -8,7 +8,7 @@
  *   while ((kind = culm_partner_next(&it, &window)) > 0) {
  *     if (kind == CULM_ATTEMPT) { ... fill loads ... culm_partner_answer(&it, loads); }
  *     if (kind == CULM_ACCEPT) { ... culm_partner_accepted(&it, energy, heat); }
- *     if (kind == CULM_SAVE) { ... culm_partner_saved(&it); }
+ *     if (kind == CULM_SAVE) { ... culm_partner_saved(&it); }   or culm_partner_kept_nothing
  *   }
  *   if (kind < 0) fail(it.error);
  *   culm_partner_close(&it);
@@ -357,13 +357,18 @@ static int culm_partner_answer(culm_partner* it, const double* loads) {
   return culm_partner_send(it, 3, loads, 48 * (uint64_t)it->points);
 }
 
-/* Energy that it holds more than at the start, and what it has turned into heat [J]; NAN if it keeps no books. */
+/* Energy that it holds more than at the start, and what it has turned into heat [J]; NAN for both, in all windows, if it
+ * keeps no books. */
 static int culm_partner_accepted(culm_partner* it, double energy, double dissipated) {
   const double books[2] = {energy, dissipated};
   return culm_partner_send(it, 5, books, sizeof books);
 }
 
+/* It has kept itself under the number of the window. */
 static int culm_partner_saved(culm_partner* it) { return culm_partner_send(it, 7, NULL, 0); }
+
+/* It cannot keep itself: if the run is resumed, it begins anew, and culm warns of that. */
+static int culm_partner_kept_nothing(culm_partner* it) { return culm_partner_send(it, 7, "nothing", 7); }
 
 /* While it computes for long. */
 static int culm_partner_alive(culm_partner* it) { return culm_partner_send(it, 8, NULL, 0); }

@@ -48,7 +48,7 @@ class PartnerError(Exception):
 class Window:
     """A window of time [s] and how the points move in it: arrays with a row for each point.
 
-    number, attempt  from 0
+    number, attempt  from 0; every attempt at a window begins where the window begins
     start, end       [s]
     motion           displacement and rotation vector in the window [m, rad], what loads work on
     position         at the end [m]
@@ -60,6 +60,11 @@ class Window:
     def __init__(self, number, attempt, start, end):
         self.number, self.attempt, self.start, self.end = number, attempt, start, end
         self.loads = None
+
+    def __getattr__(self, name):
+        if name in (quantity for quantity, _ in QUANTITIES):
+            raise AttributeError(f"the {name} of the points was not asked for: name it in `wants`")
+        raise AttributeError(f"a window has no '{name}'")
 
     @property
     def length(self):
@@ -86,11 +91,12 @@ class Partner:
 
     def accept(self, window):
         """The window is over with this motion. Returns the energy that the partner holds more than at the start and
-        what it has turned into heat since [J], from which culm finds what the coupling loses; or nothing if it keeps no
-        books."""
+        what it has turned into heat since [J], from which culm finds what the coupling loses; or nothing, in all windows,
+        if it keeps no books. Lift on a structure that moves with it is work that comes out of the wind: heat below zero."""
 
     def save(self, window):
-        """Keep what you are under this number: a run may go on from here."""
+        """Keep what you are under this number, in a file: a run may go on from here, with begin(…, window) in a new program.
+        A partner without a version of its own keeps nothing and begins anew then; culm warns of that."""
 
     def end(self, why):
         """culm says good-bye. why: it failed; empty if it did not."""
@@ -227,9 +233,7 @@ class Structure:
 
     def attempt(self, loads, end):
         """Tries a step to `end` [s] under these mean loads, (points, 6) [N, N m]. Returns whether it converged."""
-        loads = numpy.ascontiguousarray(loads, "<f8")
-        if loads.shape != (self.points, 6):
-            raise ValueError(f"loads have the shape {loads.shape} instead of {(self.points, 6)}")
+        loads = _loads(loads, self.points)
         about = (self._step, self._attempts, self.time, end)
         self._attempts += 1
         payload = self._ask(ATTEMPT, ANSWER, about, loads.tobytes())[5]
@@ -299,6 +303,28 @@ def _bits(wants):
     return sum(1 << i for i, name in enumerate(names) if name in (*wants, "motion"))
 
 
+def _loads(loads, points):
+    if loads is None:
+        raise TypeError(f"loads returned nothing instead of an array of shape {(points, 6)}")
+    loads = numpy.ascontiguousarray(loads, "<f8")
+    if loads.shape != (points, 6):
+        raise ValueError(f"loads have the shape {loads.shape} instead of {(points, 6)}")
+    return loads
+
+
+def _books(books):
+    """Energy and heat as culm reads them; no numbers, which only stand for no books, if the partner keeps none."""
+    if books is None:
+        return math.nan, math.nan
+    if numpy.shape(books) != (2,):
+        raise ValueError(f"accept returns energy and heat, two numbers [J], or nothing; it returned {books!r}")
+    energy, heat = map(float, books)
+    if not (math.isfinite(energy) and math.isfinite(heat)):
+        raise ValueError(f"accept returned the energy {energy} J and the heat {heat} J: they must be finite; a partner that "
+                         "keeps no books returns nothing")
+    return energy, heat
+
+
 def _hello(payload):
     """Port, reference positions, velocities."""
     points = struct.unpack_from("<I", payload)[0]
@@ -319,10 +345,10 @@ def _read(target, payload, at, points, wanted):
 
 
 def _serve(connection, partner):
-    wanted = _bits(partner.wants)
     kind, window, _, start, end, payload = connection.receive()
     if kind != HELLO:
         raise PartnerError(f"culm began with a frame of kind {kind}")
+    wanted = _bits(partner.wants)
     if end > start:
         raise PartnerError("culm follows here: it is to be led by a Structure, or to be started by 'culm couple'")
     port, reference, velocity = _hello(payload)
@@ -334,16 +360,15 @@ def _serve(connection, partner):
         kind, number, attempt, start, end, payload = connection.receive()
         about = (number, attempt, start, end)
         if kind == ATTEMPT:
-            loads = numpy.asarray(partner.loads(_window(about, payload, points, wanted)), "<f8")
-            if loads.shape != (points, 6):
-                raise ValueError(f"loads have the shape {loads.shape} instead of {(points, 6)}")
+            loads = _loads(partner.loads(_window(about, payload, points, wanted)), points)
             connection.send(ANSWER, *about, payload=loads.tobytes())
         elif kind == ACCEPT:
-            books = partner.accept(_window(about, payload, points, wanted)) or (math.nan, math.nan)
+            books = _books(partner.accept(_window(about, payload, points, wanted)))
             connection.send(ACCEPTED, *about, payload=struct.pack("<dd", *books))
         elif kind == SAVE:
+            keeps_nothing = type(partner).save is Partner.save
             partner.save(number)
-            connection.send(SAVED, *about)
+            connection.send(SAVED, *about, payload=b"nothing" if keeps_nothing else b"")
         elif kind in (BYE, ERROR):
             partner.end(payload.decode())
             return

@@ -4,6 +4,7 @@
 #include <culm/base/error.hpp>
 #include <culm/simulation/session.hpp>
 #include <culm/simulation/simulation.hpp>
+#include <culm/solver/newton_solver.hpp>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -47,6 +48,34 @@ std::shared_ptr<Start>& start() {
   return kept;
 }
 
+// Keeps what culm says, and makes of each alarm a warning of Python at once.
+class Ear final : public std::stringbuf {
+ public:
+  // What was heard since the last call.
+  std::string take() {
+    std::string text = str();
+    str({});
+    told_ = 0;
+    return text;
+  }
+
+ private:
+  // Once for each message.
+  int sync() override {
+    const std::string text = str();
+    const std::string message = text.substr(told_, text.find_last_not_of('\n') + 1 - told_);
+    told_ = text.size();
+    if (!message.starts_with("warning: ") && !message.starts_with("error: ")) return 0;
+    const py::gil_scoped_acquire held;
+    const std::string words = message.substr(message.find(' ') + 1);
+    // where warnings are errors of Python: it is not allowed to throw through a log
+    if (PyErr_WarnEx(PyExc_UserWarning, words.c_str(), 1) != 0) PyErr_WriteUnraisable(nullptr);
+    return 0;
+  }
+
+  std::size_t told_ = 0;
+};
+
 // A simulation and what it says.
 class Live {
  public:
@@ -56,11 +85,22 @@ class Live {
             Simulation::open(deck, std::move(overrides), culm::Log(said_, culm::LogLevel::info))) {}
 
   // What was said since the last call.
-  std::string messages() {
-    std::string text = said_.str();
-    said_.str({});
-    return text;
+  std::string messages() { return ear_.take(); }
+
+  // Tries a step. Why it failed is known until the next one.
+  bool attempt(Stepper& stepper, double target) {
+    failure_.clear();
+    const double from = stepper.time();
+    const culm::analysis::StepReport& report = stepper.attempt(target);
+    if (report.accepted) return true;
+    std::ostringstream text;
+    text << culm::solver::describe(report.outcome.end) << ", from " << from << " to " << target
+         << ", after " << report.outcome.iterations << " iterations; relative force residuals:";
+    for (const auto& record : report.outcome.history) text << ' ' << record.force;
+    failure_ = text.str();
+    return false;
   }
+  const std::string& failure() const { return failure_; }
   Simulation& simulation() { return simulation_; }
 
   void begin(const std::string& analysis) {
@@ -77,8 +117,10 @@ class Live {
 
  private:
   std::shared_ptr<Start> start_;  // the last to go
-  std::ostringstream said_;
+  Ear ear_;
+  std::ostream said_{&ear_};
   Simulation simulation_;
+  std::string failure_;
   Stepper* stepper_ = nullptr;
   long taken_up_ = 0;
 };
@@ -95,6 +137,7 @@ class Handle {
     return *live_.stepper();
   }
   Stepper* operator->() const { return &get(); }
+  Live& live() const { return live_; }
   bool is_of(const Handle& other) const {
     return &live_ == &other.live_ && number_ == other.number_;
   }
@@ -154,17 +197,28 @@ py::array read(const PortHandle& port, Quantity quantity) {
   return rows_of(values, port.get().size());
 }
 
+// A shape as Python writes it.
+std::string shape_of(const py::array& values) {
+  return py::str(py::object(values.attr("shape"))).cast<std::string>();
+}
+
 // The numbers of an array with three columns: any stride, order and number type.
-std::span<const double> three_columns(const Values& values, const std::string& what) {
-  if (values.ndim() != 2 || values.shape(1) != 3) {
-    throw culm::UsageError(what + " must have the shape (points, 3)");
+std::span<const double> three_columns(const Values& values, const std::string& what,
+                                      std::optional<int> rows = {}) {
+  const bool has_rows = values.ndim() == 2 && (!rows || values.shape(0) == *rows);
+  if (!has_rows || values.shape(1) != 3) {
+    throw culm::UsageError(what + " must have the shape (" +
+                           (rows ? std::to_string(*rows) : "points") + ", 3), and has " +
+                           shape_of(values));
   }
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
 void set_port(const PortHandle& port, const Values& force, const std::optional<Values>& moment) {
-  port.simulation().set_port(port.name(), three_columns(force, "force"),
-                             moment ? three_columns(*moment, "moment") : std::span<const double>());
+  const int points = port.get().size();
+  port.simulation().set_port(
+      port.name(), three_columns(force, "force", points),
+      moment ? three_columns(*moment, "moment", points) : std::span<const double>());
 }
 
 // Faces of three or four points, an array of integers with as many columns.
@@ -251,11 +305,14 @@ PYBIND11_MODULE(_culm, module) {
       .def(
           "attempt",
           [](const Handle& stepper, std::optional<double> target) {
-            return stepper->attempt(target.value_or(stepper->proposal())).accepted;
+            return stepper.live().attempt(stepper.get(), target.value_or(stepper->proposal()));
           },
           py::arg("target") = py::none(), Free(),
           "Solves a step from the accepted state to a target, the proposed one if none is given. "
-          "Returns whether it converged.")
+          "Returns whether it converged; `failure` says why it did not.")
+      .def_property_readonly(
+          "failure", [](const Handle& stepper) { return stepper.live().failure(); },
+          "Why the last attempt did not converge, in words; empty if it did.")
       .def(
           "accept", [](const Handle& stepper) { stepper->accept(); }, Free(),
           "Makes the attempt the accepted state.")
@@ -401,5 +458,6 @@ PYBIND11_MODULE(_culm, module) {
           "Names the promises that did not hold in the analyses that have ended, in one line; "
           "empty "
           "if all do.")
-      .def("messages", &Live::messages, "What culm said since the last call.");
+      .def("messages", &Live::messages,
+           "What culm said since the last call; warnings were warnings of Python before.");
 }

@@ -101,6 +101,8 @@ class Dying(Water):
         energy, heat = super().accept(window)
         if self.way == "energy":
             return energy + 1.0, heat
+        if window.number == 5 and self.way in BOOKS:
+            return BOOKS[self.way][0](energy)
         return (numpy.inf if self.way == "infinite" and window.number == 5 else energy), heat
 
 
@@ -165,6 +167,13 @@ def fall_silent(partner, loads):
     time.sleep(TIME_LIMIT)
 
 
+# what accept returns for an energy, and what culm_partner says to that
+BOOKS = {
+    "half of the books": (lambda energy: (energy, numpy.nan), "accept returned the energy "),
+    "one number": (lambda energy: 3.5, "accept returns energy and heat, two numbers [J], or nothing; it returned 3.5"),
+    "no books": (lambda energy: None, None),
+}
+
 # how a partner dies, and what culm says
 WAYS = {
     "kill": kill,
@@ -195,6 +204,9 @@ SAID = {
 }
 
 
+SAID_IN_PYTHON = {**SAID, "infinite": "it says: ValueError: accept returned the energy inf J and the heat 0.0 J"}
+
+
 def every_frame(record):
     """Place, kind, window and length of each frame of a record."""
     at = 0
@@ -217,10 +229,24 @@ def with_a_moved_step(record):
     return record
 
 
+class Forgetful(Dying):
+    """Keeps nothing when it is asked to."""
+
+    save = culm_partner.Partner.save
+
+    def begin(self, port, reference, velocity, start, window):
+        super().begin(port, reference, numpy.zeros_like(velocity), start, 0)
+
+
+class Wishful(Water):
+    wants = ("speed",)
+
+
 def be_partner(address, folder, way):
     """What this program does when it is started as a partner."""
-    partner = Dying() if way else Water()
-    partner.folder, partner.way = pathlib.Path(folder), way
+    partner = {"": Water, "forget": Forgetful, "anew": Forgetful, "wants": Wishful}.get(way, Dying)()
+    partner.folder = pathlib.Path(folder)
+    partner.way = "kill" if way == "forget" else way
     connect = culm_partner.Connection
 
     class Watched(connect):
@@ -482,8 +508,43 @@ class Partners(CouplingTest):
             with self.subTest(way=way):
                 partner = self.start_partner(way)
                 errors = self.culm("run", self.remote, "--output", way, "--quiet", *self.limits(way), code=FAILED_PARTNER)
-                self.dies(way, SAID[way], errors)
+                self.dies(way, SAID_IN_PYTHON[way], errors)
                 partner.kill()
+
+    def test_whose_books_come_and_go(self):
+        for way, (_, said) in BOOKS.items():
+            with self.subTest(way=way):
+                partner = self.start_partner(way)
+                errors = self.culm("run", self.remote, "--output", way, "--quiet", code=FAILED_PARTNER)
+                self.dies(way, f"it says: ValueError: {said}" if said else "its energy is nan J, its heat nan J, and was ",
+                          errors)
+                partner.kill()
+
+    def test_that_want_what_is_not_there(self):
+        partner = self.start_partner("wants")
+        errors = self.culm("run", self.remote, "--output", "wants", "--quiet", code=FAILED_PARTNER)
+        self.assertIn("it says: ValueError: there is no quantity 'speed' to want; allowed: position", errors)
+        partner.kill()
+
+    def test_that_are_killed_and_resumed_from_an_early_checkpoint(self):
+        """Checkpoints are there although the run is much shorter than their interval."""
+        self.start_partner()
+        self.culm("run", self.remote, "--output", "whole", "--quiet")
+        self.start_partner("kill")
+        errors = self.culm("run", self.remote, "--output", "killed", "--quiet", code=FAILED_PARTNER)
+        self.assertRegex(errors, r"Go on with: culm resume killed, from 0\.[0-9]+ s")
+        self.start_partner()
+        self.culm("resume", "killed", "--quiet")
+        self.same("whole", "killed")
+
+    def test_that_save_nothing(self):
+        self.start_partner("forget")
+        self.culm("run", self.remote, "--output", "forgot", "--quiet", "--set", "Output/Checkpoint Interval=0",
+                  code=FAILED_PARTNER)
+        self.start_partner("anew")
+        errors = re.sub(r"\s+", " ", self.culm("resume", "forgot", "--quiet", code=8))
+        self.assertIn("the partner 'water' saved nothing with the checkpoint: it begins anew", errors)
+        self.assertIn("the partner had saved nothing and began anew", errors)
 
     def test_in_c_that_die(self):
         for way in SAID if OPTIONS.ranks == 1 else ("leave", "infinite"):
@@ -717,6 +778,8 @@ class Leaders(CouplingTest):
 
 @unittest.skipIf("--ranks" in sys.argv, "one rank reads the deck for all")
 class Decks(CouplingTest):
+    DAMPING = 10000.0  # N s/m
+
     def says(self, text, deck, *settings, code=3):
         words = [word for setting in settings for word in ("--set", setting)]
         for verb in ("check", "run"):
@@ -758,7 +821,9 @@ class Decks(CouplingTest):
         for name, words in (("Death", "as the deck wants it"), ("No Number", "it answered nan for component 0 at point 0"),
                             ("Infinite", "it answered inf for component 0 at point 0"),
                             ("Wrong Count", "it answered 0 numbers; six for each of 1 points are 6"),
-                            ("Infinite Energy", "its energy is inf J, its heat 0 J")):
+                            ("Infinite Energy", "its energy is inf J, its heat 0 J"),
+                            ("Lost Books", "its energy is nan J, its heat nan J, and was 0 J and 0 J before: it keeps books in "
+                             "all windows, or in none")):
             with self.subTest(fault=name):
                 errors = self.fault(name, FAILED_PARTNER)
                 self.assertIn(said.replace(" 'fault'", "") if name == "Death" else said, errors)
@@ -781,6 +846,26 @@ class Decks(CouplingTest):
         errors = self.fault("Wrong Energy", 8, "Mass=5", "Window=7", more=["Loads/push/Force={6000, 1000, 0}"])
         self.assertRegex(errors, "the interface 'fault' makes from 0.14 s to 0.16 s 1 J, .* % of the most that is exchanged in a "
                          "window")
+
+    def test_whose_windows_are_cut(self):
+        """Of a damper c at a mass m each try makes an error c h / 2 m times as large: in short windows it vanishes."""
+        damper = ["Coupling/Partners/water/Type=Dashpot", "Coupling/Scheme=Constant", "Coupling/Relaxation=1",
+                  "Coupling/Most Attempts=40", "Coupling/Tolerance=1e-6"]
+        deck = self.write("damped.xml", self.deck.read_text().replace(
+            '<Parameter name="Mass" value="20"/>', f'<Parameter name="Damping" value="{self.DAMPING}"/>'))
+        steps = self.write("steps.xml", deck.read_text().replace('<Parameter name="Window" value="0.02"/>', ""))
+        for name, one in (("windows", deck), ("steps", steps)):
+            with self.subTest(of=name):
+                words = [word for setting in damper for word in ("--set", setting)]
+                process = self.start("run", one, "--output", name, *words)
+                output, errors = process.communicate(timeout=TIME_LIMIT)
+                self.assertEqual(process.returncode, 0, output + errors)
+                self.assertRegex(output, r"cut back [0-9]+ times, down to [0-9.e-]+ s, where structure and partners did not")
+        errors = self.culm("run", deck, "--output", "never", "--quiet", *words, "--set", "Coupling/Most Attempts=4", "--set",
+                           "Coupling/Relaxation=1e-9", code=4)
+        self.assertIn("did not agree in 4 attempts", errors)
+        self.assertIn("What they differ by does not fall from attempt to attempt", errors)
+        self.assertNotIn("more 'Most Attempts'", errors)
 
     def test_with_partners_that_are_slow(self):
         self.assertEqual(self.fault("Slow", 0, "Mass=5", "Window=23"), "")

@@ -158,7 +158,7 @@ def check_socket(culm, deck, work):
     script.write_text(block(COUPLING, "python", 1))
     address = f"unix:{culm.folder}/wind"
     wind = subprocess.Popen([sys.executable, str(script), address],
-                            env={**os.environ, "PYTHONPATH": str(culm.prefix / "share/culm/client")})
+                            env={**os.environ, "PYTHONPATH": str(culm.prefix / "share/culm/python")})
     text = run(culm.prefix / "bin/culm", "couple", deck, "--partner", "socket", "--address", address, "--output",
                culm.folder / "blown")
     if wind.wait(60) != 0:
@@ -171,7 +171,7 @@ def check_socket(culm, deck, work):
 
 def start(culm, script, address):
     return subprocess.Popen([sys.executable, str(script), address], stdout=subprocess.PIPE, text=True,
-                            env={**os.environ, "PYTHONPATH": str(culm.prefix / "share/culm/client")})
+                            env={**os.environ, "PYTHONPATH": str(culm.prefix / "share/culm/python")})
 
 
 def check_wing(culm):

@@ -19,6 +19,12 @@ constexpr double unresolved = 1.0 / 3.0;
 
 std::size_t index(StepEnd end) { return static_cast<std::size_t>(end); }
 
+// Who makes the steps may also refuse one that converged.
+std::string reason(StepEnd end) {
+  return end == StepEnd::converged ? "partners or the program that leads did not agree with them"
+                                   : solver::describe(end);
+}
+
 }  // namespace
 
 void CutBacks::accept(double taken, double turn) {
@@ -42,11 +48,13 @@ std::string CutBacks::hint(double step) const {
       "{:.0f} of {:.0f} attempts at a step failed and were cut back, {:.0f} because {}; steps down "
       "to "
       "{:.3g} s were needed where {:g} s are asked for.\n",
-      rejected_, attempts, reasons_[most], solver::describe(static_cast<StepEnd>(most)),
+      rejected_, attempts, reasons_[most], reason(static_cast<StepEnd>(most)),
       least_taken_, step);
   const double cosine = reversals_ / rejected_;
   const double degrees = 180.0 / std::numbers::pi;
-  if (static_cast<StepEnd>(most) == StepEnd::turned_too_far) {
+  if (static_cast<StepEnd>(most) == StepEnd::converged) {
+    text += "Likely cause: loads that change much within a step.\n";
+  } else if (static_cast<StepEnd>(most) == StepEnd::turned_too_far) {
     text += fmt::format(
         "Likely cause: nodes turn too far in a step; in those that were accepted by up to {:.0f} "
         "degrees.\n",

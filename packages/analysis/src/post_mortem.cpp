@@ -149,7 +149,9 @@ std::string PostMortem::history() const {
   std::string text = "Last steps:\n";
   for (const StepReport& a : attempts_) {
     text += fmt::format("  {} {:<12.8g} increment {:<10.3g} {:>3} iterations  {}\n", time_word(),
-                        a.time, a.increment, a.outcome.iterations, solver::describe(a.outcome.end));
+                        a.time, a.increment, a.outcome.iterations,
+                        a.outcome.converged() && !a.accepted ? "converged, but was not taken"
+                                                             : solver::describe(a.outcome.end));
   }
   if (!attempts_.empty()) {
     text += "Force residual of the last attempt, relative:";

@@ -142,8 +142,18 @@ std::string objection_to(const Eigen::VectorXd& answer, int points) {
 }
 
 std::string objection_to(const Books& books) {
-  if (!std::isinf(books.energy) && !std::isinf(books.dissipated)) return {};
-  return fmt::format("its energy is {} J, its heat {} J", books.energy, books.dissipated);
+  const bool is_half = std::isnan(books.energy) != std::isnan(books.dissipated);
+  if (!std::isinf(books.energy) && !std::isinf(books.dissipated) && !is_half) return {};
+  return fmt::format("its energy is {} J, its heat {} J{}", books.energy, books.dissipated,
+                     is_half ? ": both are numbers, or neither is where it keeps no books" : "");
+}
+
+std::string objection_to(const Books& books, const Books& before) {
+  if (const std::string objection = objection_to(books); !objection.empty()) return objection;
+  if (books.are_kept() == before.are_kept()) return {};
+  return fmt::format("its energy is {} J, its heat {} J, and was {} J and {} J before: it keeps "
+                     "books in all windows, or in none",
+                     books.energy, books.dissipated, before.energy, before.dissipated);
 }
 
 Eigen::VectorXd read_answer(const Frame& frame, int points) {

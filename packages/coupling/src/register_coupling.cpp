@@ -78,6 +78,7 @@ const std::vector<std::pair<std::string, Fault>>& faults() {
       {"Old", Fault::old},
       {"Wrong Energy", Fault::wrong_energy},
       {"Infinite Energy", Fault::infinite_energy},
+      {"Lost Books", Fault::lost_books},
       {"Slow", Fault::slow}};
   return all;
 }

@@ -29,7 +29,7 @@ void RemotePartner::begin(const Beginning& beginning) {
   last_.start = last_.end = beginning.time;
   speak(last_, [&] {
     conversation_.emplace(open_(), patience_, time_limit_);
-    conversation_->say(hello(beginning));
+    conversation_->pose(hello(beginning));
     const Frame frame = conversation_->listen();
     if (frame.kind != FrameKind::hello) {
       throw PartnerError(fmt::format("it began with '{}'", name_of(frame.kind)));
@@ -70,10 +70,11 @@ void RemotePartner::accept(const Window& window) {
 
 // It keeps what it is itself, under the number of the window that comes next.
 void RemotePartner::save(const std::string& prefix, Snapshot& snapshot) {
-  speak(last_, [&] {
+  const Frame answer = speak(last_, [&] {
     const auto next = static_cast<std::uint32_t>(last_.number + 1);
     return conversation_->ask({FrameKind::save, next, 0, last_.end, last_.end}, FrameKind::saved);
   });
+  if (!answer.payload.empty()) snapshot.set(prefix + kept_nothing, 1.0);
   snapshot.set(prefix + "books", {books_.energy, books_.dissipated});
 }
 

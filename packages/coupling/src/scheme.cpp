@@ -87,6 +87,11 @@ void QuasiNewton::end_window() {
   while (static_cast<int>(windows_.size()) > reuse_ + 1) windows_.pop_front();
 }
 
+void QuasiNewton::drop_window() {
+  windows_.back().clear();
+  end_window();
+}
+
 void QuasiNewton::rescale(const VectorXd& factors) {
   const auto scale = [&](VectorXd& v) {
     if (v.size() > 0) v.array() *= factors.array();

@@ -84,6 +84,7 @@ Eigen::VectorXd FaultyPartner::loads(const Window& window) {
       break;
     case Fault::wrong_energy:
     case Fault::infinite_energy:
+    case Fault::lost_books:
       break;
   }
   return loads;
@@ -100,6 +101,9 @@ Books FaultyPartner::books() const {
   if (!has_lied_) return books;
   if (fault_ == Fault::wrong_energy) books.energy += 1.0;
   if (fault_ == Fault::infinite_energy) books.energy = std::numeric_limits<double>::infinity();
+  if (fault_ == Fault::lost_books) {
+    books.energy = books.dissipated = std::numeric_limits<double>::quiet_NaN();
+  }
   return books;
 }
 

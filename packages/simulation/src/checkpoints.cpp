@@ -33,7 +33,13 @@ Checkpoints::Checkpoints(const parallel::Comm& comm, std::filesystem::path folde
       interval_(interval),
       request_(request),
       last_step_(request.elapsed()),
+      begun_(last_step_),
       due_(last_step_ + interval) {}
+
+void Checkpoints::begin_early() {
+  is_early_ = true;
+  due_ = last_step_;
+}
 
 Checkpoints::Demand Checkpoints::demand() {
   const double now = request_.elapsed();
@@ -58,7 +64,8 @@ void Checkpoints::write(const Snapshot& snapshot) {
                              [&](const output::TakePiece& take) { snapshot.encode(take); });
   });
   const double now = request_.elapsed();
-  due_ = now + (interval_ > 0.0 ? std::max(interval_, (now - before) / largest_share) : 0.0);
+  const double rest = is_early_ ? std::min(interval_, now - begun_) : interval_;
+  due_ = now + (interval_ > 0.0 ? std::max(rest, (now - before) / largest_share) : 0.0);
 }
 
 std::string Checkpoints::farewell() const {
@@ -66,7 +73,7 @@ std::string Checkpoints::farewell() const {
                              : reason_ == signalled + SIGTERM ? "signal SIGTERM"
                                                               : "signal SIGUSR1";
   return "stopped: " + reason + "\n" +
-         (active_ ? "Go on with: culm resume " + folder_.string()
+         (active_ ? "Go on with: " + way_on()
                   : "There is no checkpoint, because the deck switches them off.");
 }
 

@@ -24,12 +24,17 @@ class Checkpoints {
               double interval, const StopRequest& request);
 
   bool are_active() const { return active_; }
+  /// Where the run may lose a partner at any time: the first checkpoint is due at once, and each
+  /// further one when the run has taken as long again, until this is the interval.
+  void begin_early();
   /// To be asked once after each step; collective.
   Demand demand();
   /// Writes a checkpoint. Throws FileError on all ranks.
   void write(const Snapshot& snapshot);
   /// Why the run stops, and how to go on.
   std::string farewell() const;
+  /// The command that goes on from the checkpoint.
+  std::string way_on() const { return "culm resume " + folder_.string(); }
 
  private:
   const parallel::Comm& comm_;
@@ -40,7 +45,9 @@ class Checkpoints {
   int reason_ = 0;          ///< why to stop: a signal, or that the time is over
   double last_step_ = 0.0;  ///< when the last step ended [s]
   double longest_step_ = 0.0;
-  double due_;  ///< when the next checkpoint is due [s]
+  bool is_early_ = false;
+  double begun_;  ///< when the run began [s]
+  double due_;    ///< when the next checkpoint is due [s]
 };
 
 }  // namespace culm::simulation

@@ -21,6 +21,15 @@ using port::Quantity;
 
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
+// Whether the later half of the attempts came notably nearer than the first.
+bool is_falling(const std::vector<double>& misses) {
+  constexpr double notable = 0.5;
+  const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
+  if (middle == misses.begin()) return true;
+  return *std::min_element(middle, misses.end()) <
+         notable * *std::min_element(misses.begin(), middle);
+}
+
 }  // namespace
 
 bool CoupledRun::make_window(CoupledWindow& window) {
@@ -57,7 +66,9 @@ bool CoupledRun::make_window(CoupledWindow& window) {
 
 bool CoupledRun::repeat(CoupledWindow& window) {
   const int most = settings_.integer("Most Attempts");
+  const VectorXd first = loads_;
   VectorXd bearable;  // the last loads that the structure converged with
+  std::vector<double> misses;
   for (CoupledSide& side : sides_) side.answer.resize(0);
   for (int tried = 0; tried < most; ++tried) {
     for (const CoupledSide& side : sides_) side.set(loads_);
@@ -77,15 +88,20 @@ bool CoupledRun::repeat(CoupledWindow& window) {
       scheme_->end_window();
       return true;
     }
+    misses.push_back((answer - loads_).norm());
     loads_ = scheme_->next(loads_, answer);
   }
-  give_up(window);
+  cut(window, misses);
+  loads_ = first;
+  return true;
 }
 
 bool CoupledRun::repeat_in_parallel(CoupledWindow& window) {
   const int most = settings_.integer("Most Attempts");
+  const VectorXd first = loads_;
   CoupledGuess guess = {loads_, window.foreseen()};
   VectorXd bearable;
+  std::vector<double> misses;
   for (CoupledSide& side : sides_) side.answer.resize(0);
   for (int tried = 0; tried < most; ++tried) {
     for (coupling::Window& motion : guess.motions) motion.attempt = tried;
@@ -111,9 +127,20 @@ bool CoupledRun::repeat_in_parallel(CoupledWindow& window) {
       scale_.end_window();
       return true;
     }
+    misses.push_back((answer - loads_).norm());
     guess = improve(*scheme_, scale_, sides_, guess, found);
   }
-  give_up(window);
+  cut(window, misses);
+  loads_ = first;
+  scale_.end_window();
+  return true;
+}
+
+// Partners know nothing of attempts, so a shorter window begins where this one did.
+void CoupledRun::cut(CoupledWindow& window, const std::vector<double>& misses) {
+  attempts_ += static_cast<int>(misses.size());
+  scheme_->drop_window();
+  if (!window.cut()) give_up(window, misses);
 }
 
 // Lets all partners begin, so that those in other processes work at the same time.
@@ -224,6 +251,7 @@ void CoupledRun::watch(CoupledWindow& window, const std::vector<coupling::Window
       window.go();  // as it was, bit by bit
     }
     if (const std::string danger = side.loose.warning(); !danger.empty()) {
+      side.danger = danger;
       findings_.warn("loose coupling", "partner '" + side.name + "': " + danger, window.start());
     }
   }
@@ -251,16 +279,26 @@ std::string CoupledRun::worst_point() const {
                      worst->port_name, place % 6);
 }
 
-void CoupledRun::give_up(const CoupledWindow& window) const {
+void CoupledRun::give_up(const CoupledWindow& window, const std::vector<double>& misses) const {
   const bool is_robust = settings_.text("Scheme") == "Quasi Newton";
-  throw NumericalError(fmt::format(
+  std::string text = fmt::format(
       "Structure and partners did not agree in {} attempts of the window from {:g} s to {:g} s; "
-      "{}.\n"
-      "Try: {}more 'Most Attempts', a larger 'Tolerance', a smaller 'Step' or 'Window'; or the "
-      "loads "
-      "grow with the motion, as in flutter.",
-      settings_.integer("Most Attempts"), window.start(), window.end(), worst_point(),
-      is_robust ? "" : "'Scheme' = Quasi Newton, which is the most robust one, "));
+      "{}.\n",
+      settings_.integer("Most Attempts"), window.start(), window.end(), worst_point());
+  if (cuts_.count > 0) {
+    text += fmt::format("Windows were cut back {} times, down to {:g} s, where they disagreed.\n",
+                        cuts_.count, cuts_.shortest);
+  }
+  if (!is_falling(misses)) {
+    text += "What they differ by does not fall from attempt to attempt, so that more of them are of "
+            "no use.\n"
+            "Likely cause: the partner's answer depends on more than the motion that it is asked "
+            "for, such as on attempts before; or it has another sign or size than it should.\n";
+  }
+  text += fmt::format("Try: {}{}", is_robust ? "" : "'Scheme' = Quasi Newton, which is the most robust one, ",
+                      is_falling(misses) ? "more 'Most Attempts', " : "");
+  throw NumericalError(text + "a larger 'Tolerance', a smaller 'Step' or 'Window'; or the loads "
+                              "grow with the motion, as in flutter.");
 }
 
 }  // namespace culm::simulation

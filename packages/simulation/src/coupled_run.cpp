@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/coupling/messages.hpp>
 #include <culm/coupling/partner_error.hpp>
+#include <culm/coupling/remote_partner.hpp>
 
 #include "on_root.hpp"
 
@@ -14,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace culm::simulation {
@@ -27,6 +29,24 @@ using port::Quantity;
 constexpr double notable_gap = 1e-3;
 
 const Options& settings_of(const Options& deck) { return deck.list("Coupling"); }
+
+std::string percent(double share) {
+  return share < 1.0 ? fmt::format("{:.2g} %", 100.0 * share)
+                     : fmt::format("{:.0f} %", 100.0 * share);
+}
+
+// Where a loose coupling was warned of, it is what the structure died of, and no limit of its own.
+std::string blame_coupling(std::string text, const std::vector<CoupledSide>& sides) {
+  for (const CoupledSide& side : sides) {
+    if (side.danger.empty()) continue;
+    constexpr std::string_view cause = "Likely cause: ";
+    const std::size_t at = text.find(cause);
+    if (at != std::string::npos) text.erase(at);
+    return text + fmt::format("{}the coupling, not the structure. Partner '{}': {}.", cause,
+                              side.name, side.danger);
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -71,7 +91,7 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
                                to_string(settings_.where("Window")), *length, whole),
                    stepper.time());
   }
-  CoupledWindow window(stepper, system, sides_, length);
+  CoupledWindow window(stepper, system, sides_, length, cuts_);
   if (!has_begun_) {
     system.synchronise(stepper.state());
     begin(stepper.state());
@@ -81,6 +101,9 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
     window.start(windows_, latest_end(stepper.time()));
     try {
       if (!make_window(window)) window.fail();
+    } catch (const NumericalError& error) {
+      window.abandon();
+      throw NumericalError(blame_coupling(error.what(), sides_));
     } catch (...) {
       window.abandon();
       throw;
@@ -109,26 +132,37 @@ void CoupledRun::begin(const model::State& state) {
     windows_ = static_cast<int>(counts[0]);
     attempts_ = static_cast<int>(counts[1]);
     most_attempts_ = static_cast<int>(counts[2]);
+    cuts_.restore(*resumed_);
     loads_ = as_vector(resumed_->numbers("coupling/loads", static_cast<std::size_t>(count)));
     scheme_->restore(*resumed_);
     if (is_parallel_) scale_.restore(*resumed_);
   }
-  for (CoupledSide& side : sides_) {
-    const std::string prefix = "coupling/side " + side.name + "/";
-    double wanted = 0.0;
-    on_root(comm_, [&] {
-      side.partner->begin({side.port_name, state.time_prev, side.port->reference(),
-                           side.port->read(Quantity::velocity, state), windows_});
-      if (goes_on) side.partner->restore(prefix, *resumed_);
-      wanted = side.partner->wanted();
-    });
-    side.wanted = static_cast<coupling::Quantities>(comm_.max(wanted)) | bit(Quantity::motion);
-    if (!scheme_->is_implicit()) side.wanted |= bit(Quantity::velocity);
-    if (!goes_on) continue;
-    side.books.restore(prefix + "interface", *resumed_);
-    side.stiffness = resumed_->number(prefix + "stiffness");
-    if (is_parallel_) side.pace.restore(prefix, *resumed_);
-  }
+  for (CoupledSide& side : sides_) begin_side(side, state, goes_on);
+}
+
+void CoupledRun::begin_side(CoupledSide& side, const model::State& state, bool goes_on) {
+  const std::string prefix = "coupling/side " + side.name + "/";
+  double wanted = 0.0;
+  on_root(comm_, [&] {
+    side.partner->begin({side.port_name, state.time_prev, side.port->reference(),
+                         side.port->read(Quantity::velocity, state), windows_});
+    if (goes_on) side.partner->restore(prefix, *resumed_);
+    wanted = side.partner->wanted();
+  });
+  side.wanted = static_cast<coupling::Quantities>(comm_.max(wanted)) | bit(Quantity::motion);
+  if (!scheme_->is_implicit()) side.wanted |= bit(Quantity::velocity);
+  if (!goes_on) return;
+  side.books.restore(prefix + "interface", *resumed_);
+  side.stiffness = resumed_->number(prefix + "stiffness");
+  if (is_parallel_) side.pace.restore(prefix, *resumed_);
+  side.began_anew = resumed_->has(prefix + "began anew");
+  if (!resumed_->has(prefix + coupling::kept_nothing)) return;
+  side.began_anew = true;
+  findings_.warn("coupling",
+                 fmt::format("the partner '{}' saved nothing with the checkpoint: it begins anew, "
+                             "while the structure goes on",
+                             side.name),
+                 state.time_prev);
 }
 
 double CoupledRun::latest_end(double start) const {
@@ -160,7 +194,9 @@ void CoupledRun::accept(CoupledWindow& window, int attempts) {
     on_root(comm_, [&] {
       side.partner->accept(about);
       const coupling::Books own = side.partner->books();
-      side.expect(coupling::objection_to(own), about);
+      side.expect(windows_ > 0 ? coupling::objection_to(own, side.books.partner)
+                               : coupling::objection_to(own),
+                  about);
       books = {own.energy, own.dissipated};
     });
     if (comm_.size() > 1) comm_.broadcast(books);
@@ -176,6 +212,12 @@ void CoupledRun::close_books(analysis::AnalysisReport& report, double time) {
   report.text +=
       fmt::format("coupling: {} windows, {:.1f} attempts per window, at most {}\n", windows_,
                   static_cast<double>(attempts_) / std::max(windows_, 1), most_attempts_);
+  if (cuts_.count > 0) {
+    report.text += fmt::format(
+        "  cut back {} times, down to {:g} s, where structure and partners did not agree\n",
+        cuts_.count, cuts_.shortest);
+    report.numbers.emplace_back("coupling windows cut back", cuts_.count);
+  }
   report.numbers.emplace_back("coupling windows", windows_);
   report.numbers.emplace_back("coupling attempts", attempts_);
   for (CoupledSide& side : sides_) {
@@ -224,21 +266,36 @@ void CoupledRun::balance(const CoupledSide& side, analysis::AnalysisReport& repo
   if (share > notable_gap) {
     findings_.broken(
         "interface",
-        fmt::format("the interface '{}' {} {:.2g} % of the energy that is exchanged, {}: results "
-                    "are those of a coupling that is too loose; take a 'Scheme' that repeats "
-                    "windows, a smaller 'Tolerance', or means over windows as loads; or the "
-                    "partner answers or books what is wrong",
-                    side.name, gap < 0.0 ? "loses" : "makes", 100.0 * share, worst),
+        fmt::format("the interface '{}' {} {} of the energy that is exchanged, {}: {}", side.name,
+                    gap < 0.0 ? "loses" : "makes", percent(share), worst, explain(side)),
         time);
   } else if (scheme_->is_implicit() && std::abs(books.worst_gap) > notable_gap * books.largest) {
     findings_.broken(
         "interface",
-        fmt::format("the interface '{}' {} {}, {:.2g} % of the most that is exchanged in a window, "
-                    "though little over the run: the partner answers or books there what is wrong",
+        fmt::format("the interface '{}' {} {}, {} of the most that is exchanged in a window, "
+                    "though little over the run: {}",
                     side.name, books.worst_gap < 0.0 ? "loses" : "makes", worst,
-                    100.0 * std::abs(books.worst_gap) / books.largest),
+                    percent(std::abs(books.worst_gap) / books.largest),
+                    side.began_anew ? explain(side)
+                                    : "the partner answers or books there what is wrong"),
         time);
   }
+}
+
+// Why energy is made or lost at an interface, what is likeliest first.
+std::string CoupledRun::explain(const CoupledSide& side) const {
+  const std::string wrong = "the partner answers or books what is wrong";
+  if (side.began_anew) {
+    return "the run was resumed, and the partner had saved nothing and began anew; or " + wrong;
+  }
+  if (!scheme_->is_implicit() && !is_replay_) {
+    return "results are those of a coupling that is too loose; take a 'Scheme' that repeats "
+           "windows, or means over windows as loads; or " +
+           wrong;
+  }
+  return fmt::format("{}, since windows are repeated until loads fit to {:g}; or take a smaller "
+                     "'Tolerance', or means over windows as loads",
+                     wrong, settings_.number("Tolerance"));
 }
 
 void CoupledRun::save(Snapshot& snapshot) {
@@ -246,12 +303,14 @@ void CoupledRun::save(Snapshot& snapshot) {
   snapshot.set("coupling/counts", {static_cast<double>(windows_), static_cast<double>(attempts_),
                                    static_cast<double>(most_attempts_)});
   snapshot.set("coupling/loads", {loads_.begin(), loads_.end()});
+  cuts_.save(snapshot);
   scheme_->save(snapshot);
   if (is_parallel_) scale_.save(snapshot);
   for (CoupledSide& side : sides_) {
     const std::string prefix = "coupling/side " + side.name + "/";
     side.books.save(prefix + "interface", snapshot);
     snapshot.set(prefix + "stiffness", side.stiffness);
+    if (side.began_anew) snapshot.set(prefix + "began anew", 1.0);
     if (is_parallel_) side.pace.save(prefix, snapshot);
     on_root(comm_, [&] { side.partner->save(prefix, snapshot); });
   }

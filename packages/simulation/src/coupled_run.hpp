@@ -45,7 +45,8 @@ class CoupledRun {
   /// Whether partners answer what the structure does now: not to motions of a record or of points
   /// at rest.
   bool sees_motion() const { return !is_one_way_ && !is_replay_; }
-  /// @return false if the structure did not converge with the loads that it began with
+  /// @return false if the structure did not converge with the loads that it began with; true if the
+  /// window was accepted, or is cut since no loads fit
   bool make_window(CoupledWindow& window);
   bool repeat(CoupledWindow& window);
   bool repeat_in_parallel(CoupledWindow& window);
@@ -59,7 +60,12 @@ class CoupledRun {
              const Eigen::VectorXd& answer);
   void accept(CoupledWindow& window, int attempts);
   std::string worst_point() const;
-  [[noreturn]] void give_up(const CoupledWindow& window) const;
+  /// Makes the next window shorter because no loads were found for this one.
+  /// @param misses  by how much loads and answers differed, attempt by attempt
+  void cut(CoupledWindow& window, const std::vector<double>& misses);
+  [[noreturn]] void give_up(const CoupledWindow& window, const std::vector<double>& misses) const;
+  void begin_side(CoupledSide& side, const model::State& state, bool goes_on);
+  std::string explain(const CoupledSide& side) const;
   void balance(const CoupledSide& side, analysis::AnalysisReport& report, double time);
   void close_books(analysis::AnalysisReport& report, double time);
   double latest_end(double start) const;
@@ -80,6 +86,7 @@ class CoupledRun {
   int windows_ = 0;
   int attempts_ = 0;
   int most_attempts_ = 0;
+  WindowCuts cuts_;
 };
 
 }  // namespace culm::simulation

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace culm::simulation {
@@ -12,6 +13,9 @@ namespace {
 using coupling::bit;
 using Eigen::VectorXd;
 using port::Quantity;
+
+// Of a window of several steps, what is tried at the least.
+constexpr double smallest_part = 1.0 / 1024.0;
 
 // Of a window: how near two ends of it may be to count as one.
 constexpr double same_end = 1e-9;
@@ -47,6 +51,19 @@ void foresee(const Pace& pace, const std::vector<double>& velocity, coupling::Wi
 
 }  // namespace
 
+void WindowCuts::save(Snapshot& snapshot) const {
+  snapshot.set("coupling/cuts", {static_cast<double>(count), shortest, length, end});
+}
+
+void WindowCuts::restore(const Snapshot& snapshot) {
+  if (!snapshot.has("coupling/cuts")) return;
+  const std::span<const double> kept = snapshot.numbers("coupling/cuts", 4);
+  count = static_cast<int>(kept[0]);
+  shortest = kept[1];
+  length = kept[2];
+  end = kept[3];
+}
+
 void CoupledWindow::start(int number, double latest) {
   number_ = number;
   start_ = stepper_.time();
@@ -70,6 +87,34 @@ void CoupledWindow::go_back() {
 void CoupledWindow::accept() {
   if (!length_) stepper_.accept();
   is_open_ = is_ahead_ = false;
+  if (cuts_.length == 0.0) return;
+  // parts grow again, as steps do
+  if (end_ >= whole_end() - same_end * *length_) cuts_.end = 0.0;
+  cuts_.length *= 2.0;
+  if (cuts_.length >= *length_) cuts_.length = cuts_.end = 0.0;
+}
+
+bool CoupledWindow::cut() {
+  report_.accepted = false;
+  double next = cuts_.length > 0.0 || !length_ ? cuts_.length : *length_;
+  bool is_possible = false;
+  if (length_) {
+    constexpr double shorter = 0.75;  // the last part may have been shorter than others
+    while (next > shorter * length()) next *= 0.5;
+    go_back();
+    cuts_.end = whole_end();
+    cuts_.length = next;
+    is_possible = next >= smallest_part * *length_;
+  } else {
+    stepper_.fail();
+    is_open_ = false;
+    next = stepper_.proposal() - start_;
+    is_possible = !stepper_.is_exhausted();
+  }
+  if (!is_possible) return false;
+  cuts_.shortest = cuts_.count == 0 ? next : std::min(cuts_.shortest, next);
+  ++cuts_.count;
+  return true;
 }
 
 void CoupledWindow::abandon() {
@@ -139,9 +184,18 @@ void CoupledWindow::enter() {
   }
 }
 
+// Where a window of several steps ends if it is not cut.
+double CoupledWindow::whole_end() const {
+  return cuts_.end > 0.0 ? cuts_.end : std::min(start_ + *length_, stepper_.final_time());
+}
+
 double CoupledWindow::proposal() const {
-  const double wanted =
-      length_ ? std::min(start_ + *length_, stepper_.final_time()) : stepper_.proposal();
+  double wanted = length_ ? whole_end() : stepper_.proposal();
+  if (cuts_.length > 0.0) {
+    // parts end at fractions of the window, where the grid of the steps has no slivers
+    const double parts = std::ceil((wanted - start_) / cuts_.length - same_end) - 1.0;
+    wanted -= std::max(0.0, parts) * cuts_.length;
+  }
   return latest_ < wanted - same_end * (wanted - start_) ? latest_ : wanted;
 }
 

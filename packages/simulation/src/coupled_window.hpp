@@ -13,14 +13,26 @@
 
 namespace culm::simulation {
 
+/// Windows that were made shorter because structure and partners did not agree.
+struct WindowCuts {
+  int count = 0;
+  double shortest = 0.0;  ///< that was tried then [s]
+  double length = 0.0;    ///< of the parts of a window of several steps [s]; zero: it is whole
+  double end = 0.0;       ///< of that window [s]
+
+  void save(Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
+};
+
 /// One step, or several where the deck has windows: then it goes back by a copy of its start.
 /// Collective.
 class CoupledWindow {
  public:
   /// @param length  of windows of several steps [s]; none: each step is one
+  /// @param cuts  those so far; must live as long
   CoupledWindow(analysis::Stepper& stepper, assembly::System& system,
-                std::vector<CoupledSide>& sides, std::optional<double> length)
-      : stepper_(stepper), system_(system), sides_(sides), length_(length) {}
+                std::vector<CoupledSide>& sides, std::optional<double> length, WindowCuts& cuts)
+      : stepper_(stepper), system_(system), sides_(sides), length_(length), cuts_(cuts) {}
 
   /// Before the first window of an analysis, or of what is left of it.
   void enter();
@@ -37,6 +49,10 @@ class CoupledWindow {
   void abandon();
   /// The structure does not converge, whatever the partners say: gives up, or tries less.
   void fail();
+  /// After go(): structure and partners do not agree on this window, so that the next one is to be
+  /// shorter. @return false if there is no shorter one: the smallest step of the deck, or of windows
+  /// of several steps a thousandth, was tried
+  bool cut();
 
   /// How the points of each side moved.
   std::vector<coupling::Window> about(int attempt) const;
@@ -53,6 +69,7 @@ class CoupledWindow {
   const analysis::StepReport& report() const { return report_; }
 
  private:
+  double whole_end() const;
   double proposal() const;
   bool go_in_one();
   bool go_in_steps();
@@ -64,6 +81,7 @@ class CoupledWindow {
   assembly::System& system_;
   std::vector<CoupledSide>& sides_;
   std::optional<double> length_;
+  WindowCuts& cuts_;
   Snapshot memory_ = Snapshot(Snapshot::Use::memory);
   bool is_ahead_ = false;  // steps of the window have been accepted
   bool is_open_ = false;   // its only step has been attempted

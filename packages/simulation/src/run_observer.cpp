@@ -196,7 +196,13 @@ bool RunObserver::write_checkpoint() {
   if (served_ != nullptr) served_->save(snapshot);
   files_.save(snapshot);
   checkpoints_->write(snapshot);
+  kept_ = stepper_->time();
   return true;
+}
+
+std::string RunObserver::way_on() const {
+  if (!kept_) return {};
+  return fmt::format("\nGo on with: {}, from {:g} s", checkpoints_->way_on(), *kept_);
 }
 
 void RunObserver::save(Snapshot& snapshot) const {

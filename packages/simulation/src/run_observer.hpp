@@ -73,6 +73,8 @@ class RunObserver final : public analysis::Observer {
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
   /// @return whether it did
   bool write_checkpoint();
+  /// How to go on from the last checkpoint, in a line that begins anew; empty if there is none.
+  std::string way_on() const;
   void finish(const analysis::AnalysisReport& report, const model::State& state) override;
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
@@ -114,6 +116,7 @@ class RunObserver final : public analysis::Observer {
   std::string name_;                      // of the analysis
   std::size_t number_ = 0;
   bool is_last_ = false;
+  std::optional<double> kept_;  // time of the last checkpoint [s]
   bool has_stepped_ = false;  // the analysis has something to save
   bool is_recorded_ = false;  // the last accepted state is on disk, or none to keep
   bool has_started_ = false;  // the state at the start is on disk

@@ -1,6 +1,7 @@
 #include <culm/analysis/dynamics.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/version.hpp>
+#include <culm/coupling/partner_error.hpp>
 #include <culm/deck/resolved.hpp>
 #include <culm/output/folder_lock.hpp>
 #include <culm/port/report.hpp>
@@ -165,6 +166,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                          ? "this run was led by another program: say by --at where it comes to"
                          : "this run was led by nobody, and cannot follow another program now");
   }
+  if (coupled != nullptr) checkpoints.begin_early();
   // from here on there is something on the disk
   const std::unique_ptr<Results> results = open_results(settings, &checkpoints, from);
   RunObserver& observer = results->observer;
@@ -327,10 +329,14 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     const analysis::AnalysisReport report = make_steps();
     observer.finish(report, state);
     return report;
+  } catch (const PartnerError& error) {
+    // it cannot save what it is any more: what counts is the checkpoint that it shares
+    throw PartnerError(error.what() + observer.way_on());
   } catch (const Error& error) {
     // other tolerances or steps may find the way that these did not
     if (is_numerical(error) && served == nullptr) write_last_checkpoint(observer);
-    throw;
+    if (coupled == nullptr || dynamic_cast<const NumericalError*>(&error) == nullptr) throw;
+    throw NumericalError(error.what() + observer.way_on());
   }
 }
 
@@ -393,6 +399,8 @@ void Simulation::write_last_checkpoint(RunObserver& observer) const {
   try {
     observer.write_checkpoint();
   } catch (const FileError& second) {
+    parts_->log.warning(second.what());
+  } catch (const PartnerError& second) {
     parts_->log.warning(second.what());
   }
 }

@@ -1,7 +1,23 @@
-"""culm from Python: simulations step by step, results as frames and arrays, and the verbs written in Python."""
+"""culm from Python: simulations step by step, and results as frames and arrays.
+
+    wing = culm.Simulation("wing.xml")          # the model of a deck
+    stepper, port = wing.begin(), wing.port("skin")
+    while not stepper.is_at_end:
+        port.set(force)                         # (points, 3) [N]
+        if not stepper.attempt():
+            raise RuntimeError(stepper.failure)
+        stepper.accept()                        # port.motion, .position, .rotation, .velocity, .acceleration
+
+    culm.history("results/wing")                # of a run, as a pandas frame
+    culm.read("results/wing")                   # all its results
+
+help(culm.Simulation), help(culm.Stepper), help(culm.Port) tell the rest. Programs that speak with culm as partners or lead it
+over a socket import `culm_partner`, which stands beside this package.
+"""
 
 _LIBRARY = ("Simulation", "Stepper", "Snapshot", "Port", "Error", "UsageError", "InputError", "NumericalError",
             "NonFiniteError", "FileError")
+__all__ = [*_LIBRARY, "history", "read"]
 
 
 def __getattr__(name):
@@ -10,6 +26,10 @@ def __getattr__(name):
         raise AttributeError(f"module 'culm' has no attribute '{name}'")
     import _culm
     return getattr(_culm, name)
+
+
+def __dir__():
+    return sorted([*globals(), *_LIBRARY])
 
 
 def history(folder):

@@ -35,6 +35,8 @@ Frame answer(const Window& window, const Eigen::VectorXd& loads);
 std::string objection_to(const Eigen::VectorXd& answer, int points);
 /// What is wrong with what a partner says of its energy; empty if nothing is.
 std::string objection_to(const Books& books);
+/// The same of a partner that said something else before: books do not come and go.
+std::string objection_to(const Books& books, const Books& before);
 /// Throws PartnerError for another number of loads and for what is no number.
 Eigen::VectorXd read_answer(const Frame& frame, int points);
 

@@ -15,6 +15,9 @@
 
 namespace culm::coupling {
 
+/// In a snapshot, after the prefix of a partner that has kept nothing of itself: it begins anew.
+constexpr const char* kept_nothing = "kept nothing";
+
 /// Speaks the wire format over a channel that is opened when the coupling begins.
 class RemotePartner final : public Partner {
  public:

@@ -26,6 +26,8 @@ class Scheme {
   virtual Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& answer) = 0;
   /// The window is over: the next call belongs to another one.
   virtual void end_window() {}
+  /// The window is given up: as if next had not been called in it.
+  virtual void drop_window() {}
   /// Unknowns and answers are measured in other units from now on: each so many times what it was.
   virtual void rescale(const Eigen::VectorXd& factors) { (void)factors; }
   /// What it has learnt, between windows; under names that begin with "coupling/scheme".
@@ -62,6 +64,7 @@ class Aitken final : public Scheme {
   explicit Aitken(double first) : factor_(first) {}
   Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& answer) override;
   void end_window() override { before_.resize(0); }
+  void drop_window() override { before_.resize(0); }
   void rescale(const Eigen::VectorXd& factors) override;
   void save(Snapshot& snapshot) const override;
   void restore(const Snapshot& snapshot) override;
@@ -85,6 +88,7 @@ class QuasiNewton final : public Scheme {
       : first_(first), reuse_(reuse), filter_(filter) {}
   Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& answer) override;
   void end_window() override;
+  void drop_window() override;
   void rescale(const Eigen::VectorXd& factors) override;
   void save(Snapshot& snapshot) const override;
   void restore(const Snapshot& snapshot) override;

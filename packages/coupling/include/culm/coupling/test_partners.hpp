@@ -39,6 +39,7 @@ enum class Fault {
   old,              ///< the forces of the window before the first wrong one
   wrong_energy,     ///< books of an energy that nobody has seen
   infinite_energy,  ///< books that are infinite
+  lost_books,       ///< no books any more
   slow              ///< right answers, a tenth of a second late
 };
 

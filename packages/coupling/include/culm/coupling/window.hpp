@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,8 @@ struct Beginning {
 struct Books {
   double energy = 0.0;      ///< that it holds more than at the start
   double dissipated = 0.0;  ///< that it has turned into heat
+
+  bool are_kept() const { return !std::isnan(energy); }
 };
 
 }  // namespace culm::coupling

@@ -1,0 +1,1 @@
+../client/culm_partner.py
