@@ -29,7 +29,7 @@ PartnerProgram::PartnerProgram(std::string command, std::string address)
     : command_(std::move(command)), address_(std::move(address)), process_(fork()) {
   if (process_ < 0) throw FileError(command_, "cannot be started");
   if (process_ == 0) {
-    setpgid(0, 0);                  // so that it can be ended with all that it starts
+    setpgid(0, 0);                     // so that it can be ended with all that it starts
     prctl(PR_SET_PDEATHSIG, SIGTERM);  // also where this program is killed
     execl("/bin/sh", "sh", "-c", command_.c_str(), nullptr);
     _exit(127);

@@ -539,8 +539,9 @@ class Partners(CouplingTest):
 
     def test_that_save_nothing(self):
         self.start_partner("forget")
-        self.culm("run", self.remote, "--output", "forgot", "--quiet", "--set", "Output/Checkpoint Interval=0",
-                  code=FAILED_PARTNER)
+        # so soft that the water still moves when its program is killed
+        self.culm("run", self.remote, "--output", "forgot", "--quiet", "--set", "Output/Checkpoint Interval=0", "--set",
+                  "Sections/pole/Young Modulus=5e9", code=FAILED_PARTNER)
         self.start_partner("anew")
         errors = re.sub(r"\s+", " ", self.culm("resume", "forgot", "--quiet", code=8))
         self.assertIn("the partner 'water' saved nothing with the checkpoint: it begins anew", errors)
@@ -593,6 +594,22 @@ class Partners(CouplingTest):
         self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
         self.culm("run", self.deck, "--output", "here", "--quiet")
         self.same("here", "slow")
+
+    def test_that_culm_starts_and_ends(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet")
+        words = ("run", self.remote, "--quiet", "--with")
+        partner = f"{sys.executable} {__file__} --partner {self.address} {self.folder} ''"
+        self.culm(*words, partner, "--output", "there")
+        self.same("here", "there")
+        began = time.monotonic()
+        errors = self.culm(*words, "echo $$ > pid; exit 3", "--output", "early", code=FAILED_PARTNER)
+        self.assertIn("'echo $$ > pid; exit 3' ended with code 3 before it came", errors)
+        self.culm(*words, "echo $$ > pid; exec sleep 100", "--output", "late", "--set", "Coupling/Partners/water/Patience=0.5",
+                  code=FAILED_PARTNER)
+        self.assertFalse(pathlib.Path(f"/proc/{int((self.folder / 'pid').read_text())}").exists())
+        self.assertLess(time.monotonic() - began, 60.0)  # where patience is 100 s
+        errors = self.culm("run", self.deck, "--with", "true", "--output", "nobody", code=2)
+        self.assertIn("--with needs a partner of type 'Socket'", errors)
 
     def test_that_never_come(self):
         errors = self.culm("run", self.remote, "--output", "alone", "--quiet", "--set",

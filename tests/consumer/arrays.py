@@ -3,6 +3,7 @@
 import sys
 import threading
 import time
+import warnings
 
 import culm
 import numpy as np
@@ -51,9 +52,25 @@ assert [a.shape for a in seen[0]] == [(3, 3), (3, 3, 3), (3, 6), (3, 6), (3, 6)]
 assert np.abs(seen[0][4]).max() > 1e-6
 assert stepper.final_time == 1.0 and not stepper.is_exhausted and mast.broken_promises == ""
 
-refused(culm.UsageError, "shape (points, 3)", net.set, force[:2].T)
-refused(culm.UsageError, "takes 9 values of force, got 6", net.set, force[:2])
-refused(culm.UsageError, "shape (points, 3)", net.set, force.ravel())
+refused(culm.UsageError, "force must have the shape (3, 3), and has (3, 2)", net.set, force[:2].T)
+refused(culm.UsageError, "force must have the shape (3, 3), and has (2, 3)", net.set, force[:2])
+refused(culm.UsageError, "force must have the shape (3, 3), and has (9,)", net.set, force.ravel())
+
+# why an attempt failed, and what culm warns of
+assert stepper.failure == ""
+net.set(1e12 * force)
+assert not stepper.attempt() and "diverged, from 0 to 0.02, after" in stepper.failure, stepper.failure
+stepper.discard()
+net.set(force, force)
+assert stepper.attempt() and stepper.failure == ""
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter("always")
+    coupled = culm.Simulation(deck, ["Coupling/Partners/wind/Type=Dashpot", "Coupling/Partners/wind/Damping=1"])
+    coupled.begin()
+assert [str(one.message) for one in told] == ["the partners of the deck do not act: a program makes the steps"]
+assert told[0].filename == __file__ and "warning: the partners" in coupled.messages()
+assert {"Simulation", "Stepper", "Port"} <= set(culm.__all__) and set(culm.__all__) <= set(dir(culm))
+
 broken = force.copy()
 broken[1, 2] = np.nan
 refused(culm.NonFiniteError, "point 1", net.set, broken)

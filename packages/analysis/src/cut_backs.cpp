@@ -48,8 +48,7 @@ std::string CutBacks::hint(double step) const {
       "{:.0f} of {:.0f} attempts at a step failed and were cut back, {:.0f} because {}; steps down "
       "to "
       "{:.3g} s were needed where {:g} s are asked for.\n",
-      rejected_, attempts, reasons_[most], reason(static_cast<StepEnd>(most)),
-      least_taken_, step);
+      rejected_, attempts, reasons_[most], reason(static_cast<StepEnd>(most)), least_taken_, step);
   const double cosine = reversals_ / rejected_;
   const double degrees = 180.0 / std::numbers::pi;
   if (static_cast<StepEnd>(most) == StepEnd::converged) {

@@ -151,9 +151,10 @@ std::string objection_to(const Books& books) {
 std::string objection_to(const Books& books, const Books& before) {
   if (const std::string objection = objection_to(books); !objection.empty()) return objection;
   if (books.are_kept() == before.are_kept()) return {};
-  return fmt::format("its energy is {} J, its heat {} J, and was {} J and {} J before: it keeps "
-                     "books in all windows, or in none",
-                     books.energy, books.dissipated, before.energy, before.dissipated);
+  return fmt::format(
+      "its energy is {} J, its heat {} J, and was {} J and {} J before: it keeps "
+      "books in all windows, or in none",
+      books.energy, books.dissipated, before.energy, before.dissipated);
 }
 
 Eigen::VectorXd read_answer(const Frame& frame, int points) {

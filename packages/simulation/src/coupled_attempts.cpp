@@ -290,15 +290,18 @@ void CoupledRun::give_up(const CoupledWindow& window, const std::vector<double>&
                         cuts_.count, cuts_.shortest);
   }
   if (!is_falling(misses)) {
-    text += "What they differ by does not fall from attempt to attempt, so that more of them are of "
-            "no use.\n"
-            "Likely cause: the partner's answer depends on more than the motion that it is asked "
-            "for, such as on attempts before; or it has another sign or size than it should.\n";
+    text +=
+        "What they differ by does not fall from attempt to attempt, so that more of them are of "
+        "no use.\n"
+        "Likely cause: the partner's answer depends on more than the motion that it is asked "
+        "for, such as on attempts before; or it has another sign or size than it should.\n";
   }
-  text += fmt::format("Try: {}{}", is_robust ? "" : "'Scheme' = Quasi Newton, which is the most robust one, ",
+  text += fmt::format("Try: {}{}",
+                      is_robust ? "" : "'Scheme' = Quasi Newton, which is the most robust one, ",
                       is_falling(misses) ? "more 'Most Attempts', " : "");
-  throw NumericalError(text + "a larger 'Tolerance', a smaller 'Step' or 'Window'; or the loads "
-                              "grow with the motion, as in flutter.");
+  throw NumericalError(text +
+                       "a larger 'Tolerance', a smaller 'Step' or 'Window'; or the loads "
+                       "grow with the motion, as in flutter.");
 }
 
 }  // namespace culm::simulation

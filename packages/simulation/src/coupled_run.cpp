@@ -272,12 +272,12 @@ void CoupledRun::balance(const CoupledSide& side, analysis::AnalysisReport& repo
   } else if (scheme_->is_implicit() && std::abs(books.worst_gap) > notable_gap * books.largest) {
     findings_.broken(
         "interface",
-        fmt::format("the interface '{}' {} {}, {} of the most that is exchanged in a window, "
-                    "though little over the run: {}",
-                    side.name, books.worst_gap < 0.0 ? "loses" : "makes", worst,
-                    percent(std::abs(books.worst_gap) / books.largest),
-                    side.began_anew ? explain(side)
-                                    : "the partner answers or books there what is wrong"),
+        fmt::format(
+            "the interface '{}' {} {}, {} of the most that is exchanged in a window, "
+            "though little over the run: {}",
+            side.name, books.worst_gap < 0.0 ? "loses" : "makes", worst,
+            percent(std::abs(books.worst_gap) / books.largest),
+            side.began_anew ? explain(side) : "the partner answers or books there what is wrong"),
         time);
   }
 }
@@ -293,9 +293,10 @@ std::string CoupledRun::explain(const CoupledSide& side) const {
            "windows, or means over windows as loads; or " +
            wrong;
   }
-  return fmt::format("{}, since windows are repeated until loads fit to {:g}; or take a smaller "
-                     "'Tolerance', or means over windows as loads",
-                     wrong, settings_.number("Tolerance"));
+  return fmt::format(
+      "{}, since windows are repeated until loads fit to {:g}; or take a smaller "
+      "'Tolerance', or means over windows as loads",
+      wrong, settings_.number("Tolerance"));
 }
 
 void CoupledRun::save(Snapshot& snapshot) {

@@ -83,7 +83,7 @@ struct CoupledSide {
   Eigen::VectorXd velocity;  ///< at the start of the window, of schemes that are watched
   Pace pace;
   coupling::LooseWatch loose;
-  std::string danger;      ///< what its loose coupling was warned of
+  std::string danger;       ///< what its loose coupling was warned of
   bool began_anew = false;  ///< when the run was resumed: it had kept nothing
 
   Eigen::Index count() const { return 6 * static_cast<Eigen::Index>(port->size()); }

@@ -50,8 +50,8 @@ class CoupledWindow {
   /// The structure does not converge, whatever the partners say: gives up, or tries less.
   void fail();
   /// After go(): structure and partners do not agree on this window, so that the next one is to be
-  /// shorter. @return false if there is no shorter one: the smallest step of the deck, or of windows
-  /// of several steps a thousandth, was tried
+  /// shorter. @return false if there is no shorter one: the smallest step of the deck, or of
+  /// windows of several steps a thousandth, was tried
   bool cut();
 
   /// How the points of each side moved.

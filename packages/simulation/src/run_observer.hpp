@@ -117,10 +117,10 @@ class RunObserver final : public analysis::Observer {
   std::size_t number_ = 0;
   bool is_last_ = false;
   std::optional<double> kept_;  // time of the last checkpoint [s]
-  bool has_stepped_ = false;  // the analysis has something to save
-  bool is_recorded_ = false;  // the last accepted state is on disk, or none to keep
-  bool has_started_ = false;  // the state at the start is on disk
-  bool has_history_ = false;  // the history has a row
+  bool has_stepped_ = false;    // the analysis has something to save
+  bool is_recorded_ = false;    // the last accepted state is on disk, or none to keep
+  bool has_started_ = false;    // the state at the start is on disk
+  bool has_history_ = false;    // the history has a row
   LoadWatch loads_;
   RangeWatch ranges_;
   StripWatch strips_;
