@@ -856,6 +856,8 @@ class Decks(CouplingTest):
                 errors = self.fault(name, 8, "Mass=5")
                 self.assertRegex(errors, "the interface 'fault' (makes|loses) ")
                 self.assertIn("the partner answers or books", errors)
+                self.assertNotIn("too loose", errors)  # windows are repeated
+                self.assertNotRegex(errors, r"[0-9]e\+[0-9]+ %")
                 self.assertEqual(self.rows("fault"), 25)
 
     def test_with_a_lie_in_one_window_of_many(self):
@@ -863,6 +865,15 @@ class Decks(CouplingTest):
         errors = self.fault("Wrong Energy", 8, "Mass=5", "Window=7", more=["Loads/push/Force={6000, 1000, 0}"])
         self.assertRegex(errors, "the interface 'fault' makes from 0.14 s to 0.16 s 1 J, .* % of the most that is exchanged in a "
                          "window")
+
+    def test_whose_coupling_is_loose(self):
+        """What a partner's mass does is not laid to the mesh."""
+        deck = self.write("steps.xml", self.deck.read_text().replace('<Parameter name="Window" value="0.02"/>', ""))
+        errors = self.culm("run", deck, "--output", "loose", "--quiet", "--set", "Coupling/Scheme=Explicit", "--set",
+                           "Coupling/Partners/water/Mass=100", code=4)
+        self.assertRegex(errors, "Likely cause: the coupling, not the structure. Partner 'water': it answers like a mass of ")
+        self.assertEqual(errors.count("Likely cause"), 1)
+        self.assertRegex(errors, r"Go on with: culm resume loose, from [0-9.]+ s\n")
 
     def test_whose_windows_are_cut(self):
         """Of a damper c at a mass m each try makes an error c h / 2 m times as large: in short windows it vanishes."""

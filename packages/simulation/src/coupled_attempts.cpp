@@ -251,7 +251,7 @@ void CoupledRun::watch(CoupledWindow& window, const std::vector<coupling::Window
       window.go();  // as it was, bit by bit
     }
     if (const std::string danger = side.loose.warning(); !danger.empty()) {
-      side.danger = danger;
+      if (side.danger.empty()) side.danger = danger;
       findings_.warn("loose coupling", "partner '" + side.name + "': " + danger, window.start());
     }
   }

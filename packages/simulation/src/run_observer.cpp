@@ -184,6 +184,11 @@ void RunObserver::watch_turns(double time, const model::State& state) {
   if (share <= 1.0) return;
   turn_ = turns_->find(state.next, share);
   turn_.place = fmt::format("at {:.6g} of '{}'", time, name_);
+  // an error that grows is told with its largest value, at the end; that nothing is true any more at
+  // once
+  if (!turn_.is_meaningless() || reference_turn_.is_meaningless()) return;
+  if (!has_told_turn_) findings_.broken("turned element", turn_.warning(), time);
+  has_told_turn_ = true;
 }
 
 bool RunObserver::write_checkpoint() {
@@ -228,6 +233,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   snapshot.set_text("run/held row", worst_held_row_);
   snapshot.set_text("run/certificates", certificates_);
   turn_.save(snapshot);
+  if (has_told_turn_) snapshot.set("run/has told turn", 1.0);
   std::vector<double> steps;
   for (const auto& row : steps_.rows) steps.insert(steps.end(), row.begin(), row.end());
   snapshot.set("run/steps", std::move(steps));
@@ -270,6 +276,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
   worst_held_row_ = snapshot.text("run/held row");
   certificates_ = snapshot.text("run/certificates");
   turn_.restore(snapshot);
+  has_told_turn_ = snapshot.has("run/has told turn");
   const std::span<const double> steps = snapshot.numbers("run/steps");
   const std::size_t columns = steps_.columns.size();
   for (std::size_t i = 0; i + columns <= steps.size(); i += columns) {
@@ -325,6 +332,7 @@ void RunObserver::report_rounding() {
 
 // Once, and not again what was said of the reference.
 void RunObserver::report_turns(double time) {
+  if (has_told_turn_) return;
   constexpr double noticeable = 1.05;
   const double told = reference_turn_.share > 1.0 ? noticeable * reference_turn_.share : 1.0;
   if (turn_.share <= told) return;

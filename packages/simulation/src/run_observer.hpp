@@ -127,6 +127,7 @@ class RunObserver final : public analysis::Observer {
   Balance balance_;
   std::string certificates_;
   std::optional<analysis::ElementTurns> turns_;  // of the analysis
+  bool has_told_turn_ = false;  // that an element is turned so far that results mean nothing
   std::vector<output::NamedScalar> numbers_;
   // the accepted steps, for the report; analyses by number in the deck
   output::NamedTable steps_{
