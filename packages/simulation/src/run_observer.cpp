@@ -184,8 +184,8 @@ void RunObserver::watch_turns(double time, const model::State& state) {
   if (share <= 1.0) return;
   turn_ = turns_->find(state.next, share);
   turn_.place = fmt::format("at {:.6g} of '{}'", time, name_);
-  // an error that grows is told with its largest value, at the end; that nothing is true any more at
-  // once
+  // an error that grows is told with its largest value, at the end; that nothing is true any more
+  // at once
   if (!turn_.is_meaningless() || reference_turn_.is_meaningless()) return;
   if (!has_told_turn_) findings_.broken("turned element", turn_.warning(), time);
   has_told_turn_ = true;
