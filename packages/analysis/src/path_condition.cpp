@@ -58,6 +58,7 @@ void PathCondition::begin(double size) {
   size_ = size;
   first_increment_.reset();
   has_begun_ = false;
+  missing_iterations_ = 0;
   tangent_.reset();
 }
 
@@ -80,6 +81,7 @@ double PathCondition::begin_branch(const model::State& state, const Vector& moti
   begin(std::abs(size));
   present_ = PathControl::normal_plane;
   has_begun_ = true;
+  missing_iterations_ = 3;
   read_slots(system_.linear_motion(state, motion, 1.0), direction_);
   // a direction has no sense: the watched displacement grows, or else the largest of all
   Eigen::Index row = 0, node = 0;
@@ -195,6 +197,7 @@ double PathCondition::level_increment(const model::State& state, const Vector& r
   read_slots(system_.linear_motion(state, response, 1.0), response_);
   read_slots(system_.linear_motion(state, flexibility, 1.0), flexibility_);
   read_way(state);
+  --missing_iterations_;
   if (has_begun_) return correct();
   has_begun_ = true;
   return predict();
@@ -203,6 +206,9 @@ double PathCondition::level_increment(const model::State& state, const Vector& r
 double PathCondition::violation(const model::State& state) {
   // before the first iteration nothing is known but that there is a way to go
   if (first_increment_) return 1.0;
+  // at a crossing hardly a force resists the move, though the level is that of the other path
+  // still, and that is what the next step goes by
+  if (missing_iterations_ > 0) return 1.0;
   read_way(state);
   double gone = 0.0;
   if (present_ == PathControl::displacement) {

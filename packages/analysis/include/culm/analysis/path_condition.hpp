@@ -105,6 +105,7 @@ class PathCondition final : public solver::LevelCondition {
   double size_ = 0.0;                      ///< of this attempt [m]
   std::optional<double> first_increment_;  ///< the size is not known yet
   bool has_begun_ = false;                 ///< an iteration of the attempt was made
+  int missing_iterations_ = 0;             ///< that an attempt off the path has to make at least
   std::optional<PathTangent> tangent_;
   Motion previous_;     ///< the last accepted increment; no columns before the first
   Motion direction_;    ///< unit vector in which the attempt began
