@@ -24,21 +24,26 @@ from transformations import Reference, Reorder, Scale, Turn, Unsuitable, find, n
 
 # Powers of two change no digit, so another unit of mass gives the same digits but for logarithms of determinants; that of
 # time moves shifts of eigenvalues; lengths weigh forces against moments, where Newton's method judges residuals.
+SMALL = Scale(1.0, 2.0**-14)
 CHANGES = (
     (Scale(2.0**10, 1.0), 1e-12),
     (Scale(1.0, 1.0, 2.0**-7), 2e-8),
     (Scale(1.0, 2.0**10), 2e-8),
+    (SMALL, 1e-6),
     (Turn(), 2e-8),
     (Reorder(), 2e-8),
 )
 DECKS = (
-    "beam/alternate_masses", "beam/coil_spring", "beam/composite_cantilever", "beam/fidelity", "beam/foldable_ring",
+    "beam/alternate_masses", "beam/coil_spring", "beam/composite_cantilever", "beam/elastica_shear", "beam/fidelity", "beam/foldable_ring",
     "beam/follower_line_loads", "beam/portal_frame", "beam/right_angle_frame", "beam/roll_up_helical", "beam/tapered_tower",
     "buckling/column", "contact/pressed_rod", "control/variable_speed", "flight/spaghetti_3d",
     "heat/bimetal_plate", "hybrid/tube_transition", "joint/four_bar_2", "joint/initial_displacements",
     "joint/moving_supports", "joint/points_along_beams", "joint/spring_statics", "joint/torsion", "modes/damped_frame",
     "modes/overhung_disk", "plasticity/bent_bar", "sequence/release", "shell/angle_ply", "shell/hypar",
 )  # fmt: skip
+# In models of tenths of a millimetre moments weigh so little beside forces that steps end before they are balanced as well as
+# at full size: a path takes other steps, an energy balance misses its promise and says so.
+LEFT_OUT = {("beam/right_angle_frame", SMALL), ("joint/initial_displacements", SMALL)}
 TABLE_COLUMNS = ("frequency [Hz]", "damping ratio", "factor", "critical level")
 
 
@@ -143,6 +148,8 @@ class Trial:
         one = self.run(root)
         print(deck)
         for change, tolerance in CHANGES:
+            if (deck.removesuffix(".xml"), change) in LEFT_OUT:
+                continue
             try:
                 other = self.run(change.deck(root, self.reference))
                 found = differences(one, other, change)

@@ -54,7 +54,8 @@ bool resists(const assembly::System& system, const std::optional<Vector>& direct
   for (double value : system.matrix()->values()) largest = std::max(largest, std::abs(value));
   Vector force(direction->rows());
   system.matrix()->multiply(*direction, force);
-  return force.largest() > singular_ratio * system.comm().max(largest);
+  return force.largest() > singular_ratio * system.comm().max(largest) ||
+         resistance(*system.matrix(), *direction) > least_resistance;
 }
 
 }  // namespace
@@ -132,7 +133,9 @@ void PostMortem::refuse_singular(const model::State& state) {
     direction.scale(1.0 / probe.largest());
   }
   // without useful factors no step can be solved, whatever the ratio
-  if (solves && ratio > singular_ratio) return;
+  if (solves &&
+      (ratio > singular_ratio || resistance(*system.matrix(), direction) > least_resistance))
+    return;
   throw NumericalError(system.comm().broadcast(fmt::format(
       "The equations are singular at {} {:.6g}, before the first step.\n{}", time_word(),
       state.time, WeakDirection(context_.system, state).singular_cause(direction))));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace culm::analysis {
 
@@ -30,6 +31,18 @@ std::optional<Vector> softest_direction(solver::LinearSolver& linear, const asse
     std::swap(direction, response);
   }
   return direction;
+}
+
+double resistance(const assembly::Matrix& matrix, const Vector& direction) {
+  Vector force(matrix.rows());
+  matrix.multiply(direction, force);
+  const double energy = std::abs(direction.dot(force));
+  const std::vector<double> diagonal = matrix.diagonal();
+  const auto forces = force.values();
+  const auto motions = direction.values();
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = std::abs(diagonal[i]) * motions[i];
+  const double each = direction.dot(force);
+  return each > 0.0 ? energy / each : 0.0;
 }
 
 }  // namespace culm::analysis

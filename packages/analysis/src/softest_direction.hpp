@@ -16,4 +16,13 @@ assembly::Vector irregular(const assembly::Rows& rows);
 std::optional<assembly::Vector> softest_direction(solver::LinearSolver& linear,
                                                   const assembly::Rows& rows);
 
+/// |v . A v| over the sum of |a_ii| v_i^2: by how much a direction is resisted, of what would
+/// resist each of its motions by itself. Of energies, so it does not depend on the units of lengths
+/// and rotations; 0 where there is nothing to compare with. Collective.
+double resistance(const assembly::Matrix& matrix, const assembly::Vector& direction);
+
+/// What is resisted by less is not resisted: several digits above rounding, and below slender
+/// beams.
+constexpr double least_resistance = 1e-13;
+
 }  // namespace culm::analysis

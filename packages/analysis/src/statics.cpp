@@ -3,6 +3,7 @@
 
 #include "mirrored_faces.hpp"
 #include "shear_range.hpp"
+#include "softest_direction.hpp"
 
 #include <fmt/format.h>
 
@@ -151,7 +152,8 @@ void Statics::do_restore(const Snapshot& snapshot) {
 bool Statics::is_singular() {
   constexpr double rounding = 1e-13;
   assembly::Vector motion(system().layout().rows());
-  return context().linear.weakest_direction(motion) < rounding;
+  return context().linear.weakest_direction(motion) < rounding &&
+         resistance(*system().matrix(), motion) < least_resistance;
 }
 
 void Statics::watch_stability(const StepReport& report) {
