@@ -103,16 +103,16 @@ TEST(Redundancy, TheVerdictOnParallelLoopsDoesNotDependOnTheAxes) {
   Mat3 turn = Mat3::Identity();
   for (int axes = 0; axes < 3; ++axes, turn = turn * turn_once) {
     NodeTable nodes;
-    add_node(nodes, Vec3::Zero());
-    nodes.fix(0, std::bitset<6>("111111"));
     for (const Vec3& centre : centres) add_node(nodes, turn * centre);
+    const int ground = add_node(nodes, Vec3::Zero());
+    nodes.fix(ground, std::bitset<6>("111111"));
     std::vector<Constraint> hinges;
     const auto add = [&](int a, int b, const Vec3& point) {
       hinges.push_back(hinge(nodes, a, b, turn * point, turn));
     };
-    for (int i = 0; i < 3; ++i) add(0, i + 1, Vec3(i, 0.0, 0.0));
+    for (int i = 0; i < 3; ++i) add(ground, i, Vec3(i, 0.0, 0.0));
     for (int bar = 0; bar < 2; ++bar) {
-      for (int i = 0; i < 2; ++i) add(bar + i + 1, bar + 4, Vec3(bar + i, 1.0, 0.0));
+      for (int i = 0; i < 2; ++i) add(bar + i, bar + 3, Vec3(bar + i, 1.0, 0.0));
     }
     const auto sets = find(nodes, hinges);
     ASSERT_EQ(sets.size(), 1U);
