@@ -81,8 +81,9 @@ def safe_name(text):
 def unique_name(text, taken):
     """A safe name that is not taken, by adding a number."""
     name = safe_name(text)
+    taken = {other.lower() for other in taken}
     number = 2
-    while name.lower() in {other.lower() for other in taken}:
+    while name.lower() in taken:
         name = f"{safe_name(text)} {number}"
         number += 1
     return name
