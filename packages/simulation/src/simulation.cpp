@@ -203,7 +203,10 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     }
     if (served != nullptr) served->end("");
   } catch (const Error& error) {
-    if (coupled != nullptr) coupled->end(error.what());
+    // short, and without the command that is for the user: a partner that is stuck does not take a
+    // long message over MPI
+    const std::string why = error.what();
+    if (coupled != nullptr) coupled->end(why.substr(0, why.find("\nGo on with: ")));
     if (served != nullptr) served->end(error.what());
     try {
       observer.end(state, error.what());
