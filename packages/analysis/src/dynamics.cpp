@@ -169,17 +169,19 @@ void Dynamics::fit_motion() {
   }
 }
 
-// On a copy: the state's own energy would change.
+// The velocity is put back: the state's own energy would change.
 void Dynamics::measure_hidden_constraints() {
-  model::State copy = state();
+  model::State& state = this->state();
+  model::Coordinates velocity = state.velocity;
   solver::LinearSolver& linear = context().linear;
   bool sound = true;  // a closed loop may just pass a singular position
   const assembly::VelocityFit fit = system().project_velocity(
-      copy, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
+      state, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = linear.factor() && linear.solve(b, x).is_sound();
         if (!sound) x.fill(0.0);
       });
-  if (sound) certificate_.finish(fit.change, system().comm().max(largest(copy.velocity)));
+  if (sound) certificate_.finish(fit.change, system().comm().max(largest(state.velocity)));
+  state.velocity.swap(velocity);
 }
 
 // Where momenta are kept at all; what is carried moves stiff parts a little more than rounding
