@@ -42,8 +42,10 @@ std::string blame_coupling(std::string text, const std::vector<CoupledSide>& sid
     constexpr std::string_view cause = "Likely cause: ";
     const std::size_t at = text.find(cause);
     if (at != std::string::npos) text.erase(at);
-    return text + fmt::format("{}the coupling, not the structure. Partner '{}': {}.", cause,
-                              side.name, side.danger);
+    return text + fmt::format(
+                      "{}the coupling, not the structure. Partner '{}': {}.\n"
+                      "Try: 'Scheme' = Quasi Newton.",
+                      cause, side.name, side.danger);
   }
   return text;
 }
