@@ -20,7 +20,7 @@ struct PartOfRows {
 
 /// A square matrix on one rank whose values stay where they are: rows and columns have one
 /// numbering, and each entry a source, which tells where its value stands. The sources of a row
-/// follow each other, in some order, and those of the next row follow them.
+/// follow each other; those of the next row need not.
 class BlockRows {
  public:
   /// All rows of a matrix of one rank.

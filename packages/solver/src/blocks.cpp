@@ -36,12 +36,18 @@ Blocks find_blocks(const assembly::CrsMatrix& matrix) {
 Blocks find_blocks(const BlockRows& rows) {
   Blocks blocks;
   std::vector<int> columns, last;
+  std::size_t end = 0;  // of the sources of the row before
   for (int row = 0; row < rows.size(); ++row) {
     columns.clear();
-    rows.for_entries(row, [&](int column, std::size_t) { columns.push_back(column); });
+    bool follows = row > 0;
+    rows.for_entries(row, [&](int column, std::size_t source) {
+      if (columns.empty()) follows = follows && source == end;
+      columns.push_back(column);
+      end = source + 1;
+    });
     std::ranges::sort(columns);
     blocks.rows.push_back(row);
-    if (row > 0 && columns == last) {
+    if (follows && columns == last) {
       ++blocks.sizes.back();
       continue;
     }

@@ -20,7 +20,7 @@ struct Blocks {
 
 /// Those of this rank's rows.
 Blocks find_blocks(const assembly::CrsMatrix& matrix);
-/// Those of rows of one rank; columns rise within a block.
+/// Those of rows of one rank, whose sources follow each other, too; columns rise within a block.
 Blocks find_blocks(const BlockRows& rows);
 
 /// Block of each row, by its global number. @param blocks of all rows
