@@ -22,7 +22,7 @@ using assembly::Vector;
 constexpr double largest_asymmetry_of_change = 1e-3;
 
 // Of a factor, that rounding may take: 0.05 %.
-constexpr double notable_share = 5e-4;
+constexpr double smallest_share = 5e-4;
 
 // Of the factor at which a wall is unstable by itself: long waves are right up to here, and mixed
 // with short ones beyond.
@@ -129,7 +129,7 @@ void normalise(Shape& shape) {
 void warn_of_rounding(const solver::EigenPairs& pairs, double time, Findings& findings) {
   for (std::size_t i = 0; i < pairs.values.size(); ++i) {
     const double share = 0.1 * pairs.rounding[i];
-    if (share < notable_share) continue;
+    if (share < smallest_share) continue;
     const std::string text = fmt::format(
         "rounding leaves the factor of mode {} exact to {:.2g} % only: stiffnesses differ too much "
         "in size",

@@ -12,12 +12,12 @@ namespace {
 
 using solver::StepEnd;
 
-constexpr double notable_share = 0.05;  // of attempts that failed
+constexpr double notable_rejections = 0.05;  // of attempts that failed
 // Cosine between changes of velocity in successive steps, below which steps do not resolve them:
 // vibrations that go on by more than 70 degrees in a step.
 constexpr double unresolved = 1.0 / 3.0;
 
-std::size_t index(StepEnd end) { return static_cast<std::size_t>(end); }
+std::size_t place(StepEnd end) { return static_cast<std::size_t>(end); }
 
 // Who makes the steps may also refuse one that converged.
 std::string reason(StepEnd end) {
@@ -36,12 +36,12 @@ void CutBacks::accept(double taken, double turn) {
 void CutBacks::reject(StepEnd reason, double reversal) {
   rejected_ += 1.0;
   reversals_ += reversal;
-  reasons_.at(index(reason)) += 1.0;
+  reasons_.at(place(reason)) += 1.0;
 }
 
 std::string CutBacks::hint(double step) const {
   const double attempts = accepted_ + rejected_;
-  if (rejected_ <= notable_share * attempts) return {};
+  if (rejected_ <= notable_rejections * attempts) return {};
   const auto most = static_cast<std::size_t>(std::max_element(reasons_.begin(), reasons_.end()) -
                                              reasons_.begin());
   std::string text = fmt::format(

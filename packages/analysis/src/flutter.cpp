@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // A damping ratio below its negative is growth: what is not damped has less by rounding.
-constexpr double least_growth = 1e-6;
+constexpr double least_rate = 1e-6;
 constexpr double precision = 1e-6;  // of a level, relative
 constexpr int most_trials = 60;
 // of eigenvalues between levels, relative; below it they are the same but for rounding
@@ -29,7 +29,7 @@ constexpr double least_change = 1e-10;
 
 // The mode that grows most, or decays least, of those of one kind.
 struct Growth {
-  double rate = -infinity;  // relative to its size, without least_growth
+  double rate = -infinity;  // relative to its size, without least_rate
   Mode mode = {};
 };
 
@@ -38,7 +38,7 @@ Growth flutter_of(const ModeSet& set) {
   Growth most;
   for (const Mode& mode : set.modes) {
     if (mode.is_zero() || mode.frequency() == 0.0) continue;
-    const double rate = -mode.damping() - least_growth;
+    const double rate = -mode.damping() - least_rate;
     if (rate > most.rate) most = {rate, mode};
   }
   return most;

@@ -13,12 +13,10 @@ namespace {
 constexpr double notable_height = 0.1;
 constexpr double end_difference = 0.5;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // On both sides of a time: functions may jump there.
 std::pair<double, double> values_beside(const model::Amplitude& function, double time) {
-  return {function.at(std::nextafter(time, -infinity)),
-          function.at(std::nextafter(time, infinity))};
+  return {function.at(std::nextafter(time, -HUGE_VAL)),
+          function.at(std::nextafter(time, HUGE_VAL))};
 }
 
 double largest_corner(const model::Amplitude& function) {
@@ -65,7 +63,7 @@ void MissedPulses::check(double start, double end, Findings& findings) {
     const model::Amplitude& function = candidate.function;
     // what begins with the motion, as a square does, has not acted before
     const bool begins = is_first_ && start == function.corners().front();
-    const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -infinity));
+    const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -HUGE_VAL));
     if (!is_missed(function, candidate.size, at_start, start, end)) continue;
     candidate.is_told = true;
     findings.warn("missed pulse",

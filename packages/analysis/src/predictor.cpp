@@ -16,7 +16,7 @@ constexpr double least_gain = 0.2;
 // Share of the last step in what was seen lately.
 constexpr double fading = 0.3;
 
-std::string name_of(std::size_t k) { return "predictor/" + std::to_string(k); }
+std::string past_name(std::size_t k) { return "predictor/" + std::to_string(k); }
 
 }  // namespace
 
@@ -97,7 +97,7 @@ void Predictor::save(Snapshot& snapshot) const {
   std::vector<double> times;
   for (std::size_t k = 0; k < past_.size(); ++k) {
     times.push_back(past_[k].time);
-    snapshot.set(name_of(k), system_.gather_motions(past_[k].values));
+    snapshot.set(past_name(k), system_.gather_motions(past_[k].values));
   }
   snapshot.set("predictor/times", std::move(times));
 }
@@ -107,7 +107,7 @@ void Predictor::restore(const Snapshot& snapshot) {
   reversal_ = snapshot.number("predictor/reversal");
   past_.clear();
   for (const double time : snapshot.numbers("predictor/times")) {
-    past_.push_back({time, system_.spread_motions(snapshot.copy(name_of(past_.size())))});
+    past_.push_back({time, system_.spread_motions(snapshot.copy(past_name(past_.size())))});
   }
 }
 

@@ -13,7 +13,7 @@
 namespace culm::analysis {
 namespace {
 
-void check_levels(const Options& options, InputIssues& issues) {
+void check_static_levels(const Options& options, InputIssues& issues) {
   const std::vector<double>& levels = options.numbers("Levels");
   const double final_level = options.number("Final Level");
   if (final_level <= options.number("Start Level")) {
@@ -64,7 +64,7 @@ Schema Statics::schema() {
       .add(numbers("Levels", "1", "Levels to be met exactly, rising.")
                .optional(std::vector<double>{}))
       .list("Newton", newton_schema(), Presence::defaulted)
-      .check(check_levels);
+      .check(check_static_levels);
 }
 
 std::unique_ptr<Stepper> Statics::make(const Options& options, Context& context,

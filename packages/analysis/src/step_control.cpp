@@ -20,8 +20,6 @@ constexpr double start = 1.0 / 16.0;
 constexpr double least_growth = 0.5;
 constexpr double most_growth = 2.0;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // 1 over the length of the model for positions, 1 for directors; 0 for slots without mass.
 std::vector<double> error_scales(const assembly::System& system) {
   const std::vector<bool> has_mass = model::slots_with_mass(system.model());

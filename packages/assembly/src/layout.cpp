@@ -4,11 +4,7 @@
 #include <algorithm>
 
 namespace culm::assembly {
-namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   const model::UnknownTable& unknowns = model.unknowns();

@@ -11,8 +11,6 @@ namespace culm::beam {
 namespace {
 
 // Cyclic partners of a director: (i, j, k) = (0, 1, 2), (1, 2, 0), (2, 0, 1).
-constexpr int after(int i) { return (i + 1) % 3; }
-
 // The axis and its triad at a point, interpolated: columns x, d1, d2, d3.
 using Frame = Mat<3, 4>;
 
@@ -64,8 +62,8 @@ typename DirectorBeam<Order>::Strain DirectorBeam<Order>::absolute_strain(const 
   const Frame df = interpolate<num_nodes, num_slots>(point.dN, q);
   Strain e;
   for (int i = 0; i < 3; ++i) {
-    const int j = after(i);
-    const int k = after(j);
+    const int j = next_axis(i);
+    const int k = next_axis(j);
     e[i] = f.col(1 + i).dot(df.col(0));
     e[3 + i] = 0.5 * (df.col(1 + j).dot(f.col(1 + k)) - df.col(1 + k).dot(f.col(1 + j)));
   }
@@ -102,8 +100,8 @@ void DirectorBeam<Order>::gradient(int point, const Nodes& q,
         0.5 * (p.dN[a] * f.template rightCols<3>() - p.N[a] * df.template rightCols<3>());
     B.template block<3, 3>(12 * a, 0) = p.dN[a] * f.template rightCols<3>();
     for (int i = 0; i < 3; ++i) {
-      const int j = after(i);
-      const int k = after(j);
+      const int j = next_axis(i);
+      const int k = next_axis(j);
       B.template block<3, 1>(12 * a + 3 * (1 + i), i) = p.N[a] * df.col(0);
       B.template block<3, 1>(12 * a + 3 * (1 + j), 3 + i) = h.col(k);
       B.template block<3, 1>(12 * a + 3 * (1 + k), 3 + i) = -h.col(j);
@@ -121,8 +119,8 @@ void DirectorBeam<Order>::add_curvature(int point, const Strain& S,
       const double shear = p.N[a] * p.dN[b];
       const double bend = 0.5 * (p.dN[a] * p.N[b] - p.N[a] * p.dN[b]);
       for (int i = 0; i < 3; ++i) {
-        const int j = after(i);
-        const int k = after(j);
+        const int j = next_axis(i);
+        const int k = next_axis(j);
         A(4 * b, 4 * a + 1 + i) += shear * S[i];
         A(4 * a + 1 + i, 4 * b) += shear * S[i];
         A(4 * a + 1 + j, 4 * b + 1 + k) += bend * S[3 + i];

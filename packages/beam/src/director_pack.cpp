@@ -8,8 +8,6 @@ namespace culm::beam {
 namespace {
 
 // Cyclic partners of a director: (i, j, k) = (0, 1, 2), (1, 2, 0), (2, 0, 1).
-constexpr int after(int i) { return (i + 1) % 3; }
-
 // Coordinates of the slots x, d1, d2, d3, interpolated: those of director i start here.
 constexpr int director(int i) { return 3 * (1 + i); }
 
@@ -22,10 +20,10 @@ CULM_INLINE void add_cross(const Pack* a, const Pack* b, const Pack& factor, Pac
 
 // Axis and triad at a point, and their derivatives by arc length.
 template <int Order>
-struct Frame {
+struct PackFrame {
   Pack f[12], df[12];
 
-  CULM_INLINE Frame(const typename DirectorPack<Order>::Point& p, const Pack* q) {
+  CULM_INLINE PackFrame(const typename DirectorPack<Order>::Point& p, const Pack* q) {
     for (int c = 0; c < 12; ++c) {
       f[c] = p.N[0] * q[c];
       df[c] = p.dN[0] * q[c];
@@ -40,10 +38,10 @@ struct Frame {
 // Γ_i = d_i . x' ,  K_i = 1/2 (d_j' . d_k - d_k' . d_j), less those of the reference
 template <int Order>
 CULM_INLINE void compute_strain(const typename DirectorPack<Order>::Point& p,
-                                const Frame<Order>& frame, Pack* e) {
+                                const PackFrame<Order>& frame, Pack* e) {
   for (int i = 0; i < 3; ++i) {
-    const int j = after(i);
-    const int k = after(j);
+    const int j = next_axis(i);
+    const int k = next_axis(j);
     Pack shear = -p.reference[static_cast<std::size_t>(i)];
     Pack bend = {};
     for (int c = 0; c < 3; ++c) {
@@ -59,15 +57,15 @@ CULM_INLINE void compute_strain(const typename DirectorPack<Order>::Point& p,
 // force += B^T S on slots: on x_a  N'_a Σ S_i d_i,  on d_i,a  N_a S_i x' + S_3+k h_j - S_3+j h_k
 // with h_i = 1/2 (N'_a d_i - N_a d_i')
 template <int Order>
-CULM_INLINE void add_force(const typename DirectorPack<Order>::Point& p, const Frame<Order>& frame,
-                           const Pack* S, Pack* force) {
+CULM_INLINE void add_force(const typename DirectorPack<Order>::Point& p,
+                           const PackFrame<Order>& frame, const Pack* S, Pack* force) {
   Pack resultant[3], by_derivative[9], by_value[9];
   for (int c = 0; c < 3; ++c) {
     resultant[c] = S[0] * frame.f[director(0) + c] + S[1] * frame.f[director(1) + c] +
                    S[2] * frame.f[director(2) + c];
     for (int i = 0; i < 3; ++i) {
-      const int j = after(i);
-      const int k = after(j);
+      const int j = next_axis(i);
+      const int k = next_axis(j);
       by_derivative[3 * i + c] =
           0.5 * (S[3 + k] * frame.f[director(j) + c] - S[3 + j] * frame.f[director(k) + c]);
       by_value[3 * i + c] = S[i] * frame.df[c] - 0.5 * (S[3 + k] * frame.df[director(j) + c] -
@@ -94,8 +92,8 @@ CULM_INLINE void add_curvature(const typename DirectorPack<Order>::Point& p, con
       const Pack bend = 0.5 * factor * (p.N[b] * p.dN[a] - p.N[a] * p.dN[b]);
       for (int i = 0; i < 3; ++i) {
         const auto d_i = static_cast<std::size_t>(1 + i);
-        const auto d_j = static_cast<std::size_t>(1 + after(i));
-        const auto d_k = static_cast<std::size_t>(1 + after(after(i)));
+        const auto d_j = static_cast<std::size_t>(1 + next_axis(i));
+        const auto d_k = static_cast<std::size_t>(1 + next_axis(next_axis(i)));
         A[row * (4 * b) + 4 * a + d_i] += shear * S[i];
         A[row * (4 * a + d_i) + 4 * b] += shear * S[i];
         A[row * (4 * a + d_j) + 4 * b + d_k] += bend * S[3 + i];
@@ -108,7 +106,7 @@ CULM_INLINE void add_curvature(const typename DirectorPack<Order>::Point& p, con
 // Derivatives of the strains by dx and dθ of the nodes, a strain per row; dx bends nothing.
 template <int Order>
 CULM_INLINE void compute_rows(const typename DirectorPack<Order>::Point& p,
-                              const Frame<Order>& frame, const Pack* q, Pack* R) {
+                              const PackFrame<Order>& frame, const Pack* q, Pack* R) {
   constexpr std::size_t row = 6 * (Order + 1);
   constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
   for (std::size_t a = 0; a <= Order; ++a) {
@@ -119,8 +117,8 @@ CULM_INLINE void compute_rows(const typename DirectorPack<Order>::Point& p,
     }
     for (int c = 0; c < 3; ++c) pull[c] = p.N[a] * frame.df[c];
     for (int i = 0; i < 3; ++i) {
-      const int j = after(i);
-      const int k = after(j);
+      const int j = next_axis(i);
+      const int k = next_axis(j);
       Pack* shear = R + row * static_cast<std::size_t>(i) + 6 * a;
       Pack* bend = R + row * static_cast<std::size_t>(3 + i) + 6 * a;
       for (int c = 0; c < 3; ++c) {
@@ -258,8 +256,8 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
   if (with_tangent) sum.tangent = {};
   for (std::size_t g = 0; g < Order; ++g) {
     const auto& p = points[g];
-    const Frame<Order> next_frame(p, motion.next.data());
-    const Frame<Order> mid_frame(p, mid);
+    const PackFrame<Order> next_frame(p, motion.next.data());
+    const PackFrame<Order> mid_frame(p, mid);
     Pack e[6], stress[6];
     compute_strain<Order>(p, next_frame, e);
     for (std::size_t i = 0; i < 6; ++i) e[i] = weight * e[i] + (1.0 - weight) * prev[6 * g + i];

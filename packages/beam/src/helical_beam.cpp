@@ -13,16 +13,14 @@ namespace {
 
 const double least_cosine = std::cos(HelicalBeam::max_rotation);
 
-constexpr int after(int i) { return (i + 1) % 3; }
-
 // z of the relative motion of the two nodes; r divided by h.
 Vec<7> invariants(const Slots<8>& q, double h) noexcept {
   const Mat3 Lam = q.middleCols<3>(1).transpose() * q.middleCols<3>(5);
   Vec<7> z;
   z[0] = 0.5 * (Lam.trace() - 1.0);
   for (int i = 0; i < 3; ++i) {
-    const int j = after(i);
-    const int k = after(j);
+    const int j = next_axis(i);
+    const int k = next_axis(j);
     z[1 + i] = 0.5 * (Lam(k, j) - Lam(j, k));
   }
   z.tail<3>() = q.middleCols<3>(1).transpose() * (q.col(4) - q.col(0)) / h;
@@ -60,8 +58,8 @@ void HelicalBeam::gradient(int, const Nodes& q,
   const Vec3 chord = (q.col(4) - q.col(0)) / length_;
   B.setZero();
   for (int i = 0; i < 3; ++i) {
-    const int j = after(i);
-    const int k = after(j);
+    const int j = next_axis(i);
+    const int k = next_axis(j);
     B.block<3, 1>(3 + 3 * i, 0) = 0.5 * second.col(i);
     B.block<3, 1>(15 + 3 * i, 0) = 0.5 * first.col(i);
     B.block<3, 1>(3 + 3 * k, 1 + i) = 0.5 * second.col(j);
@@ -80,8 +78,8 @@ void HelicalBeam::add_curvature(int, const Strain& S, SlotMatrix<num_slots>& A) 
     A(t, s) += value;
   };
   for (int i = 0; i < 3; ++i) {
-    const int j = after(i);
-    const int k = after(j);
+    const int j = next_axis(i);
+    const int k = next_axis(j);
     add(1 + i, 5 + i, 0.5 * S[0]);
     add(1 + k, 5 + j, 0.5 * S[1 + i]);
     add(1 + j, 5 + k, -0.5 * S[1 + i]);

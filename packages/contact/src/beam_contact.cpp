@@ -10,7 +10,7 @@
 namespace culm::contact {
 namespace {
 
-using Motion = model::ItemMotion<BeamContact::max_nodes>;
+using BeamContactMotion = model::ItemMotion<BeamContact::max_nodes>;
 
 /// The least of |r|^2 on the straight way from one r to another.
 double least_square(const Vec3& from, const Vec3& to) {
@@ -22,7 +22,7 @@ double least_square(const Vec3& from, const Vec3& to) {
 
 /// What the pairs of an item add up to: forces on all slots, and their derivatives.
 struct Sums {
-  Motion::Slots forces;
+  BeamContactMotion::Slots forces;
   Eigen::Matrix<double, 12 * BeamContact::max_nodes, 12 * BeamContact::max_nodes> tangent;
 };
 
@@ -255,7 +255,7 @@ Verdict BeamContact::assemble_item(std::size_t i, const model::State& state, con
   });
   if (verdict != Verdict::ok || !touches) return verdict;
 
-  const Motion motion(nodes_, nodes, state, stencil.theta);
+  const BeamContactMotion motion(nodes_, nodes, state, stencil.theta);
   const Verdict added =
       load::add_slot_residual<Space>(placement(), i, sums.forces, motion.arms_mid, target);
   if (!tangent || added != Verdict::ok) return added;

@@ -22,7 +22,7 @@ constexpr double points_per_patch = 8.0;
 constexpr std::size_t most_points = 1000;        // of an element
 constexpr std::size_t most_node_pairs = 150000;  // each is 72 entries of the matrix
 
-void check(const Options& options, InputIssues& issues) {
+void check_beam_contact(const Options& options, InputIssues& issues) {
   const double reach = options.number("Radius") + options.number("Other Radius");
   if (options.number("Depth") > 0.25 * reach) {
     issues.add(options.where("Depth"),
@@ -31,7 +31,7 @@ void check(const Options& options, InputIssues& issues) {
   }
 }
 
-Schema schema() {
+Schema beam_contact_schema() {
   return Schema("Beam Contact",
                 "Contact of two lines with round surfaces, wherever they cross or lie along each "
                 "other, with friction.")
@@ -51,7 +51,7 @@ Schema schema() {
                .optional(0.0))
       .add(friction_field())
       .add(slip_speed_field())
-      .check(check);
+      .check(check_beam_contact);
 }
 
 // The elements of a line that a parameter names; none, and an issue, if it names none.
@@ -114,7 +114,7 @@ bool may_meet(const std::vector<LineElement>& first, const std::vector<LineEleme
   return true;
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_beam_contact(const Options& options, model::BuildContext& context) {
   const double radius = options.number("Radius");
   const double reach = radius + options.number("Other Radius");
   const double depth = options.number("Depth");
@@ -134,7 +134,7 @@ void build(const Options& options, model::BuildContext& context) {
 }  // namespace
 
 void register_beam_contact(model::BuilderRegistry& registry) {
-  registry.add("Beam Contact", schema(), build);
+  registry.add("Beam Contact", beam_contact_schema(), build_beam_contact);
 }
 
 }  // namespace culm::contact

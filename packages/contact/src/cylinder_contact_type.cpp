@@ -11,7 +11,7 @@
 namespace culm::contact {
 namespace {
 
-Schema schema() {
+Schema cylinder_contact_schema() {
   Schema fields("Cylinder Contact",
                 "Contact of a line, or of spheres at nodes, with a round bar on a body or in "
                 "space, with friction.");
@@ -54,7 +54,7 @@ std::optional<Cylinder> read_cylinder(const Options& options, model::BuildContex
   return cylinder;
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_cylinder_contact(const Options& options, model::BuildContext& context) {
   const std::vector<ContactPoint> points = read_points(options, context);
   const std::optional<Cylinder> cylinder = read_cylinder(options, context);
   if (points.empty() || !cylinder) return;
@@ -74,7 +74,7 @@ void build(const Options& options, model::BuildContext& context) {
 }  // namespace
 
 void register_cylinder_contact(model::BuilderRegistry& registry) {
-  registry.add("Cylinder Contact", schema(), build);
+  registry.add("Cylinder Contact", cylinder_contact_schema(), build_cylinder_contact);
 }
 
 }  // namespace culm::contact

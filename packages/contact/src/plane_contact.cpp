@@ -7,7 +7,7 @@
 namespace culm::contact {
 namespace {
 
-using Motion = model::ItemMotion<PlaneContact::max_nodes>;
+using PlaneContactMotion = model::ItemMotion<PlaneContact::max_nodes>;
 using Factors = Eigen::Matrix<double, 4 * PlaneContact::max_nodes, 1>;
 
 // T_s of all slots
@@ -23,7 +23,7 @@ Factors factors_of(const model::Marker& point) {
 
 /// A point in a step.
 struct PlaneContact::Evaluation {
-  Motion motion;
+  PlaneContactMotion motion;
   PenaltyResponse law;
   Factors T = {}, U = {};     ///< of its centre, and of the material point that touches
   Mat3 moved = Mat3::Zero();  ///< by which the directors at the centre change
@@ -32,8 +32,8 @@ struct PlaneContact::Evaluation {
   double normal = 0.0;        ///< normal force [N]
 
   // forces on the slots
-  Motion::Slots forces(const Vec3& n) const {
-    Motion::Slots f(3, motion.mid.cols());
+  PlaneContactMotion::Slots forces(const Vec3& n) const {
+    PlaneContactMotion::Slots f(3, motion.mid.cols());
     for (int s = 0; s < f.cols(); ++s) f.col(s) = T[s] * normal * n + U[s] * friction.force;
     return f;
   }
@@ -64,7 +64,7 @@ PlaneContact::Evaluation PlaneContact::evaluate(int item, const model::State& st
                                                 const Stencil& stencil) const {
   const auto& [centre, radius, area] = point(item);
   Evaluation found{
-      Motion(nodes_, centre.nodes, state, stencil.theta),
+      PlaneContactMotion(nodes_, centre.nodes, state, stencil.theta),
       respond(penalty_, depth(point(item), state.prev), depth(point(item), state.next), stencil)};
   found.T = factors_of(centre);
   found.U = found.T;
@@ -119,7 +119,7 @@ Verdict PlaneContact::assemble_item(std::size_t i, const model::State& state,
   const auto& [centre, radius, area] = point(item);
   const Evaluation found = evaluate(item, state, stencil);
   const Vec3& n = plane_.normal;
-  const Motion::Slots r = -found.forces(n);
+  const PlaneContactMotion::Slots r = -found.forces(n);
   const Verdict verdict =
       load::add_slot_residual<Space>(placement(), i, r, found.motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;

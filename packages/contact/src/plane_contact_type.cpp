@@ -10,14 +10,14 @@
 namespace culm::contact {
 namespace {
 
-void check(const Options& options, InputIssues& issues) {
+void check_plane_contact(const Options& options, InputIssues& issues) {
   check_contact_fields(options, issues);
   if (model::vector(options, "Normal").isZero(0.0)) {
     issues.add(options.where("Normal"), "must not be zero");
   }
 }
 
-Schema schema() {
+Schema plane_contact_schema() {
   Schema fields("Plane Contact",
                 "Contact of a line, or of spheres at nodes, with a fixed plane: a pressure that "
                 "grows with the depth, with friction.");
@@ -29,11 +29,11 @@ Schema schema() {
                .optional({0.0, 0.0, 1.0}))
       .add(friction_field())
       .add(slip_speed_field())
-      .check(check);
+      .check(check_plane_contact);
   return fields;
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_plane_contact(const Options& options, model::BuildContext& context) {
   std::vector<ContactPoint> points = read_points(options, context);
   if (points.empty()) return;
   auto load = std::make_unique<PlaneContact>(
@@ -47,7 +47,7 @@ void build(const Options& options, model::BuildContext& context) {
 }  // namespace
 
 void register_plane_contact(model::BuilderRegistry& registry) {
-  registry.add("Plane Contact", schema(), build);
+  registry.add("Plane Contact", plane_contact_schema(), build_plane_contact);
 }
 
 }  // namespace culm::contact

@@ -9,7 +9,7 @@
 namespace culm::flow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The wind at hub height, and the class of the turbine.
 struct Site {

@@ -10,7 +10,7 @@
 namespace culm::flow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A tower in its reference, a straight line with a radius that is linear along it.
 struct Tower {

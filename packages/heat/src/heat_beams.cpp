@@ -42,7 +42,7 @@ HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, const m
 }
 
 template <class Beam>
-bool heat(const HeatRequest& request) {
+bool heat_beam(const HeatRequest& request) {
   auto* batch = batch_of<Beam>(request.structure.cells.front(), request.context.model);
   if (batch == nullptr) return false;
   if (!has_gradients(2, "beam", request)) return true;
@@ -78,8 +78,9 @@ bool holds_length(const HeatRequest& request) {
 
 template <int Order>
 bool heat_order(const HeatRequest& request) {
-  return heat<beam::DirectorBeam<Order>>(request) || heat<beam::LinearBeam<Order>>(request) ||
-         heat<beam::UntwistedBeam<Order>>(request);
+  return heat_beam<beam::DirectorBeam<Order>>(request) ||
+         heat_beam<beam::LinearBeam<Order>>(request) ||
+         heat_beam<beam::UntwistedBeam<Order>>(request);
 }
 
 }  // namespace

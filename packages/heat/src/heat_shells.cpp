@@ -65,7 +65,7 @@ bool expands(const material::Layup& layup) {
 }
 
 template <class Shell>
-bool heat(const HeatRequest& request) {
+bool heat_shell(const HeatRequest& request) {
   const model::Cell& first = request.structure.cells.front();
   auto* batch = batch_of<Shell>(first, request.context.model);
   if (batch == nullptr) return false;
@@ -94,7 +94,8 @@ bool heat(const HeatRequest& request) {
 }  // namespace
 
 bool heat_shells(const HeatRequest& request) {
-  if (heat<shell::ElasticShell>(request) || heat<shell::LinearShell>(request)) return true;
+  if (heat_shell<shell::ElasticShell>(request) || heat_shell<shell::LinearShell>(request))
+    return true;
   const model::Cell& first = request.structure.cells.front();
   if (batch_of<shell::HyperelasticShell>(first, request.context.model) == nullptr) return false;
   request.context.issues.add(request.options.where("Structure"),

@@ -128,8 +128,8 @@ Vec6 AngularVelocity::reaction(int node, const model::State& state,
 
 namespace {
 
-void register_type(model::BuilderRegistry& registry, const std::string& type,
-                   const std::string& doc, bool follows) {
+void register_angular_velocity_type(model::BuilderRegistry& registry, const std::string& type,
+                                    const std::string& doc, bool follows) {
   Schema schema = directed_schema(type, doc, "Axis", "Axis in the reference, of any length.",
                                   model::node_field());
   add_motion("Angular Velocity", "rad/s", "Angular velocity at function value 1.", schema);
@@ -157,12 +157,12 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
 }  // namespace
 
 void register_angular_velocity(model::BuilderRegistry& registry) {
-  register_type(registry, "Angular Velocity",
-                "Prescribes the angular velocity about an axis fixed in space; not in statics.",
-                false);
-  register_type(registry, "Angular Velocity Local",
-                "Prescribes the angular velocity about an axis fixed in the node; not in statics.",
-                true);
+  register_angular_velocity_type(
+      registry, "Angular Velocity",
+      "Prescribes the angular velocity about an axis fixed in space; not in statics.", false);
+  register_angular_velocity_type(
+      registry, "Angular Velocity Local",
+      "Prescribes the angular velocity about an axis fixed in the node; not in statics.", true);
 }
 
 }  // namespace culm::joint

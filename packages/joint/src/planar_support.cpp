@@ -23,8 +23,8 @@ model::Constraint planar_support(const Anchor& anchor, const Vec3& normal) {
 
 namespace {
 
-void register_type(model::BuilderRegistry& registry, const std::string& type,
-                   const std::string& doc) {
+void register_planar_type(model::BuilderRegistry& registry, const std::string& type,
+                          const std::string& doc) {
   registry.add(type, directed_schema(type, doc, "Normal", "Normal of the plane, of any length."),
                [type](const Options& options, model::BuildContext& context) {
                  add_per_anchor(type, options, context, Holds::all, [&](const Anchor& anchor) {
@@ -36,10 +36,11 @@ void register_type(model::BuilderRegistry& registry, const std::string& type,
 }  // namespace
 
 void register_planar_support(model::BuilderRegistry& registry) {
-  register_type(registry, "Planar Support",
-                "Leaves motion in a plane and rotation about its normal.");
-  register_type(registry, "Symmetry",
-                "Holds nodes in a plane of symmetry, with what lies beyond the plane left out.");
+  register_planar_type(registry, "Planar Support",
+                       "Leaves motion in a plane and rotation about its normal.");
+  register_planar_type(
+      registry, "Symmetry",
+      "Holds nodes in a plane of symmetry, with what lies beyond the plane left out.");
 }
 
 }  // namespace culm::joint

@@ -25,8 +25,8 @@ model::ConstraintRow row_of(const Vec3& direction, model::SlotSum attached) {
   return row;
 }
 
-void register_type(model::BuilderRegistry& registry, const std::string& type,
-                   const std::string& doc, decltype(&rotation) make) {
+void register_rotation_type(model::BuilderRegistry& registry, const std::string& type,
+                            const std::string& doc, decltype(&rotation) make) {
   Schema schema = directed_schema(type, doc, "Axis", "Axis in the reference, of any length.");
   add_motion("Angle", "rad", "Angle of rotation at function value 1.", schema);
   registry.add(type, schema, [type, make](const Options& options, model::BuildContext& context) {
@@ -69,12 +69,13 @@ model::Constraint rotation_local(const Anchor& anchor, const Vec3& axis, const P
 }
 
 void register_rotation(model::BuilderRegistry& registry) {
-  register_type(registry, "Rotation",
-                "Prescribes the rotation about an axis fixed in space; the others stay free.",
-                &rotation);
-  register_type(registry, "Rotation Local",
-                "Prescribes the rotation about an axis fixed in the node; the others stay free.",
-                &rotation_local);
+  register_rotation_type(
+      registry, "Rotation",
+      "Prescribes the rotation about an axis fixed in space; the others stay free.", &rotation);
+  register_rotation_type(
+      registry, "Rotation Local",
+      "Prescribes the rotation about an axis fixed in the node; the others stay free.",
+      &rotation_local);
 }
 
 }  // namespace culm::joint

@@ -10,7 +10,7 @@
 namespace culm::load {
 namespace {
 
-using Motion = model::ItemMotion<max_link_nodes>;
+using CatenaryMotion = model::ItemMotion<max_link_nodes>;
 
 // A fairlead above its anchor has the stiffness lim H / h, which this part of the length gives.
 constexpr double least_distance = 1e-8;
@@ -79,7 +79,7 @@ void discrete_gradient(const CatenaryLine& line, const Vec<2>& a, const Vec<2>& 
   G_b += d * e_b.transpose() / d2 + e / d2 * (Mat<2, 2>::Identity() - 2.0 * d * d.transpose() / d2);
 }
 
-LinkSlots on_slots(const LinkGradient& B, const Vec<2>& stress) {
+LinkSlots catenary_forces(const LinkGradient& B, const Vec<2>& stress) {
   LinkSlots forces(3, B.rows() / 3);
   Eigen::Map<Eigen::VectorXd>(forces.data(), B.rows()).noalias() = B * stress;
   return forces;
@@ -137,10 +137,10 @@ Verdict CatenaryLoad::assemble_item(std::size_t i, const model::State& state,
                                     const Stencil& stencil, bool tangent,
                                     model::Target& target) const {
   const Item& item = local(i);
-  const Motion motion(nodes_, item.forms.nodes, state, stencil.theta);
+  const CatenaryMotion motion(nodes_, item.forms.nodes, state, stencil.theta);
   const Response response = respond(item, state, stencil);
   const LinkGradient B = gradient_of(item.forms, motion.mid);
-  const LinkSlots r = on_slots(B, response.sum());
+  const LinkSlots r = catenary_forces(B, response.sum());
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
 
@@ -173,10 +173,10 @@ model::StepWork CatenaryLoad::step_work(const model::State& state, const Stencil
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = local(i);
-    const Motion motion(nodes_, item.forms.nodes, state, stencil.theta);
+    const CatenaryMotion motion(nodes_, item.forms.nodes, state, stencil.theta);
     const Response response = respond(item, state, stencil);
-    add_item_work(LinkSlots(-on_slots(gradient_of(item.forms, motion.mid), response.sum())), motion,
-                  item.forms.nodes, state, false, work);
+    add_item_work(LinkSlots(-catenary_forces(gradient_of(item.forms, motion.mid), response.sum())),
+                  motion, item.forms.nodes, state, false, work);
     const Vec<2> y = values_of(item.forms, slots_of(item.forms, state.next));
     const Vec<2> y_prev = values_of(item.forms, slots_of(item.forms, state.prev));
     work.external -= response.friction.dot(y - y_prev);

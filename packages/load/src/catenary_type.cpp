@@ -11,7 +11,7 @@
 namespace culm::load {
 namespace {
 
-Schema schema() {
+Schema catenary_schema() {
   Schema fields("Catenary",
                 "Mooring line at rest, without inertia and drag, from an anchor to a point.");
   fields.add_all(ground_schema())
@@ -54,7 +54,7 @@ bool is_above_seabed(const LinkPoint& fairlead, const Options& options,
   return false;
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_catenary(const Options& options, model::BuildContext& context) {
   const auto points = select_ground_points(options, context);
   if (points.empty()) return;
   auto load = std::make_unique<CatenaryLoad>(effect_of("Catenary", options), context.model.nodes());
@@ -71,7 +71,7 @@ void build(const Options& options, model::BuildContext& context) {
 }  // namespace
 
 void register_catenary(model::BuilderRegistry& registry) {
-  registry.add("Catenary", schema(), build);
+  registry.add("Catenary", catenary_schema(), build_catenary);
 }
 
 }  // namespace culm::load

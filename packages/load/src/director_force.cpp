@@ -6,7 +6,7 @@
 namespace culm::load {
 namespace {
 
-void build(const Options& options, model::BuildContext& context) {
+void build_director_force(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   const auto nodes = model::select_loaded_nodes(options, "Node", context);
   if (!function || nodes.empty()) return;
@@ -39,7 +39,7 @@ void register_director_force(model::BuilderRegistry& registry) {
                                             "on the upper face times its distance from the "
                                             "lower one."))
                    .add(model::function_field("Ramp")),
-               build);
+               build_director_force);
 }
 
 }  // namespace culm::load

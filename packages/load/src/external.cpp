@@ -33,7 +33,7 @@ class ExternalLoad final : public model::NodalInput {
   MomentLoad& moments_;
 };
 
-void build(const Options& options, model::BuildContext& context) {
+void build_external(const Options& options, model::BuildContext& context) {
   std::vector<int> nodes = model::select_loaded_nodes(options, "Node", context);
   // not constant, so that what it does is work and no potential
   const model::Amplitude always = model::Amplitude::of_time([](double) { return 1.0; });
@@ -56,7 +56,7 @@ void register_external(model::BuilderRegistry& registry) {
                       "Forces and moments on nodes, in space, that a program sets from step to "
                       "step through the library; zero until it does.")
                    .add(model::node_field()),
-               build);
+               build_external);
 }
 
 }  // namespace culm::load

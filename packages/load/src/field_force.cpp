@@ -9,7 +9,7 @@
 namespace culm::load {
 namespace {
 
-void build(const Options& options, model::BuildContext& context) {
+void build_field_force(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   const auto field = model::find_field(options, context);
   const auto points = line_points(options, context);
@@ -36,7 +36,7 @@ void register_field_force(model::BuilderRegistry& registry) {
                    .add(text("Field", "Name of an entry of the list Fields, in N/m."))
                    .add(number("Factor", "1", "Factor on the field.").optional(1.0))
                    .add(model::function_field("Ramp")),
-               build);
+               build_field_force);
 }
 
 }  // namespace culm::load

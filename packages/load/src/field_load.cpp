@@ -4,7 +4,7 @@
 namespace culm::load {
 namespace {
 
-using Motion = model::ItemMotion<FieldLoad::max_nodes>;
+using FieldMotion = model::ItemMotion<FieldLoad::max_nodes>;
 
 // T_s of the slots of node a.
 Vec<4> factors(const model::Marker& point, std::size_t a) {
@@ -13,7 +13,7 @@ Vec<4> factors(const model::Marker& point, std::size_t a) {
   return T;
 }
 
-Vec3 place_of(const model::Marker& point, const Motion::Slots& q) {
+Vec3 place_of(const model::Marker& point, const FieldMotion::Slots& q) {
   Vec3 place = Vec3::Zero();
   for (std::size_t a = 0; a < point.nodes.size(); ++a) {
     place += q.middleCols<4>(4 * static_cast<int>(a)) * factors(point, a);
@@ -22,8 +22,8 @@ Vec3 place_of(const model::Marker& point, const Motion::Slots& q) {
 }
 
 // T_s f
-Motion::Slots slot_forces(const model::Marker& point, const Vec3& force) {
-  Motion::Slots forces(3, 4 * static_cast<int>(point.nodes.size()));
+FieldMotion::Slots slot_forces(const model::Marker& point, const Vec3& force) {
+  FieldMotion::Slots forces(3, 4 * static_cast<int>(point.nodes.size()));
   for (std::size_t a = 0; a < point.nodes.size(); ++a) {
     forces.middleCols<4>(4 * static_cast<int>(a)) = force * factors(point, a).transpose();
   }
@@ -51,12 +51,12 @@ Verdict FieldLoad::assemble_item(std::size_t i, const model::State& state, const
                                  bool tangent, model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const model::Marker& point = item.point;
-  const Motion motion(nodes_, point.nodes, state, stencil.theta);
+  const FieldMotion motion(nodes_, point.nodes, state, stencil.theta);
   const double factor = item.factor * amplitude_.in_step(state, stencil);
   const Vec3 place = place_of(point, motion.mid);
   const double time = time_of(state, stencil);
   const Vec3 force = factor * field_->value(place, time);
-  const Motion::Slots r = -slot_forces(point, force);
+  const FieldMotion::Slots r = -slot_forces(point, force);
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
 
@@ -80,7 +80,7 @@ model::StepWork FieldLoad::step_work(const model::State& state, const Stencil& s
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-    const Motion motion(nodes_, item.point.nodes, state, stencil.theta);
+    const FieldMotion motion(nodes_, item.point.nodes, state, stencil.theta);
     const Vec3 force = item.factor * amplitude *
                        field_->value(place_of(item.point, motion.mid), time_of(state, stencil));
     add_item_work(slot_forces(item.point, force), motion, item.point.nodes, state, true, work);

@@ -6,7 +6,7 @@
 namespace culm::load {
 namespace {
 
-std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+std::unique_ptr<model::Batch> make_force(const LoadRequest& request) {
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
   const auto nodes = model::select_loaded_nodes(request.options, "Node", request.context);
   check_components("Offset", nodes, request.options, request.context);
@@ -24,7 +24,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
 
 void register_force(model::BuilderRegistry& registry) {
   register_both_frames(registry, {"Force", "Force at a point of a node", "Force", "N"},
-                       Schema("").add(model::node_field()).add(offset_field()), make);
+                       Schema("").add(model::node_field()).add(offset_field()), make_force);
 }
 
 }  // namespace culm::load

@@ -17,7 +17,7 @@ model::Coordinates weight(const model::Model& model, const Vec3& g) {
   return model.mass_times(acceleration);
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_gravity(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   if (!function) return;
   if (context.model.mass() == 0.0) {
@@ -43,7 +43,7 @@ void register_gravity(model::BuilderRegistry& registry) {
                                             "Acceleration of free fall at function value 1.")
                             .optional({0.0, 0.0, -9.81}))
                    .add(model::function_field("Constant")),
-               build);
+               build_gravity);
 }
 
 }  // namespace culm::load

@@ -7,7 +7,7 @@
 namespace culm::load {
 namespace {
 
-std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+std::unique_ptr<model::Batch> make_line_force(const LoadRequest& request) {
   const auto points = line_points(request.options, request.context);
   if (points.empty()) return nullptr;
   auto load = std::make_unique<SlotLoad>(request.effect, request.nodes(), request.function);
@@ -28,7 +28,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
 void register_line_force(model::BuilderRegistry& registry) {
   register_both_frames(registry,
                        {"Line Force", "Force per reference length of a line", "Force", "N/m"},
-                       Schema("").add(line_field()).add(offset_field()), make);
+                       Schema("").add(line_field()).add(offset_field()), make_line_force);
 }
 
 }  // namespace culm::load

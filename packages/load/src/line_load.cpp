@@ -61,7 +61,7 @@ std::unique_ptr<model::Batch> make_moments(const LoadRequest& request, const Loa
   return load;
 }
 
-std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+std::unique_ptr<model::Batch> make_line_load(const LoadRequest& request) {
   LoadedLine line{line_points(request.options, request.context), {}};
   if (line.points.empty()) return nullptr;
   const auto table =
@@ -80,7 +80,8 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
 void register_line_load(model::BuilderRegistry& registry) {
   register_both_frames(
       registry, {"Line Load", "Force and moment per reference length of a line by a table", {}, {}},
-      Schema("").add(line_field()).add(offset_field()).add_all(line_table_fields()), make);
+      Schema("").add(line_field()).add(offset_field()).add_all(line_table_fields()),
+      make_line_load);
 }
 
 }  // namespace culm::load

@@ -20,7 +20,7 @@ std::map<int, double> lengths_of_nodes(const std::vector<model::LinePoint>& poin
   return lengths;
 }
 
-std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+std::unique_ptr<model::Batch> make_line_moment(const LoadRequest& request) {
   const auto points = line_points(request.options, request.context);
   if (points.empty()) return nullptr;
   refuse_following_moment(request, points.front().marker.nodes);
@@ -37,7 +37,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
 void register_line_moment(model::BuilderRegistry& registry) {
   register_both_frames(registry,
                        {"Line Moment", "Moment per reference length of a line", "Moment", "N m/m"},
-                       Schema("").add(line_field()), make);
+                       Schema("").add(line_field()), make_line_moment);
 }
 
 }  // namespace culm::load

@@ -13,7 +13,7 @@ namespace culm::load {
 namespace {
 
 // B S, forces on slots side by side.
-LinkSlots on_slots(const LinkGradient& B, const Vec<2>& stress) {
+LinkSlots link_forces(const LinkGradient& B, const Vec<2>& stress) {
   LinkSlots forces(3, B.rows() / 3);
   Eigen::Map<Eigen::VectorXd>(forces.data(), B.rows()).noalias() = B * stress;
   return forces;
@@ -103,11 +103,11 @@ Verdict LinkLoad::assemble_item(std::size_t i, const model::State& state, const 
   const Response response = respond(item, motion.next, state, stencil);
   item.force = response.force;
   const LinkGradient B = gradient_of(item.link, motion.mid);
-  const LinkSlots r = on_slots(B, response.stress);
+  const LinkSlots r = link_forces(B, response.stress);
   const Verdict verdict = add_slot_residual<Space>(placement_, i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
   if (const model::Signal* signal = law_->signal()) {
-    add_signal_columns<Space>(placement_, i, on_slots(B, response.by_signal), motion.arms_mid,
+    add_signal_columns<Space>(placement_, i, link_forces(B, response.by_signal), motion.arms_mid,
                               *signal, stencil.theta, target);
   }
   add_tangent<Space>(i, motion, response, stencil.theta, target);
@@ -136,7 +136,7 @@ void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& 
                      motion.arms_mid[static_cast<std::size_t>(a)],
                      motion.arms_next[static_cast<std::size_t>(b)], block);
   };
-  add_slot_derivative<Space>(placement_, i, on_slots(B_mid, stress), motion, theta, add_block,
+  add_slot_derivative<Space>(placement_, i, link_forces(B_mid, stress), motion, theta, add_block,
                              target);
 }
 

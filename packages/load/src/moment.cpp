@@ -6,7 +6,7 @@
 namespace culm::load {
 namespace {
 
-std::unique_ptr<model::Batch> make(const LoadRequest& request) {
+std::unique_ptr<model::Batch> make_moment(const LoadRequest& request) {
   auto load = std::make_unique<MomentLoad>(request.effect, request.nodes(), request.function,
                                            request.kept_in());
   const auto nodes = model::select_loaded_nodes(request.options, "Node", request.context);
@@ -21,7 +21,7 @@ std::unique_ptr<model::Batch> make(const LoadRequest& request) {
 
 void register_moment(model::BuilderRegistry& registry) {
   register_both_frames(registry, {"Moment", "Moment on a node", "Moment", "N m"},
-                       Schema("").add(model::node_field()), make);
+                       Schema("").add(model::node_field()), make_moment);
 }
 
 }  // namespace culm::load

@@ -7,7 +7,7 @@
 namespace culm::load {
 namespace {
 
-void build(const Options& options, model::BuildContext& context) {
+void build_pressure(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   const auto faces = loaded_faces(options, context);
   if (!function || faces.empty()) return;
@@ -28,7 +28,7 @@ void register_pressure(model::BuilderRegistry& registry) {
                   "At function value 1; positive along the directors, hence outwards from Bottom "
                   "to Top, on every face."))
       .add(model::function_field("Ramp"));
-  registry.add("Pressure", schema, build);
+  registry.add("Pressure", schema, build_pressure);
 }
 
 }  // namespace culm::load

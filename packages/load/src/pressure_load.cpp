@@ -7,7 +7,7 @@
 namespace culm::load {
 namespace {
 
-using Motion = model::ItemMotion<4>;
+using PressureMotion = model::ItemMotion<4>;
 using Corners = Mat<3, 4>;
 
 // int N_a g1 x g2 at the corners X
@@ -21,8 +21,8 @@ Corners area_vectors(const Corners& X) {
 }
 
 // The same on the slots, shape (3, 16).
-Motion::Slots slot_forces(const Corners& f, double zeta) {
-  Motion::Slots forces = Motion::Slots::Zero(3, 16);
+PressureMotion::Slots slot_forces(const Corners& f, double zeta) {
+  PressureMotion::Slots forces = PressureMotion::Slots::Zero(3, 16);
   for (int a = 0; a < 4; ++a) {
     forces.col(4 * a) = f.col(a);
     forces.col(4 * a + 1) = zeta * f.col(a);
@@ -74,10 +74,10 @@ Verdict PressureLoad::assemble_item(std::size_t i, const model::State& state,
                                     const Stencil& stencil, double factor, bool tangent,
                                     model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-  const Motion motion(nodes_, item.nodes, state, stencil.theta);
+  const PressureMotion motion(nodes_, item.nodes, state, stencil.theta);
   const Corners X = corners(motion.mid, item.zeta);
   const double p = -factor * item.pressure;
-  const Motion::Slots r = slot_forces(p * area_vectors(X), item.zeta);
+  const PressureMotion::Slots r = slot_forces(p * area_vectors(X), item.zeta);
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
 
@@ -94,7 +94,7 @@ model::StepWork PressureLoad::step_work(const model::State& state, const Stencil
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-    const Motion motion(nodes_, item.nodes, state, stencil.theta);
+    const PressureMotion motion(nodes_, item.nodes, state, stencil.theta);
     const Corners f = factor * item.pressure * area_vectors(corners(motion.mid, item.zeta));
     add_item_work(slot_forces(f, item.zeta), motion, item.nodes, state, true, work);
   }

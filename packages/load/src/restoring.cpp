@@ -14,7 +14,7 @@ namespace culm::load {
 
 namespace {
 
-using Motion = model::ItemMotion<1>;
+using RestoringMotion = model::ItemMotion<1>;
 
 constexpr double small_turn = 0.1;  // [rad]; sines and angles differ by 0.2 %
 
@@ -57,8 +57,8 @@ Verdict RestoringLoad::assemble_item(std::size_t i, const model::State& state,
                                      model::Target& target) const {
   const SmallMotion& small = local(i);
   const Evaluation found = evaluate(small, state, stencil);
-  const Motion motion(nodes_, small.nodes(), state, stencil.theta);
-  const Motion::Slots r = -small.slot_forces(found.force);
+  const RestoringMotion motion(nodes_, small.nodes(), state, stencil.theta);
+  const RestoringMotion::Slots r = -small.slot_forces(found.force);
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (verdict != Verdict::ok || want == Want::residual) return verdict;
   const Mat<12, 12> K = -small.slot_derivative(found.derivative);
@@ -91,7 +91,7 @@ model::StepWork RestoringLoad::step_work(const model::State& state, const Stenci
     if (!placement().owned[i]) continue;
     const SmallMotion& small = local(i);
     const Evaluation found = evaluate(small, state, stencil);
-    const Motion motion(nodes_, small.nodes(), state, stencil.theta);
+    const RestoringMotion motion(nodes_, small.nodes(), state, stencil.theta);
     add_item_work(small.slot_forces(found.force), motion, small.nodes(), state, false, work);
     work.damping -= found.damping.dot(small.motion(state.next) - small.motion(state.prev));
   }
@@ -154,7 +154,7 @@ void check(const Options& options, InputIssues& issues) {
   }
 }
 
-Schema schema() {
+Schema restoring_schema() {
   Schema fields("Restoring",
                 "Forces and moments on a node that are linear in its motion from the reference, as "
                 "of a platform, a foundation or a machine on mounts; for small rotations.");
@@ -170,7 +170,7 @@ Schema schema() {
   return fields;
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_restoring(const Options& options, model::BuildContext& context) {
   const auto selected = model::select_loaded_nodes(options, "Node", context);
   if (!joint::have_triads(selected, "Node", options, context)) return;
   RestoringLoad::Values values;
@@ -188,7 +188,7 @@ void build(const Options& options, model::BuildContext& context) {
 }  // namespace
 
 void register_restoring(model::BuilderRegistry& registry) {
-  registry.add("Restoring", schema(), build);
+  registry.add("Restoring", restoring_schema(), build_restoring);
 }
 
 }  // namespace culm::load

@@ -16,13 +16,13 @@
 namespace culm::load {
 namespace {
 
-using Motion = model::ItemMotion<RotatingFrame::max_nodes>;
+using FrameMotion = model::ItemMotion<RotatingFrame::max_nodes>;
 
 // Acceleration of the slots of an item in the frame at rest.
-Motion::Slots accelerations(const Motion& motion, const std::vector<int>& nodes,
-                            const model::State& state, const Stencil& stencil, const Vec3& omega,
-                            const Vec3& point) {
-  Motion::Slots a = motion.mid;
+FrameMotion::Slots accelerations(const FrameMotion& motion, const std::vector<int>& nodes,
+                                 const model::State& state, const Stencil& stencil,
+                                 const Vec3& omega, const Vec3& point) {
+  FrameMotion::Slots a = motion.mid;
   for (int s = 0; s < a.cols(); s += 4) a.col(s) -= point;
   const Mat3 turn = skew(omega);
   a = (turn * (turn * a)).eval();
@@ -55,7 +55,7 @@ bool select_structures(const Options& options, model::BuildContext& context,
   return found;
 }
 
-void build(const Options& options, model::BuildContext& context) {
+void build_rotating_frame(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   if (!function) return;
   const Vec3 axis = model::vector(options, "Axis");
@@ -125,8 +125,8 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
                                      model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
   const Vec3 omega = speed(state, stencil) * axis_;
-  const Motion motion(nodes_, item.nodes, state, stencil.theta);
-  const Motion::Slots r =
+  const FrameMotion motion(nodes_, item.nodes, state, stencil.theta);
+  const FrameMotion::Slots r =
       accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
@@ -153,8 +153,8 @@ model::StepWork RotatingFrame::step_work(const model::State& state, const Stenci
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-    const Motion motion(nodes_, item.nodes, state, stencil.theta);
-    const Motion::Slots f =
+    const FrameMotion motion(nodes_, item.nodes, state, stencil.theta);
+    const FrameMotion::Slots f =
         -accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
     add_item_work(f, motion, item.nodes, state, true, work);
   }
@@ -177,7 +177,7 @@ void register_rotating_frame(model::BuilderRegistry& registry) {
                  "static analyses and modes of the whole machine ('Rotor' of Modal and Campbell).")
                .optional())
       .add(model::function_field("Ramp"));
-  registry.add("Rotating Frame", schema, build);
+  registry.add("Rotating Frame", schema, build_rotating_frame);
 }
 
 }  // namespace culm::load

@@ -8,10 +8,10 @@
 namespace culm::load {
 namespace {
 
-using Motion = model::ItemMotion<SlotLoad::max_nodes>;
-using ItemSlots = Motion::Slots;
+using SlotMotion = model::ItemMotion<SlotLoad::max_nodes>;
+using ItemSlots = SlotMotion::Slots;
 
-// Slots of an item as in Motion; its arms would cost more than the work of the forces.
+// Slots of an item as in SlotMotion; its arms would cost more than the work of the forces.
 struct Ends {
   Ends(const std::vector<int>& nodes, const model::State& state, double theta)
       : mid(3, 4 * static_cast<int>(nodes.size())), next(mid) {
@@ -136,7 +136,7 @@ template <class Space>
 Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                 double factor, bool tangent, model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const Motion motion(nodes_, item.nodes, state, stencil.theta);
+  const SlotMotion motion(nodes_, item.nodes, state, stencil.theta);
   const auto& [mid, next, arms_mid, arms_next] = motion;
 
   // r_s = -a (f0_s + sum_t L[s,t] q_t)

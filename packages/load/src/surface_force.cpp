@@ -11,7 +11,7 @@ namespace culm::load {
 namespace {
 
 // Two by two points per face, each with the share of the reference area around it.
-void build(const Options& options, model::BuildContext& context) {
+void build_surface_force(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
   const auto faces = loaded_faces(options, context);
   if (!function || faces.empty()) return;
@@ -43,7 +43,7 @@ void register_surface_force(model::BuilderRegistry& registry) {
   schema.add_all(face_fields())
       .add(model::vector_field("Force", "N/m^2", "Components in space at function value 1."))
       .add(model::function_field("Ramp"));
-  registry.add("Surface Force", schema, build);
+  registry.add("Surface Force", schema, build_surface_force);
 }
 
 }  // namespace culm::load

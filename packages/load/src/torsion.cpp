@@ -6,7 +6,7 @@
 namespace culm::load {
 namespace {
 
-std::vector<Link> make(const Options& options, model::BuildContext& context) {
+std::vector<Link> torsion_links(const Options& options, model::BuildContext& context) {
   const auto nodes = joint::select_two_nodes(options, context);
   if (!nodes || !joint::have_triads({(*nodes)[0]}, "First", options, context) ||
       !joint::have_triads({(*nodes)[1]}, "Second", options, context)) {
@@ -31,7 +31,7 @@ void register_torsion(model::BuilderRegistry& registry) {
   joint::add_direction("Axis", "Axis of the joint in the reference, of any length.", fields);
   register_spring_and_damper(
       registry, {"Torsion", "on the angle of a revolute joint, which counts full turns.", fields,
-                 LinkUnits::angles(), make});
+                 LinkUnits::angles(), torsion_links});
   register_link(registry,
                 Schema("Torsion Drive",
                        "Moment on the second node of a revolute joint, and its "
@@ -39,7 +39,7 @@ void register_torsion(model::BuilderRegistry& registry) {
                     .add_all(fields)
                     .add(number("Moment", "N m", "Moment at function value 1."))
                     .add(model::function_field("Ramp")),
-                make, make_drive);
+                torsion_links, make_drive);
 }
 
 }  // namespace culm::load

@@ -21,7 +21,7 @@ StiffnessValues read_stiffness_values(const Options& options) {
           .EI12 = options.number("EI12")};
 }
 
-void check_stiffness(const Options& options, InputIssues& issues) {
+void check_stiffness_values(const Options& options, InputIssues& issues) {
   const Mat6 C = stiffness_matrix(read_stiffness_values(options));
   for (const auto& message : stiffness_mistakes(C)) issues.add(options.where(), message);
 }
@@ -71,7 +71,7 @@ Schema StiffnessValuesSection::schema() {
       .add(expansion_field())
       .add_all(placement_schema())
       .add_all(outline_schema())
-      .check(check_stiffness)
+      .check(check_stiffness_values)
       .check(check_mass_values);
   return schema;
 }

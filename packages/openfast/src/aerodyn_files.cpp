@@ -3,6 +3,8 @@
 #include <culm/openfast/aerodyn.hpp>
 #include <culm/openfast/input_file.hpp>
 
+#include "degree.hpp"
+#include "entries.hpp"
 #include "headings.hpp"
 #include "named_table.hpp"
 
@@ -17,13 +19,6 @@
 namespace culm::openfast {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
-
-// Keywords have other names in other years.
-std::string name_of(const InputFile& file, const char* now, const char* before) {
-  return file.has(now) || !file.has(before) ? now : before;
-}
 
 bool is_default(InputFile& file, const std::string& keyword) {
   return to_lower(file.text(keyword)) == "default";
@@ -166,7 +161,7 @@ int switch_or_flag(InputFile& file, const char* keyword) {
   return file.integer(keyword);
 }
 
-std::vector<AeroTowerStation> read_tower(InputFile& file) {
+std::vector<AeroTowerStation> read_drag_stations(InputFile& file) {
   if (file.integer("NumTwrNds") == 0) return {};
   if (file.integer("NumTwrNds") == 1) {
     throw InputError(file.where("NumTwrNds"), "a tower needs two heights at least, got 1");
@@ -202,7 +197,7 @@ std::optional<AeroTowerInfluence> read_influence(InputFile& file,
                             downstreams[static_cast<std::size_t>(downstream)], shape};
 }
 
-AeroBlade read_blade(const std::filesystem::path& path, std::size_t airfoils, Report& report) {
+AeroBlade read_aero_blade(const std::filesystem::path& path, std::size_t airfoils, Report& report) {
   InputFile file(path);
   const NamedTable table(file, "NumBlNds", 7, "blade");
   AeroBlade blade{path, {}};
@@ -266,7 +261,7 @@ AirfoilColumns read_columns(InputFile& file) {
   return columns;
 }
 
-void ignore_rest(InputFile& file) {
+void ignore_rest_of_aerodyn(InputFile& file) {
   file.ignore({"Echo",
                "DTAero",
                "FrozenWake",
@@ -357,13 +352,13 @@ AeroDyn read_aerodyn(const std::filesystem::path& path, std::size_t blades,
   std::map<std::filesystem::path, AeroBlade> known;
   for (std::size_t i = 1; i <= blades; ++i) {
     const auto blade = file.file(fmt::format("ADBlFile({})", i));
-    if (!known.contains(blade)) known[blade] = read_blade(blade, aero.airfoils.size(), report);
+    if (!known.contains(blade)) known[blade] = read_aero_blade(blade, aero.airfoils.size(), report);
     aero.blades.push_back(known[blade]);
   }
-  const std::vector<AeroTowerStation> tower = read_tower(file);
+  const std::vector<AeroTowerStation> tower = read_drag_stations(file);
   if (file.flag("TwrAero")) aero.tower = tower;
   aero.tower_influence = read_influence(file, tower);
-  ignore_rest(file);
+  ignore_rest_of_aerodyn(file);
   report.add(unknown, file.unread());
   return aero;
 }

@@ -4,6 +4,7 @@
 #include <culm/base/text.hpp>
 #include <culm/openfast/aerodyn.hpp>
 
+#include "degree.hpp"
 #include "headings.hpp"
 #include "words.hpp"
 
@@ -20,7 +21,6 @@ namespace culm::openfast {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 // by which a table may miss its ends and itself at both of them: the digits of files
 constexpr double closing_angle = 1e-3;
 constexpr double closing_coefficient = 0.05;

@@ -40,8 +40,8 @@ void write_blade(const BeamDyn& beam, const Placement& placement, DeckWriter& de
   deck.close();
 }
 
-void write_history(const std::string& name, const std::string& type, const std::string& node,
-                   DeckWriter& deck) {
+void watch_blade(const std::string& name, const std::string& type, const std::string& node,
+                 DeckWriter& deck) {
   deck.open(name, type);
   deck.set("Node", node);
   deck.close();
@@ -51,9 +51,9 @@ void write_output(bool dynamic, int every, DeckWriter& deck) {
   deck.open("Output");
   if (every > 1) deck.set("Every", every);
   deck.open("History");
-  write_history("tip", "Displacement", "blade/last", deck);
-  write_history("tip rotation", "Rotation", "blade/last", deck);
-  write_history("root", "Reaction", "blade/first", deck);
+  watch_blade("tip", "Displacement", "blade/last", deck);
+  watch_blade("tip rotation", "Rotation", "blade/last", deck);
+  watch_blade("root", "Reaction", "blade/first", deck);
   if (dynamic) {
     deck.open("energy", "Energy");
     deck.close();

@@ -2,6 +2,7 @@
 #include <culm/openfast/beamdyn.hpp>
 #include <culm/openfast/input_file.hpp>
 
+#include "degree.hpp"
 #include "headings.hpp"
 #include "section_checks.hpp"
 
@@ -13,8 +14,6 @@
 namespace culm::openfast {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 void finish(const InputFile& file, Report& report) { report.add(unknown, file.unread()); }
 
@@ -99,7 +98,7 @@ void read_damping(InputFile& file, BeamDynBlade& blade, Report& report) {
   }
 }
 
-BeamDynBlade read_blade(const std::filesystem::path& path, Report& report) {
+BeamDynBlade read_beamdyn_blade(const std::filesystem::path& path, Report& report) {
   InputFile file(path);
   BeamDynBlade blade{path, file.title(), read_stations(file), {}};
   check_places(blade);
@@ -177,7 +176,7 @@ BeamDyn read_beamdyn(const std::filesystem::path& path, Report& report) {
   report.add(not_used,
              fmt::format("{}: what concerns BeamDyn's numerics and outputs (order_elem {})",
                          path.string(), beam.order));
-  beam.blade = read_blade(file.file("BldFile"), report);
+  beam.blade = read_beamdyn_blade(file.file("BldFile"), report);
   finish(file, report);
   return beam;
 }

@@ -1,5 +1,6 @@
 #include "blade_lists.hpp"
 
+#include "degree.hpp"
 #include "headings.hpp"
 
 #include <fmt/format.h>
@@ -122,7 +123,6 @@ void report_blade(const std::string& name, const BeamDyn& beam, Report& report) 
   report.add(masses, fmt::format("  about the root: first moment {:.6g} kg m, second {:.6g} kg m^2",
                                  mass.first.z(), mass.second));
   const auto [least, most] = std::minmax_element(axis.angles.begin(), axis.angles.end());
-  constexpr double degree = std::numbers::pi / 180.0;
   report.add(checked,
              fmt::format("axis: {}, Pre-Twist from {:.5g} to {:.5g} degrees",
                          axis.straight ? "straight" : "curved", *least / degree, *most / degree));

@@ -1,6 +1,8 @@
 #include <culm/base/text.hpp>
 #include <culm/openfast/deck_writer.hpp>
 
+#include "degree.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,7 +78,6 @@ void DeckWriter::set(const std::string& name, const std::string& value) {
 void DeckWriter::set(const std::string& name, double value) { set(name, format(value)); }
 
 void DeckWriter::set_degrees(const std::string& name, const std::vector<double>& radians) {
-  constexpr double degree = std::numbers::pi / 180.0;
   std::vector<std::string> items;
   for (const double angle : radians) items.push_back(format(angle / degree));
   set_items(name, items, per_line, "deg");

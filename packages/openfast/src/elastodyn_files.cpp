@@ -3,6 +3,7 @@
 #include <culm/openfast/elastodyn.hpp>
 #include <culm/openfast/input_file.hpp>
 
+#include "degree.hpp"
 #include "headings.hpp"
 #include "named_table.hpp"
 
@@ -17,11 +18,10 @@ namespace culm::openfast {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double percent = 0.01;
 
-FileMode read_mode(InputFile& file, const std::string& name, const std::string& shape,
-                   const std::string& damping) {
+FileMode read_file_mode(InputFile& file, const std::string& name, const std::string& shape,
+                        const std::string& damping) {
   FileMode mode{name, {}, percent * file.number(damping)};
   for (int k = 0; k < 5; ++k) {
     mode.coefficients[static_cast<std::size_t>(k)] =
@@ -33,9 +33,9 @@ FileMode read_mode(InputFile& file, const std::string& name, const std::string& 
 // The first mode, and the second one where the file has its shape and damping.
 FileModes read_modes(InputFile& file, const std::string& name, const std::string& first,
                      const std::string& second, const std::string& damping) {
-  FileModes modes{read_mode(file, name, first, damping + "(1)"), {}};
+  FileModes modes{read_file_mode(file, name, first, damping + "(1)"), {}};
   if (file.has(second + "(2)") && file.has(damping + "(2)")) {
-    modes.second = read_mode(file, "second " + name, second, damping + "(2)");
+    modes.second = read_file_mode(file, "second " + name, second, damping + "(2)");
   }
   return modes;
 }
@@ -81,7 +81,8 @@ BladeStation make_station(const NamedTable& table, std::size_t i, double length,
   return station;
 }
 
-ElastoDynBlade read_blade(const std::filesystem::path& path, double length, Report& report) {
+ElastoDynBlade read_bending_blade(const std::filesystem::path& path, double length,
+                                  Report& report) {
   InputFile file(path);
   const NamedTable table(file, "DISTRIBUTED BLADE", "NBlInpSt");
   table.check_places("BlFract");
@@ -100,7 +101,7 @@ ElastoDynBlade read_blade(const std::filesystem::path& path, double length, Repo
         {Vec3(0.0, 0.0, length * table.at(i, "BlFract")), degree * table.at(i, "StrcTwst")});
   }
   blade.flap = read_modes(file, "flap", "BldFl1Sh", "BldFl2Sh", "BldFlDmp");
-  blade.edge = {read_mode(file, "edge", "BldEdgSh", "BldEdDmp(1)"), {}};
+  blade.edge = {read_file_mode(file, "edge", "BldEdgSh", "BldEdDmp(1)"), {}};
   report_tuners(file, {"FlStTunr(1)", "FlStTunr(2)"}, report);
   file.ignore({"FlStTunr(1)", "FlStTunr(2)", "BldFlDmp(2)", "CalcBMode"});
   report.add(read, fmt::format("{}: ElastoDyn blade, {} stations, masses times {:g}; '{}'",
@@ -118,7 +119,7 @@ ElastoDynBlade read_blade(const std::filesystem::path& path, double length, Repo
   return blade;
 }
 
-ElastoDynTower read_tower(const std::filesystem::path& path, Report& report) {
+ElastoDynTower read_bending_tower(const std::filesystem::path& path, Report& report) {
   InputFile file(path);
   const NamedTable table(file, "DISTRIBUTED TOWER", "NTwInpSt");
   table.check_places("HtFract");
@@ -146,7 +147,7 @@ ElastoDynTower read_tower(const std::filesystem::path& path, Report& report) {
 }
 
 // What a rigid model of three blades cannot do, if the file asks for it.
-void refuse(InputFile& file) {
+void refuse_rotors(InputFile& file) {
   if (file.has("Furling") && file.flag("Furling")) {
     throw InputError(file.where("Furling"), "furling turbines cannot be imported");
   }
@@ -157,7 +158,7 @@ void refuse(InputFile& file) {
   }
 }
 
-void ignore_rest(InputFile& file) {
+void ignore_rest_of_elastodyn(InputFile& file) {
   file.ignore(
       {"Echo",     "Method",         "DT",       "FlapDOF1",  "FlapDOF2",        "EdgeDOF",
        "PitchDOF", "TeetDOF",        "DrTrDOF",  "GenDOF",    "TwFADOF1",        "TwFADOF2",
@@ -283,7 +284,7 @@ double ElastoDyn::hub_height() const {
 ElastoDyn read_elastodyn(const std::filesystem::path& path, Report& report) {
   InputFile file(path);
   report.add(read, fmt::format("{}: ElastoDyn; '{}'", path.string(), file.title()));
-  refuse(file);
+  refuse_rotors(file);
   ElastoDyn turbine;
   turbine.path = path;
   turbine.title = file.title();
@@ -293,13 +294,14 @@ ElastoDyn read_elastodyn(const std::filesystem::path& path, Report& report) {
   std::map<std::filesystem::path, ElastoDynBlade> blades;
   for (std::size_t i = 1; i <= turbine.cones.size(); ++i) {
     const auto blade_path = file.file(fmt::format("BldFile({})", i));
-    if (!blades.contains(blade_path)) blades[blade_path] = read_blade(blade_path, length, report);
+    if (!blades.contains(blade_path))
+      blades[blade_path] = read_bending_blade(blade_path, length, report);
     turbine.blades.push_back(blades[blade_path]);
   }
-  turbine.tower = read_tower(file.file("TwrFile"), report);
+  turbine.tower = read_bending_tower(file.file("TwrFile"), report);
   turbine.platform = read_platform(file);
   report_left_out(file, report);
-  ignore_rest(file);
+  ignore_rest_of_elastodyn(file);
   report.add(unknown, file.unread());
   return turbine;
 }

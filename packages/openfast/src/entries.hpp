@@ -3,6 +3,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/openfast/input_file.hpp>
+#include <culm/openfast/text_table.hpp>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,13 @@ inline double non_negative(InputFile& file, const std::string& keyword) {
     throw InputError(file.where(keyword), fmt::format("must not be negative, got {:g}", value));
   }
   return value;
+}
+
+/// The same in a table.
+inline double positive(const TextTable& table, std::size_t row, TextTable::Names names) {
+  const double value = table.number(row, names);
+  if (value > 0.0) return value;
+  throw InputError(table.where(row, names), fmt::format("must be > 0, got {:g}", value));
 }
 
 /// Keywords that are alike in several parts of a file have endings since some year.

@@ -13,8 +13,6 @@ namespace culm::openfast {
 
 namespace {
 
-constexpr const char* platform = "platform";
-
 std::string line_name(const MooringLine& line) { return fmt::format("line {}", line.id); }
 
 }  // namespace
@@ -26,7 +24,7 @@ void write_held_freedoms(const ElastoDyn& turbine, DeckWriter& deck) {
     if (turbine.platform.free[static_cast<std::size_t>(i)]) continue;
     const bool turns = i >= 3;
     deck.open(names[i], turns ? "Rotation" : "Simple Support");
-    deck.set("Node", platform);
+    deck.set("Node", platform_name);
     deck.set(turns ? "Axis" : "Direction", Vec3(Vec3::Unit(i % 3)));
     deck.close();
   }
@@ -52,17 +50,17 @@ void write_ballast_support(const ElastoDyn& turbine, DeckWriter& deck) {
   if (!(ballast_of(turbine.floater->water).mass > 0.0)) return;
   deck.open("ballast", "Rigid Connection");
   deck.set("Node", "ballast");
-  deck.set("Master", platform);
+  deck.set("Master", platform_name);
   deck.close();
 }
 
 void write_floater_loads(const ElastoDyn& turbine, const std::filesystem::path& folder,
                          DeckWriter& deck, Report& report) {
   const Floater& floater = *turbine.floater;
-  write_hull(floater.water, platform, folder, deck, report);
-  write_members(floater.water, platform, true, deck, report);
+  write_hull(floater.water, platform_name, folder, deck, report);
+  write_members(floater.water, platform_name, true, deck, report);
   if (floater.moorings) {
-    write_lines(*floater.moorings, platform, deck, report);
+    write_lines(*floater.moorings, platform_name, deck, report);
   } else {
     report.add(missing,
                "mooring lines: nothing moors the platform in surge, sway and yaw but what "
@@ -77,7 +75,7 @@ void write_floater_loads(const ElastoDyn& turbine, const std::filesystem::path& 
 void write_floater_history(const ElastoDyn& turbine, DeckWriter& deck) {
   for (const char* type : {"Displacement", "Rotation"}) {
     deck.open(std::string("platform ") + (type[0] == 'D' ? "motion" : "turn"), type);
-    deck.set("Node", platform);
+    deck.set("Node", platform_name);
     deck.close();
   }
   if (!turbine.floater->moorings) return;

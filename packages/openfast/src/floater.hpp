@@ -9,6 +9,9 @@
 
 namespace culm::openfast {
 
+/// The platform in the deck.
+inline constexpr const char* platform_name = "platform";
+
 // All of them: @pre turbine.floater
 
 /// The body `ballast` of Structures, where something fills members, and what holds it.

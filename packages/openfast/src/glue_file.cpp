@@ -2,6 +2,7 @@
 #include <culm/openfast/glue_file.hpp>
 #include <culm/openfast/input_file.hpp>
 
+#include "degree.hpp"
 #include "headings.hpp"
 
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ void report_modules(InputFile& file, GlueFile& glue, Report& report) {
 }
 
 // Machines that ElastoDyn's main file does not describe as a whole.
-void refuse(InputFile& file) {
+void refuse_modules(InputFile& file) {
   if (const double kind = file.number("CompElast"); kind != 1.0 && kind != 2.0) {
     throw InputError(file.where("CompElast"),
                      fmt::format("must be 1, ElastoDyn, or 2, with blades of BeamDyn, got {:g}: "
@@ -112,7 +113,7 @@ void refuse(InputFile& file) {
   }
 }
 
-void ignore_rest(InputFile& file) {
+void ignore_rest_of_glue(InputFile& file) {
   file.ignore({"Echo",        "AbortLevel", "DT",          "ModCoupling", "InterpOrder",
                "NumCrctn",    "RhoInf",     "ConvTol",     "MaxConvIter", "AutoRelax",
                "RelaxFactor", "DT_UJac",    "UJacSclFact", "CompLidar",   "LidarFile",
@@ -130,7 +131,7 @@ void ignore_rest(InputFile& file) {
 }
 
 // One for each blade, of which the main file of ElastoDyn has the number.
-std::vector<std::filesystem::path> blade_files(InputFile& file) {
+std::vector<std::filesystem::path> named_blade_files(InputFile& file) {
   std::vector<std::filesystem::path> found{file.file("BDBldFile(1)")};
   for (int i = 2; file.has(fmt::format("BDBldFile({})", i)); ++i) {
     found.push_back(file.file(fmt::format("BDBldFile({})", i)));
@@ -147,11 +148,11 @@ bool are_same(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
   InputFile file(path);
-  refuse(file);
+  refuse_modules(file);
   GlueFile glue;
   glue.path = path;
   glue.elastodyn = file.file("EDFile");
-  if (file.number("CompElast") == 2.0) glue.beamdyn = blade_files(file);
+  if (file.number("CompElast") == 2.0) glue.beamdyn = named_blade_files(file);
   glue.servodyn = file_if(file, "CompServo", 1);
   glue.aerodyn = file_if(file, "CompAero", 2);
   glue.inflow = file_if(file, "CompInflow", 1);
@@ -172,7 +173,7 @@ GlueFile read_glue_file(const std::filesystem::path& path, Report& report) {
   }
   report.add(read, path.string() + ": names of the modules' files");
   report_modules(file, glue, report);
-  ignore_rest(file);
+  ignore_rest_of_glue(file);
   report.add(unknown, file.unread());
   return glue;
 }
@@ -198,7 +199,6 @@ std::optional<GlueFile> find_glue_file(const std::filesystem::path& elastodyn, R
 }
 
 YawDrive read_yaw_drive(const std::filesystem::path& path, Report& report) {
-  constexpr double degree = std::numbers::pi / 180.0;
   InputFile file(path);
   YawDrive drive{path, file.number("YawSpr"), file.number("YawDamp"),
                  degree * file.number("YawNeut")};

@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 
+#include "floater.hpp"
 #include "headings.hpp"
 #include "sea_lists.hpp"
 
@@ -17,8 +18,6 @@
 namespace culm::openfast {
 
 namespace {
-
-constexpr const char* platform = "platform";
 
 // Parts of a length below it are rounding of files.
 constexpr double least_share = 1e-4;
@@ -508,11 +507,11 @@ std::string write_deck(const HydroDyn& hydro, Report& report) {
                                 "Imported from " + hydro.path.filename().string() + " and " +
                                     hydro.sea.path.filename().string() + " of OpenFAST.",
                                 "z is up, 0 at mean sea level. SI units."});
-  write_held_body(platform, "held", deck);
+  write_held_body(platform_name, "held", deck);
   write_flows(hydro.sea, deck);
   deck.open("Loads");
   report_hull(hydro, report);
-  write_members(hydro, platform, false, deck, report);
+  write_members(hydro, platform_name, false, deck, report);
   deck.close();
   deck.open("Analyses");
   deck.open("sea", "Dynamic");
@@ -525,7 +524,7 @@ std::string write_deck(const HydroDyn& hydro, Report& report) {
   deck.set("Every", 10);
   deck.open("History");
   deck.open("force of the sea", "Reaction");
-  deck.set("Node", platform);
+  deck.set("Node", platform_name);
   deck.close();
   deck.close();
   deck.close();

@@ -19,16 +19,6 @@ namespace culm::openfast {
 
 namespace {
 
-using Rows = std::map<int, std::size_t>;
-
-std::size_t look_up(const Rows& rows, const TextTable& table, std::size_t row,
-                    TextTable::Names names, const std::string& what) {
-  const auto found = rows.find(table.integer(row, names));
-  if (found != rows.end()) return found->second;
-  throw InputError(table.where(row, names),
-                   fmt::format("there is no {} {}", what, table.integer(row, names)));
-}
-
 double bounded(const TextTable& table, std::size_t row, const std::string& name) {
   const double value = table.number(row, {name.c_str()});
   if (value >= 0.0) return value;
@@ -94,15 +84,15 @@ void read_growth(InputFile& file, HydroDyn& hydro) {
             [](const HydroGrowth& a, const HydroGrowth& b) { return a.height < b.height; });
 }
 
-struct Lists {
-  Rows joints, sections, own;
+struct HydroLists {
+  std::map<int, std::size_t> joints, sections, own;
   std::vector<std::array<double, 2>> tubes;  // diameter and wall
   std::vector<std::array<HydroPair, 2>> coefficients;
 };
 
-void read_joints(InputFile& file, HydroDyn& hydro, Lists& lists, Report& report) {
+void read_joints(InputFile& file, HydroDyn& hydro, HydroLists& lists, Report& report) {
   const TextTable axial = read_table(file, "NAxCoef", "axial coefficient");
-  const Rows axials = index_rows(axial, {"AxCoefID"});
+  const std::map<int, std::size_t> axials = index_rows(axial, {"AxCoefID"});
   for (const char* name : {"AxCd", "AxCa"}) {
     if (axial.size() == 0 || axial.has({name})) continue;
     throw InputError(axial.where(0, {name}), "the table has no such column");
@@ -127,7 +117,7 @@ void read_joints(InputFile& file, HydroDyn& hydro, Lists& lists, Report& report)
   }
 }
 
-void read_sections(InputFile& file, Lists& lists) {
+void read_sections(InputFile& file, HydroLists& lists) {
   const char* keyword = one_of(file, "NPropSetsCyl", "NPropSets");
   const TextTable table = read_table(file, keyword, "section");
   lists.sections = index_rows(table, {"PropSetID", "MPropSetID"});
@@ -145,7 +135,7 @@ void read_sections(InputFile& file, Lists& lists) {
   }
 }
 
-void read_own_coefficients(InputFile& file, Lists& lists) {
+void read_own_coefficients(InputFile& file, HydroLists& lists) {
   const char* keyword = one_of(file, "NCoefMembersCyl", "NCoefMembers");
   const TextTable table = read_table(file, keyword, "coefficients of a member");
   lists.own = index_rows(table, {"MemberID"});
@@ -162,7 +152,7 @@ bool read_flag(const TextTable& table, std::size_t row, TextTable::Names names) 
   throw InputError(table.where(row, names), "must be True or False, got '" + word + "'");
 }
 
-HydroMember read_member(const TextTable& table, std::size_t i, const Lists& lists) {
+HydroMember read_member(const TextTable& table, std::size_t i, const HydroLists& lists) {
   HydroMember member;
   member.id = table.integer(i, {"MemberID"});
   constexpr const char* joints[] = {"MJointID1", "MJointID2"};
@@ -291,7 +281,7 @@ HydroAdded read_added(const InputFile& file) {
   return added;
 }
 
-void report_rest(InputFile& file, Report& report) {
+void report_rest_of_hydrodyn(InputFile& file, Report& report) {
   for (const char* keyword : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"}) {
     if (file.number(keyword, 0.0) == 0.0) continue;
     report.add(not_used, to_string(file.where(keyword)) + ": forces of second order");
@@ -337,7 +327,7 @@ HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& su
   hydro.path = path;
   hydro.title = file.title();
   hydro.sea = read_seastate(find_seastate(file, surroundings), surroundings, report);
-  Lists lists;
+  HydroLists lists;
   read_joints(file, hydro, lists, report);
   read_sections(file, lists);
   hydro.simple = read_simple(file);
@@ -358,7 +348,7 @@ HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& su
   read_fillings(file, hydro);
   hydro.potential = read_potential(file, report);
   hydro.added = read_added(file);
-  report_rest(file, report);
+  report_rest_of_hydrodyn(file, report);
   check_end(file, report);
   report.add(read, fmt::format("{}: HydroDyn, {} joints, {} members, {} depths with coefficients, "
                                "{} with growth",

@@ -2,6 +2,7 @@
 #include <culm/openfast/inflow.hpp>
 #include <culm/openfast/input_file.hpp>
 
+#include "degree.hpp"
 #include "entries.hpp"
 #include "headings.hpp"
 #include "inflow_boxes.hpp"
@@ -14,8 +15,6 @@
 namespace culm::openfast {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 void read_steady(InputFile part, Wind& wind, Report& report) {
   wind.speed = non_negative(part, "HWindSpeed");

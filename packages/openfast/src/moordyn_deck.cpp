@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 
+#include "floater.hpp"
 #include "headings.hpp"
 #include "sea_lists.hpp"
 
@@ -12,8 +13,6 @@
 namespace culm::openfast {
 
 namespace {
-
-constexpr const char* platform = "platform";
 
 // The fixed end and the one on the vessel; null where there are not both.
 std::array<const MooringPoint*, 2> ends_of(const MoorDyn& moorings, const MooringLine& line) {
@@ -70,9 +69,9 @@ std::string write_deck(const MoorDyn& moorings, Report& report) {
                    "Imported from " + moorings.path.filename().string() + " of OpenFAST.",
                    "z is up, 0 at mean sea level, the platform's reference point at the origin. SI "
                    "units."});
-  write_held_body(platform, "held", deck);
+  write_held_body(platform_name, "held", deck);
   deck.open("Loads");
-  const std::vector<std::string> names = write_lines(moorings, platform, deck, report);
+  const std::vector<std::string> names = write_lines(moorings, platform_name, deck, report);
   deck.close();
   if (names.empty()) {
     throw InputError({moorings.path.string(), 0, "lines"},
@@ -91,7 +90,7 @@ std::string write_deck(const MoorDyn& moorings, Report& report) {
     deck.close();
   }
   deck.open("platform", "Reaction");
-  deck.set("Node", platform);
+  deck.set("Node", platform_name);
   deck.close();
   deck.close();
   deck.close();

@@ -4,6 +4,7 @@
 #include <culm/openfast/moordyn.hpp>
 #include <culm/openfast/text_table.hpp>
 
+#include "entries.hpp"
 #include "file_end.hpp"
 #include "headings.hpp"
 #include "words.hpp"
@@ -65,12 +66,6 @@ TextTable read_section(const InputFile& file, std::initializer_list<const char*>
 std::size_t count_below(const InputFile& file, const std::string& heading) {
   const std::vector<TextRow> rows = file.rows_below(heading);
   return rows.size() > 2 ? rows.size() - 2 : 0;
-}
-
-double positive(const TextTable& table, std::size_t row, TextTable::Names names) {
-  const double value = table.number(row, names);
-  if (value > 0.0) return value;
-  throw InputError(table.where(row, names), fmt::format("must be > 0, got {:g}", value));
 }
 
 // Static stiffness, which others may follow after a bar.

@@ -2,6 +2,8 @@
 #include <culm/base/text.hpp>
 #include <culm/openfast/seastate.hpp>
 
+#include "degree.hpp"
+#include "entries.hpp"
 #include "file_end.hpp"
 #include "headings.hpp"
 
@@ -15,8 +17,6 @@
 namespace culm::openfast {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 bool is_default(InputFile& file, const char* keyword) {
   return to_lower(file.text(keyword)) == "default";
@@ -42,7 +42,7 @@ std::optional<double> number_in(InputFile& file, const char* keyword) {
 }
 
 // A choice by its number, of which '1P45' is one as well.
-std::string read_mode(InputFile& file, SeaState& sea) {
+std::string read_wave_mode(InputFile& file, SeaState& sea) {
   const std::string mode = to_lower(file.text("WaveMod"));
   if (mode == "0") return mode;
   if (mode == "1" || mode == "2") return mode;
@@ -57,12 +57,6 @@ std::string read_mode(InputFile& file, SeaState& sea) {
   throw InputError(
       file.where("WaveMod"),
       "'" + mode + "' is not imported (allowed: 0 still water, 1 or 1P# regular, 2 JONSWAP)");
-}
-
-double positive(InputFile& file, const char* keyword) {
-  const double value = file.number(keyword);
-  if (value > 0.0) return value;
-  throw InputError(file.where(keyword), fmt::format("must be > 0, got {:g}", value));
 }
 
 std::string read_stretching(InputFile& file, Report& report) {
@@ -80,7 +74,7 @@ std::string read_stretching(InputFile& file, Report& report) {
 }
 
 void read_waves(InputFile& file, SeaState& sea, Report& report) {
-  const std::string mode = read_mode(file, sea);
+  const std::string mode = read_wave_mode(file, sea);
   sea.heading = degree * file.number("WaveDir", 0.0);  // of currents as well
   if (mode == "0") return;
   sea.kind = mode == "1" ? SeaState::Kind::regular : SeaState::Kind::irregular;
@@ -176,7 +170,7 @@ void read_current(InputFile& file, SeaState& sea, Report& report) {
   }
 }
 
-void report_rest(InputFile& file, Report& report) {
+void report_rest_of_seastate(InputFile& file, Report& report) {
   const auto warn = [&](const char* keyword, const std::string& what) {
     report.add(not_used, to_string(file.where(keyword)) + ": " + what);
   };
@@ -270,7 +264,7 @@ SeaState read_seastate(const std::filesystem::path& path, const Surroundings& su
   if (!(sea.depth > 0.0)) throw InputError(file.where("WtrDpth"), "must be > 0");
   read_waves(file, sea, report);
   read_current(file, sea, report);
-  report_rest(file, report);
+  report_rest_of_seastate(file, report);
   const bool is_of_hydrodyn = file.has("NAxCoef");
   if (!is_of_hydrodyn) finish(file, report);
   report.add(read,

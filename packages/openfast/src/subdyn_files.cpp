@@ -4,6 +4,7 @@
 #include <culm/openfast/subdyn.hpp>
 #include <culm/openfast/text_table.hpp>
 
+#include "entries.hpp"
 #include "file_end.hpp"
 #include "ground_file.hpp"
 #include "headings.hpp"
@@ -19,27 +20,6 @@
 namespace culm::openfast {
 
 namespace {
-
-using Rows = std::map<int, std::size_t>;
-
-// A number in a column that names a line of another table.
-std::size_t look_up(const Rows& rows, const TextTable& table, std::size_t row,
-                    TextTable::Names names, const std::string& what) {
-  const int id = table.integer(row, names);
-  const auto found = rows.find(id);
-  if (found != rows.end()) return found->second;
-  std::string known;
-  for (const auto& [one, place] : rows)
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", one);
-  throw InputError(table.where(row, names), fmt::format("there is no {} {} (there are: {})", what,
-                                                        id, known.empty() ? "none" : known));
-}
-
-double positive(const TextTable& table, std::size_t row, TextTable::Names names) {
-  const double value = table.number(row, names);
-  if (value > 0.0) return value;
-  throw InputError(table.where(row, names), fmt::format("must be > 0, got {:g}", value));
-}
 
 double non_negative(const TextTable& table, std::size_t row, TextTable::Names names) {
   const double value = table.number(row, names);
@@ -127,8 +107,8 @@ Vec3 usual_x(const Vec3& from, const Vec3& to) {
 }
 
 // What members refer to.
-struct Lists {
-  Rows joints, tubes, arbitrary, cables, rigid, axes;
+struct SubLists {
+  std::map<int, std::size_t> joints, tubes, arbitrary, cables, rigid, axes;
   std::vector<Vec3> x;  ///< of the matrices of directions
 };
 
@@ -137,7 +117,7 @@ std::string kind_of(const TextTable& table, std::size_t i) {
   return table.has({"MType"}) ? to_lower(table.text(i, {"MType"})) : "1";
 }
 
-SubMember read_member(const TextTable& table, std::size_t i, const Lists& lists, SubDyn& sub) {
+SubMember read_member(const TextTable& table, std::size_t i, const SubLists& lists, SubDyn& sub) {
   SubMember member;
   member.id = table.integer(i, {"MemberID"});
   member.joints = {look_up(lists.joints, table, i, {"MJointID1"}, "joint"),
@@ -146,7 +126,7 @@ SubMember read_member(const TextTable& table, std::size_t i, const Lists& lists,
     throw InputError(table.where(i, {"MJointID2"}), "the member has no length");
   }
   const std::string kind = kind_of(table, i);
-  const Rows* rows = nullptr;
+  const std::map<int, std::size_t>* rows = nullptr;
   if (kind == "1" || kind == "1c") {
     rows = &lists.tubes;
   } else if (kind == "2") {
@@ -190,7 +170,7 @@ void refuse_rectangles(InputFile& file) {
                    "rectangular sections are not imported; must be 0");
 }
 
-void read_sections(InputFile& file, SubDyn& sub, Lists& lists) {
+void read_sections(InputFile& file, SubDyn& sub, SubLists& lists) {
   const char* tubes = file.has("NPropSetsCyl") ? "NPropSetsCyl" : "NPropSets";
   const TextTable circular = read_table(file, tubes, "circular section");
   lists.tubes = index_rows(circular, {"PropSetID"});
@@ -205,7 +185,7 @@ void read_sections(InputFile& file, SubDyn& sub, Lists& lists) {
   }
 }
 
-void read_links(InputFile& file, SubDyn& sub, Lists& lists) {
+void read_links(InputFile& file, SubDyn& sub, SubLists& lists) {
   if (has_lines(file, "NCablePropSets", "CABLE PROPERTIES")) {
     const TextTable table = read_table(file, "NCablePropSets", "cable");
     lists.cables = index_rows(table, {"PropSetID"});
@@ -227,7 +207,7 @@ void read_links(InputFile& file, SubDyn& sub, Lists& lists) {
   }
 }
 
-void read_axes(InputFile& file, Lists& lists) {
+void read_axes(InputFile& file, SubLists& lists) {
   if (!has_lines(file, "NCOSMs", "MEMBER COSINE")) return;
   const TextTable table = read_table(file, "NCOSMs", "matrix of directions");
   lists.axes = index_rows(table, {"COSMID"});
@@ -271,7 +251,7 @@ void read_ground_at(const std::filesystem::path& path, SubSupport& support, SubD
                                   path.string(), mass));
 }
 
-void read_supports(InputFile& file, SubDyn& sub, const Lists& lists, Report& report) {
+void read_supports(InputFile& file, SubDyn& sub, const SubLists& lists, Report& report) {
   constexpr const char* flags[] = {"RctTDXss", "RctTDYss", "RctTDZss",
                                    "RctRDXss", "RctRDYss", "RctRDZss"};
   if (!has_lines(file, "NReact", "BASE REACTION")) return;
@@ -286,7 +266,7 @@ void read_supports(InputFile& file, SubDyn& sub, const Lists& lists, Report& rep
   }
 }
 
-void read_interface(InputFile& file, SubDyn& sub, const Lists& lists, Report& report) {
+void read_interface(InputFile& file, SubDyn& sub, const SubLists& lists, Report& report) {
   constexpr const char* flags[] = {"ItfTDXss", "ItfTDYss", "ItfTDZss",
                                    "ItfRDXss", "ItfRDYss", "ItfRDZss"};
   if (!has_lines(file, "NInterf", "INTERFACE JOINTS")) return;
@@ -300,7 +280,7 @@ void read_interface(InputFile& file, SubDyn& sub, const Lists& lists, Report& re
   }
 }
 
-void read_masses(InputFile& file, SubDyn& sub, const Lists& lists) {
+void read_masses(InputFile& file, SubDyn& sub, const SubLists& lists) {
   if (!has_lines(file, "NCmass", "CONCENTRATED MASSES")) return;
   const TextTable table = read_table(file, "NCmass", "concentrated mass");
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -391,7 +371,7 @@ SubDyn read_subdyn(const std::filesystem::path& path, Report& report) {
   sub.path = path;
   sub.title = file.title();
   read_settings(file, sub, report);
-  Lists lists;
+  SubLists lists;
   const TextTable joints = read_table(file, "NJoints", "joint");
   lists.joints = index_rows(joints, {"JointID"});
   for (std::size_t i = 0; i < joints.size(); ++i) sub.joints.push_back(read_joint(joints, i));

@@ -88,4 +88,16 @@ std::map<int, std::size_t> index_rows(const TextTable& table, TextTable::Names n
   return rows;
 }
 
+std::size_t look_up(const std::map<int, std::size_t>& rows, const TextTable& table, std::size_t row,
+                    TextTable::Names names, const std::string& what) {
+  const int id = table.integer(row, names);
+  const auto found = rows.find(id);
+  if (found != rows.end()) return found->second;
+  std::string known;
+  for (const auto& [one, place] : rows)
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", one);
+  throw InputError(table.where(row, names), fmt::format("there is no {} {} (there are: {})", what,
+                                                        id, known.empty() ? "none" : known));
+}
+
 }  // namespace culm::openfast

@@ -20,22 +20,18 @@ namespace culm::output {
 
 namespace {
 
-struct Header {
+struct CheckpointHeader {
   std::uint64_t magic;
   std::uint64_t length;    // of what follows
   std::uint64_t checksum;  // of what follows
 };
-constexpr std::uint64_t magic = 0x31504b434d4c5543;  // "CULMCKP1"
-
-[[noreturn]] void give_up(const std::filesystem::path& path, int error) {
-  throw FileError(path.string(), "cannot write: " + std::generic_category().message(error));
-}
+constexpr std::uint64_t checkpoint_magic = 0x31504b434d4c5543;  // "CULMCKP1"
 
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags)
       : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (number_ < 0) give_up(path, errno);
+    if (number_ < 0) cannot_write(path, errno);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -72,7 +68,7 @@ class Body {
   // @return errno of what could not be written, or 0
   int finish() {
     flush();
-    header_.magic = magic;
+    header_.magic = checkpoint_magic;
     note(::lseek(file_, 0, SEEK_SET) == 0);
     write(std::as_bytes(std::span(&header_, 1)));
     note(::fsync(file_) == 0);
@@ -99,7 +95,7 @@ class Body {
   int file_;
   int error_ = 0;
   std::string waiting_;
-  Header header_{0, 0, checksum({})};  // without its magic number until all is written
+  CheckpointHeader header_{0, 0, checksum({})};  // without its magic number until all is written
 };
 
 void write_to_disk(const std::filesystem::path& path,
@@ -108,7 +104,7 @@ void write_to_disk(const std::filesystem::path& path,
   try {
     Body body(file.number());
     content([&](std::string_view piece) { body.take(piece); });
-    if (const int error = body.finish(); error != 0) give_up(path, error);
+    if (const int error = body.finish(); error != 0) cannot_write(path, error);
   } catch (...) {
     ::unlink(path.c_str());
     throw;
@@ -146,9 +142,10 @@ void write_checkpoint(const std::filesystem::path& path,
 std::string read_checkpoint(const std::filesystem::path& path) {
   // as large as a model and its kept states make it
   std::string content = read_file(path, std::numeric_limits<std::size_t>::max());
-  Header header{};
+  CheckpointHeader header{};
   if (content.size() >= sizeof header) std::memcpy(&header, content.data(), sizeof header);
-  if (header.magic != magic) throw FileError(path.string(), "is no checkpoint of this version");
+  if (header.magic != checkpoint_magic)
+    throw FileError(path.string(), "is no checkpoint of this version");
   content.erase(0, sizeof header);
   if (content.size() != header.length) {
     throw FileError(path.string(), "was cut off: it holds " + std::to_string(content.size()) +

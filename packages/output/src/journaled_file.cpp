@@ -18,12 +18,12 @@ namespace culm::output {
 namespace {
 
 // What a journal starts with; then per change offset, length and bytes.
-struct Header {
+struct JournalHeader {
   std::uint64_t magic;
   std::uint64_t length;    // of what follows
   std::uint64_t checksum;  // of what follows
 };
-constexpr std::uint64_t magic = 0x314c4e4a4d4c5543;  // "CULMJNL1"
+constexpr std::uint64_t journal_magic = 0x314c4e4a4d4c5543;  // "CULMJNL1"
 
 [[noreturn]] void fail(const char* action) {
   throw std::system_error(errno, std::generic_category(), action);
@@ -73,9 +73,9 @@ std::uint64_t take(std::span<const std::byte>& bytes) {
 
 // The changes of a complete journal; nothing if it is empty or was cut off.
 std::vector<std::byte> read_journal(int journal) {
-  Header header{};
+  JournalHeader header{};
   const auto raw = std::as_writable_bytes(std::span(&header, 1));
-  if (read_all(journal, 0, raw) < raw.size() || header.magic != magic) return {};
+  if (read_all(journal, 0, raw) < raw.size() || header.magic != journal_magic) return {};
   struct stat status {};
   if (::fstat(journal, &status) != 0) fail("read");
   if (header.length > static_cast<std::uint64_t>(status.st_size)) return {};
@@ -166,7 +166,7 @@ std::vector<std::byte> JournaledFile::encode_changes() const {
 }
 
 void JournaledFile::write_journal(std::span<const std::byte> body) {
-  const Header header{magic, body.size(), checksum(body)};
+  const JournalHeader header{journal_magic, body.size(), checksum(body)};
   journal_in_use_ = true;
   // The header last: until it is there, the journal counts as empty.
   write_all(journal_, sizeof header, body);
@@ -175,7 +175,7 @@ void JournaledFile::write_journal(std::span<const std::byte> body) {
 
 void JournaledFile::void_journal() {
   // Much faster than making the file empty.
-  const Header nothing{};
+  const JournalHeader nothing{};
   write_all(journal_, 0, std::as_bytes(std::span(&nothing, 1)));
   journal_in_use_ = false;
 }

@@ -9,16 +9,16 @@
 
 namespace culm::output {
 
-namespace {
-
-[[noreturn]] void give_up(const std::filesystem::path& path, int error) {
+void cannot_write(const std::filesystem::path& path, int error) {
   throw FileError(path.string(), "cannot write: " + std::generic_category().message(error));
 }
+
+namespace {
 
 void write_file(const std::filesystem::path& path,
                 const std::function<void(const Sink& sink)>& write) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) give_up(path, errno);
+  if (file == nullptr) cannot_write(path, errno);
   int error = 0;
   try {
     write([&](std::string_view piece) {
@@ -34,7 +34,7 @@ void write_file(const std::filesystem::path& path,
   if (std::fclose(file) != 0 && error == 0) error = errno;
   if (error != 0) {
     std::remove(path.c_str());
-    give_up(path, error);
+    cannot_write(path, error);
   }
 }
 

@@ -21,6 +21,9 @@ using Sink = std::function<void(std::string_view piece)>;
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const Sink& sink)>& write);
 
+/// Throws FileError with the system's words for an error.
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int error);
+
 /// Creates a folder and those above it if they are missing. Throws FileError.
 void make_folder(const std::filesystem::path& path);
 

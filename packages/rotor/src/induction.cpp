@@ -11,7 +11,7 @@
 namespace culm::rotor {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // the residual is singular at angles of 0 and pi
 constexpr double least_angle = 1e-6;
 // below this share of the wind a component counts as none

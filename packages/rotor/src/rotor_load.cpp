@@ -13,7 +13,7 @@
 namespace culm::rotor {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // lags of the wake grow as the wind falls; slower wind than this counts as so fast [m/s]
 constexpr double least_wind = 0.1;
 

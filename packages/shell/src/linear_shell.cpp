@@ -9,8 +9,6 @@ namespace culm::shell {
 
 namespace {
 
-constexpr int num_modes = ShellForms::num_modes;
-constexpr int num_forms = LinearShell::num_strains;
 constexpr int turn_and_slots = 3 + 3 * ShellForms::num_slots;
 
 using Modes = ShellForms::Modes;
@@ -29,11 +27,12 @@ Modes modes(const LinearShell::Nodes& q) {
 // B X: rows of the turn of the frame, by δ(d_k . p_j) = ω . (d_k x p_j), then rows of the slots of
 // the shell. All sums run along rows of X.
 template <int Columns>
-void apply_gradient(const Mat3& d, const Modes& p, const RowMat<num_forms, Columns>& X,
+void apply_gradient(const Mat3& d, const Modes& p,
+                    const RowMat<LinearShell::num_strains, Columns>& X,
                     RowMat<turn_and_slots, Columns>& BX) noexcept {
-  RowMat<num_forms, Columns> by_modes;
+  RowMat<LinearShell::num_strains, Columns> by_modes;
   BX.template topRows<3>().setZero();
-  for (int j = 0; j < num_modes; ++j) {
+  for (int j = 0; j < ShellForms::num_modes; ++j) {
     for (int c = 0; c < 3; ++c) {
       by_modes.row(3 * j + c) =
           d(c, 0) * X.row(3 * j) + d(c, 1) * X.row(3 * j + 1) + d(c, 2) * X.row(3 * j + 2);
@@ -71,9 +70,9 @@ LinearShell::LinearShell(const ElasticShell& full, const Nodes& reference)
 ShellForms::Strain LinearShell::products(const Strain& y) const noexcept {
   const Eigen::Map<const Modes> moved(y.data());
   ShellForms::Strain all;
-  for (int i = 0; i < num_modes; ++i) {
+  for (int i = 0; i < ShellForms::num_modes; ++i) {
     all[ShellForms::form(i, i)] = reference_.col(i).dot(moved.col(i));
-    for (int j = i + 1; j < num_modes; ++j) {
+    for (int j = i + 1; j < ShellForms::num_modes; ++j) {
       all[ShellForms::form(i, j)] =
           reference_.col(i).dot(moved.col(j)) + reference_.col(j).dot(moved.col(i));
     }
@@ -96,7 +95,7 @@ void LinearShell::gradient(int, const Nodes& q,
   const Mat3 d = frame(q);
   const Modes p = modes(q);
   B.setZero();
-  for (int j = 0; j < num_modes; ++j) {
+  for (int j = 0; j < ShellForms::num_modes; ++j) {
     for (int k = 0; k < 3; ++k) {
       B.block<3, 1>(3 * (1 + k), 3 * j + k) = p.col(j);
       for (int s = 0; s < ShellForms::num_slots; ++s) {
@@ -109,7 +108,7 @@ void LinearShell::gradient(int, const Nodes& q,
 void LinearShell::add_curvature(int, const Strain& S, SlotMatrix<num_slots>& A) const noexcept {
   for (int s = 0; s < ShellForms::num_slots; ++s) {
     Vec3 sum = Vec3::Zero();
-    for (int j = s % 2 == 0 ? 0 : 3; j < (s % 2 == 0 ? 3 : num_modes); ++j) {
+    for (int j = s % 2 == 0 ? 0 : 3; j < (s % 2 == 0 ? 3 : ShellForms::num_modes); ++j) {
       sum += share(s, j) * S.segment<3>(3 * j);
     }
     A.block<3, 1>(1, place(s)) += sum;
@@ -122,7 +121,7 @@ void LinearShell::add_force(const Nodes& q, const Strain& S, Nodes& f) noexcept 
   f.middleCols<3>(1) += modes(q) * stress.transpose();
   const Modes force = frame(q) * stress;
   for (int s = 0; s < ShellForms::num_slots; ++s) {
-    for (int j = s % 2 == 0 ? 0 : 3; j < (s % 2 == 0 ? 3 : num_modes); ++j) {
+    for (int j = s % 2 == 0 ? 0 : 3; j < (s % 2 == 0 ? 3 : ShellForms::num_modes); ++j) {
       f.col(place(s)) += share(s, j) * force.col(j);
     }
   }
@@ -132,9 +131,9 @@ void LinearShell::add_force(const Nodes& q, const Strain& S, Nodes& f) noexcept 
 // but for dx of the frame, on which nothing depends.
 void LinearShell::add_stiffness(const Nodes& mid, const Nodes& next, const Stiffness& C,
                                 double factor, RowMat<6 * num_nodes, 6 * num_nodes>& K) noexcept {
-  RowMat<turn_and_slots, num_forms> BC;
-  apply_gradient<num_forms>(frame(mid), modes(mid), C, BC);
-  const RowMat<num_forms, turn_and_slots> CB = BC.transpose();
+  RowMat<turn_and_slots, LinearShell::num_strains> BC;
+  apply_gradient<LinearShell::num_strains>(frame(mid), modes(mid), C, BC);
+  const RowMat<LinearShell::num_strains, turn_and_slots> CB = BC.transpose();
   RowMat<turn_and_slots, turn_and_slots> transposed;
   apply_gradient<turn_and_slots>(frame(next), modes(next), CB, transposed);
   K.bottomRightCorner<turn_and_slots, turn_and_slots>() += factor * transposed.transpose();

@@ -15,8 +15,6 @@ namespace culm::shell {
 
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

@@ -10,8 +10,6 @@
 namespace culm::shell {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // The cubic edge from a corner to the next one, by its control points.
 struct Edge {
   std::array<Vec3, 4> points;

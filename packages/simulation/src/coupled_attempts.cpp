@@ -17,7 +17,6 @@ namespace {
 
 using coupling::bit;
 using Eigen::VectorXd;
-using port::Quantity;
 
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -163,7 +162,7 @@ VectorXd CoupledRun::collect(const std::vector<coupling::Window>& asked) {
     if (comm_.size() > 1) comm_.broadcast({own.data(), static_cast<std::size_t>(own.size())});
     side.put(std::move(own), answer);
     // how much of a change of motion comes back as load, for what rounding of motion makes of it
-    const VectorXd moved = as_vector(about.of(Quantity::motion));
+    const VectorXd moved = as_vector(about.of(port::Quantity::motion));
     const VectorXd scaled = answer.segment(side.first, side.count());
     if (side.answer.size() > 0) {
       const double change = (moved - side.moved).norm();
@@ -202,20 +201,20 @@ bool CoupledRun::is_foreseen(const CoupledWindow& window, const CoupledGuess& gu
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const CoupledSide& side = sides_[i];
     const double floor = round_off * as_vector(side.port->reference()).norm();
-    const auto size = [&](Quantity q) { return as_vector(found.motions[i].of(q)).norm(); };
-    const auto miss = [&](Quantity q) {
+    const auto size = [&](port::Quantity q) { return as_vector(found.motions[i].of(q)).norm(); };
+    const auto miss = [&](port::Quantity q) {
       return (as_vector(found.motions[i].of(q)) - as_vector(guess.motions[i].of(q))).norm();
     };
-    for (const Quantity q : coupling::all_quantities) {
+    for (const port::Quantity q : coupling::all_quantities) {
       if ((side.wanted & bit(q)) == 0) continue;
-      const bool is_rate = q == Quantity::velocity || q == Quantity::acceleration;
-      double rounding = q == Quantity::rotation ? floor / side.size : floor;
+      const bool is_rate = q == port::Quantity::velocity || q == port::Quantity::acceleration;
+      double rounding = q == port::Quantity::rotation ? floor / side.size : floor;
       if (is_rate) rounding *= 2.0 / window.shortest_step();
-      if (q == Quantity::acceleration) rounding *= 2.0 / window.shortest_step();
-      if (miss(q) > tolerance * size(is_rate ? q : Quantity::motion) + rounding) return false;
+      if (q == port::Quantity::acceleration) rounding *= 2.0 / window.shortest_step();
+      if (miss(q) > tolerance * size(is_rate ? q : port::Quantity::motion) + rounding) return false;
     }
     const double own = found.loads.segment(side.first, side.count()).norm();
-    if (side.stiffness * miss(Quantity::motion) > tolerance * own + floor * side.stiffness) {
+    if (side.stiffness * miss(port::Quantity::motion) > tolerance * own + floor * side.stiffness) {
       return false;
     }
   }
@@ -226,7 +225,7 @@ bool CoupledRun::is_foreseen(const CoupledWindow& window, const CoupledGuess& gu
 void CoupledRun::watch(CoupledWindow& window, const std::vector<coupling::Window>& asked,
                        const VectorXd& answer) {
   const auto acceleration = [&](std::size_t i, const coupling::Window& motion) {
-    return VectorXd((translations(motion.of(Quantity::velocity)) - sides_[i].velocity) /
+    return VectorXd((translations(motion.of(port::Quantity::velocity)) - sides_[i].velocity) /
                     window.length());
   };
   std::vector<VectorXd> made;

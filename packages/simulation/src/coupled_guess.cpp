@@ -7,12 +7,11 @@ namespace {
 
 using coupling::bit;
 using Eigen::VectorXd;
-using port::Quantity;
 
 std::vector<VectorXd> parts_of(const CoupledGuess& guess, const std::vector<CoupledSide>& sides) {
   std::vector<VectorXd> parts = {guess.loads};
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    for (const Quantity q : coupling::all_quantities) {
+    for (const port::Quantity q : coupling::all_quantities) {
       if ((sides[i].wanted & bit(q)) != 0) parts.push_back(as_vector(guess.motions[i].of(q)));
     }
   }
@@ -39,12 +38,12 @@ CoupledGuess improve(coupling::Scheme& scheme, coupling::PartScale& scale,
   std::size_t part = 1;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     coupling::Window& motion = next.motions[i];
-    for (const Quantity q : coupling::all_quantities) {
+    for (const port::Quantity q : coupling::all_quantities) {
       if ((sides[i].wanted & bit(q)) == 0) continue;
       motion.of(q).assign(parts[part].begin(), parts[part].end());
       ++part;
     }
-    make_rotations(motion.of(Quantity::rotation));
+    make_rotations(motion.of(port::Quantity::rotation));
   }
   return next;
 }

@@ -23,12 +23,11 @@ namespace {
 
 using coupling::bit;
 using Eigen::VectorXd;
-using port::Quantity;
 
 // Share of what was exchanged that an interface may make or lose.
 constexpr double notable_gap = 1e-3;
 
-const Options& settings_of(const Options& deck) { return deck.list("Coupling"); }
+const Options& coupling_settings(const Options& deck) { return deck.list("Coupling"); }
 
 std::string percent(double share) {
   return share < 1.0 ? fmt::format("{:.2g} %", 100.0 * share)
@@ -55,7 +54,7 @@ std::string blame_coupling(std::string text, const std::vector<CoupledSide>& sid
 CoupledRun::CoupledRun(const Options& deck, const coupling::PartnerRegistry& known,
                        const CoupledFiles& files, const Ports& ports, const parallel::Comm& comm,
                        Findings& findings)
-    : settings_(settings_of(deck)),
+    : settings_(coupling_settings(deck)),
       comm_(comm),
       findings_(findings),
       scheme_(coupling::make_scheme(settings_)),
@@ -147,12 +146,12 @@ void CoupledRun::begin_side(CoupledSide& side, const model::State& state, bool g
   double wanted = 0.0;
   on_root(comm_, [&] {
     side.partner->begin({side.port_name, state.time_prev, side.port->reference(),
-                         side.port->read(Quantity::velocity, state), windows_});
+                         side.port->read(port::Quantity::velocity, state), windows_});
     if (goes_on) side.partner->restore(prefix, *resumed_);
     wanted = side.partner->wanted();
   });
-  side.wanted = static_cast<coupling::Quantities>(comm_.max(wanted)) | bit(Quantity::motion);
-  if (!scheme_->is_implicit()) side.wanted |= bit(Quantity::velocity);
+  side.wanted = static_cast<coupling::Quantities>(comm_.max(wanted)) | bit(port::Quantity::motion);
+  if (!scheme_->is_implicit()) side.wanted |= bit(port::Quantity::velocity);
   if (!goes_on) return;
   side.books.restore(prefix + "interface", *resumed_);
   side.stiffness = resumed_->number(prefix + "stiffness");
@@ -184,11 +183,11 @@ void CoupledRun::accept(CoupledWindow& window, int attempts) {
     coupling::Window& about = motions[i];
     const VectorXd acted = side.loads(loads_);
     about.loads.assign(acted.begin(), acted.end());
-    const double work = acted.dot(as_vector(about.of(Quantity::motion)));
-    if (!scheme_->is_implicit()) side.velocity = translations(about.of(Quantity::velocity));
+    const double work = acted.dot(as_vector(about.of(port::Quantity::motion)));
+    if (!scheme_->is_implicit()) side.velocity = translations(about.of(port::Quantity::velocity));
     if (is_parallel_) side.pace.add(about);
     if (is_one_way_) {
-      std::vector<double>& motion = about.of(Quantity::motion);
+      std::vector<double>& motion = about.of(port::Quantity::motion);
       if (about.steps.empty()) about.steps = {{about.start, about.end, motion}};  // for a record
       std::fill(motion.begin(), motion.end(), 0.0);
     }

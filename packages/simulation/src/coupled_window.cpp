@@ -12,7 +12,6 @@ namespace {
 
 using coupling::bit;
 using Eigen::VectorXd;
-using port::Quantity;
 
 // Of a window of several steps, what is tried at the least.
 constexpr double smallest_part = 1.0 / 1024.0;
@@ -33,16 +32,16 @@ void foresee(const Pace& pace, const std::vector<double>& velocity, coupling::Wi
   for (Eigen::Index p = 0; p < mean.size() / 6; ++p) {
     const Vec6 rate = mean.segment<6>(6 * p);
     const Eigen::Map<const Vec6> before(velocity.data() + 6 * p);
-    const auto six = [&](Quantity q, const Vec6& value) {
+    const auto six = [&](port::Quantity q, const Vec6& value) {
       std::vector<double>& values = window.of(q);
       if (!values.empty()) Eigen::Map<Vec6>(values.data() + 6 * p) = value;
     };
-    six(Quantity::motion, h * rate);
-    six(Quantity::velocity, 2.0 * rate - before);
-    six(Quantity::acceleration, 2.0 / h * (rate - before));
-    std::vector<double>& position = window.of(Quantity::position);
+    six(port::Quantity::motion, h * rate);
+    six(port::Quantity::velocity, 2.0 * rate - before);
+    six(port::Quantity::acceleration, 2.0 / h * (rate - before));
+    std::vector<double>& position = window.of(port::Quantity::position);
     if (!position.empty()) Eigen::Map<Vec3>(position.data() + 3 * p) += h * rate.head<3>();
-    std::vector<double>& rotation = window.of(Quantity::rotation);
+    std::vector<double>& rotation = window.of(port::Quantity::rotation);
     if (rotation.empty()) continue;
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(rotation.data() + 9 * p);
     R = (rotation_of(h * rate.tail<3>()) * R).eval();
@@ -149,7 +148,7 @@ std::vector<coupling::Window> CoupledWindow::unmoved() {
     window.number = number_;
     window.start = start_;
     window.end = proposal();
-    for (const Quantity q : coupling::all_quantities) {
+    for (const port::Quantity q : coupling::all_quantities) {
       if ((side.wanted & bit(q)) != 0) window.of(q) = side.port->read(q, stepper_.state());
     }
   }
@@ -159,7 +158,7 @@ std::vector<coupling::Window> CoupledWindow::unmoved() {
 std::vector<coupling::Window> CoupledWindow::at_rest() {
   std::vector<coupling::Window> windows = unmoved();
   for (coupling::Window& window : windows) {
-    std::vector<double>& velocity = window.of(Quantity::velocity);
+    std::vector<double>& velocity = window.of(port::Quantity::velocity);
     std::fill(velocity.begin(), velocity.end(), 0.0);
   }
   return windows;
@@ -169,7 +168,7 @@ std::vector<coupling::Window> CoupledWindow::foreseen() {
   std::vector<coupling::Window> windows = unmoved();
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const port::Port& port = *sides_[i].port;
-    const std::vector<double> velocity = port.read(Quantity::velocity, stepper_.state());
+    const std::vector<double> velocity = port.read(port::Quantity::velocity, stepper_.state());
     foresee(sides_[i].pace, velocity, windows[i]);
   }
   return windows;
@@ -178,7 +177,8 @@ std::vector<coupling::Window> CoupledWindow::foreseen() {
 void CoupledWindow::enter() {
   complete();
   for (CoupledSide& side : sides_) {
-    const std::vector<double> velocity = side.port->read(Quantity::velocity, stepper_.state());
+    const std::vector<double> velocity =
+        side.port->read(port::Quantity::velocity, stepper_.state());
     side.velocity = translations(velocity);
     if (stepper_.steps() == 0) side.pace.start(velocity);
   }
@@ -247,14 +247,14 @@ void CoupledWindow::read(bool is_last) {
   const model::State& state = stepper_.state();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     coupling::Window& window = motions_[i];
-    for (const Quantity q : coupling::all_quantities) {
-      if ((sides_[i].wanted & bit(q)) == 0 || (!is_last && q != Quantity::motion)) continue;
+    for (const port::Quantity q : coupling::all_quantities) {
+      if ((sides_[i].wanted & bit(q)) == 0 || (!is_last && q != port::Quantity::motion)) continue;
       std::vector<double> values = sides_[i].port->read(q, state);
       std::vector<double>& sum = window.of(q);
-      if (q == Quantity::motion && length_) {
+      if (q == port::Quantity::motion && length_) {
         window.steps.push_back({state.time_prev, state.time, values});
       }
-      if (q != Quantity::motion || sum.empty()) {
+      if (q != port::Quantity::motion || sum.empty()) {
         sum = std::move(values);
         continue;
       }

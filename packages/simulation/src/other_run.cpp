@@ -44,7 +44,7 @@ Path checkpoint_named(const Path& path) {
   return path.filename() == "run.h5" ? checkpoint_path(path.parent_path()) : path;
 }
 
-std::string read_newest(const Path& file) {
+std::string read_text_of_newest(const Path& file) {
   try {
     return read_sound_checkpoint(file);
   } catch (const FileError& error) {
@@ -162,7 +162,7 @@ Snapshot find_state_of_run(const parallel::Comm& comm, const Options& analysis,
   const Path file = checkpoint_named(path);
   std::string content;
   on_root(comm, [&] {
-    content = read_newest(file);
+    content = read_text_of_newest(file);
     if (file != path) check_results(file.parent_path() / "run.h5", Snapshot::decode(content));
   });
   Snapshot snapshot = Snapshot::decode(comm.broadcast(content));

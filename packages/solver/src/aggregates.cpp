@@ -8,8 +8,6 @@ namespace {
 
 constexpr int none = -1;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 class Aggregator {
  public:
   Aggregator(const GridLevel& grid, const std::vector<bool>& carried)

@@ -89,7 +89,7 @@ Eigen::MatrixXd collect(const MultiVector& pieces, const WholeVector& whole) {
   return columns;
 }
 
-Teuchos::ParameterList parameters(int space, int vectors) {
+Teuchos::ParameterList search_parameters(int space, int vectors) {
   const int blocks = space / block_size + 1;
   Teuchos::ParameterList list;
   list.set("Which", "LM");
@@ -122,7 +122,7 @@ InvertedPairs solve_krylov_schur(const ShiftedPencil& op, int count, const Eigen
   InvertedPairs pairs;
   const int vectors = whole.size() - static_cast<int>(found.cols());
   pairs.convergence = widen(count, vectors, [&](int space) {
-    Teuchos::ParameterList list = parameters(space, vectors);
+    Teuchos::ParameterList list = search_parameters(space, vectors);
     Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, LinearOp> solver(problem, list);
     const bool converged = solver.solve() == Anasazi::Converged;
     return converged ? count : std::min(problem->getSolution().numVecs, count - 1);

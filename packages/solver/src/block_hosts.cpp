@@ -15,8 +15,6 @@ namespace {
 constexpr double smallest_pivot = 1e-6;
 constexpr int scalings = 8;  // each takes the square root of what is out of scale
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // Largest entry of every row and column to 1, nearly.
 void equilibrate(Eigen::MatrixXd& A) {
   const auto factors = [](Eigen::VectorXd largest) -> Eigen::VectorXd {

@@ -13,13 +13,11 @@
 namespace culm::solver {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-constexpr auto none = std::numeric_limits<std::size_t>::max();
+constexpr auto no_place = std::numeric_limits<std::size_t>::max();
 
 // Eliminating others may leave on the diagonal so many times the largest entry of the row, as with
 // kept pivots of KLU2. The error of a solution grows by as much.
-constexpr double largest_growth = 1e4;
+constexpr double largest_pivot_growth = 1e4;
 
 // Of the largest coefficient of a joint; with less an unknown hardly takes part in it.
 constexpr double smallest_share = 1e-2;
@@ -28,7 +26,7 @@ constexpr double smallest_share = 1e-2;
 constexpr int most_merged = 8;
 
 // What rounding may leave of a number where many others have been subtracted.
-constexpr double rounding = 512.0 * std::numeric_limits<double>::epsilon();
+constexpr double rest_of_rounding = 512.0 * std::numeric_limits<double>::epsilon();
 
 // Where there is a choice, a pivot keeps more of what has been on the diagonal. Long beams that are
 // held at one end have smaller ones, whatever the choice.
@@ -55,12 +53,12 @@ BlockLu::BlockLu(const BlockRows& rows, int kept)
 }
 
 bool BlockLu::factor() {
-  return host_.empty() ? factor_with_new_hosts() : factor_as_planned(rounding);
+  return host_.empty() ? factor_with_new_hosts() : factor_as_planned(rest_of_rounding);
 }
 
 bool BlockLu::factor_with_new_hosts() {
   const std::vector<int> hosts = choose_hosts(rows_, first_kept_);
-  return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rounding);
+  return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rest_of_rounding);
 }
 
 bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
@@ -123,7 +121,7 @@ void BlockLu::plan() {
   before_.assign(rows, 0.0);
   exchanged_.assign(rows, 0);
   x_.assign(rows, 0.0);
-  diagonal_.assign(rows, none);
+  diagonal_.assign(rows, no_place);
   place_.assign(rows, 0);
   for (std::size_t place = 0; place < rows; ++place) {
     const std::size_t row = index(plan_.unknown[place]);
@@ -162,7 +160,7 @@ void BlockLu::copy() {
     }
   }
   for (std::size_t place = 0; place < before_.size(); ++place) {
-    before_[place] = diagonal_[place] == none ? 0.0 : std::abs(rows_.value(diagonal_[place]));
+    before_[place] = diagonal_[place] == no_place ? 0.0 : std::abs(rows_.value(diagonal_[place]));
   }
 }
 
@@ -174,9 +172,9 @@ bool BlockLu::has_grown(const BlockPlan::Panel& panel) {
     const std::size_t place = index(panel.first + i);
     const double now = std::abs(*entry);
     const int row = plan_.unknown[place];
-    if (now > largest_growth * before_[place] && before_[place] > 0.0 &&
-        now > largest_growth * largest_in_row(row) &&
-        now > largest_growth * largest_behind_joints(row)) {
+    if (now > largest_pivot_growth * before_[place] && before_[place] > 0.0 &&
+        now > largest_pivot_growth * largest_in_row(row) &&
+        now > largest_pivot_growth * largest_behind_joints(row)) {
       return true;
     }
     before_[place] = std::max(before_[place], now);
@@ -203,7 +201,7 @@ double BlockLu::largest_behind_joints(int row) const {
   double largest = 0.0;
   for_entries(row, [&](int joint, double here) {
     const std::size_t diagonal = diagonal_[index(place_[index(joint)])];
-    if (diagonal != none && rows_.value(diagonal) != 0.0) return;
+    if (diagonal != no_place && rows_.value(diagonal) != 0.0) return;
     const double least = smallest_share * largest_in_row(joint);
     for_entries(joint, [&](int other, double there) {
       const double ratio = here / std::max(there, least);

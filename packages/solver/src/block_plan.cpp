@@ -9,8 +9,6 @@
 namespace culm::solver {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 class Planner {
  public:
   Planner(const BlockRows& rows, const std::vector<int>& host, int first_kept)

@@ -16,8 +16,6 @@ constexpr double span_of_eigenvalues = 20.0;  // what is below belongs to the co
 constexpr double margin = 1.1;                // of the largest eigenvalue, found from below
 constexpr int lanczos_steps = 12;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Entries without any symmetry, the same on any number of ranks.

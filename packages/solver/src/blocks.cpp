@@ -3,35 +3,6 @@
 #include <algorithm>
 
 namespace culm::solver {
-namespace {
-
-std::size_t index(long long i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
-Blocks find_blocks(const assembly::CrsMatrix& matrix) {
-  const auto graph = matrix.getLocalMatrixHost().graph;
-  const auto columns_of = [&](std::size_t row) {
-    return std::span<const int>(graph.entries.data() + graph.row_map(row),
-                                graph.row_map(row + 1) - graph.row_map(row));
-  };
-  Blocks blocks;
-  const std::size_t rows = matrix.getRowMap()->getNodeNumElements();
-  for (std::size_t row = 0; row < rows; ++row) {
-    blocks.rows.push_back(matrix.getRowMap()->getGlobalElement(static_cast<int>(row)));
-    const auto columns = columns_of(row);
-    if (row > 0 && std::ranges::equal(columns, columns_of(row - 1))) {
-      ++blocks.sizes.back();
-      continue;
-    }
-    blocks.sizes.push_back(1);
-    blocks.widths.push_back(static_cast<int>(columns.size()));
-    for (int column : columns) {
-      blocks.columns.push_back(matrix.getColMap()->getGlobalElement(column));
-    }
-  }
-  return blocks;
-}
 
 Blocks find_blocks(const BlockRows& rows) {
   Blocks blocks;
@@ -55,6 +26,17 @@ Blocks find_blocks(const BlockRows& rows) {
     blocks.widths.push_back(static_cast<int>(columns.size()));
     blocks.columns.insert(blocks.columns.end(), columns.begin(), columns.end());
     last.swap(columns);
+  }
+  return blocks;
+}
+
+Blocks find_blocks(const assembly::CrsMatrix& matrix) {
+  Blocks blocks = find_blocks(BlockRows(matrix));
+  for (long long& row : blocks.rows) {
+    row = matrix.getRowMap()->getGlobalElement(static_cast<int>(row));
+  }
+  for (long long& column : blocks.columns) {
+    column = matrix.getColMap()->getGlobalElement(static_cast<int>(column));
   }
   return blocks;
 }

@@ -12,16 +12,17 @@ namespace culm::solver {
 
 /// Rows that stand together and have the same columns, and those columns.
 struct Blocks {
-  std::vector<long long> rows;     ///< global, block after block
+  std::vector<long long> rows;     ///< block after block
   std::vector<int> sizes;          ///< rows of each block
-  std::vector<long long> columns;  ///< global, block after block
+  std::vector<long long> columns;  ///< block after block
   std::vector<int> widths;         ///< columns of each block
 };
 
-/// Those of this rank's rows.
-Blocks find_blocks(const assembly::CrsMatrix& matrix);
-/// Those of rows of one rank, whose sources follow each other, too; columns rise within a block.
+/// Those of rows whose sources follow each other, too, by their local numbers; columns rise within
+/// a block.
 Blocks find_blocks(const BlockRows& rows);
+/// Those of this rank's rows, by their global numbers.
+Blocks find_blocks(const assembly::CrsMatrix& matrix);
 
 /// Block of each row, by its global number. @param blocks of all rows
 std::vector<int> block_of_row(const Blocks& blocks);

@@ -17,8 +17,6 @@ using assembly::CrsMatrix;
 using assembly::GlobalIndex;
 using assembly::Map;
 
-std::size_t index(long long i) { return static_cast<std::size_t>(i); }
-
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Block = Eigen::Map<RowMajor>;
 using ConstBlock = Eigen::Map<const RowMajor>;

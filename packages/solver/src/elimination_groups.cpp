@@ -14,8 +14,6 @@ namespace {
 
 using parallel::Graph;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 std::span<const int> neighbours_of(const Graph& graph, int vertex) {
   const int first = graph.begin[index(vertex)];
   return {graph.neighbours.data() + first, index(graph.begin[index(vertex) + 1] - first)};

@@ -3,8 +3,6 @@
 namespace culm::solver {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // Rows below the diagonal block of each block column of L. Row k of L reaches from its entries in
 // the matrix up the elimination tree, which grows on the way.
 std::vector<double> rows_below(const parallel::Graph& graph, const std::vector<int>& place) {

@@ -7,8 +7,6 @@
 namespace culm::solver {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace

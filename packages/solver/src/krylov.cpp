@@ -15,13 +15,13 @@ namespace {
 using assembly::Map;
 using assembly::Vector;
 using MultiVector = Tpetra::MultiVector<>;
-using Operator = Tpetra::Operator<>;
+using LinearOp = Tpetra::Operator<>;
 
 constexpr int before_restart = 60;
 
 // What Belos calls: the matrix, or its approximate inverse. Belos has one right-hand side.
 template <class Product>
-class Applied final : public Operator {
+class Applied final : public LinearOp {
  public:
   Applied(Teuchos::RCP<const Map> map, Product product)
       : map_(std::move(map)), product_(std::move(product)) {}
@@ -48,11 +48,11 @@ class Applied final : public Operator {
 };
 
 template <class Product>
-Teuchos::RCP<Operator> as_operator(const Vector& like, Product product) {
+Teuchos::RCP<LinearOp> as_operator(const Vector& like, Product product) {
   return Teuchos::rcp(new Applied<Product>(assembly::tpetra(like.rows()), std::move(product)));
 }
 
-using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
+using Problem = Belos::LinearProblem<double, MultiVector, LinearOp>;
 
 Teuchos::RCP<Problem> set_up(Multigrid& multigrid, const Vector& b, Vector& x, bool right) {
   const auto matrix =
@@ -102,7 +102,7 @@ KrylovEnd conjugate_gradients(Multigrid& multigrid, const Vector& b, Vector& x,
   const auto list = parameters(goal);
   list->set("Residual Scaling", "Norm of RHS");
   list->set("Assert Positive Definiteness", true);
-  return run<Belos::PseudoBlockCGSolMgr<double, MultiVector, Operator>>(
+  return run<Belos::PseudoBlockCGSolMgr<double, MultiVector, LinearOp>>(
       set_up(multigrid, b, x, false), list);
 }
 
@@ -113,7 +113,7 @@ KrylovEnd minimise_residual(Multigrid& multigrid, const Vector& b, Vector& x,
   list->set("Explicit Residual Scaling", "Norm of RHS");
   list->set("Num Blocks", before_restart);
   list->set("Maximum Restarts", goal.most_iterations / before_restart);
-  return run<Belos::PseudoBlockGmresSolMgr<double, MultiVector, Operator>>(
+  return run<Belos::PseudoBlockGmresSolMgr<double, MultiVector, LinearOp>>(
       set_up(multigrid, b, x, true), list);
 }
 

@@ -16,8 +16,8 @@
 namespace culm::solver {
 namespace {
 
-using ConstMap = Eigen::Map<const Eigen::VectorXd>;
-using Map = Eigen::Map<Eigen::VectorXd>;
+using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
+using VectorMap = Eigen::Map<Eigen::VectorXd>;
 
 // Operators with the names that Spectra wants.
 class SolveOp {
@@ -33,8 +33,8 @@ class SolveOp {
   Eigen::Index cols() const { return op_.inverse.size(); }
   void set_shift(double) const {}  // it is factored
   void perform_op(const double* x, double* y) const {
-    Map result(y, rows());
-    op_.inverse.solve(ConstMap(x, rows()), result);
+    VectorMap result(y, rows());
+    op_.inverse.solve(ConstVectorMap(x, rows()), result);
     if (found_.cols() > 0) result -= found_ * (B_found_.transpose() * result);
   }
 
@@ -51,7 +51,7 @@ class ProductOp {
   Eigen::Index rows() const { return op_.inverse.size(); }
   Eigen::Index cols() const { return op_.inverse.size(); }
   void perform_op(const double* x, double* y) const {
-    op_.inverse.multiply(*op_.pencil.B, ConstMap(x, rows()), Map(y, rows()));
+    op_.inverse.multiply(*op_.pencil.B, ConstVectorMap(x, rows()), VectorMap(y, rows()));
   }
 
  private:
@@ -65,7 +65,7 @@ class GeneralOp {
   Eigen::Index rows() const { return op_.size; }
   Eigen::Index cols() const { return op_.size; }
   void perform_op(const double* x, double* y) const {
-    op_.apply(ConstMap(x, op_.size), Map(y, op_.size));
+    op_.apply(ConstVectorMap(x, op_.size), VectorMap(y, op_.size));
   }
 
  private:

@@ -9,11 +9,7 @@ namespace culm::solver {
 using assembly::CrsMatrix;
 using assembly::Vector;
 
-namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 Residual residual(const CrsMatrix& A, std::span<const double> x, std::span<const double> b,
                   std::span<double> r) {
@@ -27,7 +23,7 @@ Residual residual(const CrsMatrix& A, std::span<const double> x, std::span<const
       rest -= term;
       terms += std::abs(term);
     }
-    if (!std::isfinite(rest)) return {infinite, 1.0};
+    if (!std::isfinite(rest)) return {HUGE_VAL, 1.0};
     if (!r.empty()) r[row] = rest;
     result.largest = std::max(result.largest, std::abs(rest));
     result.size = std::max(result.size, terms);
@@ -40,7 +36,7 @@ double largest_entry(const CrsMatrix& A) {
   double largest = 0.0;
   for (std::size_t k = 0; k < values.extent(0); ++k) {
     const double size = std::abs(values(k));
-    if (!std::isfinite(size)) return infinite;
+    if (!std::isfinite(size)) return HUGE_VAL;
     largest = std::max(largest, size);
   }
   return largest;

@@ -18,8 +18,6 @@ constexpr long long largest_coarsest = 150000;
 // A grid that is not much coarser than the one before is not worth its cost.
 constexpr double least_coarsening = 0.7;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 // What neither a smoother nor rigid motions can stand for.
 std::vector<bool> find_special(const GridLevel& grid, const BlockSmoother& smoother) {
   std::vector<bool> special(index(grid.nodes()));

@@ -3,11 +3,7 @@
 #include "exchange.hpp"
 
 namespace culm::solver {
-namespace {
-
-std::size_t index(long long i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 void NodeBlocks::add_node(int height) {
   heights.push_back(height);

@@ -9,8 +9,6 @@
 namespace culm::solver {
 namespace {
 
-std::size_t index(long long i) { return static_cast<std::size_t>(i); }
-
 Blocks gather(const Blocks& mine, const parallel::Comm& comm) {
   return {comm.gather(std::span<const long long>(mine.rows)),
           comm.gather(std::span<const int>(mine.sizes)),

@@ -9,8 +9,6 @@
 namespace culm::solver {
 namespace {
 
-std::size_t index(long long i) { return static_cast<std::size_t>(i); }
-
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Orthonormal Q and R with B = Q R; without columns that are combinations of others.

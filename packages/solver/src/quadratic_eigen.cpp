@@ -25,7 +25,7 @@ double largest_entry(const assembly::Matrix& matrix, const parallel::Comm& comm)
 
 // Residual that no pair has. Infinite values are defective: rounding makes large finite ones of
 // them, whose vectors solve nothing.
-constexpr double useless = 1e-6;
+constexpr double largest_residual = 1e-6;
 
 // y = A x of a real matrix.
 Eigen::VectorXcd product(const ShiftInvert& inverse, const assembly::Matrix& A,
@@ -121,7 +121,7 @@ void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSetting
     const double stiff = stiffness * x.lpNorm<Eigen::Infinity>();
     if (std::abs(value) <= settings.shift && size < unresisted * stiff) size = stiff;
     const double residual = rest.lpNorm<Eigen::Infinity>() / size;
-    if (!(residual <= useless)) continue;
+    if (!(residual <= largest_residual)) continue;
     result.worst_residual = std::max(result.worst_residual, residual);
     result.values.push_back(value);
     result.rounding.push_back(eps * x.cwiseAbs().dot(terms));

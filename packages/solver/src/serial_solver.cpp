@@ -18,8 +18,6 @@ namespace {
 
 using assembly::CrsMatrix;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 // Of a matrix that is on this rank as a whole. Factors: Klu2 or GuardedBlockLu.
 template <class Factors>
 class SerialSolver final : public LinearSolver {
@@ -37,7 +35,7 @@ class SerialSolver final : public LinearSolver {
   LinearResidual solve(const Vector& b, Vector& x) override {
     double relative = solve_once(b.values(), x.values());
     if (!(relative <= largest_residual_of_doubtful_pivots) && factors_.needs_proof(has_solved_)) {
-      relative = factors_.factor_anew() ? solve_once(b.values(), x.values()) : infinite;
+      relative = factors_.factor_anew() ? solve_once(b.values(), x.values()) : HUGE_VAL;
     }
     has_solved_ = true;
     return {relative};

@@ -18,8 +18,6 @@ using assembly::CrsMatrix;
 using assembly::GlobalIndex;
 using assembly::Vector;
 
-std::size_t index(long long i) { return static_cast<std::size_t>(i); }
-
 constexpr const char* symmetric_pattern = "substructures need a symmetric pattern";
 
 // An entry of a matrix that is put together, and where its value comes from.

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <culm_kit/no_heap.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,6 +127,22 @@ TEST(BlockLu, AllocatesNothingAfterTheFirstFactorisation) {
     blocks.solve({x.data(), static_cast<std::size_t>(x.size())});
     EXPECT_EQ(std::abs(blocks.determinant().sign), 1);
   }
+}
+
+// Rows with equal columns make a block where they stand side by side in the matrix, too: values of
+// a row between them belong to somebody else.
+TEST(BlockLu, RowsOfAPartThatStandApartAreNoBlock) {
+  const BlockMatrix A(chain(2, [](int) { return 2; }));
+  EXPECT_THAT(find_blocks(*A.matrix).sizes, testing::ElementsAre(4));
+  PartOfRows part;
+  part.rows = part.place = {0, 2, 1, 3};
+  const BlockRows rows(*A.matrix, part);
+  EXPECT_THAT(find_blocks(rows).sizes, testing::ElementsAre(1, 1, 1, 1));
+  BlockLu factors(rows);
+  ASSERT_TRUE(factors.factor());
+  const Eigen::Vector4d b(-1.0, 0.5, 2.0, 3.0);
+  const Eigen::Vector4d x = solve(factors, b(part.rows))(part.place);
+  EXPECT_LT(relative_residual(A.values, x, b), 1e-12);
 }
 
 // What is left of the last blocks is their Schur complement, and a solution comes in two halves.

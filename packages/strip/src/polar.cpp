@@ -138,7 +138,7 @@ SharedAirfoil make(const Options& options) {
   return std::make_shared<Polar>(rows_of(options));
 }
 
-void check(const Options& options, InputIssues& issues) {
+void check_polar(const Options& options, InputIssues& issues) {
   if (options.has("File Name") == options.has("Angles")) {
     issues.add(options.where(), "give one of 'File Name' and 'Angles'");
     return;
@@ -187,7 +187,7 @@ void register_polar(AirfoilRegistry& registry) {
           .add(numbers("Moment", "1",
                        "The same of the moment about the quarter chord, nose up; zero if absent.")
                    .optional())
-          .check(check),
+          .check(check_polar),
       make);
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double three_quarters = 0.75;
 
-void check(const Options& options, InputIssues& issues) {
+void check_strip(const Options& options, InputIssues& issues) {
   check_places(options, {"Chords", "Twists", "Axes At", "Airfoils"}, issues);
   check_one_of("Chord", "Chords", options, issues);
   check_one_of("Airfoil", "Airfoils", options, issues);
@@ -85,7 +85,7 @@ Schema strip_schema() {
                .optional("Jones"))
       .add(flag("Apparent Mass", "Whether the fluid that moves with the section has inertia.")
                .optional(true))
-      .check(check);
+      .check(check_strip);
 }
 
 SharedAirfoil find_airfoil(const std::string& name, const Where& where, StripContext& context) {
@@ -127,7 +127,7 @@ bool can_stall(const std::vector<SharedAirfoil>& airfoils) {
       airfoils, [](const SharedAirfoil& airfoil) { return airfoil->separation() != nullptr; });
 }
 
-void make(const Options& options, StripContext& context) {
+void make_strip(const Options& options, StripContext& context) {
   model::BuildContext& build = context.fluids.build;
   const flow::SharedFlow flow = find_wind(options, context);
   const auto function = find_time_function(options, build);
@@ -177,7 +177,7 @@ void make(const Options& options, StripContext& context) {
 }  // namespace
 
 void register_strips(StripRegistry& registry) {
-  registry.add("Strip", strip_schema(), make);
+  registry.add("Strip", strip_schema(), make_strip);
   register_strip_drag(registry);
 }
 

@@ -44,7 +44,7 @@ Schema drag_schema() {
 }
 
 // Force and wind are those of the axis, so no direction in the section is a special one.
-void make(const Options& options, StripContext& context) {
+void make_strip_drag(const Options& options, StripContext& context) {
   model::BuildContext& build = context.fluids.build;
   flow::SharedFlow flow = flow::find_flow(options, context.fluids);
   const auto function = find_time_function(options, build);
@@ -69,7 +69,7 @@ void make(const Options& options, StripContext& context) {
 }  // namespace
 
 void register_strip_drag(StripRegistry& registry) {
-  registry.add("Strip Drag", drag_schema(), make);
+  registry.add("Strip Drag", drag_schema(), make_strip_drag);
 }
 
 }  // namespace culm::strip

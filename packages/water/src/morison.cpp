@@ -371,7 +371,7 @@ bool is_alone(const MorisonLoad& load, const Options& options, model::BuildConte
   return true;
 }
 
-void make(const Options& options, flow::FluidContext& context) {
+void make_morison(const Options& options, flow::FluidContext& context) {
   model::BuildContext& build = context.build;
   const auto sea = find_sea(options, context);
   const auto function = model::find_function(options, build);
@@ -401,7 +401,7 @@ void make(const Options& options, flow::FluidContext& context) {
 }  // namespace
 
 void register_water_loads(flow::FluidLoadRegistry& registry) {
-  registry.add("Morison", morison_schema(), make);
+  registry.add("Morison", morison_schema(), make_morison);
   register_potential_flow(registry);
 }
 

@@ -13,7 +13,7 @@
 namespace culm::water {
 namespace {
 
-using Motion = model::ItemMotion<MorisonLoad::max_nodes>;
+using MorisonMotion = model::ItemMotion<MorisonLoad::max_nodes>;
 using Ends = Mat<3, 2>;  // a column for each end of a segment
 
 // Morison's formula is good for members up to this share of the length of waves.
@@ -160,8 +160,8 @@ Verdict MorisonLoad::assemble_item(std::size_t i, const model::State& state, con
   const Evaluation found = tangent ? evaluate<Dual>(item, state, stencil, want)
                                    : evaluate<double>(item, state, stencil, want);
   const double theta = mass ? 1.0 : stencil.theta;
-  const Motion motion(nodes_, item.nodes, state, theta);
-  Motion::Slots r(3, motion.mid.cols());
+  const MorisonMotion motion(nodes_, item.nodes, state, theta);
+  MorisonMotion::Slots r(3, motion.mid.cols());
   for (std::size_t a = 0; a < item.nodes.size(); ++a) {
     r.middleCols<4>(4 * static_cast<int>(a)) = -found.forces * item.factors[a].transpose();
   }
@@ -286,9 +286,9 @@ model::StepWork MorisonLoad::step_work(const model::State& state, const Stencil&
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-    const Motion motion(nodes_, item.nodes, state, stencil.theta);
+    const MorisonMotion motion(nodes_, item.nodes, state, stencil.theta);
     const Ends forces = evaluate<double>(item, state, stencil, Want::residual).forces;
-    Motion::Slots slots(3, motion.mid.cols());
+    MorisonMotion::Slots slots(3, motion.mid.cols());
     for (std::size_t a = 0; a < item.nodes.size(); ++a) {
       slots.middleCols<4>(4 * static_cast<int>(a)) = forces * item.factors[a].transpose();
     }

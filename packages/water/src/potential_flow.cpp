@@ -100,7 +100,7 @@ bool fit(const Options& options, FloatingBody& body, InputIssues& issues) {
   return true;
 }
 
-void make(const Options& options, flow::FluidContext& context) {
+void make_potential_flow(const Options& options, flow::FluidContext& context) {
   model::BuildContext& build = context.build;
   const auto sea = find_sea(options, context);
   const auto function = model::find_function(options, build);
@@ -135,7 +135,7 @@ void make(const Options& options, flow::FluidContext& context) {
 }  // namespace
 
 void register_potential_flow(flow::FluidLoadRegistry& registry) {
-  registry.add("Potential Flow", schema(), make);
+  registry.add("Potential Flow", schema(), make_potential_flow);
 }
 
 }  // namespace culm::water

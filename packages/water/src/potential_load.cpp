@@ -10,7 +10,7 @@
 namespace culm::water {
 namespace {
 
-using Motion = model::ItemMotion<1>;
+using PotentialMotion = model::ItemMotion<1>;
 using Complex = std::complex<double>;
 
 constexpr double small_turn = 0.1;  // [rad]; sines and their linear parts differ by 0.2 %
@@ -107,8 +107,8 @@ Verdict PotentialLoad::assemble_item(std::size_t i, const model::State& state,
   const bool mass = want == Want::mass;
   const double theta = mass ? 1.0 : stencil.theta;
   const Evaluation found = evaluate(state, stencil, want, trial_);
-  const Motion motion(nodes_, motion_.nodes(), state, theta);
-  Motion::Slots r = -motion_.slot_forces(found.force);
+  const PotentialMotion motion(nodes_, motion_.nodes(), state, theta);
+  PotentialMotion::Slots r = -motion_.slot_forces(found.force);
   if (mass) {
     r.setZero();
   } else {
@@ -190,7 +190,7 @@ model::StepWork PotentialLoad::step_work(const model::State& state, const Stenci
   if (placement().items.empty() || !placement().owned[0]) return work;
   States trial = accepted_;
   const Vec6 force = evaluate(state, stencil, Want::residual, trial).force;
-  const Motion motion(nodes_, motion_.nodes(), state, stencil.theta);
+  const PotentialMotion motion(nodes_, motion_.nodes(), state, stencil.theta);
   load::add_item_work(motion_.slot_forces(force), motion, motion_.nodes(), state, true, work);
   return work;
 }

@@ -16,7 +16,7 @@
 namespace culm::water {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double two_pi = 2.0 * std::numbers::pi;
 using Forces = Eigen::Matrix<std::complex<double>, 6, 1>;
 
 struct Row {
@@ -123,7 +123,7 @@ void read_radiation(const std::string& path, const WamitScale& scale, const Wher
     }
     if (period <= 0.0) continue;
     if (row.values.size() < 5) throw InputError({path, row.line, ""}, "must have its damping");
-    const double frequency = in_range(turn / period, row, path);
+    const double frequency = in_range(two_pi / period, row, path);
     Radiation& one = found[frequency];
     one.frequency = frequency;
     one.added_mass(i, j) = mass;
@@ -154,7 +154,7 @@ void read_excitation(const std::string& path, const WamitScale& scale, const Whe
     if (period <= 0.0) continue;
     entries.add(fmt::format(" at the period {} s and the heading {}", period, row.values[1]),
                 fmt::format("the direction {}", i + 1), row.line);
-    const auto [place, fresh] = found[in_range(turn / period, row, path)].try_emplace(
+    const auto [place, fresh] = found[in_range(two_pi / period, row, path)].try_emplace(
         row.values[1], Forces(Forces::Zero()));
     headings.insert(row.values[1]);
     const double area = scale.density * scale.gravity * power(scale.length, 2, i, 0);
@@ -168,7 +168,7 @@ void read_excitation(const std::string& path, const WamitScale& scale, const Whe
       const auto at = forces.find(heading);
       if (at == forces.end()) {
         throw InputError({path, 0, ""}, fmt::format("lacks the heading {:g} at the period {:g} s",
-                                                    heading, turn / frequency));
+                                                    heading, two_pi / frequency));
       }
       one.forces.push_back(at->second);
     }
@@ -214,7 +214,7 @@ PotentialBody read_wamit(const std::string& path, const WamitScale& scale, const
 std::optional<double> heading_in(const PotentialBody& body, double heading) {
   constexpr double near = 1e-9;
   if (body.headings.empty()) return {};
-  for (const double turns : {0.0, turn, -turn}) {
+  for (const double turns : {0.0, two_pi, -two_pi}) {
     const double same = heading + turns;
     if (same >= body.headings.front() - near && same <= body.headings.back() + near) return same;
   }

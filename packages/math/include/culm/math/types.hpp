@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 
+#include <concepts>
+#include <cstddef>
+
 namespace culm {
 
 template <int N>
@@ -17,6 +20,15 @@ using Vec3 = Vec<3>;
 using Vec6 = Vec<6>;
 using Mat3 = Mat<3, 3>;
 using Mat6 = Mat<6, 6>;
+
+/// A place in a container of the standard library, which counts without sign.
+template <std::integral Int>
+constexpr std::size_t index(Int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The axis after one of three, in turn.
+constexpr int next_axis(int i) { return (i + 1) % 3; }
 
 /// Skew matrix [a] with [a] b = a x b.
 inline Mat3 skew(const Vec3& a) {

@@ -57,4 +57,9 @@ TextTable read_table(InputFile& file, const std::string& keyword, const std::str
 /// InputError.
 std::map<int, std::size_t> index_rows(const TextTable& table, TextTable::Names names);
 
+/// The line of another table, indexed as `rows`, that the number in a column names. Throws
+/// InputError, which calls such a line `what` and tells those that there are.
+std::size_t look_up(const std::map<int, std::size_t>& rows, const TextTable& table, std::size_t row,
+                    TextTable::Names names, const std::string& what);
+
 }  // namespace culm::openfast
