@@ -57,7 +57,7 @@ def table_column(path, column):
 def culm(program, name, text, folder):
     """What culm makes of the file, in the form of CALCULIX, and the mass that it read."""
     (folder / f"{name}.inp").write_text(text)
-    done = program.call("import", "abaqus", folder / f"{name}.inp", "--output", folder / f"{name}.xml")
+    done = program.call("import", "calculix", folder / f"{name}.inp", "--output", folder / f"{name}.xml")
     if done.returncode != 0:
         sys.exit(done.stderr)
     mass = float(re.search(r"mass of what was read: (\S+) kg", done.stdout)[1])

@@ -1,6 +1,6 @@
 """Models of Abaqus and CalculiX: flat files, and parts with instances."""
 
-from .abaqus_mesh import read_mesh_block
+from .abaqus_mesh import hold_in_plane, read_mesh_block
 from .abaqus_properties import read_property_block, resolve_sections
 from .abaqus_steps import finish_steps, read_step_block
 from .findings import did_you_mean, refuse
@@ -23,7 +23,7 @@ WITHOUT_DATA = {"END STEP", "MATERIAL", "ASSEMBLY", "END ASSEMBLY", "COUPLING"}
 # What makes the mesh in a way that is not read: without it the deck would be another model.
 MESHING = {
     "NFILL", "NCOPY", "NMAP", "ELCOPY", "SYSTEM", "SUBSTRUCTURE PROPERTY", "UEL PROPERTY", "USER ELEMENT",
-    "SOLID SECTION", "MEMBRANE SECTION", "SHELL GENERAL SECTION", "SPRING", "DASHPOT", "CONNECTOR SECTION",
+    "SOLID SECTION", "MEMBRANE SECTION", "SPRING", "DASHPOT", "CONNECTOR SECTION",
     "TRUSS SECTION", "NODAL THICKNESS", "SUBMODEL", "RELEASE", "PRE-TENSION SECTION", "GAP", "EQUATION", "TIE", "EMBEDDED ELEMENT",
 }  # fmt: skip
 
@@ -68,14 +68,17 @@ class Reader:
         self.surfaces = {}
         self.orientations = {}
         self.axes = {}  # node -> rows of *TRANSFORM
+        self.undirected = {}  # node on the axis of its cylindrical system -> place of that
         self.assignments = []  # sections of elements, resolved at the end
         self.material = None  # the one whose properties are read
         self.coupling = None
         self.step = None
+        self.step_count = 0  # of the whole file
         self.known = []  # blocks that were understood
 
     def read(self, blocks):
         parts, part = {}, None
+        self.step_count = sum(block.keyword == "STEP" for block in blocks)
         for block in blocks:
             if block.keyword == "PART":
                 part = parts.setdefault(block.required("NAME"), [])
@@ -92,6 +95,7 @@ class Reader:
         if not self.elements:
             refuse(blocks[0].place if blocks else self.model.title, "the file has no elements")
         resolve_sections(self)
+        hold_in_plane(self)
         finish_steps(self)
         self._tell_unread()
 
@@ -116,6 +120,8 @@ class Reader:
             self.model.title = ", ".join(block.lines[0][1]).strip() or self.model.title
         if read_mesh_block(self, block) or read_property_block(self, block) or read_step_block(self, block):
             self.known.append(block)
+            return
+        if block.keyword == "SYSTEM" and not block.lines:  # back to the axes of space, where nodes are anyway
             return
         if block.keyword in MESHING:
             refuse(block.place, f"*{block.keyword} is not read, and without it the model would be another one")

@@ -4,7 +4,7 @@ import numpy
 
 from .findings import refuse
 from .keyword_file import integer, number
-from .model import BeamElement, Coupling, PointMass, ShellElement, cylinder_axes
+from .model import BeamElement, Coupling, PointMass, ShellElement, Support, cylinder_axes
 
 SHELLS = {
     "S3": 3, "S3R": 3, "S3RS": 3, "STRI3": 3, "S4": 4, "S4R": 4, "S4RS": 4, "S4RSW": 4, "S4R5": 4, "S6": 6,
@@ -12,8 +12,9 @@ SHELLS = {
 }  # fmt: skip
 BEAMS = {
     "B31": 2, "B31R": 2, "B31H": 2, "B31OS": 2, "B33": 2, "B33H": 2, "B32": 3, "B32R": 3, "B32H": 3, "B32OS": 3,
-    "PIPE31": 2, "PIPE32": 3,
+    "PIPE31": 2, "PIPE32": 3, "B21": 2, "B21H": 2, "B23": 2, "B23H": 2, "B22": 3, "B22H": 3, "PIPE21": 2, "PIPE22": 3,
 }  # fmt: skip
+IN_PLANE = {type for type in BEAMS if type.rstrip("H")[-2] == "2"}
 POINTS = {"MASS": 1, "ROTARYI": 1, "DCOUP3D": 1}
 
 
@@ -69,12 +70,34 @@ def _transform(reader, block):
     values = _numbers(cells, 6, place)
     a, b = values[:3], values[3:]
     for node in reader.find_nodes(block.required("NSET"), block.place):
+        reader.undirected.pop(node, None)
         if kind == "C":
             if numpy.linalg.norm(b - a) == 0.0:
                 refuse(place, "the two points of the axis are one")
-            reader.axes[node] = cylinder_axes(a, b - a, reader.model.nodes[node], place)
+            reader.axes[node] = _axes_about(reader, node, a, b - a, place)
         else:
             reader.axes[node] = triad(a, b, place)
+
+
+def _axes_about(reader, node, origin, along, place):
+    """Of a node on the axis any: what acts on it across must be the same in all directions."""
+    position = reader.model.nodes[node]
+    arm = position - origin
+    if numpy.linalg.norm(numpy.cross(arm, along)) <= 1e-9 * numpy.linalg.norm(along) * max(1.0, numpy.linalg.norm(arm)):
+        reader.undirected[node] = place
+        position = position + numpy.eye(3)[abs(along).argmin()]
+    return cylinder_axes(origin, along, position, place)
+
+
+def refuse_directions(reader, node, what):
+    """Of what acts on a node across the axis of its cylindrical system, where the node is on it.
+
+    @param what  degree of freedom -> value"""
+    place = reader.undirected.get(node)
+    for pair in ((1, 2), (4, 5)):
+        there = [what[i] for i in pair if i in what]
+        if place is not None and there and (len(there) < 2 or any(there)):
+            refuse(place, "a node on the axis of a cylindrical system has no directions in it")
 
 
 def triad(a, b, place):
@@ -167,6 +190,22 @@ def _records(block, size, more=0):
             numbers, start = [], None
     if numbers:
         refuse(start, f"expected {size} numbers for an element, found {len(numbers)}")
+
+
+def hold_in_plane(reader):
+    """Beams in the plane of x and y: their nodes stay in it."""
+    nodes, place, used = {}, None, set()
+    for type, members, where in reader.elements.values():
+        if type in IN_PLANE:
+            nodes.update(dict.fromkeys(members))
+            place = place or where
+            used.add(type)
+    for node in nodes:
+        if reader.model.nodes[node][2] != 0.0:
+            refuse(place, f"elements of type {used.pop()} lie in the plane z = 0, but a node of theirs is at z = {reader.model.nodes[node][2]:g}")
+    if nodes:
+        reader.findings.assume(f"nodes of {', '.join(sorted(used))} stay in the plane of x and y and turn about z alone", place)
+        reader.model.supports.append(Support(list(nodes), {3: 0.0, 4: 0.0, 5: 0.0}, place, "plane"))
 
 
 def _add_element(reader, type, key, nodes, place):

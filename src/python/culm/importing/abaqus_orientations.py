@@ -43,6 +43,8 @@ def read_orientation(reader, block):
     if not block.lines:
         refuse(block.place, "*ORIENTATION needs two points")
     place, cells = block.lines[0]
+    if len([cell for cell in cells if cell]) == 1:
+        refuse(place, f"*ORIENTATION by the distribution {cells[0]}, element by element, is not read")
     values = [number(cell, place, "a coordinate") for cell in cells if cell]
     if len(values) != 6 and not (len(values) == 9 and kind == "RECTANGULAR"):
         refuse(place, f"expected two points, or three with the origin of a rectangular system, found {len(values)} numbers")

@@ -14,6 +14,7 @@ from .profiles import i_section
 DEFAULT_UP = (0.0, 0.0, -1.0)  # the first axis of beam sections where the file has none
 DEFAULT_AXIS = (1.0, 0.0, 0.0)  # axis 1 of shells without orientation,
 FALLBACK_AXIS = (0.0, 0.0, 1.0)  # and where it is normal to the surface
+SHELL_SECTIONS = ("SHELL SECTION", "SHELL GENERAL SECTION")
 
 
 def read_property_block(reader, block):
@@ -24,6 +25,7 @@ def read_property_block(reader, block):
         "DENSITY": _density,
         "ORIENTATION": read_orientation,
         "SHELL SECTION": _assignment,
+        "SHELL GENERAL SECTION": _assignment,
         "BEAM SECTION": _assignment,
         "BEAM GENERAL SECTION": _assignment,
         "MASS": _assignment,
@@ -114,13 +116,12 @@ def resolve_sections(reader):
         keys = reader.find_elements(block.required("ELSET"), block.place)
         for key in keys:
             type = reader.elements[key][0]
-            fits = {"SHELL SECTION": SHELLS, "MASS": POINTS, "ROTARY INERTIA": POINTS}.get(block.keyword, BEAMS)
+            fits = SHELLS if block.keyword in SHELL_SECTIONS else POINTS if block.keyword in ("MASS", "ROTARY INERTIA") else BEAMS
             if type not in fits:
                 refuse(block.place, f"*{block.keyword} for an element of type {type}")
             given[key] = block
-        action = {"SHELL SECTION": _shell_section, "MASS": _mass, "ROTARY INERTIA": _rotary}.get(
-            block.keyword, _beam_section
-        )
+        actions = {**dict.fromkeys(SHELL_SECTIONS, _shell_section), "MASS": _mass, "ROTARY INERTIA": _rotary}
+        action = actions.get(block.keyword, _beam_section)
         action(reader, block, keys)
     reader.prefix = ""
     for key, (type, _, place) in reader.elements.items():
@@ -148,18 +149,20 @@ def _find_orientation(reader, name, place):
 
 
 def _shell_section(reader, block, keys):
+    if block.keyword == "SHELL GENERAL SECTION" and not (block.get("MATERIAL") or block.has("COMPOSITE")):
+        refuse(block.place, "*SHELL GENERAL SECTION by stiffnesses has no counterpart: walls are of layers, by MATERIAL or COMPOSITE")
     if block.get("OFFSET") not in (None, "0", "0.", "0.0", "MIDDLE"):
         reader.findings.leave_out("OFFSET of a shell section: the nodes are in its middle", block.place)
     if block.has("NODAL THICKNESS"):
-        refuse(block.place, "*SHELL SECTION with NODAL THICKNESS is not read: walls have one thickness")
+        refuse(block.place, f"*{block.keyword} with NODAL THICKNESS is not read: walls have one thickness")
     if not block.lines:
-        refuse(block.place, "*SHELL SECTION without a thickness")
+        refuse(block.place, f"*{block.keyword} without a thickness")
     composite = block.has("COMPOSITE")
     if composite:
         layers = [_layer(reader, place, cells) for place, cells in block.lines]
     else:
         if len(block.lines) > 1:
-            refuse(block.lines[1][0], "*SHELL SECTION without COMPOSITE has one line of data, this is one more")
+            refuse(block.lines[1][0], f"*{block.keyword} without COMPOSITE has one line of data, this is one more")
         place, cells = block.lines[0]
         material = _find_material(reader, block.required("MATERIAL"), block.place)
         layers = [(_thickness(cells[0], place), material, 0.0)]

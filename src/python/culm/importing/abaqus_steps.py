@@ -1,7 +1,8 @@
 """Supports, loads and steps of Abaqus and CalculiX.
 
-Loads of a step go on in the steps after it until they are changed; every step of the deck begins in
-the reference with all loads that act in it, which is the same as long as what is loaded is elastic.
+Loads and supports of a step go on in the steps after it until they are changed; every step of the deck begins in
+the reference with all loads that act in it, which is the same as long as what is loaded is elastic. In Abaqus those of
+a perturbation step – modes, buckling, or one that says so – end with it, and buckling is under those of its step alone.
 """
 
 import collections
@@ -9,7 +10,7 @@ import dataclasses
 
 import numpy
 
-from .abaqus_mesh import BEAMS, SHELLS
+from .abaqus_mesh import BEAMS, SHELLS, refuse_directions
 from .findings import did_you_mean, refuse
 from .keyword_file import integer, is_integer, number
 from .model import ElementLoad, NodeLoad, Step, Support, supports_along
@@ -24,6 +25,7 @@ NAMED_SUPPORTS = {
     "YASYMM": {1, 3, 5},
     "ZASYMM": {1, 2, 6},
 }
+ON_SURFACE = "P "  # begins the label of a load on a surface
 KINDS = {"STATIC": "static", "FREQUENCY": "modal", "BUCKLE": "buckling"}
 # steps that are not done; what they hold is left out
 OTHER_KINDS = {
@@ -43,7 +45,8 @@ class Open:
         self.perturbation = block.has("PERTURBATION")
         self.kind = None
         self.modes = 10
-        self.is_closed = False
+        self.renewed = set()  # keywords of which the first one with OP=NEW has ended what was before
+        self.before = None  # loads that act again after it
 
 
 class Acting:
@@ -111,6 +114,8 @@ def _kind(reader, block):
     for place, cells in block.lines if block.keyword in KINDS else []:
         for cell in cells:
             number(cell or "0", place, f"a number of *{block.keyword}")
+    if reader.program == "Abaqus" and reader.step.before is None and _is_perturbation(reader.step):
+        _begin_perturbation(reader)
     if block.keyword in ("FREQUENCY", "BUCKLE") and block.lines:
         place, cells = block.lines[0]
         reader.step.modes = integer(cells[0], place, "the number of modes") if cells[0] else 10
@@ -118,12 +123,35 @@ def _kind(reader, block):
             refuse(place, f"the number of modes must be between 1 and 100000, got {reader.step.modes}")
 
 
+def _is_perturbation(step):
+    return step.perturbation or step.kind in ("modal", "buckling")
+
+
+def _begin_perturbation(reader):
+    """Its loads are its own: on top of those before in statics, alone in buckling."""
+    acting, now = _acting(reader), reader.step.number
+    reader.step.before = dict(acting.nodes), list(acting.elements)
+    if reader.step.kind == "buckling":
+        acting.nodes.clear()
+        acting.elements.clear()
+    acting.nodes.update({key: (value, place, now) for key, (value, place, _) in acting.nodes.items()})
+    acting.elements[:] = [dataclasses.replace(entry, step=now) for entry in acting.elements]
+
+
 def _end_step(reader, block):
     if reader.step is None:
         refuse(block.place, "*END STEP without *STEP before it")
     acting = _acting(reader)
     acting.history.append((reader.step, dict(acting.nodes), list(acting.elements)))
+    if reader.step.before is not None:
+        acting.nodes, acting.elements = reader.step.before
     reader.step = None
+
+
+def _steps_from(reader):
+    """In which what the step gives acts."""
+    now = reader.step.number
+    return {now} if reader.step.before is not None else set(range(now, reader.step_count))
 
 
 def _amplitude(reader, block):
@@ -132,12 +160,16 @@ def _amplitude(reader, block):
 
 def _boundary(reader, block):
     step = reader.step
-    if step is not None and block.get("OP") == "NEW" and any(s.steps is None for s in reader.model.supports):
-        reader.findings.leave_out("*BOUNDARY, OP=NEW: supports of the model stay", block.place)
+    if step is not None and _renews(reader, block):
+        everything = {i: None for i in range(1, 7)}
+        _end_supports(reader, [node for one in reader.model.supports for node in one.nodes], everything, _steps_from(reader))
     if block.get("TYPE") not in (None, "DISPLACEMENT"):
         reader.findings.leave_out(f"*BOUNDARY of TYPE {block.get('TYPE')}", block.place)
         return
-    steps = None if step is None else set(range(step.number, 10**4))
+    if block.get("LOAD CASE") not in (None, "1"):
+        reader.findings.leave_out("supports of LOAD CASE=2 of *BOUNDARY: modes of buckling are held as the load is", block.place)
+        return
+    steps = None if step is None else _steps_from(reader)
     groups = collections.defaultdict(dict)
     places = {}
     for place, cells in block.lines:
@@ -161,21 +193,22 @@ def _boundary(reader, block):
     for key, held in groups.items():
         nodes, held = _by_rotation_node(reader, reader.find_nodes(key, places[key]), held)
         if held:
-            _end_supports(reader, nodes, held, step.number if step is not None else 0)
+            _end_supports(reader, nodes, held, set(range(reader.step_count)) if steps is None else steps)
             reader.model.supports.append(Support(nodes, held, places[key], _support_name(key), steps))
     reader.findings.count("lines of supports", len(block.lines))
 
 
 def _end_supports(reader, nodes, held, now):
-    """What is given another value from a step on ends there."""
+    """What is given another value in some steps does not act in these."""
     taken, kept = set(nodes), []
+    every = set(range(reader.step_count))
     for one in reader.model.supports:
         other = {i for i in held if i in one.held and one.held[i] != held[i]}
         common = [node for node in one.nodes if node in taken] if other else []
         if not common:
             kept.append(one)
             continue
-        steps = set(range(now)) & (set(range(now)) if one.steps is None else one.steps)
+        steps = (every if one.steps is None else one.steps) - now
         parts = [
             dataclasses.replace(one, nodes=[node for node in one.nodes if node not in taken]),
             dataclasses.replace(one, nodes=common, held={i: value for i, value in one.held.items() if i not in other}),
@@ -202,6 +235,14 @@ def _watch(reader, block):
         reader.model.watched += reader.find_nodes(block.get("NSET"), block.place)
 
 
+def _renews(reader, block):
+    """Whether the block ends what was before: the first one of its keyword with OP=NEW in a step."""
+    if block.get("OP") != "NEW" or block.keyword in reader.step.renewed:
+        return False
+    reader.step.renewed.add(block.keyword)
+    return True
+
+
 def _in_step(reader, block):
     if reader.step is None:
         refuse(block.place, f"*{block.keyword} outside a step")
@@ -213,7 +254,7 @@ def _in_step(reader, block):
 def _node_loads(reader, block):
     _in_step(reader, block)
     acting = _acting(reader).nodes
-    if block.get("OP") == "NEW":
+    if _renews(reader, block):
         acting.clear()
     now = reader.step.number
     for place, cells in block.lines:
@@ -235,8 +276,8 @@ def _node_loads(reader, block):
 
 def _element_loads(reader, block):
     _in_step(reader, block)
-    if block.get("OP") == "NEW":
-        _acting(reader).elements.clear()
+    if _renews(reader, block):
+        _acting(reader).elements[:] = [entry for entry in _acting(reader).elements if entry.label.startswith(ON_SURFACE)]
     for place, cells in block.lines:
         if len(cells) < 3:
             refuse(place, "expected element or set, kind of load, value")
@@ -263,8 +304,8 @@ def _add_element_load(reader, label, members, values, place):
 
 def _surface_loads(reader, block):
     _in_step(reader, block)
-    if block.get("OP") == "NEW":
-        _acting(reader).elements.clear()
+    if _renews(reader, block):
+        _acting(reader).elements[:] = [entry for entry in _acting(reader).elements if not entry.label.startswith(ON_SURFACE)]
     for place, cells in block.lines:
         name = cells[0].strip('"').upper()
         if name not in reader.surfaces:
@@ -277,7 +318,8 @@ def _surface_loads(reader, block):
             side = {"SPOS": -1.0, "SNEG": 1.0}.get(face)
             if side is None:
                 refuse(place, f"pressure on the face {face or 'none'} of surface '{name}': SPOS or SNEG is read")
-            _add_element_load(reader, f"P {face}", members, [side * number(cells[2], place)], place)
+            _add_element_load(reader, f"{ON_SURFACE}{face}", members, [side * number(cells[2], place)], place)
+    reader.findings.count("lines of surface loads", len(block.lines))
 
 
 def finish_steps(reader):
@@ -285,6 +327,9 @@ def finish_steps(reader):
     if reader.step is not None:
         refuse(reader.step.place, "the file ends within this step: *END STEP is missing")
     history = _acting(reader).history
+    for support in reader.model.supports:
+        for node in support.nodes:
+            refuse_directions(reader, node, support.held)
     reader.model.supports = [part for one in reader.model.supports for part in supports_along(reader.axes, one)]
     kept = [entry for entry in history if entry[0].kind in KINDS.values()]
     for step, _, _ in history:
@@ -295,6 +340,10 @@ def finish_steps(reader):
     model = reader.model
     if not kept:
         reader.findings.leave_out("the file has no step that is read: the deck finds modes")
+        last = len(history) - 1
+        model.supports[:] = [one for one in model.supports if one.steps is None or last in one.steps]
+        for one in model.supports:
+            one.steps = None
         place = next(iter(reader.elements.values()))[2]
         model.steps.append(Step("modes", "modal", place))
         return
@@ -330,12 +379,23 @@ def _make_steps(reader, kept):
             before = step
     if any(step.kind == "static" and not step.nonlinear for step, _, _ in kept):
         reader.findings.assume("linear static steps become nonlinear ones, which agree where displacements are small")
-    used = {id(step.steps) for step in reader.model.supports}
-    if len(used) > 1:
-        numbers = {step.number: i for i, (step, _, _) in enumerate(kept)}
-        for support in reader.model.supports:
-            if support.steps is not None:
-                support.steps = {new for old, new in numbers.items() if old in support.steps}
+    numbers = {step.number: i for i, (step, _, _) in enumerate(kept)}
+    for support in reader.model.supports:
+        if support.steps is not None:
+            support.steps = {new for old, new in numbers.items() if old in support.steps}
+            support.steps = None if len(support.steps) == len(kept) else support.steps
+    reader.model.supports[:] = _merged([one for one in reader.model.supports if one.steps is None or one.steps], len(kept))
+
+
+def _merged(supports, count):
+    """Those that a file gives anew in each step as one."""
+    found = {}
+    for one in supports:
+        first = found.setdefault((tuple(one.nodes), tuple(sorted(one.held.items())), str(one.axes)), one)
+        if first is not one and first.steps is not None:
+            steps = set(range(count)) if one.steps is None else first.steps | one.steps
+            first.steps = None if len(steps) == count else steps
+    return list(found.values())
 
 
 def _collect_node_loads(reader, nodes, number_, found):
@@ -347,6 +407,7 @@ def _collect_node_loads(reader, nodes, number_, found):
     groups = collections.defaultdict(list)
     for node, vector in vectors.items():
         axes = reader.axes.get(node)
+        refuse_directions(reader, node, {i + 1: value for i, value in enumerate(vector) if value})
         if axes is not None:
             vector = numpy.concatenate([vector[:3] @ axes, vector[3:] @ axes])
         if vector.any():
@@ -409,7 +470,7 @@ def _make_element_load(reader, entry, steps):
     beams = [key for key in members if reader.elements[key][0] in BEAMS]
     places = {element.number: i for i, element in enumerate(model.shells)}
     beam_places = {element.number: i for i, element in enumerate(model.beams)}
-    if label.startswith("P ") or (label == "P" and shells):
+    if label.startswith(ON_SURFACE) or (label == "P" and shells):
         model.element_loads.append(
             ElementLoad("pressure", [places[k] for k in shells], values[0], place, "pressure", steps)
         )

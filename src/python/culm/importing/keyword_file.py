@@ -9,6 +9,7 @@ from .findings import FILE_ERROR, Place, refuse
 
 DEEPEST = 20  # includes within includes
 MOST_BYTES = 2**30
+SHORTEST = 4  # beginning of a parameter's name that stands for it
 NUMBER = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?"
 
 
@@ -25,8 +26,7 @@ class Block:
 
     def get(self, name):
         """A parameter in upper case without quotation marks; None if it is not there."""
-        self.asked.add(name)
-        value = self.parameters.get(name)
+        value = self.parameters.get(self._as_written(name))
         return None if value is None else value.strip('"').upper()
 
     def required(self, name):
@@ -36,8 +36,14 @@ class Block:
         return value
 
     def has(self, name):
-        self.asked.add(name)
-        return name in self.parameters
+        return self._as_written(name) in self.parameters
+
+    def _as_written(self, name):
+        """The name, or its beginning if that is what the file has: NLGEO is NLGEOM."""
+        short = [one for one in self.parameters if len(one) >= SHORTEST and name.startswith(one)]
+        found = name if name in self.parameters or len(short) != 1 else short[0]
+        self.asked.add(found)
+        return found
 
     def unread(self):
         """Parameters that nobody asked for."""

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""What acts in which step of Abaqus and CalculiX: loads and supports that go on, end or are given anew, beams in a plane,
+axes at nodes, sections and names of parameters in other forms. Expected are the rules of their manuals; where the two
+programs differ, CalculiX 2.20 was run."""
+
+import sys
+
+import numpy
+from habits import INP, STEP, node_force, one, pressures
+from reading import made_of_text
+from culm.errors import CulmError
+
+BOTH = ("abaqus", "calculix")
+# a bar of four elements along x, in the plane
+BAR = """*node
+1,0,0
+2,1,0
+3,2,0
+*element,type=b21,elset=e
+1,1,2
+2,2,3
+*material,name=m
+*elastic
+2e11,0.3
+*density
+1000.
+*beam section,elset=e,material=m,section=rect
+0.1,0.2
+0,0,-1
+*boundary
+1,encastre
+"""
+
+
+def steps(*blocks, base=INP, format="abaqus"):
+    """@param blocks  what stands between *STEP and *END STEP, with the procedure"""
+    return made_of_text(format, base + "".join(f"*step\n{block}*end step\n" for block in blocks))
+
+
+def held(made, node, step):
+    """Degrees of freedom that are held at a node in a step, with their values."""
+    return {
+        i: value
+        for support in made.made.supports
+        if node in support.nodes and (support.steps is None or step in support.steps)
+        for i, value in support.held.items()
+    }
+
+
+def goes_on():
+    for format in BOTH:
+        anew = steps("*static\n*cload\n3,1,7\n", "*static\n*cload,op=new\n3,1,1\n*cload,op=new\n3,2,2\n", format=format)
+        yield f"{format}: the first OP=NEW of a step ends loads, others add to it", numpy.allclose(node_force(anew, 1), [1, 2, 0, 0, 0, 0])
+        freed = steps("*static\n*boundary\n3,1,2\n", "*static\n*boundary,op=new\n1,1,6\n*boundary,op=new\n4,3\n", format=format)
+        yield f"{format}: OP=NEW ends supports of steps before", held(freed, 3, 0) == {1: 0, 2: 0} and held(freed, 3, 1) == {}
+        yield f"{format}: what is given anew holds", held(freed, 4, 1) == {3: 0} and len(held(freed, 1, 1)) == 6
+        loose = steps("*static\n", "*static\n*boundary,op=new\n4,3\n", format=format)
+        yield f"{format}: and those of the model", len(held(loose, 1, 0)) == 6 and held(loose, 1, 1) == {}
+        same = steps("*static\n*boundary,op=new\n1,1,6\n", "*static\n*boundary,op=new\n1,1,6\n", format=format)
+        yield f"{format}: supports that each step repeats are one", len(same.made.supports) == 1 and same.made.supports[0].steps is None
+        late = steps("*dynamic\n1e-3,1\n*boundary\n3,1,2\n", "*static\n*cload\n4,1,1\n", format=format)
+        yield f"{format}: supports of a step that is left out go on after it", held(late, 3, 0) == {1: 0, 2: 0}
+        never = steps("*dynamic\n1e-3,1\n*boundary\n3,1,2\n", format=format)
+        yield f"{format}: also where no step is read", held(never, 3, 0) == {1: 0, 2: 0}
+    faces = "*surface,name=top\ne,spos\n"
+    both = steps("*static\n*dload,op=new\ne,p,5\n*dsload,op=new\ntop,p,3\n", base=INP + faces)
+    yield "OP=NEW of pressures on elements and on surfaces are each their own", sorted(pressures(both)) == [-3, 5]
+
+
+def perturbs():
+    """Of Abaqus; in CalculiX loads go on after modes and buckling."""
+    static, buckle = "*static\n*cload\n3,1,10\n", "*buckle\n2\n*boundary\n4,3\n*cload\n3,2,5\n"
+    ours, theirs = (steps(static, buckle, "*static\n", format=format) for format in BOTH)
+    yield "buckling is under the loads of its step", numpy.allclose(node_force(ours, 1), [0, 5, 0, 0, 0, 0])
+    yield "which end with it", numpy.allclose(node_force(ours, 2), [10, 0, 0, 0, 0, 0]) and held(ours, 4, 2) == {}
+    yield "as do its supports", held(ours, 4, 1) == {3: 0} and held(ours, 4, 0) == {}
+    yield "in CalculiX both go on", numpy.allclose(node_force(theirs, 2), [10, 5, 0, 0, 0, 0]) and held(theirs, 4, 2) == {3: 0}
+    added = made_of_text("abaqus", INP + STEP.format("*cload\n3,1,10\n") + STEP.replace("*step", "*step,perturbation").format("*cload\n3,1,4\n"))
+    yield "a perturbation comes on top", numpy.allclose(node_force(added, 1), [14, 0, 0, 0, 0, 0])
+    cases = steps("*buckle\n2\n*boundary,op=new,load case=1\n1,1,6\n*boundary,op=new,load case=2\n3,1,3\n*cload\n3,2,5\n")
+    yield "supports of modes alone are told", any("LOAD CASE=2" in x for x in cases.findings.left_out) and held(cases, 3, 0) == {}
+    short = made_of_text("abaqus", INP + "*step,nlgeo=yes\n*static\n*end step\n*step\n*frequency\n5\n*end step\n")
+    yield "the beginning of a parameter is the parameter", [x.preloaded for x in short.made.steps] == [None, "step 1"] and not short.findings.left_out
+
+
+def stays_in_plane():
+    bent = steps("*static\n*cload\n3,2,5\n*dload\ne,py,4\n", base=BAR)
+    yield "nodes of B21 stay in their plane", held(bent, 3, 0) == {3: 0, 4: 0, 5: 0} and len(held(bent, 1, 0)) == 6
+    yield "and that is said", any("stay in the plane" in text for text in bent.findings.assumed)
+    yield "their mass", abs(bent.mass - 1000 * 0.02 * 2) < 1e-9
+    section = next(iter(bent.made.sections.values())).values
+    up = bent.made.beams[0].up
+    yield "their first axis is normal to it", up == (0, 0, -1) and (section["Width"], section["Height"]) == (0.1, 0.2)
+    yield "three nodes", len(steps("*static\n", base=BAR.replace("b21", "b22").replace("1,1,2\n2,2,3\n", "1,1,2,3\n")).made.beams[0].nodes) == 3
+
+
+def has_axes():
+    about = "9,0.5,0.5,0\n*mpc\nbeam,all,9\n*transform,nset=all,type=c\n0.5,0.5,-1,0.5,0.5,1\n"
+    base = INP.replace("9,5,5,5\n", "").replace("*boundary\n1,1,6\n", "")
+    base = base.replace("4,0,1,0\n", "4,0,1,0\n9,0.5,0.5,0\n") + about.replace("9,0.5,0.5,0\n", "")
+    middle = steps("*static\n*boundary\n9,1,2\n9,6\n*cload\n9,3,5\n", base=base)
+    yield "a node on the axis may be held all around", held(middle, 9, 0) == {1: 0, 2: 0, 6: 0}
+    yield "and pulled along it", numpy.allclose(node_force(middle), [0, 0, 5, 0, 0, 0])
+    for name, block in {"held": "*boundary\n9,1\n", "moved": "*boundary\n9,1,2,0.1\n", "pulled": "*cload\n9,2,1\n"}.items():
+        try:
+            steps(f"*static\n{block}", base=base)
+            yield f"a node on the axis that is {name} across in one direction is refused", False
+        except CulmError as error:
+            yield f"a node on the axis that is {name} across is refused", "has no directions in it" in str(error)
+
+
+def has_sections():
+    general = INP.replace("*shell section,elset=e,material=m\n0.01,5", "*shell general section,elset=e,material=m\n0.01")
+    yield "a general section of a material is a wall of it", made_of_text("abaqus", general).mass == 10
+    layers = INP.replace("*shell section,elset=e,material=m\n0.01,5", "*shell general section,elset=e,composite\n0.01,,m,0\n0.02,,m,90")
+    yield "of layers, too", abs(made_of_text("abaqus", layers).mass - 30) < 1e-12
+    yield "the axes of space again are nothing", made_of_text("abaqus", INP + "*system\n").mass == 10
+    weight = steps("*static\n*dload\n,grav,9.81,0,0,-1\n", base=general)
+    yield "they weigh", numpy.allclose(one(weight, "gravity").value, [0, 0, -9.81])
+
+
+REFUSED = {
+    "stiffnesses of a wall": (INP.replace("*shell section,elset=e,material=m\n0.01,5", "*shell general section,elset=e\n1,2,3\n"), "by stiffnesses"),
+    "axes element by element": (
+        INP.replace("*shell section", "*orientation,name=o\nlist\n3,0\n*shell section"),
+        "*ORIENTATION by the distribution list",
+    ),
+    "beams beside their plane": (BAR.replace("3,2,0\n", "3,2,0,1\n"), "lie in the plane z = 0"),
+    "a system of nodes": (INP + "*system\n1,0,0\n", "*SYSTEM is not read"),
+}
+
+
+def main():
+    complaints = []
+    for facts in (goes_on, perturbs, stays_in_plane, has_axes, has_sections):
+        complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
+    for name, (text, words) in REFUSED.items():
+        try:
+            made_of_text("abaqus", text)
+            complaints.append(f"{name}: is not refused")
+        except CulmError as error:
+            if words not in str(error):
+                complaints.append(f"{name}: {error}")
+    sys.exit("\n".join(complaints) or 0)
+
+
+if __name__ == "__main__":
+    main()
