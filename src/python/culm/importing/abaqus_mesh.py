@@ -14,7 +14,7 @@ BEAMS = {
     "B31": 2, "B31R": 2, "B31H": 2, "B31OS": 2, "B33": 2, "B33H": 2, "B32": 3, "B32R": 3, "B32H": 3, "B32OS": 3,
     "PIPE31": 2, "PIPE32": 3, "B21": 2, "B21H": 2, "B23": 2, "B23H": 2, "B22": 3, "B22H": 3, "PIPE21": 2, "PIPE22": 3,
 }  # fmt: skip
-IN_PLANE = {type for type in BEAMS if type.rstrip("H")[-2] == "2"}
+IN_PLANE = {type for type in BEAMS if type.lstrip("BPIE")[0] == "2"}
 POINTS = {"MASS": 1, "ROTARYI": 1, "DCOUP3D": 1}
 
 
