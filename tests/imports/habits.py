@@ -150,6 +150,9 @@ def of_nastran():
     beams = BARS.replace("CBAR", "CBEAM").format("")
     shearing = bdf("PBEAM,1,1,.01,1.-5,2.-5,,3.-5\n,,,,,,,,\n,.5,.6\n" + beams)
     membrane = bdf("PSHELL,1,1,.01\n" + SQUARE.replace("3,4\n", "3,4\n,,.01,.01,.02,.02\n"))
+    varied = bdf(shell + SQUARE + "PLOAD4,2,1,1.,2.\n")
+    yield "pressures at corners that are not given are the first one", pressures(varied) == [1.25]
+    yield "pressure on what is no shell is told", any("no shells" in x for x in bdf("PBARL,1,1,,ROD\n,.1\n" + BARS.format("") + "PLOAD4,2,1,1.\n").findings.left_out)
     G = 2e11 / 2.6
     arm = rod.made.couplings[0]
     written = bdf("PBARL,1,1,,ROD\n,.1\nGRID,1,,0.,0.,0.,,456\n=,*1,=,*(.5),==\n=(2)\nCBAR,1,1,1,2,0.,0.,1.\n=       *1      =       *1      *1      ==\n=,*1,=,*1,*1,==\nFORCE,2,4,,1.,1.,0.,0.\n")

@@ -63,22 +63,27 @@ def _add_element_load(reader, card, factor, step):
         _add_line_load(reader, card, factor, step, name)
         return
     if card.name == "PLOAD4":
-        values = [card.real(3)] + [card.real(i) for i in (4, 5, 6) if card.text(i)]
+        values = [card.real(3), *(card.real(i, default=card.real(3)) for i in (4, 5, 6))]
         if max(values) != min(values):
             reader.findings.assume("pressure that varies over an element is its mean", card.place)
         if any(card.real(i, default=0.0) for i in (10, 11, 12)):
             reader.findings.leave_out("PLOAD4 with a direction", card.place)
             return
-        value = sum(values) / len(values)
         thru = card.text(7).upper() == "THRU"
         elements = range(card.integer(2), card.integer(8) + 1) if thru else [card.integer(2)]
     else:
-        thru, value, elements = card.has_thru(3), card.real(2), card.numbers(3)
+        thru, values, elements = card.has_thru(3), 4 * [card.real(2)], card.numbers(3)
     if not thru:
         for element in elements:
             reader.find(reader.places, element, card, "element")
     chosen = [reader.places[e][1] for e in elements if reader.places.get(e, ("",))[0] == "shell"]
-    reader.model.element_loads.append(ElementLoad("pressure", chosen, factor * value, card.place, name, {step}))
+    if not chosen:
+        reader.findings.leave_out(f"{card.name} on elements that are no shells", card.place)
+    for corners in (3, 4):
+        those = [one for one in chosen if (3 if len(reader.model.shells[one].nodes) in (3, 6) else 4) == corners]
+        if those:
+            value = factor * sum(values[:corners]) / corners
+            reader.model.element_loads.append(ElementLoad("pressure", those, value, card.place, name, {step}))
 
 
 def _add_line_load(reader, card, factor, step, name):
