@@ -183,6 +183,9 @@ def of_nastran():
 
 
 def of_ansys():
+    varied, alone = cdb("SFE,1,1,PRES,0,10.,20.,30.,40.\n"), cdb("SFE,1,2,PRES,0,10.,0.,0.,0.\n")
+    yield "a pressure that varies is its mean", pressures(varied) == [25]
+    yield "one with zeros behind it is told", pressures(alone) == [-10] and any("all over" in x for x in alone.findings.assumed)
     turned = cdb("F,3,FX,10\nD,3,UX,0\nSFE,1,1,PRES,0,5\nSFE,1,1,PRES,0,7\nSFE,2,1,PRES,0,4,4\nMP,EX,1,2e11,1e6\n")
     both = cdb("SOLVE\nFINISH\n/SOLU\nANTYPE,2\n")
     yield "a force in the system of its node", numpy.allclose(node_force(turned), [0, 10, 0, 0, 0, 0])

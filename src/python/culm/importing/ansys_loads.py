@@ -94,9 +94,14 @@ def _make_pressures(reader):
         if face not in (1, 2) or reader.numbers[element] is None or not values:
             reader.findings.leave_out("SFE on edges", command.place)
             continue
-        if any(value not in (0.0, values[0]) for value in values[1:]):
-            reader.findings.assume("pressure that varies over an element is that of its first node", command.place)
-        value = values[0] if face == 1 else -values[0]
+        if values[0] and any(value == 0.0 for value in values[1:]):
+            reader.findings.assume("a pressure of which the other values are 0 is that of its first node, all over", command.place)
+            values = values[:1]
+        corners = 3 if len(reader.model.shells[reader.numbers[element]].nodes) in (3, 6) else 4
+        values = [*values, *[values[0]] * 4][:corners]
+        if min(values) != max(values):
+            reader.findings.assume("pressure that varies over an element is its mean", command.place)
+        value = sum(values) / corners if face == 1 else -sum(values) / corners
         groups[value].append(reader.numbers[element])
         places.setdefault(value, command.place)
     for value, elements in groups.items():
