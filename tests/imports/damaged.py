@@ -9,6 +9,7 @@ is what the file then says.
 """
 
 import argparse
+import collections
 import random
 import sys
 import warnings
@@ -27,10 +28,19 @@ def outcome(format, files):
         return None, str(error)
 
 
+def totals(deck):
+    """How many were read of each; of elements all types together, for a flipped bit can make one type of another."""
+    found = collections.Counter()
+    for name, count in deck.findings.read.items():
+        if isinstance(count, int):
+            found["elements" if name.startswith("elements ") else name] += count
+    return found
+
+
 def is_silent(deck, whole):
     """Whether something is missing from the deck, and nothing says so."""
-    counts = {name: count for name, count in whole.findings.read.items() if isinstance(count, int)}
-    lost = any(deck.findings.read.get(name, 0) < count for name, count in counts.items())
+    found, counts = totals(deck), totals(whole)
+    lost = any(found.get(name, 0) < count for name, count in counts.items())
     fewer = any(deck.count().get(name, 0) < whole.count().get(name, 0) for name in ("Structures", "Analyses"))
     return (lost or fewer) and not deck.messages() - whole.messages()
 

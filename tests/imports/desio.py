@@ -96,6 +96,57 @@ def sections_agree(complaints):
         complaints.append(f"the section is\n{matrix}\nnot\n{expected}")
 
 
+def shells_are_whole(complaints):
+    """Layers turn with the normal, so a director against it turns them back; masses, names of nodes, what acts on them."""
+    made = made_of_text("desio", desio_samples.laminate())
+    expected = 1600 * 0.2 * 0.006 + 7850 * 0.1 * 0.003 + desio_samples.TUBE[1][0] + 3.5
+    if abs(made.mass / expected - 1.0) > DIGITS:
+        complaints.append(f"the mass of the laminate is {made.mass}, not {expected}")
+    strip, flap = entry(made, "Structures", "shell 1"), entry(made, "Structures", "shell 2")
+    if strip["Angles"] != "{-30, 0}" or strip["Thicknesses"] != "{0.002, 0.004}" or flap["Materials"] != "{material 2}":
+        complaints.append(f"layers are {strip['Angles']}, {strip['Thicknesses']}, {flap['Materials']}")
+    (shells,) = [part for part in made.root.lists() if part.name == "Structures"]
+    meshes = {x.name: {i[0]: i[1] for i in x.lists()[0].items if isinstance(i, tuple)} for x in shells.lists() if "shell" in x.name}
+
+    def place(node):
+        """Of a node, numbered as elements meet them."""
+        name, number = node.split("/")
+        points, quads = values(meshes[name]["Points"]).reshape(-1, 3), values(meshes[name]["Quads"]).astype(int)
+        return points[list(dict.fromkeys(quads.tolist()))[int(number)]]
+
+    corners = [place(f"shell 1/{i}") for i in range(3)]
+    if numpy.cross(corners[1] - corners[0], corners[2] - corners[0])[2] >= 0.0:
+        complaints.append("the normal is not on the side of the director")
+    spots = [entry(made, "Loads", "force"), entry(made, "Masses", "mass"), entry(made, "Constraints", "softtransition 2")]
+    if not numpy.allclose([place(one["Node"]) for one in spots], [[2, 0.2, -0.5], [2, 0.1, 0], [1, 0.1, 0]]):
+        complaints.append(f"force, mass and transition are at {[place(one['Node']) for one in spots]}")
+    found = [x for part in made.root.lists() if part.name == "Constraints" for x in part.lists()]
+    types = {one.name: {i[0]: i[1] for i in one.items if isinstance(i, tuple)} for one in found}
+    if types["simplesupport"]["Type"] != "Simple Support" or types["simplesupport"].get("Translation") != "1":
+        complaints.append(f"the support that moves is {types['simplesupport']}")
+    kinds = sorted({one["Type"] for one in types.values()})
+    if kinds != ["Fold Connection", "Inextensible Director", "Rigid Support", "Simple Support", "Soft Transition"]:
+        complaints.append(f"the constraints are {kinds}")
+
+
+def strip_vibrates(program, complaints):
+    """Two shells as one: beams of Euler and Bernoulli, of which the wall is thin and nu is 0."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        imported(program, folder, desio_samples.strip())
+        run = program.run(folder / "model.xml", folder / "out")
+        if not run.succeeded:
+            sys.exit(run.errors)
+        with open(next(run.folder.glob("analyses/*/modes.csv"))) as file:
+            found = float(list(csv.reader(file))[1][1])
+    _, length, _ = desio_samples.STRIP
+    bending = (desio_samples.E / desio_samples.RHO / 12.0) ** 0.5 * desio_samples.WALL
+    expected = 1.87510407**2 / (2 * numpy.pi * length**2) * bending
+    print(f"strip of two shells: {found:.4f} Hz, by Euler and Bernoulli {expected:.4f} Hz")
+    if abs(found / expected - 1.0) > 0.01:
+        complaints.append(f"the strip has {found} Hz, not {expected}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--culm", required=True)
@@ -104,6 +155,8 @@ def main():
     rolls_up(program, complaints)
     weighs(complaints)
     sections_agree(complaints)
+    shells_are_whole(complaints)
+    strip_vibrates(program, complaints)
     sys.exit("\n".join(complaints) if complaints else 0)
 
 

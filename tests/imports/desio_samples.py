@@ -117,3 +117,72 @@ def rotor():
             "loads", [f"triangle 100.0 0.04 16 {numbers([1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0.5])}"]
         ),
     }  # fmt: skip
+
+
+def shell(start, length, width, elements, across=2):
+    """Nodes (place, director) and elements of a flat strip along x, numbered from 1; the director is z."""
+    nodes = [
+        [start + length * i / elements, width * j / across, 0.0, 0.0, 0.0, 1.0] for i in range(elements + 1) for j in range(across + 1)
+    ]
+    row = across + 1
+    corners = [(i * row + j + 1, (i + 1) * row + j + 1, (i + 1) * row + j + 2, i * row + j + 2) for i in range(elements) for j in range(across)]
+    return nodes, corners
+
+
+def shells(parts, materials, sequences):
+    """@param parts  (nodes, corners, sequence) of each shell"""
+    text = HEAD.format("number of shells (1), number of material properties (2), number of material sequences (3)")
+    text += f"{len(parts)} {len(materials)} {len(sequences)}\n"
+    for nodes, corners, sequence in parts:
+        text += HEAD.format("shell: number of nodes (1), number of elements (2).") + f"{len(nodes)} {len(corners)}\n"
+        text += HEAD.format("shell: nodal phi (1, 2, 3), nodal d (4, 5, 6).") + "".join(numbers(node) + "\n" for node in nodes)
+        text += HEAD.format("shell: connectivities (1, 2, 3, 4), material sequence (5).")
+        text += "".join(" ".join(map(str, (*four, sequence))) + "\n" for four in corners)
+    for constants, density in materials:
+        text += HEAD.format("material property: row 1, E1 (1), …") + numbers(constants).replace(" ", ", ") + f"\n{density}\n0.0 0.0\n"
+    for layers in sequences:
+        text += HEAD.format("material sequence") + f"{len(layers)}\n"
+        text += "".join(" ".join(f"{layer[i]}" for layer in layers) + "\n" for i in range(3))
+    return text
+
+
+STEEL = ([E, E, E, E / 2, E / 2, E / 2, 0, 0, 0], RHO)
+PLY = ([1.4e11, 1e10, 1e10, 3.5e9, 5e9, 5e9, 0.4, 0.3, 0.3], 1600.0)
+STRIP, WALL = (8, 1.0, 0.1), 0.01  # elements, length, width; thickness
+
+
+def strip():
+    """Clamped, of two shells that go on into each other in the middle; its modes."""
+    n, length, width = STRIP
+    first, second = shell(0.0, length / 2, width, n // 2), shell(length / 2, length / 2, width, n // 2)
+    count = len(first[0])
+    clamped = [f"revolutesupport {i} 0 {NO_VECTORS}" for i in (1, 2, 3)]
+    joined = [f"revolutejoint {count - 2 + i} {count + 1 + i} {NO_VECTORS}" for i in range(3)]
+    return {
+        "simulationinput_structure.txt": simulation("modal", "4 1d-8 0.0 1d6 0"),
+        "shellinput.txt": shells([(*first, 1), (*second, 1)], [STEEL], [[(1, WALL, 0)]]),
+        "constraint6input.txt": table("constraints for nodes with 6 coordinates", clamped + joined),
+    }
+
+
+def laminate():
+    """A strip of layers, its director against the normal, pulled at its end, on the end of a beam, with a mass and a fold."""
+    nodes, corners = shell(1.0, 1.0, 0.2, 4)
+    nodes = [[*node[:3], 0.0, 0.0, -1.0] for node in nodes]
+    flap = [[2.0, 0.1 * j, -0.5 * i, 1.0, 0.0, 0.0] for i in range(2) for j in range(3)]
+    quads = [(4, 5, 2, 1), (5, 6, 3, 2)]
+    tie = [f"softtransition 5 {i}" for i in (1, 2, 3)]
+    fold = [f"inextensiblerevolutejoint {12 + i} {15 + i} {NO_VECTORS}" for i in (1, 2, 3)]
+    held = [f"simplesupport 19 0 {numbers([0.0] * 6)} 0d0 0d0 1d0", f"internal 5 0 {NO_VECTORS}"]
+    force = numbers([1.0, 0.0, 0.0, 0.0])
+    return {
+        "simulationinput_structure.txt": simulation("static", "1 0.5 1d-8 50 0"),
+        "beaminput.txt": beams([beam("post", (0, 0.1, 0), (0.25, 0, 0), 4, [1])], [TUBE]),
+        "constraint12input.txt": table("constraints for nodes with 12 coordinates", [f"rigidsupport 1 0 {NO_VECTORS}"]),
+        "shellinput.txt": shells([(nodes, corners, 1), (flap, quads, 2)], [PLY, STEEL], [[(1, 0.002, 30.0), (1, 0.004, 0.0)], [(2, 0.003, 0.0)]]),
+        "constraint6input.txt": table("constraints for nodes with 6 coordinates", fold + held),
+        "constraint6to12input.txt": table("constraints 6 to 12", tie),
+        "load6input.txt": table("loads for nodes with 6 coordinates", [f"linear 2d0 1d0 21 {force}"]),
+        "boundary6input.txt": table("motions of constraints", ["linear 1d-3 1d0 4 nofile"]),
+        "pointmass6input.txt": table("point masses", ["14 3.5"]),
+    }

@@ -184,6 +184,20 @@ def parts():
     return text + "*Dsload\nOutside, P, 1000.\n*End Step\n*Step, name=Vibrate\n*Frequency\n5,\n*End Step\n"
 
 
+def plane():
+    """Abaqus alone: a portal of B21 in the plane of x and y, whose loads and supports are given anew, end and go on."""
+    points = [(0, 0), (0, 1.5), (0, 3), (2, 3), (4, 3), (4, 1.5), (4, 0)]
+    text = "*Heading\nPortal in a plane\n*Node\n" + "".join(f"{i}, {x:g}., {y:g}\n" for i, (x, y) in enumerate(points, 1))
+    text += "*Element, type=B21, elset=All\n" + "".join(f"{i}, {i}, {i + 1}\n" for i in range(1, 7))
+    text += "*Nset, nset=Feet\n1, 7\n*Beam Section, elset=All, material=Steel, section=PIPE\n0.1, 0.01\n0., 0., -1.\n"
+    text += "*System\n*Material, name=Steel\n*Density\n7850.,\n*Elastic\n2.1e11, 0.3\n*Boundary\nFeet, ENCASTRE\n"
+    text += "*Step, name=Wind, nlgeom=NO\n*Static\n1., 1.\n*Cload\n3, 1, 500.\n*Dload\nAll, PX, 20.\n*End Step\n"
+    text += "*Step, name=Settle, nlgeo=YES\n*Static\n1., 1.\n*Boundary, op=NEW\n1, 1, 6\n*Boundary, op=NEW\n7, 1\n7, 2, 2, -0.01\n"
+    text += "*Cload, op=NEW\n3, 2, -800.\n*Cload, op=NEW\n5, 2, -600.\n*End Step\n"
+    text += "*Step, name=Buckle, perturbation\n*Buckle\n2, , 10, 30\n*Cload\n3, 2, -1000.\n*End Step\n"
+    return text + "*Step, name=Vibrate, perturbation\n*Frequency\n4,\n*End Step\n"
+
+
 SAMPLES = {"plate": plate, "panel": panel, "frame": frame, "corner": corner}
 
 if __name__ == "__main__":

@@ -75,6 +75,8 @@ def perturbs():
     yield "which end with it", numpy.allclose(node_force(ours, 2), [10, 0, 0, 0, 0, 0]) and held(ours, 4, 2) == {}
     yield "as do its supports", held(ours, 4, 1) == {3: 0} and held(ours, 4, 0) == {}
     yield "in CalculiX both go on", numpy.allclose(node_force(theirs, 2), [10, 5, 0, 0, 0, 0]) and held(theirs, 4, 2) == {3: 0}
+    moved = steps("*static\n*boundary\n3,3,3,0.1\n", "*buckle\n2\n*cload\n3,2,5\n", "*static\n")
+    yield "what is moved before is held in buckling", [held(moved, 3, step) for step in (0, 1, 2)] == [{3: 0.1}, {3: 0}, {3: 0.1}]
     added = made_of_text("abaqus", INP + STEP.format("*cload\n3,1,10\n") + STEP.replace("*step", "*step,perturbation").format("*cload\n3,1,4\n"))
     yield "a perturbation comes on top", numpy.allclose(node_force(added, 1), [14, 0, 0, 0, 0, 0])
     cases = steps("*buckle\n2\n*boundary,op=new,load case=1\n1,1,6\n*boundary,op=new,load case=2\n3,1,3\n*cload\n3,2,5\n")

@@ -20,7 +20,10 @@ WHOLE_FILES = {
     "table of sections": ("csv", {"bar.csv": turbine_samples.table()}),
     "cantilever of DeSiO": ("desio", desio_samples.cantilever()),
     "rotor of DeSiO": ("desio", desio_samples.rotor()),
+    "strip of DeSiO": ("desio", desio_samples.strip()),
+    "laminate of DeSiO": ("desio", desio_samples.laminate()),
     "corner.inp": ("abaqus", {"corner.inp": samples.corner(2)}),
+    "plane.inp": ("abaqus", {"plane.inp": samples.plane()}),
     "frame.inp": ("abaqus", {"frame.inp": samples.frame(2)}),
     **{
         name: ("gmsh", {"sheet.msh": data})

@@ -134,8 +134,19 @@ def _begin_perturbation(reader):
     if reader.step.kind == "buckling":
         acting.nodes.clear()
         acting.elements.clear()
+        _stop_motions(reader, now)
     acting.nodes.update({key: (value, place, now) for key, (value, place, _) in acting.nodes.items()})
     acting.elements[:] = [dataclasses.replace(entry, step=now) for entry in acting.elements]
+
+
+def _stop_motions(reader, now):
+    """What is moved in the steps before is held in this one."""
+    moved = [one for one in reader.model.supports if any(one.held.values()) and (one.steps is None or now in one.steps)]
+    for one in moved:
+        steps = set(range(reader.step_count)) if one.steps is None else one.steps
+        held = dataclasses.replace(one, held=dict.fromkeys(one.held, 0.0), steps={now})
+        one.steps = steps - {now}
+        reader.model.supports.append(held)
 
 
 def _end_step(reader, block):

@@ -19,6 +19,7 @@ from .desio_files import (
     read_springs,
     read_table,
 )
+from .desio_shells import FILES, Shells
 from .findings import FILE_ERROR, Findings, did_you_mean, refuse
 from .ready_deck import ReadyDeck
 
@@ -43,7 +44,6 @@ FUNCTIONS = {
     "random": ("Random", None),
 }
 ARC_CONTROLS = {1: "Linearised Sphere", 2: "Normal Plane", 3: "Sphere"}
-NOT_READ = ("shellinput.txt", "constraint6input.txt", "constraint6to12input.txt", "load6input.txt")
 
 
 def declare(parser):
@@ -75,21 +75,24 @@ class Reader:
         self.constraint_names = []
 
     def read(self):
-        self._refuse_what_is_not_read()
+        self._tell_other_files()
         simulation = self.path if self.path.is_file() else self._simulation_file()
         names, analyses, gravity = read_simulation(simulation)
         self.findings.look_at_end(simulation)
         self.root.add("Title", names[0])
-        for name in ("Sections", "Structures", "Masses", "Functions", "Constraints", "Loads", "Analyses", "Output"):
+        for name in ("Materials", "Sections", "Structures", "Masses", "Functions", "Constraints", "Loads", "Analyses", "Output"):
             self.lists[name] = self.root.list(name)
         if len(names) > 1 and names[1].lower() != "none":
             self.findings.leave_out(f"the state of the job before, '{names[1]}'")
+        shells = Shells(self)
         self._bodies()
         self._beams()
-        if not self.nodes:
-            raise CulmError(f"{self.folder}: has neither beaminput.txt nor rigidbodyinput.txt", FILE_ERROR)
-        motions = self._if_there("boundary12input.txt", read_motions) or []
+        shells.read()
+        if not self.nodes and not shells.nodes:
+            raise CulmError(f"{self.folder}: has none of beaminput.txt, rigidbodyinput.txt, shellinput.txt", FILE_ERROR)
+        motions = self.if_there("boundary12input.txt", read_motions) or []
         self._constraints(motions)
+        shells.act()
         self._masses()
         self._loads()
         self._springs()
@@ -102,16 +105,13 @@ class Reader:
                 return self.folder / name
         raise CulmError(f"{self.folder}: has no simulationinput_structure.txt", FILE_ERROR)
 
-    def _refuse_what_is_not_read(self):
-        for name in NOT_READ:
-            if (self.folder / name).exists():
-                raise CulmError(f"{self.folder / name}: shells of DeSiO are not read", 3)
+    def _tell_other_files(self):
         known = {"rigidbody", "beam", "constraint12", "pointmass12", "load12", "boundary12", "spring12", "damping12"}
         for path in sorted(self.folder.glob("*input.txt")):
-            if path.name.removesuffix("input.txt") not in known | {"simulation"}:
+            if path.name not in FILES and path.name.removesuffix("input.txt") not in known | {"simulation"}:
                 self.findings.leave_out(f"the file {path.name}")
 
-    def _if_there(self, name, read_file):
+    def if_there(self, name, read_file):
         path = self.folder / name
         if not path.exists():
             return None
@@ -119,7 +119,7 @@ class Reader:
         return read_file(path)
 
     def _bodies(self):
-        for body in self._if_there("rigidbodyinput.txt", read_bodies) or []:
+        for body in self.if_there("rigidbodyinput.txt", read_bodies) or []:
             name = unique_name(body.node.name, {one.name for one in self.lists["Structures"].lists()})
             body.node.name = name
             self.nodes.append(body.node)
@@ -131,7 +131,7 @@ class Reader:
             self.findings.count("rigid bodies")
 
     def _beams(self):
-        found = self._if_there("beaminput.txt", read_beams)
+        found = self.if_there("beaminput.txt", read_beams)
         if found is None:
             return
         beams, table, voigt = found
@@ -175,7 +175,7 @@ class Reader:
         return self.nodes[number_ - first]
 
     def _constraints(self, motions):
-        rows = self._if_there("constraint12input.txt", lambda path: read_table(path, 2, 9, 0)) or []
+        rows = self.if_there("constraint12input.txt", lambda path: read_table(path, 2, 9, 0)) or []
         first = self.first_node
         if first is None:
             named = [row for row in rows if row.numbers[0] == 0 or _has_two(row) and row.numbers[1] == 0]
@@ -209,9 +209,9 @@ class Reader:
         if motion is not None:
             if amount is None:
                 refuse(motion.place, f"a constraint '{row.kind}' has no motion that can be prescribed")
-            entry.add(amount, 1).add("Function", self._function(motion.kind, *motion.values, motion.place, motion.word))
+            entry.add(amount, 1).add("Function", self.function(motion.kind, *motion.values, motion.place, motion.word))
 
-    def _function(self, sort, intensity, duration, place, word=""):
+    def function(self, sort, intensity, duration, place, word=""):
         """The name of an entry of Functions."""
         key = (sort.lower(), float(intensity), float(duration), word if sort.lower() == "file" else "")
         if key in self.functions:
@@ -235,39 +235,49 @@ class Reader:
 
     def _masses(self):
         """Their numbers count from 1 even where those of constraints count from 0."""
-        for row in self._if_there("pointmass12input.txt", read_masses) or []:
-            node = self._node(row.numbers[0], row.place, 1)
-            masses = self.lists["Masses"]
-            entry = masses.list(unique_name("mass", {m.name for m in masses.lists()}), f"{row.place}", "Point Mass")
-            entry.add("Node", node.name).add("Mass", float(row.values[0]))
-            self.mass += float(row.values[0])
-            self.findings.count("point masses")
+        for row in self.if_there("pointmass12input.txt", read_masses) or []:
+            self.add_mass(self.node(row.numbers[0], row.place).name, row)
+
+    def add_mass(self, node, row):
+        masses = self.lists["Masses"]
+        entry = masses.list(unique_name("mass", {m.name for m in masses.lists()}), f"{row.place}", "Point Mass")
+        entry.add("Node", node).add("Mass", float(row.values[0]))
+        self.mass += float(row.values[0])
+        self.findings.count("point masses")
+
+    def node(self, number_, place):
+        """A node of a body or beam by its number in files that count from 1."""
+        return self._node(number_, place, 1)
+
+    def add_constraint(self, name, place):
+        constraints = self.lists["Constraints"]
+        return constraints.list(unique_name(name, {one.name for one in constraints.lists()}), f"{place}")
 
     def _loads(self):
-        for row in self._if_there("load12input.txt", lambda path: read_loads(path, 12)) or []:
-            node = self._node(row.numbers[0], row.place, 1)
-            function = self._function(row.kind, row.values[0], row.values[1], row.place)
+        for row in self.if_there("load12input.txt", lambda path: read_loads(path, 12)) or []:
+            node = self.node(row.numbers[0], row.place)
+            function = self.function(row.kind, row.values[0], row.values[1], row.place)
             kinds = ("Force", "Moment", "Follower Force", "Follower Moment")
             for kind, vector in zip(kinds, row.values[2:].reshape(4, 3)):
                 if vector.any():
-                    self._load(kind, node, row.place).add(kind.split()[-1], vector).add("Function", function)
+                    self.add_load(kind, node.name, row.place).add(kind.split()[-1], vector).add("Function", function)
             self.findings.count("loads")
 
-    def _load(self, type, node, place):
+    def add_load(self, type, node, place):
         loads = self.lists["Loads"]
         name = unique_name(type.lower(), {one.name for one in loads.lists()})
-        return loads.list(name, f"{place}", type).add("Node", node.name)
+        return loads.list(name, f"{place}", type).add("Node", node)
 
     def _springs(self):
         for file, kinds, keys in (("spring12input.txt", SPRINGS, ("Elongations", "Forces")),
                                   ("damping12input.txt", DAMPERS, ("Rates", "Moments"))):  # fmt: skip
-            rows, curves = self._if_there(file, read_springs) or ([], [])
+            rows, curves = self.if_there(file, read_springs) or ([], [])
             for row in rows:
                 if row.kind.lower() not in kinds:
                     refuse(row.place, f"unknown element '{row.kind}'{did_you_mean(row.kind.lower(), kinds)}")
-                node = self._node(row.numbers[0], row.place, 1)
+                node = self.node(row.numbers[0], row.place)
                 type, name, frame = kinds[row.kind.lower()]
-                entry = self._load(type, node, row.place)
+                entry = self.add_load(type, node.name, row.place)
                 if name is not None:
                     entry.add(name, row.values @ node.directors if frame == "Node" else row.values)
                 if type == "Directed Ground Spring":
@@ -292,7 +302,7 @@ class Reader:
                 refuse(row.place, f"unknown simulation '{row.kind}'{did_you_mean(kind, ANALYSES)}")
             analyses = self.lists["Analyses"]
             name = unique_name(kind.replace("_", " "), {one.name for one in analyses.lists()})
-            ANALYSES[kind](analyses.list(name, f"{row.place}"), row)
+            ANALYSES[kind](analyses.list(name, f"{row.place}"), row, self.findings)
         self.findings.assume("tolerances of the solver are those of culm")
 
 
@@ -400,7 +410,8 @@ def _revolute_joint(nodes, vectors, place, findings):
     if not axis.any():
         axis = second - first
         if not axis.any():
-            refuse(place, "the axis of the joint is not given, nor two points on it")
+            findings.assume("a revolute joint without an axis, its points at one place, is a spherical one, as its equations are", place)
+            return "Spherical Joint", {"First": nodes[0].name, "Second": nodes[1].name, "Position": second}, None
         axis = axis / numpy.linalg.norm(axis)
         findings.assume("the axis of a revolute joint without a direction is the line between its points", place)
     values = {"First": nodes[0].name, "Second": nodes[1].name, "Position": second, "Axis": axis}
@@ -432,19 +443,19 @@ DAMPERS = {
 }
 
 
-def _static(entry, row):
+def _static(entry, row, findings):
     final, step = row.values[:2]
     _check_step(step, final, row)
     entry.add("Type", "Static").add("Final Level", final).add("Steps", max(1, round(final / step)))
 
 
-def _dynamic(entry, row):
+def _dynamic(entry, row, findings):
     end, step = row.values[:2]
     _check_step(step, end, row)
     entry.add("Type", "Dynamic").add("Start Time", 0).add("End Time", end).add("Step", step)
 
 
-def _path(entry, row):
+def _path(entry, row, findings):
     final, step = row.values[:2]
     _check_step(step, final, row)
     entry.add("Type", "Path").add("Final Level", final).add("First Increment", step)
@@ -458,10 +469,12 @@ def _path(entry, row):
 
 
 def _modes(type):
-    def make(entry, row):
+    def make(entry, row, findings):
         if not 1 <= row.values[0] <= 1e5:
             refuse(row.place, f"the number of modes must be between 1 and 100000, got {row.values[0]:g}")
         entry.add("Type", type).add("Modes", int(row.values[0]))
+        if len(row.values) > 2 and row.values[2] > 0.0:
+            findings.assume("of modes the lowest ones are found, whatever the least value of the file is", row.place)
 
     return make
 

@@ -3,6 +3,7 @@ of comments, which begin with '!!'."""
 
 import dataclasses
 import pathlib
+import re
 
 import numpy
 
@@ -23,7 +24,7 @@ class Values:
                 comment = line.lstrip("!").strip() or comment or ""
             elif line:
                 self.comments[len(self.lines)] = comment
-                self.lines.append((Place(str(path), i), line.split()))
+                self.lines.append((Place(str(path), i), [word.rstrip(",") or word for word in line.split()]))
                 comment = after.strip() or None
 
     def next(self, count, what):
@@ -195,11 +196,16 @@ def read_table(path, numbers_of_nodes, most, least):
     rows = []
     for _ in range(count):
         place, words = values.next(1 + numbers_of_nodes + least, "an entry")
-        at = [integer(word, place, "the number of a node") for word in words[1 : 1 + numbers_of_nodes]]
+        at = [integer(_whole(word), place, "the number of a node") for word in words[1 : 1 + numbers_of_nodes]]
         rest = [number(word, place) for word in words[1 + numbers_of_nodes :][:most]]
         rows.append(Row(words[0], at, numpy.array(rest), place))
     values.end()
     return rows
+
+
+def _whole(word):
+    """0.00 as Fortran takes it where it wants a whole number."""
+    return re.sub(r"\.0*([DdEe][-+]?0+)?$", "", word)
 
 
 def read_loads(path, vectors):

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""What the supports of an imported model carry, beside the sums of all loads that readers of their own find in its file:
+forces and moments about the origin of each static step, for the samples here and files with which CalculiX is tested.
+
+usage: load_sums.py --culm PROGRAM [--files FOLDER] [FORMAT FILE]…     (FORMAT FILE: those alone)
+"""
+
+import argparse
+import pathlib
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+import ansys_samples
+import load_readers
+import nastran_samples
+import numpy
+import samples
+from calculix_tests import FILES, text_of
+from culm import read
+from culm.program import Program
+
+SUPPORTS = ("Support", "Rotation", "Symmetry")
+# Of the sum of forces, or of what their largest one would give about the farthest point. Loads that follow and arms move
+# with the structure.
+ALLOWED = 1e-4
+OTHERS = {"panel.bdf": 2e-3, "model.cdb": 2e-3, "simplebeampipe1.inp": 0.1, "simplebeampipe2.inp": 0.1}
+TESTS = ("beamlin", "section", "shell3", "simplebeampipe1", "simplebeampipe2")
+
+
+def supports_of(deck):
+    root = xml.etree.ElementTree.parse(deck).getroot()
+    found = []
+    for part in root.findall("ParameterList[@name='Constraints']/ParameterList"):
+        type = part.find("Parameter[@name='Type']").get("value")
+        if any(word in type for word in SUPPORTS):
+            found.append(part.get("name"))
+    return found
+
+
+def reactions(run, names, analysis):
+    """Force and moment about the origin of all supports at the end of an analysis. Supports that hold one node together
+    show their sum, each the same."""
+    state = [one for one in run.states if one.analysis == analysis][-1]
+    rows = []
+    for name in names:
+        try:
+            rows += state.constraint_forces(name).to_numpy().tolist()
+        except KeyError:  # inactive
+            continue
+    rows = numpy.unique(numpy.round(rows, 15), axis=0) if rows else numpy.zeros((0, 9))
+    force = rows[:, 3:6].sum(axis=0)
+    return numpy.concatenate([force, rows[:, 6:9].sum(axis=0) + numpy.cross(rows[:, :3], rows[:, 3:6]).sum(axis=0)])
+
+
+def compare(program, format, path, folder, complaints):
+    expected = load_readers.READERS[format](path)
+    deck = folder / f"{path.stem}.xml"
+    done = program.call("import", format, path, "--output", deck)
+    if done.returncode != 0:
+        complaints.append(f"{path.name}: {done.stderr[:300]}")
+        return
+    names = supports_of(deck)
+    done = program.run(deck, folder / path.stem, settings=["Output/Constraint Forces=true"])
+    if not done.succeeded:
+        complaints.append(f"{path.name}: {done.errors[:300]}")
+        return
+    run = read(done.folder)
+    types = {one.get("name"): one.find("Parameter[@name='Type']").get("value") for one in xml.etree.ElementTree.parse(deck).getroot().findall("ParameterList[@name='Analyses']/ParameterList")}
+    static = [name for name, type in types.items() if type == "Static"]
+    if len(static) != len(expected):
+        complaints.append(f"{path.name}: {len(static)} static analyses, {len(expected)} in the file")
+    size = max(numpy.abs(run.states[0].position(name)).max() for name in run.structures())
+    for name, loads in zip(static, expected):
+        found = reactions(run, names, name)
+        scale = max(numpy.linalg.norm(loads[:3]), numpy.linalg.norm(loads[3:]) / size) or 1.0
+        worst = max(numpy.linalg.norm(found[:3] + loads[:3]), numpy.linalg.norm(found[3:] + loads[3:]) / size) / scale
+        print(f"{path.name}, {name}: loads {numpy.array2string(loads, precision=5)}, supports {numpy.array2string(found, precision=5)}: {worst:.1e}")
+        if not worst <= OTHERS.get(path.name, ALLOWED):
+            complaints.append(f"{path.name}: {name}: supports and loads differ by {worst:.2e}")
+
+
+def own_files(folder, tests):
+    texts = {f"{name}.inp": ("calculix", make()) for name, make in samples.SAMPLES.items()}
+    texts["parts.inp"] = "abaqus", samples.parts()
+    texts["panel.bdf"] = "nastran", nastran_samples.panel()
+    texts["model.cdb"] = "ansys", ansys_samples.model()
+    texts |= {f"{name}.inp": ("calculix", text_of(tests, f"{name}.inp")) for name in TESTS}
+    for name, (format, text) in texts.items():
+        (folder / name).write_text(text)
+        yield format, folder / name
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--culm", required=True)
+    parser.add_argument("--files", type=pathlib.Path, default=pathlib.Path(FILES))
+    parser.add_argument("others", nargs="*")
+    arguments = parser.parse_args()
+    program, complaints = Program(arguments.culm), []
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        pairs = zip(arguments.others[::2], map(pathlib.Path, arguments.others[1::2]))
+        for format, path in list(pairs) or own_files(folder, arguments.files):
+            compare(program, format, path, folder, complaints)
+    sys.exit("\n".join(complaints) or 0)
+
+
+if __name__ == "__main__":
+    main()
