@@ -157,12 +157,12 @@ class AbaqusFile:
             if one in (self.nodes if kind == "N" else self.elements):
                 return [one]
             if (kind, one) in self.sets:
-                return self.sets[kind, one]
+                return list(dict.fromkeys(self.sets[kind, one]))
         raise NotCounted(f"the set {name}")
 
-    def add(self, kind, name, members, prefix=None):
+    def add(self, kind, name, members):
         if name:
-            self.sets.setdefault((kind, (self.prefix if prefix is None else prefix) + name), []).extend(members)
+            self.sets.setdefault((kind, self.prefix + name), []).extend(members)
 
     def read_node(self, options, rows):
         names = [self.prefix + row[0] for row in rows]
@@ -199,10 +199,8 @@ class AbaqusFile:
                 found += [self.prefix + str(i) for i in range(first, last + 1, *step) if self.prefix + str(i) in known]
             else:
                 found += [one for cell in row if cell for one in self.find(kind, cell)]
-        inside, self.prefix = self.prefix, before
+        self.prefix = before
         self.add(kind, name, found)
-        if "INSTANCE" in options:
-            self.add(kind, name, found, inside)
 
     def read_nset(self, options, rows):
         self.read_set("N", options["NSET"], options, rows)

@@ -111,6 +111,22 @@ def has_axes():
             yield f"a node on the axis that is {name} across is refused", "has no directions in it" in str(error)
 
 
+def counts_once():
+    """Sets of the assembly with the names of those of its parts, as Abaqus/CAE numbers them; sets that list twice."""
+    part = "*part,name=p\n" + INP[INP.index("*node") : INP.index("*material")] + "*elset,elset=set-1\n1\n*nset,nset=set-1\n1,2\n"
+    part += "*shell section,elset=set-1,material=m\n0.01,5\n*end part\n*assembly,name=a\n*instance,name=i,part=p\n*end instance\n"
+    part += "*elset,elset=set-1,instance=i\n1\n*nset,nset=set-1,instance=i\n3,4\n*end assembly\n"
+    text = part + INP[INP.index("*material") : INP.index("*shell")] + "*step\n*static\n*boundary\nset-1,1,3\ni.set-1,3\n*end step\n"
+    made = made_of_text("abaqus", text)
+    yield "an element of a set that the assembly names alike is there once", len(made.made.shells) == 1 and made.mass == 10
+    nodes = {tuple(sorted(n for _, n in x.nodes)): set(x.held) for x in made.made.supports}
+    yield "both sets are their own", nodes == {(3, 4): {1, 2, 3}, (1, 2): {3}}
+    twice = steps("*static\n*cload\nn,1,5\n*dload\nf,p,7\n", base=INP + "*nset,nset=n\n3,3\n*elset,elset=f\n1,1\n")
+    yield "a member that is listed twice is loaded once", node_force(twice)[0] == 5 and one(twice, "pressure").elements == [0]
+    again = made_of_text("abaqus", INP + "*shell section,elset=e,material=m\n0.03\n")
+    yield "of two sections the last one holds, and that is said", again.mass == 30 and any("two sections" in x for x in again.findings.assumed)
+
+
 def has_sections():
     general = INP.replace("*shell section,elset=e,material=m\n0.01,5", "*shell general section,elset=e,material=m\n0.01")
     yield "a general section of a material is a wall of it", made_of_text("abaqus", general).mass == 10
@@ -134,7 +150,7 @@ REFUSED = {
 
 def main():
     complaints = []
-    for facts in (goes_on, perturbs, stays_in_plane, has_axes, has_sections):
+    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, has_sections):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     for name, (text, words) in REFUSED.items():
         try:

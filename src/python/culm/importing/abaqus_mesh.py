@@ -250,10 +250,11 @@ def _generate_elements(reader, block):
 
 
 def _add_to_set(sets, reader, name, numbers):
+    """What is in it already, or given twice, is there once."""
     if name:
         members = sets.setdefault(reader.prefix + name, [])
         known = set(members)
-        members += [one for one in numbers if one not in known]
+        members += [one for one in dict.fromkeys(numbers) if one not in known]
 
 
 def _node_set(reader, block):
@@ -285,15 +286,10 @@ def _set(reader, block, name, sets, find, existing):
         else:
             for cell in cells:
                 found += find(cell, place)
-    reader.prefix = before
-    if instance:
-        _add_to_set(sets, reader, name, found)
-        sets.setdefault(prefix + name, []).extend(found)
-    else:
-        _add_to_set(sets, reader, name, found)
+    reader.prefix = before  # a set of an instance that the assembly names is one of the assembly
+    _add_to_set(sets, reader, name, found)
     if not found:
         reader.findings.assume(f"the set {name} is empty", block.place)
-        sets.setdefault(prefix + name, [])
 
 
 def _surface(reader, block):

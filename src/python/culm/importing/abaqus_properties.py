@@ -110,19 +110,24 @@ def _assignment(reader, block):
 
 def resolve_sections(reader):
     """Gives every element what its section says, when the whole file is known."""
-    given = {}
+    given, blocks = {}, []
     for block, prefix in reader.assignments:
         reader.prefix = prefix
-        keys = reader.find_elements(block.required("ELSET"), block.place)
+        keys = list(dict.fromkeys(reader.find_elements(block.required("ELSET"), block.place)))
         for key in keys:
             type = reader.elements[key][0]
             fits = SHELLS if block.keyword in SHELL_SECTIONS else POINTS if block.keyword in ("MASS", "ROTARY INERTIA") else BEAMS
             if type not in fits:
                 refuse(block.place, f"*{block.keyword} for an element of type {type}")
+            if key in given:
+                reader.findings.assume("elements that two sections name have the last one", block.place)
             given[key] = block
-        actions = {**dict.fromkeys(SHELL_SECTIONS, _shell_section), "MASS": _mass, "ROTARY INERTIA": _rotary}
-        action = actions.get(block.keyword, _beam_section)
-        action(reader, block, keys)
+        blocks.append((block, prefix, keys))
+    actions = {**dict.fromkeys(SHELL_SECTIONS, _shell_section), "MASS": _mass, "ROTARY INERTIA": _rotary}
+    for block, prefix, keys in blocks:
+        reader.prefix = prefix
+        keys = [key for key in keys if given[key] is block]
+        actions.get(block.keyword, _beam_section)(reader, block, keys)
     reader.prefix = ""
     for key, (type, _, place) in reader.elements.items():
         if key not in given and type != "DCOUP3D":
