@@ -81,6 +81,15 @@ def perturbs():
     yield "a perturbation comes on top", numpy.allclose(node_force(added, 1), [14, 0, 0, 0, 0, 0])
     cases = steps("*buckle\n2\n*boundary,op=new,load case=1\n1,1,6\n*boundary,op=new,load case=2\n3,1,3\n*cload\n3,2,5\n")
     yield "supports of modes alone are told", any("LOAD CASE=2" in x for x in cases.findings.left_out) and held(cases, 3, 0) == {}
+    for program, of_linear in zip(BOTH, (None, "step 1")):
+        for geometry, of_nonlinear in (("", of_linear), (",nlgeom", "step 1"), (",nlgeom=no", of_linear)):
+            text = INP + f"*step{geometry}\n*static\n*cload\n3,1,10\n*end step\n*step,perturbation\n*frequency\n5\n*end step\n"
+            found = [x.preloaded for x in made_of_text(program, text).made.steps]
+            yield f"{program}: modes after a step with '{geometry}'", found == [None, of_nonlinear]
+    other = made_of_text("abaqus", INP + "*step,nlgeom\n*static\n*end step\n*step\n*frequency\n5\n*boundary\n3,1\n*end step\n")
+    yield "supports of modes alone are told where these start from a loaded state", any("other supports" in x for x in other.findings.left_out)
+    lasting = made_of_text("abaqus", INP + "*step,nlgeom\n*static\n*end step\n*step\n*static\n*end step\n*step,nlgeom=no\n*static\n*end step\n")
+    yield "steps stay nonlinear", [x.nonlinear for x in lasting.made.steps] == [True, True, False]
     short = made_of_text("abaqus", INP + "*step,nlgeo=yes\n*static\n*end step\n*step\n*frequency\n5\n*end step\n")
     yield "the beginning of a parameter is the parameter", [x.preloaded for x in short.made.steps] == [None, "step 1"] and not short.findings.left_out
 

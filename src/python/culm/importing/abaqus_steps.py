@@ -37,11 +37,13 @@ OTHER_KINDS = {
 class Open:
     """The step that is read."""
 
-    def __init__(self, block, number_, name):
+    def __init__(self, block, number_, name, before):
         self.number = number_
         self.name = name
         self.place = block.place
-        self.nonlinear = block.has("NLGEOM") and (block.get("NLGEOM") or "YES") != "NO"
+        self.nonlinear = before is not None and before.nonlinear  # once it is, later steps are, too
+        if block.has("NLGEOM"):
+            self.nonlinear = (block.get("NLGEOM") or "YES") != "NO"
         self.perturbation = block.has("PERTURBATION")
         self.kind = None
         self.modes = 10
@@ -104,7 +106,9 @@ def _step(reader, block):
     number_ = len(acting.history)
     name = block.get("NAME") or f"step {number_ + 1}"
     taken = [step.name for step, _, _ in acting.history]
-    reader.step = Open(block, number_, name.lower() if name.lower() not in taken else f"{name.lower()} {number_ + 1}")
+    name = name.lower() if name.lower() not in taken else f"{name.lower()} {number_ + 1}"
+    before = next((step for step, _, _ in reversed(acting.history) if not _is_perturbation(step)), None)
+    reader.step = Open(block, number_, name, before)
 
 
 def _kind(reader, block):
@@ -373,11 +377,13 @@ def finish_steps(reader):
 
 
 def _make_steps(reader, kept):
-    """A step of modes starts from the static one before it, where that is what the file asks for."""
-    before = None
+    """A step of modes starts from the static one before it, where that is what the file asks for: in Abaqus where that one
+    is nonlinear, in CalculiX by PERTURBATION, too."""
+    before, is_abaqus = None, reader.program == "Abaqus"
     for step, _, _ in kept:
         preloaded = None
-        if step.kind != "static" and before is not None and (step.perturbation or before.nonlinear):
+        asks = before is not None and (before.nonlinear or (step.kind == "buckling" if is_abaqus else step.perturbation))
+        if step.kind != "static" and asks:
             preloaded = before.name
         if step.kind == "static" and step.perturbation and before is not None:
             text = "a static PERTURBATION step gives the whole state, under all loads that act, not its part of it"
@@ -386,7 +392,7 @@ def _make_steps(reader, kept):
             reader.findings.leave_out("the static step before *BUCKLE: factors are those of the load of the step alone", step.place)
             preloaded = None
         reader.model.steps.append(Step(step.name, step.kind, step.place, step.modes, step.nonlinear, preloaded))
-        if step.kind == "static":
+        if step.kind == "static" and not (is_abaqus and step.perturbation):
             before = step
     if any(step.kind == "static" and not step.nonlinear for step, _, _ in kept):
         reader.findings.assume("linear static steps become nonlinear ones, which agree where displacements are small")
@@ -396,6 +402,11 @@ def _make_steps(reader, kept):
             support.steps = {new for old, new in numbers.items() if old in support.steps}
             support.steps = None if len(support.steps) == len(kept) else support.steps
     reader.model.supports[:] = _merged([one for one in reader.model.supports if one.steps is None or one.steps], len(kept))
+    names = [step.name for step in reader.model.steps]
+    for number_, step in enumerate(reader.model.steps):
+        static = number_ if step.preloaded is None else names.index(step.preloaded)
+        if any(one.steps is not None and (number_ in one.steps) != (static in one.steps) for one in reader.model.supports):
+            reader.findings.leave_out("other supports of modes than of the loaded state that they start from", step.place)
 
 
 def _merged(supports, count):
