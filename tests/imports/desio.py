@@ -129,6 +129,23 @@ def shells_are_whole(complaints):
         complaints.append(f"the constraints are {kinds}")
 
 
+def joints_are_told(complaints):
+    """Of the hub at (1, 0, 10), with d2 along -x, and the top of the post at (0, 0, 10)."""
+    model = desio_samples.rotor()
+    for vectors, type, words in (
+        ([0, 1, 0] + [0] * 6, "Spherical Joint", "is a spherical one"),
+        ([0] * 9, "Revolute Joint", "the line between its points"),
+        ([0] * 6 + [1, 0, 0], "Revolute Joint", "turns about that"),
+    ):
+        rows = model["constraint12input.txt"].split("\n")
+        i = next(i for i, row in enumerate(rows) if row.startswith("revolutejoint"))
+        rows[i] = "revolutejoint 1.0 6 " + desio_samples.numbers(vectors)
+        made = made_of_text("desio", {**model, "constraint12input.txt": "\n".join(rows)})
+        joint = entry(made, "Constraints", "revolutejoint")
+        if joint["Type"] != type or not any(words in text for text in made.findings.assumed):
+            complaints.append(f"a joint with {vectors} is {joint}, {list(made.findings.assumed)}")
+
+
 def strip_vibrates(program, complaints):
     """Two shells as one: beams of Euler and Bernoulli, of which the wall is thin and nu is 0."""
     with tempfile.TemporaryDirectory() as folder:
@@ -156,6 +173,7 @@ def main():
     weighs(complaints)
     sections_agree(complaints)
     shells_are_whole(complaints)
+    joints_are_told(complaints)
     strip_vibrates(program, complaints)
     sys.exit("\n".join(complaints) if complaints else 0)
 

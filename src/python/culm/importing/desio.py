@@ -407,8 +407,11 @@ def _revolute_joint(nodes, vectors, place, findings):
     """Without a direction the axis is the line between the two points, and the joint at the second."""
     first, second = _point(nodes[0], vectors[0]), _point(nodes[1], vectors[1])
     axis = vectors[2] @ nodes[0].directors
+    line = second - first
+    if numpy.linalg.norm(numpy.cross(axis, line)) > 1e-6 * numpy.linalg.norm(axis) * numpy.linalg.norm(line) > 0.0:
+        findings.assume("a revolute joint with a direction turns about that, not about the line between its points", place)
     if not axis.any():
-        axis = second - first
+        axis = line
         if not axis.any():
             findings.assume("a revolute joint without an axis, its points at one place, is a spherical one, as its equations are", place)
             return "Spherical Joint", {"First": nodes[0].name, "Second": nodes[1].name, "Position": second}, None
