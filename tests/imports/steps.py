@@ -136,6 +136,35 @@ def counts_once():
     yield "of two sections the last one holds, and that is said", again.mass == 30 and any("two sections" in x for x in again.findings.assumed)
 
 
+def makes_nodes():
+    """A part of a cylinder as the verification manual of Abaqus makes one: corners by angles, arcs, rows between them."""
+    text = "*node,system=c,nset=corner\n1,300.\n5,300.,,300.\n401,300.,40.\n405,300.,40.,300.\n*ngen,line=c,nset=wall\n1,401,100\n"
+    text += "*ngen,line=c,nset=free\n5,405,100,,,,300.\n*nfill,nset=all\nwall,free,4,1\n*element,type=s4r,elset=roof\n1,1,101,102,2\n"
+    text += "*elgen,elset=roof\n1,4,100,10,4,1,1\n*material,name=m\n*elastic\n3e6,0\n*density\n1.\n*shell section,elset=roof,material=m\n3.\n"
+    made = made_of_text("abaqus", text + "*boundary\nwall,1,6\n").made
+    places = {n: (300 * numpy.cos(t), 300 * numpy.sin(t), 75.0 * j) for i in range(5) for j in range(5) for n, t in [(100 * i + j + 1, numpy.radians(10 * i))]}
+    yield "nodes", made.nodes.keys() == places.keys() and numpy.allclose([made.nodes[n] for n in places], list(places.values()))
+    yield "elements, sets", len(made.shells) == 16 and made.supports[0].nodes == [1, 401, 101, 201, 301]
+    ball = made_of_text("abaqus", INP.replace("9,5,5,5\n", "*node,system=s\n9,2,90,30\n")).made
+    yield "a place on a sphere", numpy.allclose(ball.nodes[9], [0, 3**0.5, 1])
+
+
+def leaves_out():
+    """A cell without a number is 0 where it stands."""
+    empty = made_of_text("abaqus", INP.replace("9,5,5,5", "9,,,5")).made
+    yield "a coordinate", numpy.allclose(empty.nodes[9], [0, 0, 5])
+    yield "a direction of gravity", numpy.allclose(one(steps("*static\n*dload\ne,grav,9.81,,,-1\n"), "gravity").value, [0, 0, -9.81])
+    bar = BAR.replace("0,0,-1", ",1,").replace("2e11,0.3", "2e11,")
+    bent = steps("*static\n", base=bar.replace("b21", "b31")).made
+    yield "a direction of a section", bent.beams[0].up == (0, 1, 0)
+    yield "a ratio of Poisson", next(iter(bent.materials.values())).values["Poisson Ratio"] == 0
+    general = BAR.replace("*beam section,elset=e,material=m,section=rect\n0.1,0.2\n0,0,-1", "*beam general section,elset=e,section=general\n1,2,,3,4\n0,0,-1\n1,1")
+    values = next(iter(steps("*static\n", base=general).made.sections.values())).values
+    yield "a value of a section", (values["EI1"], values["EI12"], values["EI2"], values["GIp"]) == (2, 0, 3, 4)
+    rows = INP.replace("9,5,5,5\n", "5,0,2,0\n6,1,2,0\n").replace("*material", "*elgen,elset=e\n1,1,,,2,2,10\n*material", 1)
+    yield "numbers of *ELGEN", made_of_text("abaqus", rows).mass == 20
+
+
 def has_sections():
     general = INP.replace("*shell section,elset=e,material=m\n0.01,5", "*shell general section,elset=e,material=m\n0.01")
     yield "a general section of a material is a wall of it", made_of_text("abaqus", general).mass == 10
@@ -153,13 +182,16 @@ REFUSED = {
         "*ORIENTATION by the distribution list",
     ),
     "beams beside their plane": (BAR.replace("3,2,0\n", "3,2,0,1\n"), "lie in the plane z = 0"),
+    "arcs beyond half a turn": (INP + "*ngen,line=c\n1,2,1,,0.5,0.5,0,0,0,1\n", "with a normal"),
+    "arcs about another centre": (INP + "*ngen,line=c\n2,4,1,,5,5\n*ngen,line=c\n2,9,1\n", "at one distance"),
+    "rows of other lengths": (INP + "*nset,nset=a\n1,2\n*nset,nset=b\n3\n*nfill\na,b,2,10\n", "cannot be joined"),
     "a system of nodes": (INP + "*system\n1,0,0\n", "*SYSTEM is not read"),
 }
 
 
 def main():
     complaints = []
-    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, has_sections):
+    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, makes_nodes, leaves_out, has_sections):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     for name, (text, words) in REFUSED.items():
         try:

@@ -3,7 +3,7 @@
 import numpy
 
 from .findings import refuse
-from .keyword_file import integer, number
+from .keyword_file import integer, number, numbers_of
 from .model import BeamElement, Coupling, PointMass, ShellElement, Support, cylinder_axes
 
 SHELLS = {
@@ -23,6 +23,7 @@ def read_mesh_block(reader, block):
     action = {
         "NODE": _nodes,
         "NGEN": _generate_nodes,
+        "NFILL": _fill_nodes,
         "ELEMENT": _elements,
         "ELGEN": _generate_elements,
         "TRANSFORM": _transform,
@@ -42,19 +43,30 @@ def read_mesh_block(reader, block):
 
 
 def _nodes(reader, block):
-    if block.get("SYSTEM") not in (None, "R"):
-        refuse(block.place, "*NODE with SYSTEM other than R is not read")
+    system = block.get("SYSTEM") or "R"
+    if system not in ("R", "C", "S"):
+        refuse(block.place, f"*NODE with SYSTEM={system} is not read; R, C and S are")
     found = []
     for place, cells in block.lines:
         key = reader.key(integer(cells[0], place, "the number of a node"))
-        values = [number(cell, place, "a coordinate") for cell in cells[1:4] if cell]
-        position = numpy.array([*values, 0.0, 0.0, 0.0][:3])
+        values = numbers_of(cells[1:4], place, "a coordinate")
+        position = _in_space(system, numpy.array([*values, 0.0, 0.0, 0.0][:3]))
         if key in reader.model.nodes:
             refuse(place, f"node {cells[0]} is there twice")
         reader.model.nodes[key] = placed(reader, position)
         found.append(key)
     reader.findings.count("nodes", len(found))
     _add_to_set(reader.model.node_sets, reader, block.get("NSET"), found)
+
+
+def _in_space(system, values):
+    """Of radius, angle about z and height, or of radius, angle about z and height in degrees."""
+    if system == "R":
+        return values
+    r, around, up = values[0], *numpy.radians(values[1:])
+    if system == "C":
+        return numpy.array([r * numpy.cos(around), r * numpy.sin(around), values[2]])
+    return r * numpy.array([numpy.cos(up) * numpy.cos(around), numpy.cos(up) * numpy.sin(around), numpy.sin(up)])
 
 
 def _transform(reader, block):
@@ -129,29 +141,81 @@ def placed(reader, position):
 
 
 def _numbers(cells, count, place):
-    values = [number(cell, place) for cell in cells if cell]
+    values = numbers_of(cells, place)
     if len(values) > count:
         refuse(place, f"expected at most {count} numbers, found {len(values)}")
     return numpy.array([*values, *[0.0] * (count - len(values))])
 
 
 def _generate_nodes(reader, block):
-    if block.has("LINE") and block.get("LINE") not in (None, ""):
-        refuse(block.place, "*NGEN along curves is not read")
+    """Between two nodes, along a line or around a centre, which is the origin where the file does not say."""
+    line = block.get("LINE") or ""
+    if line not in ("", "C"):
+        refuse(block.place, f"*NGEN with LINE={line} is not read; straight lines and arcs, LINE=C, are")
     for place, cells in block.lines:
         first, last = (integer(cell, place) for cell in cells[:2])
         step = integer(cells[2], place) if len(cells) > 2 and cells[2] else 1
         ends = [reader.find_nodes(str(one), place)[0] for one in (first, last)]
         if step == 0 or (last - first) % step or abs((last - first) // step) > 10**6:
             refuse(place, f"the step {step} does not lead from {first} to {last}")
-        made = [*ends]
         a, b = (reader.model.nodes[end] for end in ends)
+        at = _arc(reader, cells, a, b, place) if line == "C" else lambda part, a=a, b=b: a + (b - a) * part
+        made = [*ends]
         for i in range(first + step, last, step):
-            if reader.key(i) not in reader.model.nodes:
-                reader.findings.count("nodes")
-            reader.model.nodes[reader.key(i)] = a + (b - a) * (i - first) / (last - first)
-            made.append(reader.key(i))
+            made.append(_make_node(reader, i, at((i - first) / (last - first))))
         _add_to_set(reader.model.node_sets, reader, block.get("NSET"), made)
+
+
+def _make_node(reader, number_, position):
+    key = reader.key(number_)
+    if key not in reader.model.nodes:
+        reader.findings.count("nodes")
+    reader.model.nodes[key] = position
+    return key
+
+
+def _arc(reader, cells, a, b, place):
+    """Places along the arc of less than half a turn from a to b, by a part of it."""
+    if len(cells) > 3 and cells[3]:
+        centre = reader.model.nodes[reader.find_nodes(cells[3], place)[0]]
+    else:
+        centre = placed(reader, numpy.array([*numbers_of(cells[4:7], place), 0.0, 0.0, 0.0][:3]))
+    if any(cells[7:10]):
+        refuse(place, "*NGEN, LINE=C with a normal, for arcs of half a turn and more, is not read")
+    one, other = a - centre, b - centre
+    r, s = numpy.linalg.norm(one), numpy.linalg.norm(other)
+    normal = numpy.cross(one, other)
+    if abs(r - s) > 1e-3 * max(r, s) or numpy.linalg.norm(normal) <= 1e-9 * r * s:
+        refuse(place, "the ends of an arc must be at one distance from its centre, and not opposite to each other")
+    normal = normal / numpy.linalg.norm(normal)
+    angle = numpy.arctan2(numpy.cross(one, other) @ normal, one @ other)
+
+    def at(part):
+        turned = one * numpy.cos(angle * part) + numpy.cross(normal, one) * numpy.sin(angle * part)
+        return centre + turned * (r + (s - r) * part) / r
+
+    return at
+
+
+def _fill_nodes(reader, block):
+    """Rows of nodes from those of one set to those of another, in the order of their numbers."""
+    for name in ("BIAS", "SINGULAR", "TWO STEP"):
+        if block.has(name) and block.get(name) not in ("0", "1", "1."):
+            refuse(block.place, f"*NFILL with {name} is not read")
+    made = []
+    for place, cells in block.lines:
+        if len(cells) < 3:
+            refuse(place, "expected two sets of nodes and the number of intervals between them")
+        first, last = (sorted(set(reader.find_nodes(cell, place)), key=lambda key: key[1] if isinstance(key, tuple) else key) for cell in cells[:2])
+        count = integer(cells[2], place, "the number of intervals")
+        step = integer(cells[3], place) if len(cells) > 3 and cells[3] else 1
+        if len(first) != len(last) or not 1 <= count <= 10**6 or step == 0:
+            refuse(place, f"{len(first)} nodes cannot be joined to {len(last)} in {count} intervals, numbered by {step}")
+        for one, other in zip(first, last):
+            a, b = reader.model.nodes[one], reader.model.nodes[other]
+            start = one[1] if isinstance(one, tuple) else one
+            made += [one, *(_make_node(reader, start + i * step, a + (b - a) * (i / count)) for i in range(1, count)), other]
+    _add_to_set(reader.model.node_sets, reader, block.get("NSET"), made)
 
 
 def _elements(reader, block):
@@ -222,7 +286,7 @@ def _add_element(reader, type, key, nodes, place):
 def _generate_elements(reader, block):
     """A row of elements from a first one, and rows of rows."""
     for place, cells in block.lines:
-        values = [integer(cell, place) for cell in cells if cell]
+        values = [integer(cell or "1", place) for cell in cells]
         key = reader.key(values[0])
         if key not in reader.elements:
             refuse(place, f"there is no element {values[0]}")

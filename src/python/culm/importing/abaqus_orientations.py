@@ -4,7 +4,7 @@ import numpy
 
 from .abaqus_mesh import placed, triad
 from .findings import refuse
-from .keyword_file import number
+from .keyword_file import number, numbers_of
 from .model import cylinder_axes
 
 SYSTEMS = {"R": "RECTANGULAR", "C": "CYLINDRICAL", "S": "SPHERICAL"}
@@ -45,7 +45,8 @@ def read_orientation(reader, block):
     place, cells = block.lines[0]
     if len([cell for cell in cells if cell]) == 1:
         refuse(place, f"*ORIENTATION by the distribution {cells[0]}, element by element, is not read")
-    values = [number(cell, place, "a coordinate") for cell in cells if cell]
+    values = numbers_of(cells, place, "a coordinate")
+    values += [0.0] * (-len(values) % 3)
     if len(values) != 6 and not (len(values) == 9 and kind == "RECTANGULAR"):
         refuse(place, f"expected two points, or three with the origin of a rectangular system, found {len(values)} numbers")
     points = [placed(reader, numpy.array(values[i : i + 3])) for i in range(0, len(values), 3)]

@@ -5,7 +5,7 @@ import re
 import numpy
 
 from .findings import did_you_mean, refuse
-from .keyword_file import NUMBER, number
+from .keyword_file import NUMBER, number, numbers_of
 from .model import Layer, Material, Section, Wall
 from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, point_mass
 from .abaqus_orientations import Orientation, read_orientation
@@ -55,17 +55,19 @@ def _property(reader, block):
 
 def _values(block, count, what):
     """The first `count` numbers of the data, over lines."""
-    cells = [(place, cell) for place, cells in block.lines for cell in cells if cell]
-    if len(cells) < count:
-        refuse(block.place, f"expected {count} numbers, {what}, found {len(cells)}")
-    return [number(cell, place) for place, cell in cells][:count]
+    found = [value for place, cells in block.lines for value in numbers_of(cells, place)]
+    if len(found) < count:
+        refuse(block.place, f"expected {count} numbers, {what}, found {len(found)}")
+    return found[:count]
 
 
 def _elastic(reader, block):
     material = _property(reader, block)
     kind = (block.get("TYPE") or "ISOTROPIC").replace("ENGINEERINGCONSTANTS", "ENGINEERING CONSTANTS")  # as CalculiX reads it
     if kind.startswith("ISO"):
-        E, nu = _values(block, 2, "Young's modulus and Poisson's ratio")
+        # a ratio that is left out is 0
+        alone = len(block.lines[0][1]) > 1 and not block.lines[0][1][1]
+        E, nu = [*_values(block, 1, "Young's modulus"), 0.0] if alone else _values(block, 2, "Young's modulus and Poisson's ratio")
         material.type = "Isotropic"
         material.values.update({"Young Modulus": E, "Poisson Ratio": nu})
         if len(block.lines) > 1:
@@ -295,9 +297,9 @@ def _beam_section(reader, block, keys):
     name = _free((block.get("ELSET") or "section").lower(), reader.model.sections)
     reader.model.sections[name] = Section(type, values, mass, block.place)
     up = DEFAULT_UP
-    if len(block.lines) > 1 and len([cell for cell in block.lines[1][1] if cell]) >= 3:
+    if len(block.lines) > 1 and any(block.lines[1][1][:3]):
         place, cells = block.lines[1]
-        up = tuple(number(cell, place, "a direction") for cell in cells[:3])
+        up = tuple([*numbers_of(cells[:3], place, "a direction"), 0.0, 0.0][:3])
     for key in keys:
         own = _direction_of(reader, key, block.place)
         reader.model.beams.append(element_of(reader, key, None, name, up if own is None else own))
@@ -324,7 +326,7 @@ def _modulus_line(block):
 def _profile(reader, shape, block, solid):
     """(type of the deck, values, mass per length)"""
     place, cells = block.lines[0] if block.lines else (block.place, [])
-    sizes = [number(cell, place, "a dimension") for cell in cells if cell]
+    sizes = numbers_of(cells, place, "a dimension")
     needed = {"RECT": 2, "CIRC": 1, "PIPE": 2, "BOX": 6, "I": 7}
     if shape not in needed:
         refuse(block.place, f"beam sections of shape {shape or 'none'} are not read; {', '.join(needed)} and GENERAL are")
@@ -366,7 +368,7 @@ def _radius(reader, sizes, place):
 def _general(block):
     """A, I11, I12, I22, J of a section of one material."""
     place, cells = block.lines[0] if block.lines else (block.place, [])
-    sizes = [number(cell, place, "a section value") for cell in cells if cell]
+    sizes = numbers_of(cells, place, "a section value")
     if len(sizes) < 5:
         refuse(place, "a GENERAL section needs A, I11, I12, I22 and J")
     A, I11, I12, I22, J = sizes[:5]

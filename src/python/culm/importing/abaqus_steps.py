@@ -12,7 +12,7 @@ import numpy
 
 from .abaqus_mesh import BEAMS, SHELLS, refuse_directions
 from .findings import did_you_mean, refuse
-from .keyword_file import integer, is_integer, number
+from .keyword_file import integer, is_integer, number, numbers_of
 from .model import ElementLoad, NodeLoad, Step, Support, supports_along
 
 NAMED_SUPPORTS = {
@@ -299,7 +299,7 @@ def _element_loads(reader, block):
         label = cells[1].upper()
         whole = not cells[0] and label == "GRAV"
         members = tuple(reader.elements) if whole else tuple(reader.find_elements(cells[0], place))
-        values = [number(cell, place) for cell in cells[2:] if cell]
+        values = numbers_of(cells[2:], place)
         if not values:
             refuse(place, f"{label} without a value")
         _add_element_load(reader, label, members, values, place)

@@ -102,6 +102,12 @@ def number(cell, place, what="a number"):
     return value
 
 
+def numbers_of(cells, place, what="a number"):
+    """Real numbers, of which one that is left out is 0; behind the last one there are none."""
+    count = max((i + 1 for i, cell in enumerate(cells) if cell), default=0)
+    return [number(cell or "0", place, what) for cell in cells[:count]]
+
+
 def is_integer(text):
     return re.fullmatch(r"[+-]?[0-9]{1,18}", text) is not None
 
