@@ -90,14 +90,11 @@ def is_read(format, path, complaints):
         complaints.append(f"{path.name}: of the file {expected}, read {found}")
 
 
-def supports_of(deck):
-    root = xml.etree.ElementTree.parse(deck).getroot()
-    found = []
-    for part in root.findall("ParameterList[@name='Constraints']/ParameterList"):
-        type = part.find("Parameter[@name='Type']").get("value")
-        if any(word in type for word in SUPPORTS):
-            found.append(part.get("name"))
-    return found
+def names_of(deck, of, words):
+    """Entries of a list of the deck whose type has one of the words."""
+    entries = xml.etree.ElementTree.parse(deck).getroot().findall(f"ParameterList[@name='{of}']/ParameterList")
+    types = [(one.get("name"), one.find("Parameter[@name='Type']").get("value")) for one in entries]
+    return [name for name, type in types if any(word in type for word in words)]
 
 
 def reactions(run, names, analysis):
@@ -122,14 +119,13 @@ def is_carried(program, format, path, folder, complaints):
     if done.returncode != 0:
         complaints.append(f"{path.name}: {done.stderr[:300]}")
         return
-    names = supports_of(deck)
+    names = names_of(deck, "Constraints", SUPPORTS)
     done = program.run(deck, folder / path.stem, settings=["Output/Constraint Forces=true"])
     if not done.succeeded:
         complaints.append(f"{path.name}: {done.errors[:300]}")
         return
     run = read(done.folder)
-    types = {one.get("name"): one.find("Parameter[@name='Type']").get("value") for one in xml.etree.ElementTree.parse(deck).getroot().findall("ParameterList[@name='Analyses']/ParameterList")}
-    static = [name for name, type in types.items() if type == "Static"]
+    static = names_of(deck, "Analyses", ("Static",))
     if len(static) != len(expected):
         complaints.append(f"{path.name}: {len(static)} static analyses, {len(expected)} in the file")
     size = max(numpy.abs(run.states[0].position(name)).max() for name in run.structures())

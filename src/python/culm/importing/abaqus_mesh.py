@@ -3,7 +3,7 @@
 import numpy
 
 from .findings import refuse
-from .keyword_file import integer, number, numbers_of
+from .keyword_file import integer, numbers_of
 from .model import BeamElement, Coupling, PointMass, ShellElement, Support, cylinder_axes
 
 SHELLS = {

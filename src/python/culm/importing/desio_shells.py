@@ -142,11 +142,13 @@ class Shells:
         numpy.add.at(means, quads, corner_normals(shell.nodes[quads, :3]))
         given = shell.nodes[:, 3:]
         lengths = numpy.linalg.norm(given, axis=1)
-        if not numpy.allclose(lengths, 1.0, atol=1e-3):
-            refuse(shell.place, f"directors must have length 1, but that of node {abs(lengths - 1.0).argmax() + 1} has {lengths[abs(lengths - 1.0).argmax()]:g}")
+        worst = abs(lengths - 1.0).argmax()
+        if abs(lengths[worst] - 1.0) > 1e-3:
+            refuse(shell.place, f"directors must have length 1, but that of node {worst + 1} has {lengths[worst]:g}")
         tilt = numpy.linalg.norm(numpy.cross(means, given), axis=1) / numpy.linalg.norm(means, axis=1) / lengths
         if tilt.max() > TILTED:
-            findings.assume(f"directors are the mean normals of their elements, from which those of the file differ by up to {tilt.max():.2g} rad", shell.place)
+            text = "directors are the mean normals of their elements, from which those of the file differ by up to"
+            findings.assume(f"{text} {tilt.max():.2g} rad", shell.place)
         constants = [materials[m - 1][0] for m, _, _ in layers]
         if any(numpy.ptp(c[:3]) > 1e-9 * c[0] or numpy.ptp(c[3:6]) > 1e-9 * c[3] or numpy.ptp(c[6:]) > 0.0 for c in constants):
             diagonals = [corners[:, i] - corners[:, i + 2] for i in (0, 1)]
@@ -154,7 +156,8 @@ class Shells:
             line = corners[:, 1] - corners[:, 0]
             turn = numpy.linalg.norm(numpy.cross(first, line), axis=1) / numpy.linalg.norm(first, axis=1) / numpy.linalg.norm(line, axis=1)
             if turn.max() > 1e-3:
-                findings.assume(f"layers count from the first line of their elements, from which the bisector of the diagonals, as DeSiO has it, is up to {turn.max():.2g} rad away", shell.place)
+                text = "layers count from the first line of their elements, from which the bisector of the diagonals, as DeSiO has it, is up to"
+                findings.assume(f"{text} {turn.max():.2g} rad away", shell.place)
 
     def node(self, number_, place):
         if not 1 <= number_ <= len(self.nodes):
