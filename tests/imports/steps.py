@@ -136,6 +136,15 @@ def counts_once():
     yield "of two sections the last one holds, and that is said", again.mass == 30 and any("two sections" in x for x in again.findings.assumed)
 
 
+def loads_both():
+    """Loads of a set of shells and beams, of which each kind acts on one of them."""
+    mixed = INP.replace("*material", "*element,type=b31,elset=b\n7,3,9\n*elset,elset=all\ne,b\n*material", 1)
+    mixed = mixed.replace("*boundary", "*beam section,elset=b,material=m,section=rect\n0.1,0.1\n0,0,-1\n*boundary")
+    for label, on in (("p", "beams"), ("py", "shells")):
+        told = steps(f"*static\n*dload\nall,{label},5\n", base=mixed).findings.left_out
+        yield f"a load {label} on {on} is told", any(f"on {on}" in text for text in told)
+
+
 def makes_nodes():
     """A part of a cylinder as the verification manual of Abaqus makes one: corners by angles, arcs, rows between them."""
     text = "*node,system=c,nset=corner\n1,300.\n5,300.,,300.\n401,300.,40.\n405,300.,40.,300.\n*ngen,line=c,nset=wall\n1,401,100\n"
@@ -191,7 +200,7 @@ REFUSED = {
 
 def main():
     complaints = []
-    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, makes_nodes, leaves_out, has_sections):
+    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, loads_both, makes_nodes, leaves_out, has_sections):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     for name, (text, words) in REFUSED.items():
         try:

@@ -490,6 +490,8 @@ def _make_element_load(reader, entry, steps):
         return
     shells = [key for key in members if reader.elements[key][0] in SHELLS]
     beams = [key for key in members if reader.elements[key][0] in BEAMS]
+    if label == "P" and shells and beams or label in ("PX", "PY", "PZ", "P1", "P2") and beams and shells:
+        reader.findings.leave_out(f"element loads of kind {label} on {'beams' if label == 'P' else 'shells'}", place)
     places = {element.number: i for i, element in enumerate(model.shells)}
     beam_places = {element.number: i for i, element in enumerate(model.beams)}
     if label.startswith(ON_SURFACE) or (label == "P" and shells):
