@@ -122,6 +122,8 @@ def of_abaqus():
     yield "what is moved anew is moved once", at_3 == {0: [0.01], 1: [0.02]}
     again = made_of_text("abaqus", INP + STEP.format("*cload\n3,1,10\n") + STEP.format("*cload\n3,2,4\n").replace("*step", "*step,perturbation"))
     yield "a static perturbation is told", any("PERTURBATION" in text for text in again.findings.assumed)
+    warm = inp("", base=INP.replace("1000.,", "1000.,20\n900.,500"))
+    yield "a density by temperature is told", warm.mass == 10 and any("by temperature" in text for text in warm.findings.assumed)
     yield "a density of a section is told", "DENSITY of *SHELL SECTION" in inp(
         "", base=INP.replace("e,material", "e,density=3,material")
     ).findings.left_out
@@ -200,6 +202,9 @@ def of_ansys():
 
 
 REFUSED = {
+    "two densities of a material": ("abaqus", INP.replace("*density", "*density\n7\n*density"), "there twice"),
+    "a job that goes on": ("abaqus", INP + STEP.format("*restart,read,step=1\n"), "another job"),
+    "cases of load within a step": ("abaqus", INP + STEP.format("*load case,name=a\n*cload\n3,1,1\n*end load case\n"), "*LOAD CASE"),
     "data in a file of its own": ("abaqus", INP.replace("*node,", "*node,input=x.inp,"), "*NODE with INPUT"),
     "a tie": ("abaqus", INP + "*tie,name=t\na,b\n", "*TIE is not read"),
     "an orientation with another origin is not one about it": (

@@ -20,11 +20,12 @@ SILENT = {
     "INTEGRATED OUTPUT", "INTEGRATED OUTPUT SECTION", "OUTPUT VARIABLE", "SECTION CONTROLS",
 }  # fmt: skip
 WITHOUT_DATA = {"END STEP", "MATERIAL", "ASSEMBLY", "END ASSEMBLY", "COUPLING"}
-# What makes the mesh in a way that is not read: without it the deck would be another model.
+# What makes the mesh, or loads that exclude each other, in a way that is not read: without it the deck would be another model.
 MESHING = {
     "NCOPY", "NMAP", "ELCOPY", "SYSTEM", "SUBSTRUCTURE PROPERTY", "UEL PROPERTY", "USER ELEMENT",
     "SOLID SECTION", "MEMBRANE SECTION", "SPRING", "DASHPOT", "CONNECTOR SECTION",
     "TRUSS SECTION", "NODAL THICKNESS", "SUBMODEL", "RELEASE", "PRE-TENSION SECTION", "GAP", "EQUATION", "TIE", "EMBEDDED ELEMENT",
+    "LOAD CASE", "KINEMATIC COUPLING", "DISTRIBUTING COUPLING", "SHELL TO SOLID COUPLING", "CYCLIC SYMMETRY MODEL", "IMPORT",
 }  # fmt: skip
 
 FILES = {"INPUT", "FILE"}
@@ -123,6 +124,8 @@ class Reader:
             return
         if block.keyword == "SYSTEM" and not block.lines:  # back to the axes of space, where nodes are anyway
             return
+        if block.keyword == "RESTART" and block.has("READ"):
+            refuse(block.place, "*RESTART with READ goes on from another job, which is not read")
         if block.keyword in MESHING:
             refuse(block.place, f"*{block.keyword} is not read, and without it the model would be another one")
         if block.keyword not in SILENT:

@@ -14,6 +14,7 @@ from .profiles import i_section
 DEFAULT_UP = (0.0, 0.0, -1.0)  # the first axis of beam sections where the file has none
 DEFAULT_AXIS = (1.0, 0.0, 0.0)  # axis 1 of shells without orientation,
 FALLBACK_AXIS = (0.0, 0.0, 1.0)  # and where it is normal to the surface
+CELLS = 8  # of a line of data
 SHELL_SECTIONS = ("SHELL SECTION", "SHELL GENERAL SECTION")
 
 
@@ -39,6 +40,7 @@ def read_property_block(reader, block):
 
 def _material(reader, block):
     reader.material = block.required("NAME")
+    reader.described = set()  # keywords of its properties
     if reader.material in reader.model.materials:
         refuse(block.place, f"material {reader.material} is there twice")
     reader.model.materials[reader.material] = Material("", {}, block.place)
@@ -50,7 +52,17 @@ def _property(reader, block):
         refuse(block.place, f"*{block.keyword} without *MATERIAL before it")
     if not block.lines:
         refuse(block.place, f"*{block.keyword} without values")
+    if block.keyword in reader.described:
+        refuse(block.place, f"*{block.keyword} of material {reader.material} is there twice")
+    reader.described.add(block.keyword)
     return reader.model.materials[reader.material]
+
+
+def _first(reader, block, count, what):
+    """As _values, where lines that go on are those of other temperatures."""
+    if len(block.lines) > -(-count // CELLS):
+        reader.findings.assume("of properties by temperature the first stand", block.place)
+    return _values(block, count, what)
 
 
 def _values(block, count, what):
@@ -67,20 +79,18 @@ def _elastic(reader, block):
     if kind.startswith("ISO"):
         # a ratio that is left out is 0
         alone = len(block.lines[0][1]) > 1 and not block.lines[0][1][1]
-        E, nu = [*_values(block, 1, "Young's modulus"), 0.0] if alone else _values(block, 2, "Young's modulus and Poisson's ratio")
+        E, nu = [*_first(reader, block, 1, "Young's modulus"), 0.0] if alone else _first(reader, block, 2, "Young's modulus and Poisson's ratio")
         material.type = "Isotropic"
         material.values.update({"Young Modulus": E, "Poisson Ratio": nu})
-        if len(block.lines) > 1:
-            reader.findings.assume("of properties by temperature the first stand", block.place)
     elif kind == "ENGINEERING CONSTANTS":
-        E1, E2, E3, n12, n13, n23, G12, G13, G23 = _values(block, 9, "E1 E2 E3 nu12 nu13 nu23 G12 G13 G23")
+        E1, E2, E3, n12, n13, n23, G12, G13, G23 = _first(reader, block, 9, "E1 E2 E3 nu12 nu13 nu23 G12 G13 G23")
         _orthotropic(material, E1, E2, E3, n12, n13, n23, G12, G13, G23)
     elif kind == "LAMINA":
-        E1, E2, n12, G12, G13, G23 = _values(block, 6, "E1 E2 nu12 G12 G13 G23")
+        E1, E2, n12, G12, G13, G23 = _first(reader, block, 6, "E1 E2 nu12 G12 G13 G23")
         _orthotropic(material, E1, E2, E2, n12, n12, 0.3, G12, G13, G23)
         reader.findings.assume("a LAMINA has E3 = E2, nu13 = nu12, nu23 = 0.3 through the thickness", block.place)
     elif kind in ("ORTHO", "ORTHOTROPIC"):
-        _orthotropic(material, *_constants(_values(block, 9, "D1111 to D2323"), block.place))
+        _orthotropic(material, *_constants(_first(reader, block, 9, "D1111 to D2323"), block.place))
     else:
         refuse(block.place, f"*ELASTIC of TYPE {kind} has no counterpart: ISOTROPIC, ENGINEERING CONSTANTS, LAMINA, ORTHO")
 
@@ -103,7 +113,7 @@ def _orthotropic(material, E1, E2, E3, n12, n13, n23, G12, G13, G23):
 
 
 def _density(reader, block):
-    _property(reader, block).values["Density"] = _values(block, 1, "the density")[0]
+    _property(reader, block).values["Density"] = _first(reader, block, 1, "the density")[0]
 
 
 def _assignment(reader, block):
