@@ -182,6 +182,9 @@ def of_nastran():
     alone = case_control("101", "SUBCASE 1\nLOAD=2\nSUBCASE 2\nDEFORM=7\n", "")
     yield "a case without loads is told", {"a case without LOAD", "DEFORM of the case control"} <= set(alone.findings.left_out)
     yield "thicknesses of an element and a membrane are told", {"field 10 of CQUAD4"} < set(membrane.findings.left_out)
+    other = case_control("101", "LOAD=2\nMFLUID=3\n", "SPC1,2,3,3\n").findings
+    yield "supports that no case names are told", "the support set 2 is in no case" in other.assumed
+    yield "what acts by case control and is not read is told", "MFLUID of the case control" in other.left_out
 
 
 def of_ansys():

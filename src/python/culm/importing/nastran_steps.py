@@ -15,7 +15,7 @@ READ = ("LOAD", "SPC", "METHOD", "STATSUB", "MPC", "TEMPERATURE")
 # What acts and is not read; requests of output do not.
 ACTING = (
     "DEFORM", "SUBCOM", "SUBSEQ", "SYM", "SYMCOM", "SYMSEQ", "REPCASE", "K2GG", "M2GG", "B2GG", "P2G", "NSM", "SUPORT1",
-    "BCONTACT",
+    "BCONTACT", "BGSET", "BCSET", "MFLUID", "K2PP", "M2PP", "A2GG", "K42GG", "PRETENSION", "BOLTLD", "CLOAD",
 )  # fmt: skip
 
 
@@ -139,6 +139,8 @@ def _supports(reader, cases):
                     value = card.real(i + 2, default=0.0)
                     name = f"spc {card.integer(1)}"
                     _support(reader, [reader.node(card, i)], card.text(i + 1), value, card, name, sets[card.integer(1)])
+    for one in sorted(known - set(sets)):
+        reader.findings.assume(f"the support set {one} is in no case")
     for one in set(sets) - known:
         refuse(reader.deck.cards[0].place, f"there is no SPC or SPC1 of the set {one} that a case names")
 
