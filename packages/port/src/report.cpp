@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -50,6 +51,28 @@ std::string uncovered(int number, const std::set<int>& moving, const model::Mode
                      structure.nodes.size(), structure.name, model.node_name(still.front()));
 }
 
+// " towards (-1, 0, 0)", where all points that are away from their structures are on one side.
+std::string side_of(const Port& port, const model::Model& model) {
+  constexpr double one_side = 0.999;  // cosine
+  constexpr double rounding = 1e-9;   // of coordinates [m]
+  Vec3 sum = Vec3::Zero();
+  std::vector<Vec3> sides;
+  for (const Place& place : port.places()) {
+    if (place.distance < rounding) continue;
+    const Mat3 axes = directors(place.marker, model.nodes().reference());
+    sides.push_back((axes * place.marker.offset).normalized());
+    sum += sides.back();
+  }
+  const Vec3 mean = sum.normalized();
+  for (const Vec3& side : sides) {
+    if (!(side.dot(mean) > one_side)) return {};
+  }
+  if (sides.empty()) return {};
+  const auto number = [](double x) { return std::round(1e3 * x) / 1e3 + 0.0; };  // without -0
+  return fmt::format(" towards ({:g}, {:g}, {:g})", number(mean[0]), number(mean[1]),
+                     number(mean[2]));
+}
+
 }  // namespace
 
 std::string describe(const Port& port, const model::Model& model) {
@@ -71,8 +94,9 @@ std::string describe(const Port& port, const model::Model& model) {
   for (const auto& [structure, count] : counts) {
     on.push_back(fmt::format("{} on '{}'", count, name_of(structure, model)));
   }
-  std::string text = fmt::format("port '{}': {}, {}, up to {:.6g} m away", port.name(),
-                                 plural(port.places().size(), "point"), join(on, ", "), farthest);
+  std::string text = fmt::format("port '{}': {}, {}, up to {:.6g} m away{}", port.name(),
+                                 plural(port.places().size(), "point"), join(on, ", "), farthest,
+                                 side_of(port, model));
   if (beyond.count > 0) {
     text += fmt::format(", {} past ends or rims by up to {:.6g} m", beyond.count, past);
   }

@@ -174,6 +174,20 @@ TEST(Projection, BelongsToTheNodePastAnEnd) {
             "to 0.7 m, 5 of 9 nodes of 'keel' without points, 'keel/0' the first");
 }
 
+TEST(Projection, TellsTheSideOnWhichAllPointsAre) {
+  model::Model model;
+  add_straight(model, 4, 2, "keel");
+  const auto side = [&](const std::vector<double>& points) {
+    const std::string text = describe(*add_port("skin", attach_to(model, points), model), model);
+    const std::size_t at = text.find(" away");
+    return text.substr(at, text.find(", ", text.find(')', at)) - at);
+  };
+  EXPECT_EQ(side({2.0, -0.2, 0.0, 3.0, -0.1, 0.0, 4.0, 0.0, 0.0}), " away towards (0, -1, 0)");
+  EXPECT_EQ(side({2.0, 0.3, 0.4}), " away towards (0, 0.6, 0.8)");
+  EXPECT_THAT(side({2.0, -0.2, 0.0, 3.0, 0.2, 0.0}), testing::Not(testing::HasSubstr("towards")));
+  EXPECT_THAT(side({2.0, 0.0, 0.0}), testing::Not(testing::HasSubstr("towards")));
+}
+
 // Inside of a sharp bend the cross-sections of a line meet.
 TEST(Projection, TellsWhereCrossSectionsNearlyOverlap) {
   model::Model model;
