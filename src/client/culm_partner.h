@@ -165,13 +165,14 @@ static int culm_partner_read(culm_partner* it, char* to, size_t size) {
   return 0;
 }
 
-static int culm_partner_make_room(culm_partner* it, size_t size) {
+static int culm_partner_make_room(culm_partner* it, uint64_t size) {
   char* more;
   if (size < it->room) return 0;
-  more = (char*)realloc(it->payload, size + 1); /* with an end for texts */
+  if (size >= SIZE_MAX / 2) return culm_partner_fail(it, "a frame is damaged");
+  more = (char*)realloc(it->payload, (size_t)size + 1); /* with an end for texts */
   if (more == NULL) return culm_partner_fail(it, "there is no memory for a frame");
   it->payload = more;
-  it->room = size + 1;
+  it->room = (size_t)size + 1;
   return 0;
 }
 
@@ -187,9 +188,10 @@ static int culm_partner_receive_mpi(culm_partner* it) {
   int length;
   MPI_Probe(it->rank, 0, it->comm, &status);
   MPI_Get_count(&status, MPI_BYTE, &length);
-  if (length < 64 || culm_partner_make_room(it, (size_t)length)) return culm_partner_fail(it, "what came is no frame");
+  if (length < 64 || culm_partner_make_room(it, (uint64_t)length)) return culm_partner_fail(it, "what came is no frame");
   MPI_Recv(it->payload, length, MPI_BYTE, it->rank, 0, it->comm, MPI_STATUS_IGNORE);
   memcpy(it->header, it->payload, 64);
+  if (culm_partner_size(it) != (uint64_t)length - 64) return culm_partner_fail(it, "a frame is damaged");
   memmove(it->payload, it->payload + 64, (size_t)length - 64);
   return 0;
 }
@@ -208,7 +210,7 @@ static int culm_partner_receive(culm_partner* it) {
     {
       if (culm_partner_read(it, (char*)it->header, 64)) return -1;
       if (memcmp(it->header, "CULM", 4) != 0) return culm_partner_fail(it, "what came is no frame of culm");
-      if (culm_partner_make_room(it, (size_t)culm_partner_size(it))) return -1;
+      if (culm_partner_make_room(it, culm_partner_size(it))) return -1;
       if (culm_partner_read(it, it->payload, (size_t)culm_partner_size(it))) return -1;
     }
     memcpy(&version, it->header + 4, 2);
@@ -226,7 +228,7 @@ static int culm_partner_receive(culm_partner* it) {
 
 /* Goes to culm. address: 'unix:PATH' or 'tcp:[HOST:]PORT'; culm may take so long to begin, and be silent for so long [s]. */
 static int culm_partner_open(culm_partner* it, const char* address, double patience) {
-  const time_t end = time(NULL) + (time_t)patience;
+  const time_t end = time(NULL) + (time_t)(patience < 1e9 ? patience : 1e9);
   const struct timespec pause = {0, 10000000};
   memset(it, 0, sizeof *it);
   it->patience = patience;
@@ -260,6 +262,7 @@ static int culm_partner_open(culm_partner* it, const char* address, double patie
     }
     if (found == 0) return 0;
     if (it->socket >= 0) close(it->socket);
+    it->socket = -1;
     nanosleep(&pause, NULL);
   } while (time(NULL) < end);
   return culm_partner_fail(it, "nobody listens at the address");
@@ -281,7 +284,10 @@ static int culm_partner_begin(culm_partner* it, const char* name, uint32_t wante
   char hello[16 + 256];
   size_t length = strlen(name);
   if (culm_partner_receive(it) != 1) return it->error[0] ? -1 : culm_partner_fail(it, "culm did not begin with hello");
-  memcpy(&it->points, it->payload, 4);
+  if (culm_partner_size(it) >= 4) memcpy(&it->points, it->payload, 4);
+  if (culm_partner_size(it) < 4 + 72 * (uint64_t)it->points) {
+    return culm_partner_fail(it, "a frame has another length than it must");
+  }
   memcpy(&it->start, it->header + 16, 8);
   memcpy(&it->window, it->header + 8, 4);
   it->hello = it->payload;
@@ -435,6 +441,7 @@ static int culm_structure_attempt(culm_partner* it, double end, const double* lo
   window->start = it->time;
   window->end = end;
   if (culm_structure_answer(it, 3, it->steps)) return -1;
+  if (culm_partner_size(it) < 8) return culm_partner_fail(it, "a frame has another length than it must");
   memcpy(&converged, it->payload, 8);
   if (converged == 0.0) return 0;
   if (culm_partner_size(it) != 8 + 8 * culm_partner_width(it) * it->points) {

@@ -1,6 +1,7 @@
 /* The added mass of inputs/coupling/partners.xml as a program of its own, over a socket or MPI.
    usage: mass_partner ADDRESS [WAY] | mass_partner mpi [WAY]
-   WAY: how it fails in the second attempt of the sixth window, or what it lies about its energy from there on. */
+   WAY: how it fails in the second attempt of the sixth window, or what it lies about its energy from there on; 'forget' is
+   'kill' of one that keeps nothing, 'anew' begins at rest where culm goes on. */
 #include "culm_partner.h"
 
 #include <math.h>
@@ -36,7 +37,7 @@ static int fail_in(const char* way, culm_partner* it, double* loads) {
   const uint32_t number = 0;
   const struct timespec pause = {0, 200000000};
   char* frame;
-  if (strcmp(way, "kill") == 0) raise(SIGKILL);
+  if (strcmp(way, "kill") == 0 || strcmp(way, "forget") == 0) raise(SIGKILL);
   if (strcmp(way, "leave") == 0) _exit(0);
   if (strcmp(way, "raise") == 0) return culm_partner_give_up(it, "negative volume in cell 7"), 1;
   if (strcmp(way, "nan") == 0) loads[19] = NAN;
@@ -69,14 +70,16 @@ static int serve(culm_partner* it, const char* way) {
   const uint32_t n = it->points;
   double* velocity = malloc(3 * n * sizeof(double));
   double* loads = calloc(6 * n, sizeof(double));
-  for (uint32_t i = 0; i < 3 * n; ++i) velocity[i] = it->velocity[6 * (i / 3) + i % 3];
+  const int forgets = strcmp(way, "forget") == 0 || strcmp(way, "anew") == 0;
+  for (uint32_t i = 0; i < 3 * n; ++i) velocity[i] = forgets ? 0.0 : it->velocity[6 * (i / 3) + i % 3];
   double start = kinetic(velocity, n);
-  if (it->window > 0 && keep("rb", it->window, velocity, n, &start)) return culm_partner_give_up(it, "what was saved is gone");
+  if (it->window > 0 && !forgets && keep("rb", it->window, velocity, n, &start)) return culm_partner_give_up(it, "what was saved is gone");
   culm_window window;
   int kind, failed = 0;
   while (!failed && (kind = culm_partner_next(it, &window)) > 0) {
     const double h = window.end - window.start;
-    if (kind == CULM_SAVE) failed = keep("wb", window.number, velocity, n, &start) || culm_partner_saved(it);
+    if (kind == CULM_SAVE && forgets) failed = culm_partner_kept_nothing(it);
+    if (kind == CULM_SAVE && !forgets) failed = keep("wb", window.number, velocity, n, &start) || culm_partner_saved(it);
     for (uint32_t i = 0; i < 3 * n && kind != CULM_SAVE; ++i) {
       const uint32_t k = 6 * (i / 3) + i % 3;
       if (kind == CULM_ATTEMPT) loads[k] = -2.0 * MASS / h * (window.motion[k] / h - velocity[i]);
