@@ -19,15 +19,22 @@ struct DeckArguments {
   bool quiet = false;
 };
 
-/// A deck to run.
-struct RunArguments : DeckArguments {
-  bool strict = false;            ///< warnings count as broken promises
-  std::filesystem::path folder;   ///< for results; results/<name of the deck> if empty
-  std::string walltime;           ///< time the run may take; empty for any
-  bool report = false;            ///< whether a page is wanted
-  std::string partner_command;    ///< starts the partner of type Socket; nobody is if empty
+/// Programs beside culm in a run, and what culm says to whoever started it.
+struct PartnerArguments {
+  std::string partner_command;    ///< starts the partner; nobody is if empty
   int ranks = 0;                  ///< so many of the processes are ours; all if zero
-  std::filesystem::path started;  ///< set by run(): folder of results, when there are some
+  std::filesystem::path verdict;  ///< file for the exit code; none if empty
+  bool plain = false;             ///< what looks like a terminal is none
+  bool needs_launcher = false;    ///< set by the verb: the partner comes by MPI, nothing was run
+  std::filesystem::path started;  ///< set by the verb: folder of results, when there are some
+};
+
+/// A deck to run.
+struct RunArguments : DeckArguments, PartnerArguments {
+  bool strict = false;           ///< warnings count as broken promises
+  std::filesystem::path folder;  ///< for results; results/<name of the deck> if empty
+  std::string walltime;          ///< time the run may take; empty for any
+  bool report = false;           ///< whether a page is wanted
 };
 
 /// A deck to look at, and where to write it as it is used.
@@ -38,7 +45,7 @@ struct CheckArguments : DeckArguments {
 };
 
 /// A run to go on with, and what changes about it.
-struct ResumeArguments {
+struct ResumeArguments : PartnerArguments {
   std::filesystem::path run;           ///< folder of results, or a checkpoint
   std::string deck;                    ///< in place of that of the run; empty for that one
   std::vector<std::string> overrides;  ///< path=value, after those of the run
@@ -46,7 +53,6 @@ struct ResumeArguments {
   std::string walltime;
   bool strict = false;  ///< warnings count as broken promises
   bool quiet = false;
-  int ranks = 0;        ///< so many of the processes are ours; all if zero
   std::string address;  ///< where a program comes to that leads; nobody does if empty
   std::string port;     ///< at which it does; the only one of the deck if empty
   double patience = 600.0;
@@ -99,7 +105,7 @@ struct ServeArguments : RunArguments {
 void run(const parallel::Comm& comm, RunArguments& arguments,
          const std::filesystem::path& replay = {}, const simulation::ServeSettings& serve = {});
 /// Goes on with a run from its last checkpoint.
-void resume(const parallel::Comm& comm, const ResumeArguments& arguments);
+void resume(const parallel::Comm& comm, ResumeArguments& arguments);
 /// Parses, builds, counts and validates a deck without solving it.
 void check(const parallel::Comm& comm, CheckArguments& arguments);
 /// Runs a deck together with a partner.

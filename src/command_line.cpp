@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include <culm/base/nearest.hpp>
 #include <culm/base/text.hpp>
 
 #include <algorithm>
@@ -10,9 +11,13 @@
 namespace culm::app {
 namespace {
 
-/// A verb without group is for the program itself: help does not name it.
+/// Verbs and options without group are for the program itself: help does not name them.
 std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* verb) { return !verb->get_group().empty(); });
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& verb) {
+  return verb.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
 std::vector<std::string> names_of_verbs(const CLI::App& app) {
@@ -23,7 +28,7 @@ std::vector<std::string> names_of_verbs(const CLI::App& app) {
 
 std::vector<std::string> names_of_options(const CLI::App& verb) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : verb.get_options()) {
+  for (const CLI::Option* option : options_of(verb)) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
@@ -73,7 +78,7 @@ std::string table_of_commands(const CLI::App& app) {
   std::vector<std::string> verbs;
   for (const CLI::App* verb : verbs_of(app)) verbs.push_back(table_of_commands(*verb));
   std::vector<std::string> options;
-  for (const CLI::Option* option : app.get_options()) options.push_back(describe(*option));
+  for (const CLI::Option* option : options_of(app)) options.push_back(describe(*option));
   return "{\"name\": " + quoted(app.get_name()) +
          ", \"summary\": " + quoted(app.get_description()) +
          ", \"footer\": " + quoted(app.get_footer()) + ",\n\"options\": " + array(options) +

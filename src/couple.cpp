@@ -13,6 +13,7 @@ namespace {
 
 // 'added-mass' as the deck has it: 'Added Mass'.
 std::string in_deck(std::string name) {
+  if (name == "mpi") return "MPI";
   bool begins = true;
   for (char& c : name) {
     if (c == '-') c = ' ';
@@ -26,7 +27,8 @@ std::string in_deck(std::string name) {
 
 void couple(const parallel::Comm& comm, CoupleArguments& arguments) {
   const std::string partner = "Coupling/Partners/partner/";
-  std::vector<std::string> settings = {partner + "Type=" + in_deck(arguments.partner)};
+  const std::string type = in_deck(arguments.partner);
+  std::vector<std::string> settings = {partner + "Type=" + type};
   const auto add = [&](const std::string& name, const std::string& value) {
     if (!value.empty()) settings.push_back(name + "=" + value);
   };
@@ -35,6 +37,8 @@ void couple(const parallel::Comm& comm, CoupleArguments& arguments) {
   add(partner + "Stiffness", arguments.stiffness);
   add(partner + "Address", arguments.address);
   add(partner + "Port", arguments.port);
+  // the first one after those of culm
+  if (type == "MPI") add(partner + "Rank", std::to_string(std::max(arguments.ranks, 1)));
   add("Coupling/Scheme", in_deck(arguments.scheme));
   add("Coupling/Window", arguments.window);
   add("Coupling/Tolerance", arguments.tolerance);

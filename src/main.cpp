@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "command_line.hpp"
+#include "launcher.hpp"
 #include "python.hpp"
 #include "version.hpp"
 
@@ -24,6 +25,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -36,6 +38,7 @@ using culm::app::CheckArguments;
 using culm::app::CoupleArguments;
 using culm::app::DeckArguments;
 using culm::app::ImportArguments;
+using culm::app::PartnerArguments;
 using culm::app::ReferenceArguments;
 using culm::app::ReplayArguments;
 using culm::app::ResumeArguments;
@@ -61,8 +64,11 @@ struct Arguments {
   ImportArguments import;
   ReferenceArguments reference;
 
-  /// How many of the processes are culm's; zero: all.
-  int ranks() const { return std::max(any_run().ranks, resume.ranks); }
+  /// What was said of programs beside culm.
+  const PartnerArguments& partners() const {
+    if (!resume.run.empty()) return resume;
+    return any_run();
+  }
 };
 
 // An empty path is mostly a variable of a script that is not set; it would be taken for none given.
@@ -92,7 +98,7 @@ void add_deck_options(CLI::App& verb, DeckArguments& arguments) {
 
 void add_partner_options(CLI::App& verb, CoupleArguments& arguments) {
   verb.add_option("--partner", arguments.partner,
-                  "Type of the partner: added-mass, dashpot, oscillator, random, socket")
+                  "Type of the partner: added-mass, dashpot, oscillator, random, socket, mpi")
       ->required();
   verb.add_option("--mass", arguments.mass, "Of a partner [kg]");
   verb.add_option("--damping", arguments.damping, "Of a partner [N s/m]");
@@ -136,9 +142,20 @@ void add_ending(CLI::App& verb, bool& strict) {
       "warnings on standard error and run.h5, /report/findings, say which; 9 a partner failed.");
 }
 
-void add_ranks(CLI::App& verb, int& ranks) {
-  verb.add_option("--ranks", ranks,
-                  "culm is the first so many processes of the launcher, others are partners");
+void add_partner_program(CLI::App& verb, PartnerArguments& arguments) {
+  verb.add_option("--with", arguments.partner_command,
+                  "Start the partner of type Socket or MPI by this command of the shell, and end "
+                  "it with the run")
+      ->check(refuse_no_command);
+  verb.add_option("--ranks", arguments.ranks,
+                  "culm is the first so many processes of the launcher, others are partners; with "
+                  "--with it starts as many")
+      ->check(CLI::PositiveNumber);
+  constexpr const char* for_culm_itself = "";
+  verb.add_option("--verdict", arguments.verdict, "File to leave the exit code in")
+      ->group(for_culm_itself);
+  verb.add_flag("--plain", arguments.plain, "The output is no terminal, even if it looks like one")
+      ->group(for_culm_itself);
 }
 
 void add_run_options(CLI::App& verb, RunArguments& arguments) {
@@ -148,12 +165,8 @@ void add_run_options(CLI::App& verb, RunArguments& arguments) {
                   "Folder for results; results/<name of the deck> if not given")
       ->check(refuse_empty);
   add_ending(verb, arguments.strict);
-  add_ranks(verb, arguments.ranks);
+  add_partner_program(verb, arguments);
   verb.add_flag("--report", arguments.report, "Write report.html beside the results");
-  verb.add_option("--with", arguments.partner_command,
-                  "Start the partner of type Socket by this command of the shell, and end it with "
-                  "the run")
-      ->check(refuse_no_command);
 }
 
 // Declares all verbs; the chosen one becomes `action`.
@@ -174,7 +187,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                    "Deck in place of that of the run; the model must be the same")
       ->check(refuse_empty);
   add_common_options(*resume, arguments.resume);
-  add_ranks(*resume, arguments.resume.ranks);
+  add_partner_program(*resume, arguments.resume);
   add_leader(*resume, arguments.resume, "Of a run that was led: where the other program");
   add_walltime(*resume, arguments.resume.walltime);
   add_ending(*resume, arguments.resume.strict);
@@ -293,56 +306,93 @@ void end_all(int code, const culm::parallel::Comm& comm) {
   MPI_Abort(MPI_COMM_WORLD, code);
 }
 
+// How a verb ended.
+struct End {
+  int code = 0;
+  bool is_alone = false;         // one rank met it alone, and others may be waiting for it
+  bool leaves_partners = false;  // programs in the same launcher may be waiting for a word
+};
+
 // The error is the same on all ranks, so one speaks for them.
-int report(const culm::Error& error, bool has_partners, const culm::parallel::Comm& comm) {
+End report(const culm::Error& error, bool has_begun, const culm::parallel::Comm& comm) {
   if (comm.is_root()) print_lines(error.what());
   const bool has_failed = dynamic_cast<const culm::PartnerError*>(&error) != nullptr;
-  if (has_failed && has_partners) end_all(error.exit_code(), comm);
-  return error.exit_code();
+  return {error.exit_code(), false, has_failed || !has_begun};
 }
 
-// What one rank may meet alone: others may be waiting for it.
-int report(const std::string& text, int code, const culm::parallel::Comm& comm) {
+End report_alone(const std::string& text, int code) {
   print_lines(text);
-  if (comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
-  return code;
+  return {code, true};
 }
 
-int report_lack_of_memory(const culm::parallel::Comm& comm) {
-  return report(
+End report_lack_of_memory() {
+  return report_alone(
       "there is not enough memory for this deck\n"
       "Try: fewer elements, a smaller 'Refinement', fewer 'Modes'; 'culm check' counts what a deck "
       "makes; --max-memory may allow more.",
-      deck_error, comm);
+      deck_error);
 }
 
-int run_verb(int argc, char** argv, Arguments& arguments, bool& is_root) {
-  const culm::simulation::Session session(argc, argv);
-  const culm::parallel::Comm comm;
-  is_root = comm.is_root();
+// Whether this process is to start a launcher, with which culm's processes come.
+bool starts_others(const PartnerArguments& partners, bool is_inside) {
+  return !is_inside && !partners.partner_command.empty();
+}
+
+End act(int argc, char** argv, Arguments& arguments, bool is_inside,
+        const culm::parallel::Comm& comm) {
   CLI::App app("culm: nonlinear dynamics of slender structures", "culm");
   std::function<void(const culm::parallel::Comm&)> action;
   declare_verbs(app, arguments, action);
+  const auto partners = [&]() -> const PartnerArguments& { return arguments.partners(); };
   try {
     app.parse(argc, argv);
-    const int ranks = arguments.ranks();
-    action(ranks > 0 ? culm::parallel::first_ranks(ranks) : comm);
+    const bool is_part = partners().ranks > 0 && !starts_others(partners(), is_inside);
+    action(is_part ? culm::parallel::first_ranks(partners().ranks) : comm);
+    if (!partners().needs_launcher || !is_inside) return {};
+    throw culm::UsageError(
+        "--with starts a partner of type 'MPI' and culm together: call culm without mpiexec, and "
+        "say by --ranks how many processes it takes");
   } catch (const CLI::ParseError& error) {
-    return report(error, app, comm);
+    return {report(error, app, comm)};
   } catch (const culm::Error& error) {
-    return report(error, arguments.ranks() > 0, comm);
+    return report(error, !partners().started.empty(), comm);
   } catch (const std::bad_alloc&) {
-    return report_lack_of_memory(comm);
+    return report_lack_of_memory();
   } catch (const std::length_error&) {
-    return report_lack_of_memory(comm);
+    return report_lack_of_memory();
   } catch (const std::filesystem::filesystem_error& error) {
-    return report(error.path1().string() + ": " + error.code().message(), file_error, comm);
+    return report_alone(error.path1().string() + ": " + error.code().message(), file_error);
   } catch (const std::exception& error) {
-    return report(std::string("internal error: ") + error.what() +
-                      "\nThis is a bug in culm; please report it.",
-                  1, comm);
+    return report_alone(std::string("internal error: ") + error.what() +
+                            "\nThis is a bug in culm; please report it.",
+                        1);
   }
-  return 0;
+}
+
+int run_verb(int argc, char** argv, Arguments& arguments, bool is_inside, bool& is_root) {
+  const culm::simulation::Session session(argc, argv);
+  const culm::parallel::Comm comm;
+  is_root = comm.is_root();
+  const End end = act(argc, argv, arguments, is_inside, comm);
+  const PartnerArguments& partners = arguments.partners();
+  if (is_root || end.is_alone) {
+    culm::app::leave_verdict(partners.verdict, {end.code, partners.started});
+  }
+  if (end.is_alone && comm.size() > 1) MPI_Abort(MPI_COMM_WORLD, end.code);
+  const bool has_partners = partners.ranks > 0 && partners.ranks < comm.size();
+  if (end.leaves_partners && has_partners) end_all(end.code, comm);
+  return end.code;
+}
+
+// Starts culm and its partner as the command line asks for it; culm tells its verdict.
+culm::app::Verdict launch(const culm::app::Launcher& launcher, std::vector<std::string> words,
+                          const PartnerArguments& partners) {
+  try {
+    return launcher.run({std::move(words), partners.partner_command, std::max(partners.ranks, 1)});
+  } catch (const culm::Error& error) {
+    print_lines(error.what());
+    return {error.exit_code(), {}};
+  }
 }
 
 // The page of a model that was checked; its file goes, whether the deck was sound or not.
@@ -363,11 +413,18 @@ int show_model(const CheckArguments& check, int code) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (culm::app::is_for_python(words)) return culm::app::call_python(words);
+  const culm::app::Launcher launcher;
   Arguments arguments;
   bool is_root = false;
-  const int code = show_model(arguments.check, run_verb(argc, argv, arguments, is_root));
+  int code = run_verb(argc, argv, arguments, launcher.is_inside(), is_root);
+  code = show_model(arguments.check, code);
+  std::filesystem::path folder = arguments.partners().started;
+  if (code == 0 && arguments.partners().needs_launcher) {
+    const culm::app::Verdict verdict = launch(launcher, words, arguments.partners());
+    code = verdict.code;
+    folder = verdict.started;
+  }
   const RunArguments& run = arguments.any_run();
-  const std::filesystem::path& folder = run.started;
   // the folder may be that of another run, which this one has left alone
   if (!run.report || folder.empty() || code == file_error) return code;
   // mpiexec ends all processes when one returns an error, and the root has a page to draw before

@@ -4,10 +4,12 @@
 #include <culm/coupling/channel.hpp>
 #include <culm/coupling/frame.hpp>
 
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <utility>
@@ -21,6 +23,20 @@ constexpr int last_pauses = 250;  // until a program has ended that was told to
 std::string outcome(int status) {
   return WIFEXITED(status) ? "ended with code " + std::to_string(WEXITSTATUS(status))
                            : "was ended by signal " + std::to_string(WTERMSIG(status));
+}
+
+// The one that --with is to start.
+const Options& partner_to_start(const Options& deck) {
+  const Options* found = nullptr;
+  if (deck.has_list("Coupling")) {
+    for (const Options& partner : deck.list("Coupling").list("Partners").entries()) {
+      if (partner.text("Type") != "Socket" && partner.text("Type") != "MPI") continue;
+      if (found != nullptr) throw UsageError("--with starts one partner, and the deck has several");
+      found = &partner;
+    }
+  }
+  if (found == nullptr) throw UsageError("--with needs a partner of type 'Socket' or 'MPI'");
+  return *found;
 }
 
 }  // namespace
@@ -72,6 +88,35 @@ void PartnerProgram::tell(const std::string& why) const {
       std::this_thread::sleep_for(pause);
     }
   }
+}
+
+bool needs_launcher(const Options& deck, const PartnerArguments& arguments) {
+  if (arguments.partner_command.empty()) return false;
+  const Options& partner = partner_to_start(deck);
+  if (partner.text("Type") != "MPI") return false;
+  const int rank = std::max(arguments.ranks, 1);
+  if (partner.integer("Rank") == rank) return true;
+  throw UsageError(fmt::format(
+      "--with starts the partner '{}' after {} process{} of culm (--ranks), as rank {}; its 'Rank' "
+      "is {}",
+      partner.name(), rank, rank == 1 ? "" : "es", rank, partner.integer("Rank")));
+}
+
+std::unique_ptr<PartnerProgram> start_partner(const parallel::Comm& comm, const Options& deck,
+                                              const PartnerArguments& arguments) {
+  if (arguments.partner_command.empty()) return nullptr;
+  const Options& partner = partner_to_start(deck);
+  if (arguments.ranks > comm.size()) {
+    throw UsageError(
+        "--ranks says how many processes the launcher takes for culm beside a partner of type "
+        "'MPI'; beside one of type 'Socket' start culm by mpiexec");
+  }
+  if (!comm.is_root()) return nullptr;
+  return std::make_unique<PartnerProgram>(arguments.partner_command, partner.text("Address"));
+}
+
+bool is_on_terminal(const PartnerArguments& arguments) {
+  return !arguments.plain && isatty(STDOUT_FILENO) != 0;
 }
 
 }  // namespace culm::app

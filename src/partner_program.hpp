@@ -1,9 +1,15 @@
 /// A program that is started as the partner of a run.
 #pragma once
 
+#include <culm/base/options.hpp>
+#include <culm/parallel/comm.hpp>
+
+#include "command.hpp"
+
 #include <sys/types.h>
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -34,5 +40,18 @@ class PartnerProgram {
   std::atomic<bool> run_is_over_ = false;
   std::thread watcher_;
 };
+
+/// Whether the partner that a command is to start comes by MPI: culm and the partner are then
+/// started together, by a launcher. Throws UsageError where there is nobody to start, or several,
+/// or where its rank is another one than it will have.
+bool needs_launcher(const Options& deck, const PartnerArguments& arguments);
+
+/// Starts the partner of type Socket by the command, on the root; nobody where there is none.
+std::unique_ptr<PartnerProgram> start_partner(const parallel::Comm& comm, const Options& deck,
+                                              const PartnerArguments& arguments);
+
+/// Whether a line may be rewritten. Some launchers show their programs a terminal where there is
+/// none.
+bool is_on_terminal(const PartnerArguments& arguments);
 
 }  // namespace culm::app

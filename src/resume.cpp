@@ -2,12 +2,13 @@
 #include <culm/simulation/simulation.hpp>
 
 #include "command.hpp"
+#include "partner_program.hpp"
 
-#include <unistd.h>
+#include <memory>
 
 namespace culm::app {
 
-void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
+void resume(const parallel::Comm& comm, ResumeArguments& arguments) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
   const double memory = simulation::read_memory(arguments.memory);
   simulation::limit_memory(memory);
@@ -15,7 +16,7 @@ void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
   const auto found = simulation::find_checkpoint(comm, arguments.run, log);
   const simulation::RunSettings settings{found.folder,
                                          arguments.quiet,
-                                         comm.is_root() && isatty(STDOUT_FILENO) != 0,
+                                         comm.is_root() && is_on_terminal(arguments),
                                          arguments.strict,
                                          {},
                                          {arguments.address, arguments.port, arguments.patience}};
@@ -26,10 +27,14 @@ void resume(const parallel::Comm& comm, const ResumeArguments& arguments) {
                           arguments.overrides.end());
   const Options deck = simulation::read_deck(catalogue, source);
   simulation::check_resumed_deck(catalogue, deck, found.snapshot);
+  arguments.needs_launcher = needs_launcher(deck, arguments);
+  if (arguments.needs_launcher) return;
   simulation::warn_of_differences(comm, found.snapshot, log);
   log.info(simulation::describe(found, deck));
-  simulation::Simulation(comm, catalogue, deck, source, log, memory)
-      .run(settings, request, &found.snapshot);
+  simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
+  const std::unique_ptr<PartnerProgram> partner = start_partner(comm, deck, arguments);
+  arguments.started = found.folder;
+  simulation.run(settings, request, &found.snapshot);
 }
 
 }  // namespace culm::app

@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -54,6 +55,16 @@ def all_have_ended(pids):
             return True
 
     return all(map(has_ended, pids))
+
+
+def processes_in(folder):
+    """Those whose present folder it is and that have not ended."""
+    found = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):  # of one that has ended meanwhile
+            if pathlib.Path(os.readlink(process / "cwd")) == folder.resolve():
+                found.append(int(process.name))
+    return [pid for pid in found if not all_have_ended([pid])]
 
 
 class Water(culm_partner.Partner):
@@ -298,6 +309,22 @@ class CouplingTest(unittest.TestCase):
             env={**os.environ, **MPI_ENVIRONMENT, "OMPI_MCA_odls_base_sigkill_timeout": "5"}, cwd=self.folder,
         )
 
+    def with_partner(self, way="", starts=""):
+        """Words by which culm starts itself and the partner in C in one mpiexec."""
+        return ["--with", f"{starts}{os.path.abspath(OPTIONS.mpi_partner)} mpi {way}", "--ranks", OPTIONS.ranks]
+
+    def start_alone(self, *words, pause="2"):
+        """culm outside of MPI, also where it starts a launcher. That one has more time than usual to end its programs."""
+        return subprocess.Popen(
+            [os.path.abspath(OPTIONS.culm), *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            env={**os.environ, **MPI_ENVIRONMENT, "OMPI_MCA_odls_base_sigkill_timeout": pause}, cwd=self.folder)
+
+    def wait_until(self, holds):
+        deadline = time.monotonic() + TIME_LIMIT
+        while not holds():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+
     def outlast(self, launcher):
         """The exit code, output and errors of a launcher whose programs abort. Those of Open MPI 4 crash or stand
         still in one of a hundred such ends, after all is said and written; one that stands still is ended."""
@@ -326,6 +353,9 @@ class CouplingTest(unittest.TestCase):
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
+
+    def partner_command(self):
+        return f"{sys.executable} {__file__} --partner {self.address} {self.folder} ''"
 
     def start_partner_in_c(self, way=""):
         process = subprocess.Popen([os.path.abspath(OPTIONS.socket_partner), self.address, way], stderr=subprocess.DEVNULL,
@@ -369,6 +399,22 @@ class Programs(CouplingTest):
         self.culm("run", self.deck, "--output", "here", "--quiet")
         self.finish(self.start_both("run", self.over_mpi(), "--output", "there", "--quiet"))
         self.same("here", "there")
+
+    def test_over_mpi_with_a_launcher_that_culm_starts(self):
+        self.culm("run", self.deck, "--output", "here", "--quiet")
+        launcher = self.start_alone("run", self.over_mpi(), "--output", "there", "--report", *self.with_partner())
+        output, errors = launcher.communicate(timeout=TIME_LIMIT)
+        self.assertEqual(launcher.returncode, 0, output + errors)
+        self.same("here", "there")
+        self.assertTrue((self.folder / "there/report.html").exists())
+        self.assertNotIn("\033[K", output)  # the launcher shows culm a terminal where there is none
+        bare = self.write("bare.xml", re.sub(r'  <ParameterList name="Coupling">.*?\n  </ParameterList>\n', "",
+                                             self.deck.read_text(), flags=re.S))
+        words = ["couple", bare, "--partner", "mpi", "--port", "wet", "--window", "0.02", "--tolerance", "1e-9",
+                 "--output", "couple", "--quiet"]
+        self.finish(self.start_alone(*words, *self.with_partner()))
+        self.same("here", "couple")
+        self.assertEqual(processes_in(self.folder), [])
 
     def test_replay_of_a_record(self):
         self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
@@ -487,6 +533,11 @@ class Programs(CouplingTest):
         self.culm("resume", "parts", "--set", "Analyses/motion/End Time=0.5", "--quiet")
         self.same("whole", "parts")
         self.same("whole", "parts", "coupling_water.record")
+        self.culm("run", self.remote, "--output", "third", *settings, "--set", "Analyses/motion/End Time=0.2", "--with",
+                  self.partner_command())
+        self.culm("resume", "third", "--set", "Analyses/motion/End Time=0.5", "--quiet", "--with", self.partner_command())
+        self.same("whole", "third")
+        self.assertIn("--with needs a partner", self.culm("resume", "third", "--with", "", code=2))
 
 
 class Partners(CouplingTest):
@@ -537,15 +588,36 @@ class Partners(CouplingTest):
         self.culm("resume", "killed", "--quiet")
         self.same("whole", "killed")
 
-    def test_that_save_nothing(self):
-        self.start_partner("forget")
+    def save_nothing(self, start):
+        start("forget")
         # so soft that the water still moves when its program is killed
         self.culm("run", self.remote, "--output", "forgot", "--quiet", "--set", "Output/Checkpoint Interval=0", "--set",
                   "Sections/pole/Young Modulus=5e9", code=FAILED_PARTNER)
-        self.start_partner("anew")
+        start("anew")
         errors = re.sub(r"\s+", " ", self.culm("resume", "forgot", "--quiet", code=8))
         self.assertIn("the partner 'water' saved nothing with the checkpoint: it begins anew", errors)
         self.assertIn("the partner had saved nothing and began anew", errors)
+
+    def test_that_save_nothing(self):
+        self.save_nothing(self.start_partner)
+
+    def test_in_c_that_save_nothing(self):
+        self.save_nothing(self.start_partner_in_c)
+
+    def test_in_c_that_hear_nonsense(self):
+        """A greeting that has no room for its points."""
+        for payload in (b"", b"\1\0", struct.pack("<I", 5) + bytes(96)):
+            address = self.folder / "nonsense"
+            with socket.socket(socket.AF_UNIX) as server:
+                server.bind(str(address))
+                server.listen(1)
+                partner = subprocess.Popen([os.path.abspath(OPTIONS.socket_partner), f"unix:{address}"], text=True,
+                                           stderr=subprocess.PIPE)
+                with server.accept()[0] as heard:
+                    heard.sendall(culm_partner.encode(culm_partner.HELLO, 0, 0, 0.0, 0.0, payload))
+                    errors = partner.communicate(timeout=TIME_LIMIT)[1]
+            address.unlink()
+            self.assertEqual((partner.returncode, errors.strip()), (1, "a frame has another length than it must"))
 
     def test_in_c_that_die(self):
         for way in SAID if OPTIONS.ranks == 1 else ("leave", "infinite"):
@@ -556,34 +628,105 @@ class Partners(CouplingTest):
                 self.dies(way, said, errors)
                 partner.kill()
 
-    def test_over_mpi_that_die(self):
-        """The launcher ends all programs with one that dies, and its code is that one's; culm says what it was about."""
-        ended = "the launcher ends all its programs, as it does when one of them has died"
-        said = {**SAID, "kill": ended, "leave": ended, "raise": "it says: negative volume in cell 7",
-                "half": "a frame is not as long as it says"}
-        deck = self.over_mpi()
-        ways = ["leave", "nan"] if OPTIONS.ranks > 1 else list(said)
-        at_once = 4  # launchers mostly wait
+    # what culm says of partners over MPI
+    ENDED = "the launcher ends all its programs, as it does when one of them has died"
+    SAID_OVER_MPI = {**SAID, "kill": ENDED, "leave": ENDED, "raise": "it says: negative volume in cell 7",
+                     "half": "a frame is not as long as it says"}
+
+    def die_over_mpi(self, start, ways, finish):
+        """Several at once: launchers mostly wait."""
+        at_once = 4
         for first in range(0, len(ways), at_once):
             launchers = {}
             for way in ways[first : first + at_once]:
                 settings = [*self.limits(way), "--set", "Output/Checkpoint Interval=0"]
-                launchers[way] = self.start_both("run", deck, "--output", way, "--quiet", *settings, way=way)
+                launchers[way] = start(way, "--output", way, "--quiet", *settings)
             for way, launcher in launchers.items():
                 with self.subTest(way=way):
-                    code, output, errors = self.outlast(launcher)
-                    codes = (137, 1) if said[way] == ended else (FAILED_PARTNER,)
-                    self.assertIn(code, (*codes, -signal.SIGSEGV, -signal.SIGKILL), output + errors)
-                    self.dies(way, said[way], errors)
+                    self.dies(way, self.SAID_OVER_MPI[way], finish(way, launcher))
                     self.assertFalse((self.folder / way / "run.h5.journal").exists())  # results were closed
+
+    def test_over_mpi_that_die(self):
+        """The code is culm's own where culm starts the launcher."""
+        deck = self.over_mpi()
+
+        def start(way, *words):
+            return self.start_alone("run", deck, *words, *self.with_partner(way))
+
+        def finish(way, launcher):
+            return self.finish(launcher, FAILED_PARTNER)
+
+        self.die_over_mpi(start, ["leave", "nan"] if OPTIONS.ranks > 1 else list(self.SAID_OVER_MPI), finish)
+        self.assertEqual(processes_in(self.folder), [])
+
+    def test_over_mpi_that_die_in_a_launcher_by_hand(self):
+        """The launcher ends all programs with one that dies, and its code is that one's; culm says what it was about."""
+        deck = self.over_mpi()
+
+        def start(way, *words):
+            return self.start_both("run", deck, *words, way=way)
+
+        def finish(way, launcher):
+            code, output, errors = self.outlast(launcher)
+            codes = (137, 1) if self.SAID_OVER_MPI[way] == self.ENDED else (FAILED_PARTNER,)
+            self.assertIn(code, (*codes, -signal.SIGSEGV, -signal.SIGKILL), output + errors)
+            return errors
+
+        self.die_over_mpi(start, ["leave", "nan"] if OPTIONS.ranks > 1 else ["kill", "leave", "nan"], finish)
 
     def test_over_mpi_that_die_and_are_resumed(self):
         settings = ["--quiet", "--set", "Output/Checkpoint Interval=0"]
         deck = self.over_mpi()
         self.finish(self.start_both("run", deck, "--output", "whole", *settings))
-        self.outlast(self.start_both("run", deck, "--output", "killed", *settings, way="kill"))
-        self.finish(self.start_both("resume", "killed", "--quiet"))
+        self.finish(self.start_alone("run", deck, "--output", "killed", *settings, *self.with_partner("kill")),
+                    FAILED_PARTNER)
+        self.finish(self.start_alone("resume", "killed", "--quiet", *self.with_partner()))
         self.same("whole", "killed")
+        self.outlast(self.start_both("run", deck, "--output", "again", *settings, way="kill"))
+        self.finish(self.start_both("resume", "again", "--quiet"))
+        self.same("whole", "again")
+
+    def test_over_mpi_that_never_come(self):
+        deck = self.over_mpi()
+        words = ["--output", "never", "--quiet", "--ranks", OPTIONS.ranks, "--with"]
+        errors = self.finish(self.start_alone("run", deck, *words, "exit 3"), FAILED_PARTNER)
+        self.assertIn("the partner 'exit 3' ended with code 3, and the launcher ended culm with it", errors)
+        self.assertFalse((self.folder / "never").exists())
+        errors = self.finish(self.start_alone("run", deck, *words, "true", "--set", "Coupling/Partners/water/Rank=7"), 2)
+        self.assertIn(f"as rank {OPTIONS.ranks}; its 'Rank' is 7", errors)
+        errors = self.finish(self.start_alone("run", deck, *words, "true", "--set", "Coupling/Scheme=Newtn"), 3)
+        self.assertIn("did you mean", errors)
+        launcher = subprocess.Popen([OPTIONS.mpiexec, "-n", "1", os.path.abspath(OPTIONS.culm), "run", deck, "--with", "true"],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder,
+                                    env={**os.environ, **MPI_ENVIRONMENT})
+        self.assertIn("call culm without mpiexec", self.finish(launcher, 2))
+
+    def test_over_mpi_wait_for_no_deck_that_is_wrong(self):
+        """Neither does who waits in the same launcher."""
+        deck = self.over_mpi()
+        wrong = ["--set", "Structures/mast/Section=none"]
+        errors = self.finish(self.start_alone("run", deck, "--output", "no", "--quiet", *wrong, *self.with_partner()), 3)
+        self.assertIn("none", errors)
+        code, output, errors = self.outlast(self.start_both("run", deck, "--output", "no", "--quiet", *wrong))
+        self.assertIn(code, (3, -signal.SIGSEGV, -signal.SIGKILL), output + errors)
+        self.assertFalse((self.folder / "no").exists())
+
+    def test_over_mpi_that_are_stopped(self):
+        """A run that is told to stop does so after its window; Ctrl-C ends all; nothing is left where culm is killed."""
+        deck = self.over_mpi()
+        for sent, code in ((signal.SIGTERM, 7), (signal.SIGINT, None), (signal.SIGKILL, -signal.SIGKILL)):
+            with self.subTest(signal=sent):
+                name = sent.name
+                launcher = self.start_alone("run", deck, "--output", name, "--set", "Analyses/motion/End Time=1000", "--quiet",
+                                            *self.with_partner(), pause="1")
+                history = self.folder / name / "history.csv"
+                self.wait_until(lambda: history.exists() and self.rows(name) > 5)
+                launcher.send_signal(sent)
+                output, errors = launcher.communicate(timeout=TIME_LIMIT)
+                self.assertIn(launcher.returncode, (code,) if code is not None else (7, FAILED_PARTNER), output + errors)
+                self.wait_until(lambda: not processes_in(self.folder))
+                if sent != signal.SIGKILL:
+                    self.assertFalse((self.folder / name / "run.h5.journal").exists())
 
     def test_that_lie_about_their_energy(self):
         """Nobody can tell a lie from a coupling that is too loose: a broken promise, after whole results."""
@@ -604,8 +747,7 @@ class Partners(CouplingTest):
     def test_that_culm_starts_and_ends(self):
         self.culm("run", self.deck, "--output", "here", "--quiet")
         words = ("run", self.remote, "--quiet", "--with")
-        partner = f"{sys.executable} {__file__} --partner {self.address} {self.folder} ''"
-        self.culm(*words, partner, "--output", "there")
+        self.culm(*words, self.partner_command(), "--output", "there")
         self.same("here", "there")
         began = time.monotonic()
         errors = self.culm(*words, "echo $$ > pid; exit 3", "--output", "early", code=FAILED_PARTNER)
@@ -615,7 +757,7 @@ class Partners(CouplingTest):
         self.assertFalse(pathlib.Path(f"/proc/{int((self.folder / 'pid').read_text())}").exists())
         self.assertLess(time.monotonic() - began, 60.0)  # where patience is 100 s
         errors = self.culm("run", self.deck, "--with", "true", "--output", "nobody", code=2)
-        self.assertIn("--with needs a partner of type 'Socket'", errors)
+        self.assertIn("--with needs a partner of type 'Socket' or 'MPI'", errors)
 
     def test_that_never_come(self):
         errors = self.culm("run", self.remote, "--output", "alone", "--quiet", "--set",

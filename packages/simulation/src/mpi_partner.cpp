@@ -28,8 +28,8 @@ class MpiChannel final : public coupling::Channel {
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     if (rank < size) return;
     throw UsageError(fmt::format(
-        "the partner is rank {}, and {} processes were started; start both together: mpiexec -n 1 "
-        "culm run DECK --ranks 1 : -n 1 PARTNER",
+        "the partner is rank {}, and {} processes were started; start both together: culm run DECK "
+        "--with PARTNER, or mpiexec -n 1 culm run DECK --ranks 1 : -n 1 PARTNER",
         rank, size));
   }
 
