@@ -42,7 +42,7 @@ SILENT = {
     "*DIM", "*ELSE", "*ENDIF", "*GET", "*IF", "*PREAD", "*SET", "END PREAD", "/BATCH", "/COM", "/CONFIG", "/EOF", "/GO", "/GOLIST",
     "/GOPR", "/GST", "/NOLIST", "/NOPR", "/POST1", "/PREP7", "/SOLU", "/UNITS", "/WB", "/XML", "/NERR", "/VIEW", "/ANG", "/CLEAR",
     "AUTOTS", "CDWRITE", "CEWRITE", "CM", "CNTR", "CNVTOL", "DMPOPT", "DMPOPTION", "DOF", "EMUNIT", "EQSL", "EQSLV", "ERESX",
-    "ETCON", "EXTOPT", "FINI", "FINISH", "IRLF", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
+    "ETCON", "EXTOPT", "FINI", "FINISH", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
     "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
     "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "BFUNIF", "MPDELE", "TBDELE",
     "SECFUNCTION", "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
@@ -51,7 +51,7 @@ SILENT = {
 # What does nothing with zeros.
 ZERO = {
     "OMEGA", "DOMEGA", "CGLOC", "CGOMEGA", "CGOMG", "DCGOMG", "ALPHAD", "BETAD", "DMPRAT", "DMPSTR", "SECCONTROL", "SECCONTROLS",
-    "STABILIZE",
+    "STABILIZE", "IRLF",
 }  # fmt: skip
 ACTIONS = {
     "NBLOCK": read_nodes, "N": read_node, "EBLOCK": read_elements, "ET": read_type, "ETBLOCK": read_type_block,
