@@ -27,6 +27,7 @@ constexpr auto last_grace = std::chrono::seconds(5);  // until a program has end
 // exit codes
 constexpr int file_error = 6;
 constexpr int failed_partner = 9;
+constexpr int interrupted = 128 + SIGINT;
 
 // Runs the partner. The signal by which culm is told to stop comes to all programs of a launcher.
 // How the partner ended is kept, because a launcher may end culm before it could say so.
@@ -144,16 +145,17 @@ void end_children() {
 }
 
 // Waits for the launcher, hands on signals, and ends it where it outlasts culm's last word.
-// @return its exit code
+// @return its exit code, or that of Ctrl-C
 int wait_for(pid_t launcher, const HeldSignals& signals, const fs::path& verdict) {
   int status = 0;
-  bool was_stopped = false;
+  bool was_stopped = false, was_interrupted = false;
   std::optional<Clock::time_point> last_word;
   int last_signal = 0;
   std::error_code ignored;
   while (waitpid(launcher, &status, WNOHANG) == 0) {
     const int signal = signals.next();
     // launchers hand SIGUSR1 on to their programs, and end them on the others
+    was_interrupted = was_interrupted || signal == SIGINT;
     if (signal == SIGINT || (signal != 0 && was_stopped)) kill(launcher, SIGTERM);
     if (signal == SIGTERM || signal == SIGUSR1) {
       if (!was_stopped) kill(launcher, SIGUSR1);
@@ -165,6 +167,7 @@ int wait_for(pid_t launcher, const HeldSignals& signals, const fs::path& verdict
     kill(launcher, last_signal);
     last_word = Clock::now();
   }
+  if (was_interrupted) return interrupted;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -181,10 +184,14 @@ std::optional<Verdict> find_verdict(const fs::path& file) {
 
 Verdict read_verdict(const fs::path& folder, const Launch& launch, int code) {
   if (const auto said = find_verdict(folder / "verdict")) {
-    if (said->code == 0 && code != 0) {
+    if (said->code == 0 && code != 0 && code != interrupted) {
       std::fprintf(stderr, "warning: the launcher returned %d after culm was done\n", code);
     }
     return *said;
+  }
+  if (code == interrupted) {
+    std::fprintf(stderr, "interrupted, before culm could say how far it is\n");
+    return {interrupted, {}};
   }
   if (const auto partner = find_verdict(folder / "partner")) {
     std::fprintf(stderr,
