@@ -15,8 +15,8 @@
 # the headers that its layer shares beforehand, once for sources and once, with GoogleTest, for
 # tests. Packages without PRECOMPILE use those of the highest layer that they depend on.
 #
-# With CULM_UNITY the sources of a package are compiled eight at a time, which saves two thirds of
-# the time: their headers and templates are common. So what is in an unnamed namespace has a name
+# With CULM_UNITY the sources of a package are compiled eight at a time, which saves half of the
+# time: their headers and templates are common. So what is in an unnamed namespace has a name
 # that no other source of the package gives to something else.
 
 include(CMakePackageConfigHelpers)
@@ -202,7 +202,7 @@ macro(culm_add_package_tests name)
   target_link_libraries(${program} PRIVATE ${target} ${arg_PRIVATE} GTest::gmock GTest::gtest)
   target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit)
   culm_finish_target(${program} SOURCES ${tests} LAYER ${name} TESTS)
-  # What takes time is compiled into the packages; more optimisation doubles the time to compile.
+  # What takes time is compiled into the packages; more optimisation takes a fifth longer to compile.
   target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(EXISTS ${folder}/test/main.cpp)
     target_sources(${program} PRIVATE ${folder}/test/main.cpp)
