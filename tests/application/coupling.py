@@ -702,7 +702,7 @@ class Partners(CouplingTest):
         self.assertIn(f"as rank {OPTIONS.ranks}; its 'Rank' is 7", errors)
         errors = self.finish(self.start_alone("run", deck, *words, "true", "--set", "Coupling/Scheme=Aitkn"), 3)
         self.assertIn("did you mean", errors)
-        launcher = subprocess.Popen([OPTIONS.mpiexec, "-n", "1", os.path.abspath(OPTIONS.culm), "run", deck, "--with", "true",
+        launcher = subprocess.Popen([OPTIONS.mpiexec, "-n", str(OPTIONS.ranks), os.path.abspath(OPTIONS.culm), "run", deck, "--with", "true",
                                      "--ranks", str(OPTIONS.ranks)],
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder,
                                     env={**os.environ, **MPI_ENVIRONMENT})
