@@ -9,7 +9,7 @@
 
 namespace culm::assembly {
 
-//// What a sum over ranks adds to a value without changing it: x + -0 is x also where x is a zero.
+/// What a sum over ranks adds to a value without changing it: x + -0 is x also where x is a zero.
 constexpr double nothing = -0.0;
 
 /// What the value of an own unknown changes by for one of its column.

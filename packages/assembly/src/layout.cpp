@@ -4,8 +4,6 @@
 #include <algorithm>
 
 namespace culm::assembly {
-namespace {}  // namespace
-
 Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   const model::UnknownTable& unknowns = model.unknowns();
   const Neighbours neighbours = couple_blocks(model);

@@ -9,8 +9,6 @@ namespace culm::solver {
 using assembly::CrsMatrix;
 using assembly::Vector;
 
-namespace {}  // namespace
-
 Residual residual(const CrsMatrix& A, std::span<const double> x, std::span<const double> b,
                   std::span<double> r) {
   const auto matrix = A.getLocalMatrixHost();

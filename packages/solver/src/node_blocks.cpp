@@ -3,8 +3,6 @@
 #include "exchange.hpp"
 
 namespace culm::solver {
-namespace {}  // namespace
-
 void NodeBlocks::add_node(int height) {
   heights.push_back(height);
   first.push_back(blocks.size());
