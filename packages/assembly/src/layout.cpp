@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace culm::assembly {
+
 Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   const model::UnknownTable& unknowns = model.unknowns();
   const Neighbours neighbours = couple_blocks(model);

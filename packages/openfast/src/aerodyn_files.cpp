@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 #include <set>
 
 namespace culm::openfast {

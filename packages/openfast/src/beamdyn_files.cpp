@@ -9,8 +9,6 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include <numbers>
-
 namespace culm::openfast {
 
 namespace {

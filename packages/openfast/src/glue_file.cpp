@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 #include <system_error>
 #include <utility>
 

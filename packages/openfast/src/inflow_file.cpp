@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <vector>
 
 namespace culm::openfast {

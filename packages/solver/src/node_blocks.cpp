@@ -3,6 +3,7 @@
 #include "exchange.hpp"
 
 namespace culm::solver {
+
 void NodeBlocks::add_node(int height) {
   heights.push_back(height);
   first.push_back(blocks.size());
