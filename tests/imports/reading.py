@@ -7,6 +7,7 @@ import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "src/python"))
+from culm.errors import CulmError  # noqa: E402
 from culm.importing.deck import Deck  # noqa: E402
 from culm.importing.deck_text import render  # noqa: E402
 from culm.importing.formats import module_of  # noqa: E402
@@ -49,3 +50,18 @@ def made_of_text(format, data, name="sample.inp"):
         made = Made(format, pathlib.Path(folder) / next(iter(files)))
         made.text = made.text.replace(folder, "")  # in the places of comments
         return made
+
+
+def not_refused(cases):
+    """Complaints of texts that become a deck, or are refused in other words.
+
+    @param cases  name -> text for Abaqus and words of the message; a format may stand before them"""
+    complaints = []
+    for name, (*format, text, words) in cases.items():
+        try:
+            made_of_text(*(format or ["abaqus"]), text)
+            complaints.append(f"{name}: is not refused")
+        except CulmError as error:
+            if words not in str(error):
+                complaints.append(f"{name}: {error}")
+    return complaints

@@ -44,15 +44,16 @@ SILENT = {
     "AUTOTS", "CDWRITE", "CEWRITE", "CM", "CNTR", "CNVTOL", "DMPOPT", "DMPOPTION", "DOF", "EMUNIT", "EQSL", "EQSLV", "ERESX",
     "ETCON", "EXTOPT", "FINI", "FINISH", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
     "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
-    "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "BFUNIF", "MPDELE", "TBDELE",
+    "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "MPDELE", "TBDELE",
     "SECFUNCTION", "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
     "CRPLIM", "TRNOPT", "RATE", "UIMP", "BUCOPT",
 }  # fmt: skip
-# What does nothing with zeros.
+# What does nothing with zeros; and words that stand beside them, where Workbench calls a very small number _TINY.
 ZERO = {
     "OMEGA", "DOMEGA", "CGLOC", "CGOMEGA", "CGOMG", "DCGOMG", "ALPHAD", "BETAD", "DMPRAT", "DMPSTR", "SECCONTROL", "SECCONTROLS",
-    "STABILIZE", "IRLF",
+    "STABILIZE", "IRLF", "BFUNIF",
 }  # fmt: skip
+NO_NUMBERS = ("ALL", "NONE", "TEMP", "_TINY")
 ACTIONS = {
     "NBLOCK": read_nodes, "N": read_node, "EBLOCK": read_elements, "ET": read_type, "ETBLOCK": read_type_block,
     "KEYOPT": read_key, "KEYOP": read_key, "KEYO": read_key, "R": read_constants, "RLBLOCK": read_constants_block, "MP": read_property,
@@ -129,5 +130,5 @@ class Reader:
     def _is_silent(self, command):
         """Whether a command says nothing about the model, or nothing but zeros."""
         if command.name in ZERO or command.name == "ESEL":
-            return not any(cell.strip("0.+- ") for cell in command.fields if cell.upper() not in ("ALL", "NONE"))
+            return not any(cell.strip("0.+- ") for cell in command.fields if cell.upper() not in NO_NUMBERS)
         return command.name in SILENT or "=" in command.name
