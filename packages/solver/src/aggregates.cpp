@@ -1,5 +1,7 @@
 #include "aggregates.hpp"
 
+#include <culm/math/types.hpp>
+
 #include <algorithm>
 #include <utility>
 

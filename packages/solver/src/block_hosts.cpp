@@ -1,5 +1,7 @@
 #include "block_hosts.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "blocks.hpp"
 #include "elimination_groups.hpp"
 

@@ -1,5 +1,6 @@
 #include "block_lu.hpp"
 
+#include <culm/math/types.hpp>
 #include <culm/math/vector_units.hpp>
 
 #include "block_hosts.hpp"

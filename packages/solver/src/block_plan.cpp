@@ -1,5 +1,7 @@
 #include "block_plan.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "blocks.hpp"
 #include "elimination_groups.hpp"
 

@@ -1,5 +1,7 @@
 #include "block_smoother.hpp"
 
+#include <culm/math/types.hpp>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 

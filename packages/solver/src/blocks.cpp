@@ -1,5 +1,7 @@
 #include "blocks.hpp"
 
+#include <culm/math/types.hpp>
+
 #include <algorithm>
 
 namespace culm::solver {

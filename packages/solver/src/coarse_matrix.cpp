@@ -1,5 +1,7 @@
 #include "coarse_matrix.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "exchange.hpp"
 
 #include <Eigen/Core>

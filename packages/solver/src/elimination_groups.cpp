@@ -1,5 +1,7 @@
 #include "elimination_groups.hpp"
 
+#include <culm/math/types.hpp>
+
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 

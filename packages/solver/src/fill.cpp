@@ -1,3 +1,4 @@
+#include <culm/math/types.hpp>
 #include <culm/solver/fill.hpp>
 
 namespace culm::solver {

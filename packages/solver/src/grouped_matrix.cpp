@@ -1,5 +1,7 @@
 #include "grouped_matrix.hpp"
 
+#include <culm/math/types.hpp>
+
 #include <Eigen/Core>
 
 #include <utility>

@@ -1,5 +1,7 @@
 #include "multigrid.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "coarse_matrix.hpp"
 #include "prolongation.hpp"
 

@@ -1,5 +1,7 @@
 #include "node_blocks.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "exchange.hpp"
 
 namespace culm::solver {

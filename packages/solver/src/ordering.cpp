@@ -1,5 +1,7 @@
 #include "ordering.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "blocks.hpp"
 
 #include <algorithm>

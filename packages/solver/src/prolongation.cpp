@@ -1,5 +1,7 @@
 #include "prolongation.hpp"
 
+#include <culm/math/types.hpp>
+
 #include "exchange.hpp"
 
 #include <Eigen/Dense>

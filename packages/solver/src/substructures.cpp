@@ -1,6 +1,7 @@
 #include "substructures.hpp"
 
 #include <culm/base/error.hpp>
+#include <culm/math/types.hpp>
 
 #include "serial_matrix.hpp"
 
