@@ -5,6 +5,7 @@
 #include "both_frames.hpp"
 #include "types.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
