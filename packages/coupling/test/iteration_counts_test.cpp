@@ -27,11 +27,13 @@ constexpr double spacing = 1.0 / (points + 1);
 constexpr double step = 2e-3;
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// What moves the string: a push, or its shape at the start; and its springs.
+// What moves the string: a push, or its shape at the start; its springs, and the water under it.
 struct Motion {
   double push = 5.0;
+  bool even = false;  // pushed alike everywhere, else most near its middle
   double first_wave = 0.0, third_wave = 0.0;
   double hardening = 1e6;
+  double depth = 0.02;
 };
 
 // A string of unit tension on springs that harden by the cube, by the mid-point rule, and what the
@@ -44,7 +46,7 @@ class StringOverChannel {
     using std::numbers::pi;
     const auto x = Eigen::ArrayXd::LinSpaced(points, spacing, 1.0 - spacing);
     place_ = motion.first_wave * (pi * x).sin() + motion.third_wave * (3.0 * pi * x).sin();
-    FlowChannel channel = {1.0, 0.02, 1.0, Eigen::Vector3d::UnitZ()};
+    FlowChannel channel = {1.0, motion.depth, 1.0, Eigen::Vector3d::UnitZ()};
     const MatrixXd masses = channel_masses(channel, points, spacing);
     channel.density = 1.0 / masses.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
     fluid_ = make_channel_flow(channel);
@@ -77,8 +79,9 @@ class StringOverChannel {
   VectorXd solve(const VectorXd& forces) const {
     const double hardening = motion_.hardening;
     const VectorXd x = VectorXd::LinSpaced(points, spacing, 1.0 - spacing);
-    const VectorXd load = motion_.push * std::sin(40.0 * (time_ + 0.5 * step)) *
-                          (x.array() * (1.0 - x.array()) * (1.0 + 0.2 * x.array())).matrix();
+    VectorXd load =
+        VectorXd::Constant(points, motion_.push * std::sin(40.0 * (time_ + 0.5 * step)));
+    if (!motion_.even) load.array() *= x.array() * (1.0 - x.array()) * (1.0 + 0.2 * x.array());
     VectorXd moved = step * velocity_;
     for (int i = 0; i < 30; ++i) {
       const VectorXd middle = place_ + 0.5 * moved;
@@ -131,15 +134,18 @@ double attempts(double ratio, Scheme& scheme, double tolerance) {
   return static_cast<double>(sum) / (windows - first);
 }
 
-// The same where the place of the string is iterated, from the last one, with a factor that begins
-// anew in each window.
-double attempts_of_places(double ratio, double tolerance) {
+// The same where the place of the string is iterated, by a scheme that begins anew in each window:
+// from the place that its velocity foresees, or from the last one.
+template <class Relaxation>
+double attempts_of_places(double ratio, const Motion& motion, double factor, bool foresee,
+                          double tolerance) {
   constexpr int windows = 60, first = 5, most = 200;
-  StringOverChannel model(ratio, {0.0, 0.1, 0.03, 1e3});
+  StringOverChannel model(ratio, motion);
   int sum = 0;
   for (int window = 0; window < windows; ++window) {
-    Aitken scheme(0.5);
-    VectorXd moved = VectorXd::Zero(points), answer = model.move(model.answer(moved));
+    Relaxation scheme(factor);
+    VectorXd moved = foresee ? model.foreseen() : VectorXd::Zero(points);
+    VectorXd answer = model.move(model.answer(moved));
     int tried = 1;
     for (; (answer - moved).norm() > tolerance * (model.place() + answer).norm(); ++tried) {
       if (tried == most) return never;
@@ -213,7 +219,11 @@ void note(const Counts& counts, const std::string& what) {
 void expect_near(const Counts& found, const Counts& expected, const std::string& what) {
   note(found, what);
   for (std::size_t i = 0; i < ratios.size(); ++i) {
-    EXPECT_NEAR(found[i], expected[i], 1.0) << what << ", mass ratio " << ratios[i];
+    if (expected[i] == never) {
+      EXPECT_EQ(found[i], never) << what << ", mass ratio " << ratios[i];
+    } else {
+      EXPECT_NEAR(found[i], expected[i], 1.0) << what << ", mass ratio " << ratios[i];
+    }
   }
 }
 
@@ -247,13 +257,26 @@ TEST(IterationCounts, OfParallelQuasiNewtonAreLittleMoreThanOfASerialOne) {
 
 // Those of the other program, whose string is let go from a shape.
 TEST(IterationCounts, OfAitkenAreAsExpected) {
+  const Motion motion = {.push = 0.0, .first_wave = 0.1, .third_wave = 0.03, .hardening = 1e3};
   Counts fine = {}, coarse = {};
   for (std::size_t i = 0; i < ratios.size(); ++i) {
-    fine[i] = attempts_of_places(ratios[i], 1e-8);
-    coarse[i] = attempts_of_places(ratios[i], 1e-4);
+    fine[i] = attempts_of_places<Aitken>(ratios[i], motion, 0.5, false, 1e-8);
+    coarse[i] = attempts_of_places<Aitken>(ratios[i], motion, 0.5, false, 1e-4);
   }
   expect_near(fine, {5.5, 7.7, 6.4, 11.8, 13.9, 33.9}, "places, Aitken");
   expect_near(coarse, {3.1, 3.5, 3.6, 5.6, 6.3, 14.3}, "places, Aitken, tolerance 1e-4");
+}
+
+// Those of the other program: a string that is pushed alike everywhere, over deep water.
+TEST(IterationCounts, OfAConstantFactorAreAsExpected) {
+  const Motion motion = {.push = 1.0, .even = true, .depth = 1.0};
+  Counts constant = {}, none = {};
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    constant[i] = attempts_of_places<ConstantRelaxation>(ratios[i], motion, 0.1, true, 1e-8);
+    none[i] = attempts_of_places<ConstantRelaxation>(ratios[i], motion, 1.0, true, 1e-8);
+  }
+  expect_near(constant, {107.0, 103.0, 100.0, 89.0, 69.0, never}, "constant factor 0.1");
+  expect_near(none, {6.6, 19.0, never, never, never, never}, "no relaxation");
 }
 
 // One factor serves all waves of the string, where quasi-Newton has one for each that it has met.
