@@ -1,8 +1,9 @@
 #include <culm/analysis/path_following.hpp>
 #include <culm/base/error.hpp>
-#include <culm/base/text.hpp>
 
+#include "determinant_zero.hpp"
 #include "mirrored_faces.hpp"
+#include "path_end.hpp"
 #include "shear_range.hpp"
 
 #include <fmt/format.h>
@@ -171,51 +172,16 @@ bool PathFollowing::passed_limit_points() const {
 
 void PathFollowing::report_early_end() const {
   if (steps() < settings_.steps || is_on_target() || passed_limit_points()) return;
-  std::vector<std::string> targets;
-  if (settings_.final_level) targets.push_back(fmt::format("level {:g}", *settings_.final_level));
-  if (settings_.final_displacement) {
-    targets.push_back(fmt::format("displacement {:g} m of '{}'", *settings_.final_displacement,
-                                  settings_.watch->node));
-  }
-  if (settings_.limit_points) {
-    targets.push_back(fmt::format("limit point {}", *settings_.limit_points));
-  }
-  if (settings_.at_bifurcation == AtBifurcation::stop) targets.emplace_back("a bifurcation");
+  const std::string targets = name_targets(settings_);
   if (targets.empty()) return;
   context().findings.broken(
       "path",
       fmt::format("the path ended at level {:.6g} after {} steps, all that 'Steps' allows, before "
                   "it reached {}{}",
-                  state().time, steps(), join(targets, " or "), missing_steps()),
+                  state().time, steps(), targets,
+                  explain_missing_steps(settings_, pace_, std::abs(size_ / first_size_),
+                                        known_.events.size())),
       state().time);
-}
-
-std::string PathFollowing::missing_steps() const {
-  constexpr double out_of_reach = 100.0;  // times those that the deck allows
-  std::optional<double> missing;
-  if (settings_.final_level) missing = pace_.steps_to_level(*settings_.final_level);
-  if (settings_.final_displacement) {
-    const auto more = pace_.steps_to_displacement(*settings_.final_displacement);
-    missing = missing && more ? std::min(*missing, *more) : more;
-  }
-  if (!missing) return {};
-  if (*missing < out_of_reach * settings_.steps) {
-    return fmt::format("; at the pace of the last {} it takes {:.0f} more", PathPace::steps,
-                       *missing);
-  }
-  std::string text = fmt::format("; the last {} lead no nearer to it", PathPace::steps);
-  constexpr double tiny = 0.1;
-  if (const double length = std::abs(size_ / first_size_); length < tiny) {
-    text += fmt::format(
-        ", and steps are {:.2g} times as long as the first: a path that turns so sharply mostly "
-        "has a mesh too coarse for its waves",
-        length);
-  }
-  if (!known_.events.empty()) {
-    text += fmt::format("; limit points, turning points and bifurcations on the way: {}",
-                        known_.events.size());
-  }
-  return text;
 }
 
 void PathFollowing::land(solver::StepOutcome& outcome) {
@@ -313,48 +279,19 @@ std::optional<solver::Determinant> PathFollowing::go_back(double length) {
   return context().linear.determinant();
 }
 
-// By regula falsi (Illinois) on the way back from the later point. The determinant of a large model
-// changes by many powers of ten, so where this hardly moves the middle is taken.
 void PathFollowing::locate_crossing() {
-  const solver::Determinant reference = known_.here.determinant;
-  const auto relative = [&](const solver::Determinant& d) {
-    return d.sign * std::exp(std::clamp(d.log_size - reference.log_size, -600.0, 600.0));
-  };
-  back_ = 0.0;
-  double near = 0.0, far = last_length_;
-  double at_near = relative(reference), at_far = relative(known_.behind.determinant);
-  if (at_near * at_far >= 0.0) return;  // two zeros that the signs do not tell
-  constexpr int most_points = 20;
-  constexpr double close = 1e-6;  // over the length of the step
-  int same_side = 0;
-  for (int i = 0; i < most_points && far - near > close * last_length_; ++i) {
-    double share = std::clamp(at_near / (at_near - at_far), 0.01, 0.99);
-    if (std::abs(same_side) > 2) share = 0.5;
-    const double length = near + share * (far - near);
-    const auto determinant = go_back(length);
-    if (!determinant) break;
-    back_ = length;
-    PathEvent& crossing = *std::find_if(
-        known_.events.rbegin(), known_.events.rend(),
-        [](const PathEvent& event) { return event.kind == PathEventKind::bifurcation; });
-    crossing.level = state().time;
-    crossing.watched = condition_.watched_displacement(state().next);
-    const double value = relative(*determinant);
-    if (std::abs(value) < close * std::min(std::abs(relative(reference)),
-                                           std::abs(relative(known_.behind.determinant))))
-      break;
-    if (value * at_near > 0.0) {
-      near = length;
-      at_near = value;
-      same_side = std::max(same_side, 0) + 1;
-      if (same_side > 1) at_far *= 0.5;
-    } else {
-      far = length;
-      at_far = value;
-      same_side = std::min(same_side, 0) - 1;
-      if (same_side < -1) at_near *= 0.5;
+  PathEvent& crossing = *std::find_if(
+      known_.events.rbegin(), known_.events.rend(),
+      [](const PathEvent& event) { return event.kind == PathEventKind::bifurcation; });
+  const auto look_at = [&](double length) {
+    const std::optional<solver::Determinant> determinant = go_back(length);
+    if (determinant) {
+      crossing.level = state().time;
+      crossing.watched = condition_.watched_displacement(state().next);
     }
-  }
+    return determinant;
+  };
+  back_ = approach_zero(known_.here.determinant, known_.behind.determinant, last_length_, look_at);
   system().discard(state());
 }
 

@@ -63,8 +63,6 @@ class PathFollowing final : public Stepper {
   bool passed_limit_points() const;
   /// Says where the number of steps ended the path before it reached what the deck names.
   void report_early_end() const;
-  /// How many more it takes.
-  std::string missing_steps() const;
   solver::StepOutcome go_on(double size);
   /// Where an attempt went beyond the end of the path, goes back to it.
   void land(solver::StepOutcome& outcome);
@@ -96,8 +94,8 @@ class PathFollowing final : public Stepper {
   double attempted_ = 0.0;    ///< of the last attempt [m]
   double first_size_ = 0.0;   ///< of the first step
   double last_length_ = 0.0;  ///< between the last two points [m]
-  double back_ =
-      0.0;  ///< length from the last point back to the crossing, or as near as it was found [m]
+  /// Length from the last point back to the crossing, or as near as it was found [m].
+  double back_ = 0.0;
   bool is_on_branch_ = false;  ///< the last attempt took a crossing path
   Knowledge known_, before_;   ///< now, and before the last attempt
 };
