@@ -85,7 +85,8 @@ Mat6 plane_mass(const Mat6& given) {
   return mass.selfadjointView<Eigen::Upper>();
 }
 
-void check_plane(const Mat6& mass, const Check& check, Report& report) {
+void check_plane(const BladeStation& station, const Check& check, Report& report) {
+  const Mat6& mass = station.mass;
   const Mat6 plane = plane_mass(mass);
   int row = 0;
   int column = 0;
@@ -93,6 +94,16 @@ void check_plane(const Mat6& mass, const Check& check, Report& report) {
   const Mat6 difference = scale.asDiagonal() * (mass - plane) * scale.asDiagonal();
   constexpr double tolerance = 1e-3;  // what preprocessors leave of the rule
   if (difference.cwiseAbs().maxCoeff(&row, &column) <= tolerance) return;
+  if (std::abs(mass(3, 3) - mass(4, 4) - mass(5, 5)) <= tolerance * mass(3, 3) &&
+      station.stiffness(0, 0) > station.stiffness(2, 2)) {
+    throw InputError(
+        check.where(),
+        "the first axis is along the blade, as in files from before BeamDyn turned its axes: entry "
+        "(4, 4) is the sum of (5, 5) and (6, 6), which (6, 6) must be of (4, 4) and (5, 5), and "
+        "the first stiffness is above the third. "
+        "Try: rows and columns in the order shear x, shear y, stretch, bending about x, about y, "
+        "twist");
+  }
   report.add(
       unknown,
       fmt::format("{}: not that of a plane section: entry ({}, {}) is {:g}, by the others it "
@@ -117,7 +128,7 @@ void check_stations(BeamDynBlade& blade, Report& report) {
     station.mass = 0.5 * (station.mass + station.mass.transpose()).eval();
     stiffness = std::min(stiffness, definiteness(station.stiffness, of_stiffness));
     mass = std::min(mass, definiteness(station.mass, of_mass));
-    check_plane(station.mass, of_mass, report);
+    check_plane(station, of_mass, report);
   }
   report.add(checked, fmt::format("{} matrices of stiffness and of mass: symmetric (largest "
                                   "difference {:.1e}) and positive definite",

@@ -257,6 +257,13 @@ TEST_F(BeamDynFiles, ImpossibleInputIsRefusedWithItsPlace) {
               HasSubstr("blade.inp:4: station_total: announces 3 stations of 13 lines"));
   EXPECT_THAT(with_blade(" 1.0\n", " 0.9\n"),
               EndsWith("station 2: the last place must be 1, got 0.9"));
+  write("blade.inp",
+        change(change(blade, "  1E5 0 0 0 0 0\n  0 2E5 0 0 0 0\n  0 0 9E5 0 0 0\n  0 0 0 5E4 0 0",
+                      "  9E5 0 0 0 0 0\n  0 2E5 0 0 0 0\n  0 0 1E5 0 0 0\n  0 0 0 5E4 0 0"),
+               "   0  0  0  2  0  0\n   0  0  0  0  1  0\n   0  0  0  0  0  3",
+               "   0  0  0  3  0  0\n   0  0  0  0  1  0\n   0  0  0  0  0  2"));
+  EXPECT_THAT(message_of("primary.inp"),
+              HasSubstr("station 2, mass: the first axis is along the blade"));
   write("blade.inp", blade);
   write("primary.inp", change(primary, "  1  3    ", "  1  4    "));
   EXPECT_THAT(message_of("primary.inp"), HasSubstr("primary.inp:8: kp_total: contradiction: 3 key "
