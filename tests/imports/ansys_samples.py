@@ -48,3 +48,20 @@ def model():
     text += "F,      45,FZ, -100.000000    ,  0.00000000\nF,      43,MX,  5.0    ,  0.0\n"
     text += "".join(f"SFE,{e:8},  1,PRES,0, 250.000000    ,  250.0, 250.0, 250.0\n" for e in range(1, N * N + 1))
     return text + "SOLVE\nFINISH\n"
+
+
+def model_in_blocks():
+    """The same as releases from 2019 write it: another tag, and supports, forces and pressures in blocks."""
+    lines = model().replace(",R5.0,", ",UNBL,").replace("N,R5.3", "N,UNBL").split("\n")
+    rows = [[cell.strip() for cell in line.split(",")] for line in lines]
+    supports, forces, pressures = ([row for row in rows if row[0] == name] for name in ("D", "F", "SFE"))
+    kept = [line for line, row in zip(lines, rows) if row[0] not in ("D", "F", "SFE", "SOLVE", "FINISH", "")]
+    text = "\n".join(kept) + "\n"
+    for name, block in (("DBLOCK", supports), ("FBLOCK", forces)):
+        text += f"{name},{len(block):8}\n(i9,a6,2(pg16.9))\n"
+        text += "".join(f"{row[1]:>9}{row[2]:6}{float(row[3]):16.9f}{0:16.9f}\n" for row in block) + "       -1\n"
+    text += f"SFEBLOCK,4,PRES,{len(pressures):10},       256,0\n(i9,i4,i4,6(pg20.9))\n"
+    for row in pressures:
+        for part, values in ((1, row[5:9]), (2, [0] * 4)):
+            text += f"{row[1]:>9}{row[2]:>4}{part:4}" + "".join(f"{float(value):20.9f}" for value in values) + "\n"
+    return text + "SFE,end,LOC,       -1,\nSOLVE\nFINISH\n"

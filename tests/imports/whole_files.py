@@ -12,6 +12,7 @@ WHOLE_FILES = {
     "panel.inp": ("abaqus", {"panel.inp": samples.panel(2)}),
     "parts.inp": ("abaqus", {"parts.inp": samples.parts()}),
     "plate.cdb": ("ansys", {"plate.cdb": ansys_samples.model()}),
+    "plate in blocks": ("ansys", {"plate.cdb": ansys_samples.model_in_blocks()}),
     "panel.bdf": ("nastran", {"panel.bdf": nastran_samples.panel()}),
     "frame.bdf": ("nastran", {"frame.bdf": nastran_samples.frame()}),
     "turbine of windIO": ("windio", {"turbine.yaml": turbine_samples.windio()}),

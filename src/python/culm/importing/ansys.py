@@ -10,9 +10,10 @@ from .ansys_file import read_commands
 from .ansys_loads import make_loads, read_force, read_gravity, read_pressure, read_support
 from .ansys_nodes import (
     modify_element,
-    read_component,
-    read_elements,
     read_active,
+    read_component,
+    read_element,
+    read_elements,
     read_node,
     read_nodes,
     read_system,
@@ -55,7 +56,7 @@ ZERO = {
 }  # fmt: skip
 NO_NUMBERS = ("ALL", "NONE", "TEMP", "_TINY")
 ACTIONS = {
-    "NBLOCK": read_nodes, "N": read_node, "EBLOCK": read_elements, "ET": read_type, "ETBLOCK": read_type_block,
+    "NBLOCK": read_nodes, "N": read_node, "EBLOCK": read_elements, "EN": read_element, "ET": read_type, "ETBLOCK": read_type_block,
     "KEYOPT": read_key, "KEYOP": read_key, "KEYO": read_key, "R": read_constants, "RLBLOCK": read_constants_block, "MP": read_property,
     "MPDATA": read_property_data, "SECTYPE": read_section_type, "SECDATA": read_section_data,
     "SECBLOCK": read_section_block, "SECOFFSET": read_section_offset, "SECOFF": read_section_offset,
@@ -130,5 +131,7 @@ class Reader:
     def _is_silent(self, command):
         """Whether a command says nothing about the model, or nothing but zeros."""
         if command.name in ZERO or command.name == "ESEL":
-            return not any(cell.strip("0.+- ") for cell in command.fields if cell.upper() not in NO_NUMBERS)
+            # of a shell's SECCONTROL, shear stiffnesses and mass; then factors against hourglasses, which culm's elements do not have
+            cells = command.fields[:4] if command.name.startswith("SECCONTROL") else command.fields
+            return not any(cell.strip("0.+- ") for cell in cells if cell.upper() not in NO_NUMBERS)
         return command.name in SILENT or "=" in command.name

@@ -8,6 +8,7 @@ from .findings import Place, refuse
 from .keyword_file import number, read_text
 
 BLOCKS = {"NBLOCK", "EBLOCK", "ETBLOCK", "RLBLOCK", "CMBLOCK", "SECBLOCK"}
+LOADS = {"DBLOCK": "D", "FBLOCK": "F", "SFEBLOCK": "SFE"}  # blocks whose rows are the fields of a command each
 
 
 @dataclasses.dataclass
@@ -38,6 +39,11 @@ class Command:
         return number(self.text(i), self.place, f"{self.name}, field {i}: {what}")
 
 
+def is_tag(text):
+    """Whether a field says how a command is written, as in N,R5.3,LOC,-1 and MPDATA,UNBL,1,EX,..."""
+    return text.upper() == "UNBL" or text.upper().startswith("R")
+
+
 def whole(text, place, what):
     if not re.fullmatch(r"[+-]?[0-9]{1,12}", text.strip()):
         refuse(place, f"expected {what}, found '{text.strip()[:20]}'")
@@ -59,10 +65,16 @@ def read_commands(path):
         if name.startswith(("/", "*")):  # words of these may follow a blank
             name = name.split()[0]
         command = Command(name, cells[1:], place, [])
-        if name in BLOCKS:
+        if name in BLOCKS or name in LOADS:
             at = _block(command, lines, at)
-        commands.append(command)
+        commands += _commands_of(command) if name in LOADS else [command]
     return commands, bool(commands) and commands[-1].name in ("FINISH", "FINI", "SOLVE", "/EOF", "/GO")
+
+
+def _commands_of(block):
+    """SFEBLOCK gives the label of all its rows, which stands after two numbers in SFE."""
+    label = [block.text(2)] if block.name == "SFEBLOCK" else []
+    return [Command(LOADS[block.name], [*cells[:2], *label, *cells[2:]], place, []) for place, cells in block.rows]
 
 
 def _block(command, lines, at):
@@ -88,11 +100,13 @@ def _block(command, lines, at):
             refuse(command.place, f"the file ends within {command.name}")
         place, raw = lines[at]
         at += 1
-        if re.match(r"\s*-1\b", raw) and command.name != "CMBLOCK" or raw.upper().startswith("N,"):
+        if re.match(r"\s*-1\b", raw) and command.name != "CMBLOCK" or re.match(r"(N|D|F|SFE),", raw.upper()):
             return at
         cells = _cut(raw, widths)
         if not cells:
             refuse(place, f"an empty line within {command.name}")
+        if command.name in LOADS and len(raw.rstrip()) > sum(widths):
+            refuse(place, f"a line of {command.name} is longer than its format")
         read += len(cells)
         command.rows.append((place, cells))
     return at
@@ -123,14 +137,14 @@ def _count(command, i):
 
 
 def _widths(line):
-    """Of the columns that a format as (3i9,6e21.13e3) gives."""
+    """Of the columns that a format as (3i9,6e21.13e3) or (i9,a6,2(pg16.9)) gives."""
     place, text = line
     text = text.split("!")[0].strip()
-    if not re.fullmatch(r"\(\s*[0-9a-zA-Z.,\s]+\)", text):
+    if not re.fullmatch(r"\(\s*[0-9a-zA-Z.,\s()]+\)", text):
         refuse(place, f"expected a format, as (3i9,6e21.13e3), found '{text[:40]}'")
     widths = []
     for part in text[1:-1].split(","):
-        found = re.fullmatch(r"\s*(\d*)\s*[iIeEgGfFaA](\d+)(\.\d+)?([eE]\d+)?\s*", part)
+        found = re.fullmatch(r"\s*(\d*)\s*\(?[pP]?[iIeEgGfFaA](\d+)(\.\d+)?([eE]\d+)?\)?\s*", part)
         if not found or not 0 < int(found[2]) < 100 or int(found[1] or 1) > 1000:
             refuse(place, f"the format '{text[:40]}' is not understood")
         widths += [int(found[2])] * int(found[1] or 1)

@@ -36,6 +36,8 @@ def read_force(reader, command):
 
 
 def read_pressure(reader, command):
+    if command.text(4) == "2" and not any(cell.strip("0. ") for cell in command.fields[4:]):
+        return  # no imaginary part
     if command.text(3).upper() != "PRES" or command.text(4) not in ("0", "", "1"):
         reader.findings.leave_out(f"SFE of {command.text(3)}", command.place)
         return

@@ -2,7 +2,7 @@
 
 import numpy
 
-from .ansys_file import whole
+from .ansys_file import is_tag, whole
 from .findings import did_you_mean, refuse
 from .keyword_file import is_integer, number
 
@@ -15,11 +15,23 @@ def read_nodes(reader, command):
 
 
 def read_node(reader, command):
-    if command.text(1).upper().startswith("R"):
-        return  # the end of a block
+    if _ends_block(command):
+        return
     if reader.active != "0":
         refuse(command.place, f"N in the coordinate system {reader.active} is not read: only 0 is")
     _add_node(reader, command.integer(1), [command.text(i) for i in range(2, 8)], command.place)
+
+
+def read_element(reader, command):
+    if not _ends_block(command):
+        refuse(command.place, "EN is not read: elements stand in EBLOCK")
+
+
+def _ends_block(command):
+    """N,R5.3,LOC,-1 and EN,UNBL,ATTR,-1"""
+    if is_tag(command.text(1)) and command.integer(3) >= 0:
+        refuse(command.place, f"{command.name} of an archive without blocks is not read: CDWRITE writes blocks unless it is told not to")
+    return is_tag(command.text(1))
 
 
 def read_active(reader, command):
@@ -62,7 +74,7 @@ def read_elements(reader, command):
 def read_system(reader, command):
     """LOCAL,R5.0,LOC,number,kind,x,y,z and LOCAL,R5.0,ANG,number,angles; or all in one line."""
     fields = [cell.upper() for cell in command.fields]
-    if fields and fields[0].startswith("R"):
+    if fields and is_tag(fields[0]):
         if len(fields) > 1 and fields[1] == "ANG":
             reader.systems[command.integer(3)] = _turned(reader, [command.real(i, default=0.0) for i in (4, 5, 6)])
         elif len(fields) > 3 and fields[3].strip("0"):

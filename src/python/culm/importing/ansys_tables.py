@@ -1,6 +1,6 @@
 """Types, constants, materials and sections of ANSYS, as commands give them."""
 
-from .ansys_file import whole
+from .ansys_file import is_tag, whole
 from .findings import refuse
 from .keyword_file import is_integer, number
 
@@ -42,8 +42,8 @@ def read_property(reader, command):
 
 
 def read_property_data(reader, command):
-    """MPDATA,R5.0,count,label,material,place,value"""
-    first = 1 if command.text(1).upper().startswith("R") else 0
+    """MPDATA,R5.0,count,label,material,place,value, where new files have UNBL"""
+    first = 1 if is_tag(command.text(1)) else 0
     if command.integer(first + 1) > 1 or command.integer(first + 4) > 1:
         reader.findings.assume("of properties by temperature the first stand", command.place)
     if command.integer(first + 4) == 1:
