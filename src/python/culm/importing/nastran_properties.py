@@ -5,6 +5,8 @@ import numpy
 from .findings import refuse
 from .model import Layer, Material, Section, Wall
 
+NO_SHEAR = 1e3  # areas of shear by the area, of beams that do not shear
+
 
 def read_materials(reader):
     for card in reader.cards("MAT1"):
@@ -133,6 +135,9 @@ def _bar(reader, card, A, I1, I2, J, I12, per_length, factors=None):
     if A <= 0.0 or I1 <= 0.0 or I2 <= 0.0 or J <= 0.0:
         refuse(card.place, "a beam needs A, I1, I2 and J > 0")
     K1, K2 = factors or (card.real(17, default=5 / 6), card.real(18, default=5 / 6))
+    if K1 == 0.0 or K2 == 0.0:
+        reader.findings.assume(f"K1 or K2 = 0: the beam does not shear; GA is {NO_SHEAR:g} G A", card.place)
+        K1, K2 = K1 or NO_SHEAR, K2 or NO_SHEAR
     mass = density * A + per_length * reader.masses_by
     values = {
         "EA": E * A, "GA1": K1 * G * A, "GA2": K2 * G * A, "EI1": E * I2, "EI2": E * I1, "GIp": G * J, "EI12": E * I12,
