@@ -1,6 +1,7 @@
 """Sums of forces and moments about the origin, by step, from the numbers of input files of Abaqus, CalculiX, Nastran and
 ANSYS: readers of their own, which know what these sums need and refuse the rest."""
 
+import collections
 import pathlib
 import re
 
@@ -430,9 +431,14 @@ def cards_of(lines):
     return found
 
 
+def included(path):
+    text = path.read_text(errors="replace")
+    return re.sub(r"(?im)^\s*INCLUDE\s+['\"]([^'\"]+)['\"]", lambda found: included(path.parent / found[1]), text)
+
+
 def nastran(path):
     """Of each subcase of a static solution, or of the one case."""
-    control, bulk = re.split(r"(?im)^\s*BEGIN\s+BULK.*$", pathlib.Path(path).read_text(errors="replace"), 1)
+    control, bulk = re.split(r"(?im)^\s*BEGIN\s+BULK.*$", included(pathlib.Path(path)), 1)
     cases, general = [], {}
     for line in control.splitlines():
         words = re.match(r"\s*(SUBCASE\s+\d+|LOAD\s*=\s*(\d+))", line.split("$")[0], re.I)
@@ -506,7 +512,13 @@ def nastran(path):
                     total.pull_line(numpy.array([nodes[n] for n in members]), area * density[material] * a)
                 for node, mass, arm in masses:
                     total.add(nodes[node] + arm, mass * a)
-            elif name in ("PLOAD1", "TEMP", "PLOAD"):
+            elif name == "PLOAD1":
+                ends = numpy.array([nodes[n] for n in bars[c[1]][1]])
+                whole = numpy.linalg.norm(ends[1] - ends[0]) if c[3] == "LE" else 1.0
+                if c[2] not in ("FX", "FY", "FZ") or c[3] not in ("LE", "FR") or c[7] != c[5] or (c[4] or 0, c[6]) != (0, whole):
+                    raise NotCounted("PLOAD1 on a part of an element, or along its axes")
+                total.pull_line(ends, factor * c[5] * numpy.eye(3)["XYZ".index(c[2][1])])
+            elif name in ("TEMP", "PLOAD"):
                 raise NotCounted(name)
 
     found = []
@@ -522,13 +534,13 @@ def nastran(path):
 
 
 def ansys(path):
-    nodes, elements, density, walls, areas, masses = {}, [], {}, {}, {}, {}
+    nodes, elements, density, walls, areas, masses = {}, [], collections.defaultdict(float), {}, {}, {}
     total, where, section, shape = Sum(), None, None, None
     forces, pressures, ground = [], [], numpy.zeros(3)
     for line in pathlib.Path(path).read_text(errors="replace").splitlines():
         words = [word.strip() for word in line.split(",")]
         head = words[0].upper()
-        if head in ("NBLOCK", "EBLOCK", "RLBLOCK"):
+        if head in ("NBLOCK", "EBLOCK", "RLBLOCK", "DBLOCK", "FBLOCK", "SFEBLOCK"):
             where = head
             continue
         if line.startswith("("):
@@ -536,8 +548,9 @@ def ansys(path):
             continue
         if where == "NBLOCK" and not re.match(r"\s*\d", line):
             where = None
-        if where == "EBLOCK" and line.strip() == "-1":
+        if where in ("EBLOCK", "DBLOCK", "FBLOCK") and line.strip() == "-1" or where == "SFEBLOCK" and head == "SFE":
             where = None
+            continue
         if where == "NBLOCK":
             start, size = 3 * width[0], width[1]
             place = [float(line[start + size * i : start + size * (i + 1)] or 0) for i in range(3)]
@@ -545,6 +558,11 @@ def ansys(path):
         elif where == "EBLOCK":
             cells = [int(line[i : i + width[0]]) for i in range(0, len(line.rstrip()), width[0])]
             elements.append((cells[10], cells[0], cells[2], cells[3], list(dict.fromkeys(cells[11:]))))
+        elif where == "FBLOCK":
+            forces.append((int(line[:9]), line[9:15].strip(), float(line[15:31])))
+        elif where == "SFEBLOCK":
+            if int(line[13:17]) == 1:
+                pressures.append((int(line[:9]), int(line[9:13]), float(line[17:37])))
         elif where == "RLBLOCK":
             cells = line.split()
             masses[int(cells[0])], where = float(cells[2]), None

@@ -88,6 +88,7 @@ def own_files(folder, tests):
     texts["plane.inp"] = "abaqus", samples.plane()
     texts["panel.bdf"] = "nastran", nastran_samples.panel()
     texts["model.cdb"] = "ansys", ansys_samples.model()
+    texts["blocks.cdb"] = "ansys", ansys_samples.model_in_blocks()
     texts |= {f"{name}.inp": ("calculix", text_of(tests, f"{name}.inp")) for name in TESTS}
     for name, (format, text) in texts.items():
         (folder / name).write_text(text)
