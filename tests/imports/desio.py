@@ -146,6 +146,19 @@ def joints_are_told(complaints):
             complaints.append(f"a joint with {vectors} is {joint}, {list(made.findings.assumed)}")
 
 
+def arms_are_told(complaints):
+    """Of blades beside the hub, whose file gives no arms, or those that are there; the hub has d1, d2, d3 along y, -x, z."""
+    told = "a rigid connection turns the arm between its nodes"
+    for offset, expected in (([0, 0, 0], 2), ([0, 0, 0.5], 1)):
+        model = desio_samples.rotor()
+        model["constraint12input.txt"] = model["constraint12input.txt"].replace(
+            f"rigidconnection 1 7 {desio_samples.NO_VECTORS}", "rigidconnection 1 7 " + desio_samples.numbers(offset + [0] * 6)
+        )
+        places = [len(where) for text, where in made_of_text("desio", model).findings.assumed.items() if text.startswith(told)]
+        if places != [expected]:
+            complaints.append(f"arms of {offset} are told at {places} places, not {expected}")
+
+
 def strip_vibrates(program, complaints):
     """Two shells as one: beams of Euler and Bernoulli, of which the wall is thin and nu is 0."""
     with tempfile.TemporaryDirectory() as folder:
@@ -174,6 +187,7 @@ def main():
     sections_agree(complaints)
     shells_are_whole(complaints)
     joints_are_told(complaints)
+    arms_are_told(complaints)
     strip_vibrates(program, complaints)
     sys.exit("\n".join(complaints) if complaints else 0)
 

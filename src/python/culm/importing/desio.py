@@ -395,6 +395,10 @@ def _spherical_support(nodes, vectors, place, findings):
 
 
 def _rigid_connection(nodes, vectors, place, findings):
+    """Some versions of DeSiO turn the arms that the file gives, so that without them the second node only moves along."""
+    gap = _point(nodes[1], vectors[1]) - _point(nodes[0], vectors[0])
+    if numpy.linalg.norm(gap) > max(1e-6, 1e-3 * numpy.linalg.norm(nodes[1].position - nodes[0].position)):
+        findings.assume("a rigid connection turns the arm between its nodes, which is not that of its offsets", place)
     return "Rigid Connection", {"Node": nodes[1].name, "Master": nodes[0].name}, None
 
 
