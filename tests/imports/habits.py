@@ -233,6 +233,7 @@ REFUSED = {
     ),
     "layers that do not bend": ("nastran", BDF.format("PCOMP,1,,,,,,,MEM\n,1,.1,0.\n" + SQUARE), "LAM = MEM"),
     "nodes in a system of their own": ("ansys", CDB + "LOCAL,11,0,1,1,1\nCSYS,11\nN,9,1,1,1\n", "N in the coordinate system 11"),
+    "a table without stiffness": ("csv", "position,EA,GA1,GA2,EI1,EI2,GIp\n0,1,0,1,1,1,1\n1,1,0,1,1,1,1\n", "the column 'GA1' has no value > 0"),
     "nodes in lines": ("ansys", CDB + "N,R5.3,LOC,9,1,1,1\n", "CDWRITE writes blocks"),
     "elements in lines": ("ansys", CDB + "EN,9,1,2,3,4\n", "elements stand in EBLOCK"),
     "directions on a cylinder": (

@@ -45,6 +45,9 @@ def read(path, arguments):
         for name, cell in zip(names, cells):
             table[name].append(number(cell, where, f"a number in the column '{name}'"))
     table = {name: numpy.array(values) for name, values in table.items()}
+    for name in REQUIRED:
+        if not (table[name] > 0.0).any():
+            refuse(place, f"the column '{name}' has no value > 0: without this stiffness the beam is a mechanism")
     stations_in_order(table["position"], lambda text: refuse(rows[-1][0], text))
     return _deck(path, table, findings, rows[1][0])
 
