@@ -186,6 +186,8 @@ def of_nastran():
     yield "thicknesses of an element and a membrane are told", {"field 10 of CQUAD4"} < set(membrane.findings.left_out)
     other = case_control("101", "LOAD=2\nMFLUID=3\n", "SPC1,2,3,3\n").findings
     yield "supports that no case names are told", "the support set 2 is in no case" in other.assumed
+    response = made_of_text("nastran", BDF.format(shell + SQUARE).replace("SOL 101", "SOL 111"), "model.bdf").made
+    yield "modes in place of another solution have its supports", any(s.nodes == [1] and len(s.held) == 6 for s in response.supports)
     yield "what acts by case control and is not read is told", "MFLUID of the case control" in other.left_out
 
 

@@ -20,11 +20,11 @@ ACTING = (
 
 
 def read_steps(reader):
-    solution, cases = _case_control(reader)
+    solution, cases, all_cases = _case_control(reader)
     if not cases:
         reader.findings.leave_out("the file has no case that is read: the deck finds modes")
         reader.model.steps.append(Step("modes", "modal", reader.deck.cards[0].place))
-        cases = [{}]
+        cases = [{"SPC": case["SPC"]} for case in all_cases if "SPC" in case][:1] or [{}]
     else:
         _add_steps(reader, solution, cases)
     _supports(reader, cases)
@@ -39,7 +39,7 @@ def read_steps(reader):
 
 
 def _case_control(reader):
-    """The number of the solution, and the cases that are done, with what all have in common."""
+    """The number of the solution, the cases that are done, with what all have in common, and all that are there."""
     solution, common, cases = None, {}, []
     for place, text in reader.deck.control:
         word = re.match(r"\w*", text)[0].upper()
@@ -61,12 +61,12 @@ def _case_control(reader):
     if not cases and reader.deck.control and common:
         cases = [{**common, "NUMBER": "1", "PLACE": reader.deck.control[0][0]}]
     if solution not in (STATIC, MODAL, BUCKLING, NONLINEAR):
-        return solution, []
+        return solution, [], cases
     done = [case for case in cases if "LOAD" in case or "METHOD" in case or solution == MODAL]
     for case in cases:
         if case not in done:
             reader.findings.leave_out("a case without LOAD", case["PLACE"])
-    return solution, done
+    return solution, done, cases
 
 
 def _means(word, name):
