@@ -155,6 +155,9 @@ def of_nastran():
     stiff = bdf("PBAR,1,1,.01,1.-5,2.-5,3.-5\n,,,,,,,,\n,0.,.5\n" + BARS.format(""))
     values = next(iter(stiff.made.sections.values())).values
     yield "no area of shear is no shear", numpy.allclose([values["GA1"], values["GA2"]], [1e3 * 0.01 * 2e11 / 2.6, 0.5 * 0.01 * 2e11 / 2.6])
+    blank = bdf("PBAR,1,1,.01,1.-5,2.-5,3.-5\n" + BARS.format(""))
+    values = next(iter(blank.made.sections.values())).values
+    yield "nor is a blank one", numpy.allclose([values["GA1"], values["GA2"]], 1e3 * 0.01 * 2e11 / 2.6)
     yield "pressures at corners that are not given are the first one", pressures(varied) == [1.25]
     yield "pressure on what is no shell is told", any("no shells" in x for x in bdf("PBARL,1,1,,ROD\n,.1\n" + BARS.format("") + "PLOAD4,2,1,1.\n").findings.left_out)
     G = 2e11 / 2.6

@@ -71,8 +71,6 @@ def read_properties(reader):
         _wall(reader, number, _loaded(reader, layers, card.real(3, default=0.0)), card)
     for card in reader.cards("PBAR"):
         _bar(reader, card, *(card.real(i, default=0.0) for i in (3, 4, 5, 6, 19)), card.real(7, default=0.0))
-        if not any(card.text(i) for i in (17, 18)):
-            reader.findings.assume("PBAR without K1 and K2: shear areas are 5/6 of the area", card.place)
     for card in reader.cards("PBARL", "PBEAML"):
         _profile(reader, card)
     for card in reader.cards("PBEAM"):
@@ -134,9 +132,10 @@ def _bar(reader, card, A, I1, I2, J, I12, per_length, factors=None):
     G = E / (2.0 * (1.0 + solid["Poisson Ratio"]))
     if A <= 0.0 or I1 <= 0.0 or I2 <= 0.0 or J <= 0.0:
         refuse(card.place, "a beam needs A, I1, I2 and J > 0")
-    K1, K2 = factors or (card.real(17, default=5 / 6), card.real(18, default=5 / 6))
+    K1, K2 = factors or (card.real(17, default=0.0), card.real(18, default=0.0))
     if K1 == 0.0 or K2 == 0.0:
-        reader.findings.assume(f"K1 or K2 = 0: the beam does not shear; GA is {NO_SHEAR:g} G A", card.place)
+        words = "K1 or K2 blank or 0: the beam does not shear there, as in Nastran"
+        reader.findings.assume(f"{words}; GA is {NO_SHEAR:g} G A", card.place)
         K1, K2 = K1 or NO_SHEAR, K2 or NO_SHEAR
     mass = density * A + per_length * reader.masses_by
     values = {
