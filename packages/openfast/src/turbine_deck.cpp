@@ -1,6 +1,5 @@
 #include "turbine_deck.hpp"
 
-#include <culm/math/quadrature.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/openfast/deck_writer.hpp>
 
@@ -14,6 +13,7 @@
 #include "turbine_base.hpp"
 #include "turbine_cantilevers.hpp"
 #include "turbine_layout.hpp"
+#include "turbine_report.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace culm::openfast {
 
@@ -100,15 +99,6 @@ void write_sections_list(const ElastoDyn& turbine, Report& report, DeckWriter& d
   }
   if (turbine.substructure) write_sections(turbine.substructure->frame, deck, report);
   deck.close();
-}
-
-// In one sentence, why the nacelle does not turn.
-std::string why_locked(const ElastoDyn& turbine) {
-  if (!turbine.yaw_is_free) return "Yaw is locked, as YawDOF says.";
-  return turbine.yaw_drive
-             ? "Yaw is locked although YawDOF is True: YawSpr is zero."
-             : "Yaw is locked although YawDOF is True: its spring stands in ServoDyn's "
-               "file, which was not given.";
 }
 
 void write_body(const std::string& name, const Vec3& position, const Mat3& directors, double mass,
@@ -385,81 +375,6 @@ void write_output(const ElastoDyn& turbine, const TurbineLayout& layout, Report&
   deck.close();
 }
 
-// What a twisting tower and a yawing nacelle do, by the nacelle and a rigid rotor on a spring.
-void report_yaw(const ElastoDyn& turbine, const TurbineLayout& layout, Report& report) {
-  constexpr double two_pi = 2.0 * std::numbers::pi;
-  const double inertia = yaw_inertia(turbine, layout);
-  const double tower = torsion_stiffness(turbine);
-  const double locked = std::sqrt(tower / inertia) / two_pi;
-  const std::string head = fmt::format(
-      "head of {:.4g} kg m^2 about the yaw axis, rotor rigid, on the tower's torsion of "
-      "{:.4g} N m/rad: {:.4g} Hz",
-      inertia, tower, locked);
-  if (turbine.yaws()) {
-    const double spring = turbine.yaw_drive->stiffness;
-    report.add(frequencies,
-               fmt::format("{} with yaw locked, {:.4g} Hz with its spring, {:.4g} Hz by the spring "
-                           "alone",
-                           head, locked / std::sqrt(1.0 + tower / spring),
-                           std::sqrt(spring / inertia) / two_pi));
-    if (turbine.yaw != turbine.yaw_drive->neutral) {
-      report.add(not_used, "NacYaw: the nacelle stands at YawNeut");
-    }
-    return;
-  }
-  report.add(frequencies, head + " with yaw locked");
-  if (!turbine.yaw_is_free) {
-    report.add(assumed, why_locked(turbine));
-    return;
-  }
-  report.add(missing,
-             fmt::format("{} Name it by --servodyn. A spring of {:.3g} N m/rad, as stiff as the "
-                         "tower, would lower "
-                         "this frequency by 29 % to {:.4g} Hz, and modes in which the rotor "
-                         "yaws with it; one ten times as stiff by 5 %",
-                         why_locked(turbine), tower, locked / std::sqrt(2.0)));
-}
-
-void report_masses(const ElastoDyn& turbine, Report& report) {
-  double rotor = turbine.hub_mass;
-  for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
-    rotor += blade_mass(turbine.blades[i].beam) + turbine.tip_masses[i];
-  }
-  const Cantilever cantilever = tower_cantilever(turbine, &TowerStation::fore_aft);
-  double tower = 0.0;
-  double moment = 0.0;
-  const double height = turbine.tower_top - turbine.tower_base;
-  const auto& stations = turbine.tower.stations;
-  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    const double half = 0.5 * (stations[i + 1].height - stations[i].height);
-    for (const QuadraturePoint& point : gauss_legendre(2)) {  // exact for the moment
-      const double x = stations[i].height + half * (1.0 + point.xi);
-      tower += half * point.weight * height * cantilever.mass(x);
-      moment += half * point.weight * height * height * x * cantilever.mass(x);
-    }
-  }
-  report.add(masses, fmt::format("tower: {:.6g} kg, centre {:.5g} m above its base", tower,
-                                 moment / tower));
-  report.add(masses,
-             fmt::format("nacelle {:g} kg, hub {:g} kg, rotor {:.6g} kg, head of the tower "
-                         "{:.6g} kg",
-                         turbine.nacelle_mass, turbine.hub_mass, rotor, head_mass(turbine)));
-}
-
-// ElastoDyn adds up the masses at the middles of equal parts, which makes the mass that its factor
-// was chosen for.
-void report_midpoint_mass(const ElastoDyn& turbine, Report& report) {
-  for (std::size_t i = 0; i < turbine.blades.size() && turbine.blade_nodes > 0; ++i) {
-    const Cantilever blade = blade_cantilever(turbine.blades[i].beam, 3);
-    double sum = 0.0;
-    for (int node = 0; node < turbine.blade_nodes; ++node) {
-      sum += blade.mass((node + 0.5) / turbine.blade_nodes) * blade.length / turbine.blade_nodes;
-    }
-    report.add(masses, fmt::format("blade {}: ElastoDyn's sum over {} midpoints is {:.6g} kg",
-                                   i + 1, turbine.blade_nodes, sum));
-  }
-}
-
 // The comment at the top.
 std::vector<std::string> about(const ElastoDyn& turbine) {
   std::vector<std::string> lines{
@@ -548,7 +463,6 @@ std::string write_deck(ElastoDyn turbine, const std::filesystem::path& folder, R
                fmt::format("RotSpeed, {:.5g} rad/s: the rotor stands still", turbine.rotor_speed));
   }
   report_masses(turbine, report);
-  report_midpoint_mass(turbine, report);
   for (std::size_t i = 0; i < turbine.blades.size(); ++i) {
     if (is_first_of_its_file(turbine, i)) report_blade(name_of(i), turbine.blades[i].beam, report);
   }
