@@ -9,7 +9,7 @@
 namespace culm::beam {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The tangent is the derivative of the position, and has unit length: s is arc length.
 void expect_arc_length(const Curve& curve) {

@@ -17,11 +17,11 @@ namespace culm::beam {
 namespace {
 
 using Numbers = std::vector<double>;
-constexpr const char* effect = "Plasticity, bar";
+constexpr const char* plastic_part = "Plasticity, bar";
 constexpr double E = 200.0;
 
 // A rectangle 0.2 x 0.5 off the axis that yields early.
-material::Section section(double yield_stress) {
+material::Section yielding_section(double yield_stress) {
   material::Section section;
   section.fibres = material::rectangle_fibres({-0.1, -0.2}, {0.1, 0.3}, {1, 4});
   section.plasticity = {E, {.yield_stress = yield_stress, .isotropic = 10.0, .kinematic = 5.0}};
@@ -35,7 +35,7 @@ material::Section section(double yield_stress) {
 }
 
 void add_bar(model::Model& model, const kit::GivenValues& values, double yield_stress) {
-  std::map<std::string, material::Section> sections{{"steel", section(yield_stress)}};
+  std::map<std::string, material::Section> sections{{"steel", yielding_section(yield_stress)}};
   std::map<std::string, material::Material> materials;
   InputIssues issues;
   std::ostringstream messages;
@@ -69,13 +69,13 @@ kit::FillModel filled(const Kind& kind, double yield_stress = 1.0) {
 }
 
 TEST(YieldingBeam, NullSpaceResidualIsProjected) {
-  for (const Kind& kind : kinds) kit::expect_residual_is_projected(filled(kind), effect);
+  for (const Kind& kind : kinds) kit::expect_residual_is_projected(filled(kind), plastic_part);
 }
 TEST(YieldingBeam, AssemblesWithoutHeap) {
-  for (const Kind& kind : kinds) kit::expect_no_allocation(filled(kind), effect);
+  for (const Kind& kind : kinds) kit::expect_no_allocation(filled(kind), plastic_part);
 }
 TEST(YieldingBeam, AttemptsLeaveNoTrace) {
-  for (const Kind& kind : kinds) kit::expect_attempts_leave_no_trace(filled(kind), effect);
+  for (const Kind& kind : kinds) kit::expect_attempts_leave_no_trace(filled(kind), plastic_part);
 }
 
 // From a state on the yield surface, as all states of steps that were accepted. Differences do not
@@ -87,7 +87,7 @@ TEST(YieldingBeam, TangentIsDerivativeOfResidual) {
       model::Model model;
       filled(kind)(model);
       model.freeze(model::Form::null_space);
-      const kit::DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
+      const kit::DenseAssembly::Batches tested = {kit::find_batch(model, plastic_part)};
       model::State state = kit::random_state(model, 3);
       kit::DenseAssembly dense(model);
       state.prev = model.initial_state().prev;
@@ -112,7 +112,7 @@ TEST(YieldingBeam, EnergyBalanceIsExact) {
     model.freeze(model::Form::multipliers);
     kit::DenseAssembly dense(model);
     const std::vector<model::Batch*> batches{kit::find_batch(model, kind.effect),
-                                             kit::find_batch(model, effect)};
+                                             kit::find_batch(model, plastic_part)};
     const auto stored = [&](const model::Coordinates& q) {
       return batches[0]->stored_energy(q) + batches[1]->stored_energy(q);
     };
@@ -146,7 +146,7 @@ TEST(YieldingBeam, IsElasticBelowItsYieldStress) {
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   const model::State state = kit::random_state(model, 3);
-  const std::vector<model::Batch*> batches{kit::find_batch(model, effect)};
+  const std::vector<model::Batch*> batches{kit::find_batch(model, plastic_part)};
   dense.prepare(state, Stencil::statics());
   EXPECT_TRUE(dense.residual(state, Stencil::statics(), batches).isZero(0.0));
   EXPECT_TRUE(dense.tangent(state, Stencil::statics(), batches).isZero(0.0));
@@ -163,7 +163,7 @@ TEST(YieldingBeam, ShowsTheForceOfItsFibres) {
     model::NodeTable::slots(state.next, node)(2, 0) *= 1.05;
   }
   dense.prepare(state, Stencil::statics());
-  dense.residual(state, Stencil::statics(), {kit::find_batch(model, effect)});
+  dense.residual(state, Stencil::statics(), {kit::find_batch(model, plastic_part)});
   dense.accept(state);
   const double plastic = (E * 0.05 - 1.0) / (E + 15.0);
   const model::Cell& cell = model.find_structure("bar")->cells[1];

@@ -8,7 +8,7 @@
 namespace culm::beam {
 namespace {
 
-constexpr const char* effect = "beam";
+using kit::effect;
 
 /// Elements of a case, and on demand a master that the last node of all follows.
 template <class Case>

@@ -1,14 +1,9 @@
-#include <culm/beam/element_batches.hpp>
-
-#include "beam_case.hpp"
-
-#include <culm_kit/batch_laws.hpp>
+#include "one_beam.hpp"
 
 namespace culm::beam {
 namespace {
 
-using Beam = DirectorBeam<2>;
-constexpr const char* effect = "beam";
+using kit::effect;
 
 model::StrainDamping relaxing() {
   model::StrainDamping damping;
@@ -16,25 +11,21 @@ model::StrainDamping relaxing() {
   return damping;
 }
 
-// One element with a coupled section.
-void fill(model::Model& model) {
-  const auto slots = DirectorBeamCase<2>::reference();
-  std::array<int, 3> nodes{};
-  for (int a = 0; a < 3; ++a) {
-    nodes[static_cast<std::size_t>(a)] = model.nodes().add(slots.middleCols<4>(4 * a));
-  }
-  model::elements<Beam>(model, effect, relaxing()).add(DirectorBeamCase<2>::make(), nodes);
-}
+const kit::FillModel fill_relaxing = one_beam(relaxing());
 
-TEST(Relaxation, TangentIsDerivativeOfResidual) { kit::expect_tangent_is_derivative(fill, effect); }
-TEST(Relaxation, AssemblesWithoutHeap) { kit::expect_no_allocation(fill, effect); }
-TEST(Relaxation, AttemptsLeaveNoTrace) { kit::expect_attempts_leave_no_trace(fill, effect); }
+TEST(Relaxation, TangentIsDerivativeOfResidual) {
+  kit::expect_tangent_is_derivative(fill_relaxing, effect);
+}
+TEST(Relaxation, AssemblesWithoutHeap) { kit::expect_no_allocation(fill_relaxing, effect); }
+TEST(Relaxation, AttemptsLeaveNoTrace) {
+  kit::expect_attempts_leave_no_trace(fill_relaxing, effect);
+}
 
 // Work of the stress = change of the stored energy + what branches take, which is never negative,
 // in steps of all lengths.
 TEST(Relaxation, EnergyBalanceIsExact) {
   model::Model model;
-  fill(model);
+  fill_relaxing(model);
   model.freeze(model::Form::multipliers);
   kit::DenseAssembly dense(model);
   model::Batch* batch = kit::find_batch(model, effect);
@@ -63,7 +54,7 @@ TEST(Relaxation, EnergyBalanceIsExact) {
   }
   // what a checkpoint keeps
   std::vector<double> memory(batch->memory_size());
-  EXPECT_EQ(memory.size(), 2U * 6U * Beam::num_points);
+  EXPECT_EQ(memory.size(), 2U * 6U * DirectorBeam<2>::num_points);
   batch->save(model::Items::owned, memory);
   batch->restore(std::vector<double>(memory.size(), 0.0));
   EXPECT_LT(batch->stored_energy(state.next), stored);
@@ -73,14 +64,9 @@ TEST(Relaxation, EnergyBalanceIsExact) {
 
 TEST(Relaxation, ActsInStepsOfTimeOnly) {
   model::Model model;
-  fill(model);
+  fill_relaxing(model);
   model::Model elastic;
-  const auto slots = DirectorBeamCase<2>::reference();
-  std::array<int, 3> nodes{};
-  for (int a = 0; a < 3; ++a) {
-    nodes[static_cast<std::size_t>(a)] = elastic.nodes().add(slots.middleCols<4>(4 * a));
-  }
-  model::elements<Beam>(elastic, effect).add(DirectorBeamCase<2>::make(), nodes);
+  one_beam({})(elastic);
   for (model::Model* one : {&model, &elastic}) one->freeze(model::Form::null_space);
   kit::DenseAssembly relaxing_system(model), elastic_system(elastic);
   const model::State state = kit::random_state(model, 3);

@@ -1,40 +1,23 @@
-#include <culm/beam/element_batches.hpp>
-
-#include "beam_case.hpp"
-
-#include <culm_kit/batch_laws.hpp>
+#include "one_beam.hpp"
 
 namespace culm::beam {
 namespace {
 
-using Beam = DirectorBeam<2>;
-constexpr const char* effect = "beam";
-
-// One element with a coupled section.
-kit::FillModel with(const model::StrainDamping& damping) {
-  return [damping](model::Model& model) {
-    const auto slots = DirectorBeamCase<2>::reference();
-    std::array<int, 3> nodes{};
-    for (int a = 0; a < 3; ++a) {
-      nodes[static_cast<std::size_t>(a)] = model.nodes().add(slots.middleCols<4>(4 * a));
-    }
-    model::elements<Beam>(model, effect, damping).add(DirectorBeamCase<2>::make(), nodes);
-  };
-}
+using kit::effect;
 
 const std::vector<double> six{0.3, 0.1, 0.0, 0.7, 0.2, 0.5};
 
 TEST(StrainDamping, TangentIsDerivativeOfResidual) {
-  kit::expect_tangent_is_derivative(with({0.2, 0.1, six}), effect);
+  kit::expect_tangent_is_derivative(one_beam({0.2, 0.1, six}), effect);
 }
 
 TEST(StrainDamping, AssemblesWithoutHeap) {
-  kit::expect_no_allocation(with({0.0, 0.0, six}), effect);
+  kit::expect_no_allocation(one_beam({0.0, 0.0, six}), effect);
 }
 
 struct Step {
   explicit Step(const model::StrainDamping& damping) {
-    with(damping)(model);
+    one_beam(damping)(model);
     model.freeze(model::Form::multipliers);
     state = kit::random_state(model, 3);
     kit::DenseAssembly dense(model);

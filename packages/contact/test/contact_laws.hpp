@@ -9,7 +9,7 @@
 
 namespace culm::contact {
 
-constexpr const char* effect = "tested";
+using kit::effect;
 
 /// Tangent, projection, no allocation, no trace of an attempt.
 /// @param fill (model, case, with_slave) builds nodes and the load of a case under `effect`

@@ -10,7 +10,7 @@
 namespace culm::contact {
 namespace {
 
-struct Case {
+struct BarCase {
   int node;      ///< of the bar, or in space
   double reach;  ///< radius of the bar
   std::optional<double> length;
@@ -20,14 +20,14 @@ struct Case {
 
 // Without ends, with a short axis whose ends are met, through the surface in the step, damped and
 // rubbed, in space, rubbed along the axis.
-const Case cases[] = {
+const BarCase bar_cases[] = {
     {2, 9.0, {}, {3.0, 0.0, 0.0}, {}},         {2, 9.0, 0.4, {3.0, 0.0, 0.0}, {}},
     {2, 1.5, 0.4, {3.0, 4.0, 0.0}, {}},        {2, 9.0, 0.4, {3.0, 0.5, 0.05}, {0.4, 2.0}},
     {-1, 9.0, 0.4, {3.0, 0.5, 0.05}, {}},      {-1, 9.0, 0.4, {3.0, 0.5, 0.05}, {0.4, 2.0}},
     {2, 9.0, {}, {3.0, 0.0, 0.0}, {0.4, 50.0}}};
 
 /// Points between two nodes, off their axis, against a bar on a third.
-void fill(model::Model& model, const Case& data, bool with_slave) {
+void fill_with_bar(model::Model& model, const BarCase& data, bool with_slave) {
   for (const int seed : {10, 11, 12}) model.nodes().add(kit::random_node(seed));
   const Cylinder bar{data.node, Vec3(0.3, -0.4, 0.2), Vec3(0.6, 0.0, 0.8), data.length, data.reach};
   auto load =
@@ -38,16 +38,17 @@ void fill(model::Model& model, const Case& data, bool with_slave) {
   if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
 }
 
-TEST(CylinderContact, ObeysTheLawsOfBatches) { expect_laws_of_batches(cases, fill); }
+TEST(CylinderContact, ObeysTheLawsOfBatches) { expect_laws_of_batches(bar_cases, fill_with_bar); }
 
 TEST(CylinderContact, WorkOfAStepIsAccountedForAndMomentaBalance) {
-  expect_work_is_accounted_for(
-      cases, fill, [](const Case&, const Stencil& stencil, const ContactStep& step) {
-        if (stencil.theta_strain == 0.5) {
-          EXPECT_NEAR(step.work.dissipation, 0.0, 1e-12 * (1.0 + std::abs(step.stored)));
-        }
-        expect_momenta_balance(step);
-      });
+  expect_work_is_accounted_for(bar_cases, fill_with_bar,
+                               [](const BarCase&, const Stencil& stencil, const ContactStep& step) {
+                                 if (stencil.theta_strain == 0.5) {
+                                   EXPECT_NEAR(step.work.dissipation, 0.0,
+                                               1e-12 * (1.0 + std::abs(step.stored)));
+                                 }
+                                 expect_momenta_balance(step);
+                               });
 }
 
 // A ball on either side of a bar at the ends of a step, beside its end, and in it from the start.

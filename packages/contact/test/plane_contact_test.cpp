@@ -9,21 +9,21 @@
 namespace culm::contact {
 namespace {
 
-struct Case {
+struct PlaneCase {
   double height;  ///< of the plane
   Penalty penalty;
   Friction friction;
 };
 
 // Pressed all the time, through the plane within the step, damped, sliding, sticking.
-const Case cases[] = {{9.0, {3.0, 0.0, 0.0}, {}},
-                      {0.3, {3.0, 4.0, 0.0}, {}},
-                      {9.0, {3.0, 0.5, 0.1}, {}},
-                      {9.0, {3.0, 0.5, 0.1}, {0.4, 2.0}},
-                      {9.0, {3.0, 0.5, 0.0}, {0.4, 50.0}}};
+const PlaneCase plane_cases[] = {{9.0, {3.0, 0.0, 0.0}, {}},
+                                 {0.3, {3.0, 4.0, 0.0}, {}},
+                                 {9.0, {3.0, 0.5, 0.1}, {}},
+                                 {9.0, {3.0, 0.5, 0.1}, {0.4, 2.0}},
+                                 {9.0, {3.0, 0.5, 0.0}, {0.4, 50.0}}};
 
 /// A point between two nodes, off their axis, and a sphere about a third.
-void fill(model::Model& model, const Case& data, bool with_slave) {
+void fill_with_plane(model::Model& model, const PlaneCase& data, bool with_slave) {
   for (const int seed : {10, 11, 12}) model.nodes().add(kit::random_node(seed));
   const Vec3 normal = Vec3(0.1, -0.3, 1.0).normalized();
   auto load = std::make_unique<PlaneContact>(
@@ -34,10 +34,10 @@ void fill(model::Model& model, const Case& data, bool with_slave) {
   if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
 }
 
-TEST(PlaneContact, ObeysTheLawsOfBatches) { expect_laws_of_batches(cases, fill); }
+TEST(PlaneContact, ObeysTheLawsOfBatches) { expect_laws_of_batches(plane_cases, fill_with_plane); }
 
 TEST(PlaneContact, WorkOfAStepIsAccountedFor) {
-  expect_work_is_accounted_for(cases, fill, [](const auto&...) {});
+  expect_work_is_accounted_for(plane_cases, fill_with_plane, [](const auto&...) {});
 }
 
 TEST(PlaneContact, TellsWhatTouches) {

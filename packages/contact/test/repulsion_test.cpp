@@ -6,11 +6,13 @@ namespace culm::contact {
 namespace {
 
 const Repulsion law{2.0, 30.0, 0.0};
-// squares of distances: inside, into the reach, out of it, beyond it, at rest
-const double ways[][2] = {{3.0, 3.5}, {4.5, 3.2}, {3.2, 4.5}, {4.2, 5.0}, {3.6, 3.6}, {4.0, 3.9}};
+// squares of distances at both ends of a step: inside, into the reach, out of it, beyond it, at
+// rest
+const double squares[][2] = {{3.0, 3.5}, {4.5, 3.2}, {3.2, 4.5},
+                             {4.2, 5.0}, {3.6, 3.6}, {4.0, 3.9}};
 
 TEST(Repulsion, ConservingStepStoresWhatItTakes) {
-  for (const auto& way : ways) {
+  for (const auto& way : squares) {
     for (double share = 1.0; share > 1e-13; share *= 0.1) {
       const double next = way[0] + share * (way[1] - way[0]);
       const RepulsionResponse found = respond(law, way[0], next, Stencil::midpoint(0.1));
@@ -27,7 +29,7 @@ TEST(Repulsion, TangentIsDerivativeOfTheStress) {
     for (const double damping : {0.0, 0.3}) {
       Repulsion damped = law;
       damped.damping = damping;
-      for (const auto& way : ways) {
+      for (const auto& way : squares) {
         const double h = 1e-6;
         const double difference = (respond(damped, way[0], way[1] + h, stencil).stress -
                                    respond(damped, way[0], way[1] - h, stencil).stress) /
@@ -41,7 +43,7 @@ TEST(Repulsion, TangentIsDerivativeOfTheStress) {
 TEST(Repulsion, OnlyTakesEnergyAndNeverPulls) {
   Repulsion damped = law;
   damped.damping = 5.0;
-  for (const auto& way : ways) {
+  for (const auto& way : squares) {
     const RepulsionResponse found = respond(damped, way[0], way[1], {0.4, 0.5, 0.75});
     EXPECT_LE(found.stress, 0.0);
     EXPECT_GE((found.stress - found.elastic) * (way[1] - way[0]), 0.0);

@@ -24,7 +24,7 @@
 namespace culm::control {
 namespace {
 
-constexpr const char* effect = "tested";
+using kit::effect;
 
 struct Subject {
   std::string name;
@@ -37,7 +37,7 @@ const Limits narrow{-0.01, 0.02};
 const Limits wider{-20.0, 20.0};
 
 // The block follows a signal of another block that it is followed by in turn, and functions.
-void fill(const Subject& subject, model::Model& model) {
+void fill_with_block(const Subject& subject, model::Model& model) {
   auto batch = std::make_unique<BlockBatch>(effect, model);
   const model::Signal tested = batch->add("tested", subject.make());
   const model::Signal other = batch->add("other", std::make_unique<Lag>(0.3, wide, wide, 1.4));
@@ -54,13 +54,13 @@ void fill(const Subject& subject, model::Model& model) {
 class Blocks : public testing::TestWithParam<Subject> {};
 
 TEST_P(Blocks, TangentIsDerivativeOfResidual) {
-  kit::expect_tangent_is_derivative([](model::Model& model) { fill(GetParam(), model); }, effect,
-                                    1e-3);
+  kit::expect_tangent_is_derivative([](model::Model& model) { fill_with_block(GetParam(), model); },
+                                    effect, 1e-3);
 }
 
 TEST_P(Blocks, LinearisationIsDerivativeOfResidual) {
   model::Model model;
-  fill(GetParam(), model);
+  fill_with_block(GetParam(), model);
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   const model::State state = kit::random_state(model, 3);
@@ -71,12 +71,13 @@ TEST_P(Blocks, LinearisationIsDerivativeOfResidual) {
 }
 
 TEST_P(Blocks, AssembleAllocatesNothing) {
-  kit::expect_no_allocation([](model::Model& model) { fill(GetParam(), model); }, effect);
+  kit::expect_no_allocation([](model::Model& model) { fill_with_block(GetParam(), model); },
+                            effect);
 }
 
 TEST_P(Blocks, StatesStandStillInStatics) {
   model::Model model;
-  fill(GetParam(), model);
+  fill_with_block(GetParam(), model);
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   model::State state = kit::random_state(model, 3);
@@ -300,8 +301,9 @@ TEST(Product, SaysWhereItHasNoValueOrSlope) {
                                                              {0.5, "an infinite slope"}};
   for (const auto& [power, what] : wrong) {
     model::Model model;
-    fill({"", [power] { return std::make_unique<Product>(1.0, Vec<1>(power), Limits{}, 1.0); }},
-         model);
+    fill_with_block(
+        {"", [power] { return std::make_unique<Product>(1.0, Vec<1>(power), Limits{}, 1.0); }},
+        model);
     model.freeze(model::Form::null_space);
     kit::DenseAssembly dense(model);
     model::State state = kit::random_state(model, 3);

@@ -10,13 +10,13 @@
 namespace culm::control {
 namespace {
 
-constexpr const char* effect = "tested";
-const Vec3 direction = Vec3(0.6, -0.3, 0.8).normalized();
+using kit::effect;
+using kit::oblique;
 
-void fill(model::Model& model, Measured measured, bool follows, bool with_slave) {
+void fill_with_sensors(model::Model& model, Measured measured, bool follows, bool with_slave) {
   for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
   auto batch = std::make_unique<SensorBatch>(effect, model);
-  const joint::TurnAxis axis{direction, follows};
+  const joint::TurnAxis axis{oblique, follows};
   batch->add("one", measured, {{0, axis}}, 0.7);
   batch->add("relative", measured, {{1, axis}, {0, axis}}, 1.3);
   model.add_load(std::move(batch));
@@ -30,14 +30,15 @@ TEST_P(Sensors, TangentIsDerivativeOfResidual) {
   for (const bool with_slave : {false, true}) {
     SCOPED_TRACE(with_slave ? "with an eliminated node" : "all nodes free");
     kit::expect_tangent_is_derivative(
-        [&](model::Model& model) { fill(model, measured, follows, with_slave); }, effect, 1e-3);
+        [&](model::Model& model) { fill_with_sensors(model, measured, follows, with_slave); },
+        effect, 1e-3);
   }
 }
 
 TEST_P(Sensors, AssembleAllocatesNothing) {
   const auto [measured, follows] = GetParam();
-  kit::expect_no_allocation([&](model::Model& model) { fill(model, measured, follows, true); },
-                            effect);
+  kit::expect_no_allocation(
+      [&](model::Model& model) { fill_with_sensors(model, measured, follows, true); }, effect);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Sensors,
@@ -49,14 +50,14 @@ INSTANTIATE_TEST_SUITE_P(All, Sensors,
 // A steady turn of both nodes about the axis is read exactly at any step, and cancels between them.
 TEST(Sensors, ReadsASteadyTurn) {
   model::Model model;
-  fill(model, Measured::angular_velocity, false, false);
+  fill_with_sensors(model, Measured::angular_velocity, false, false);
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   model::State state = model.initial_state();
   const Stencil stencil = Stencil::midpoint(0.4);
   for (int node = 0; node < 2; ++node) {
     auto slots = model::NodeTable::slots(state.next, node);
-    slots = exp_rotation(0.4 * 2.5 * direction) * slots.eval();
+    slots = exp_rotation(0.4 * 2.5 * oblique) * slots.eval();
   }
   state.own = {2.5, 0.0};
   EXPECT_LT(kit::largest(dense.residual(state, stencil).tail<2>()), 1e-14);

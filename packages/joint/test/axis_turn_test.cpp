@@ -13,19 +13,19 @@
 namespace culm::joint {
 namespace {
 
+using kit::oblique;
 using model::NodeTable;
 
-const Vec3 axis = Vec3(0.6, -0.3, 0.8).normalized();
 constexpr double round_off = 1e-14;
 
 class AxisTurns : public testing::TestWithParam<bool> {
  protected:
   static constexpr const char* effect = "tested";
-  static TurnAxis turn_axis() { return {axis, GetParam()}; }
+  static TurnAxis turn_axis() { return {oblique, GetParam()}; }
 
   static void fill(model::Model& model, bool with_slave) {
     model.nodes().add(kit::random_node(10));
-    model.add_constraint(AngularVelocity::constraint(effect, "drive", model.nodes(), 0, axis));
+    model.add_constraint(AngularVelocity::constraint(effect, "drive", model.nodes(), 0, oblique));
     auto batch = std::make_unique<AngularVelocity>(effect, model);
     const Prescribed velocity{1.5, model::Amplitude::of_time([](double t) { return t * t; })};
     batch->add(0, turn_axis(), velocity, effect);
@@ -74,7 +74,7 @@ TEST_P(AxisTurns, AUnitMomentDoesTheWorkOfTheTurn) {
 
 TEST_P(AxisTurns, TurnIsTwiceTheTangentOfHalfTheAngle) {
   const Mat3 prev = kit::random_node(1).rightCols<3>();
-  const Vec3 n = GetParam() ? Vec3(prev * axis) : axis;
+  const Vec3 n = GetParam() ? Vec3(prev * oblique) : oblique;
   const Mat3 next = exp_rotation(1.2 * n) * prev;
   const AxisTurn<model::NullSpace> turn(turn_axis(), prev, next, 0.5);
   EXPECT_NEAR(turn.turn, 2.0 * std::tan(0.6), round_off);
@@ -91,7 +91,7 @@ TEST_P(AxisTurns, RowAsksForTheAngleOfTheStep) {
   state.time = 0.7;
   const double angle = 0.4 * 1.5 * 0.25;
   const Mat3 D = triad(state.prev);
-  const Vec3 n = GetParam() ? Vec3(D * axis) : axis;
+  const Vec3 n = GetParam() ? Vec3(D * oblique) : oblique;
   NodeTable::slots(state.next, 0).rightCols<3>() = exp_rotation(angle * n) * D;
   model::Batch* batch = kit::find_batch(model, effect);
   const Eigen::VectorXd r = dense.residual(state, Stencil::midpoint(0.4), {batch});
@@ -147,7 +147,7 @@ TEST(AngularVelocity, FollowsASignalWithItsTangent) {
       [](model::Model& model) {
         model.nodes().add(kit::random_node(10));
         auto batch = std::make_unique<AngularVelocity>("tested", model);
-        batch->add(0, {axis, true}, {1.5, follow_signal(model)}, "tested");
+        batch->add(0, {oblique, true}, {1.5, follow_signal(model)}, "tested");
         model.add_load(std::move(batch));
       },
       "tested", 1e-3);
@@ -158,7 +158,7 @@ TEST(JointAngle, FollowsASignalWithItsTangent) {
       [](model::Model& model) {
         for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
         const MarkerPair pair(model.nodes(), 0, 1, Vec3(0.1, 0.2, 0.3));
-        model::Constraint joint = joint_angle(pair, axis, {1.3, follow_signal(model)});
+        model::Constraint joint = joint_angle(pair, oblique, {1.3, follow_signal(model)});
         joint.name = joint.type = "tested";
         model.add_constraint(std::move(joint));
       },
@@ -171,14 +171,14 @@ TEST(JointAngle, HoldsAfterTheExactRotation) {
   nodes.add(kit::random_node(1));
   nodes.add(kit::random_node(2));
   const Prescribed motion{2.0, model::Amplitude::of_time([](double t) { return t; })};
-  model::Constraint joint = joint_angle(MarkerPair(nodes, 0, 1, Vec3::Zero()), axis, motion);
+  model::Constraint joint = joint_angle(MarkerPair(nodes, 0, 1, Vec3::Zero()), oblique, motion);
   for (const double time : {0.0, 0.4, 1.3, -2.0}) {
     joint.drive(time, joint.rows);
     const Mat3 R = exp_rotation(Vec3(0.3, 0.9, -0.4));
     Eigen::Matrix<double, 3, 8> q;
     q << NodeTable::slots(nodes.reference(), 0), NodeTable::slots(nodes.reference(), 1);
     q = R * q.eval();
-    q.rightCols<3>() = exp_rotation(2.0 * time * R * axis) * q.rightCols<3>().eval();
+    q.rightCols<3>() = exp_rotation(2.0 * time * R * oblique) * q.rightCols<3>().eval();
     const model::ConstraintRow& row = joint.rows.front();
     const Vec3 P = q * Eigen::Map<const Vec<8>>(row.alpha.data());
     const Vec3 Q = row.direction + q * Eigen::Map<const Vec<8>>(row.beta.data());

@@ -22,10 +22,10 @@
 namespace culm::joint {
 namespace {
 
+using kit::oblique;
 using model::Constraint;
 using model::NodeTable;
 
-const Vec3 oblique = Vec3(0.6, -0.3, 0.8).normalized();
 const Vec3 offset(0.2, -0.5, 0.3);
 
 const model::Amplitude square = model::Amplitude::of_time([](double t) { return t * t; });

@@ -11,7 +11,7 @@
 namespace culm::joint {
 namespace {
 
-const Vec3 axis = Vec3(0.6, -0.3, 0.8).normalized();
+using kit::oblique;
 
 // Amount times t: a motion that is not a ramp, so that times beyond 1 tell.
 Prescribed proportional(double amount) {
@@ -40,65 +40,66 @@ class DrivenSupport : public testing::Test {
   }
 };
 
-constexpr double round_off = 1e-15;
+constexpr double round_off_of_a_row = 1e-15;
 
 TEST_F(DrivenSupport, RotationRowsVanishAfterTheExactRotation) {
   for (double time : {0.0, 0.4, 1.0, 2.5, -1.3}) {
-    const model::NodeSlots q = turned(2.0 * time * axis);
-    EXPECT_LT(std::abs(row(rotation({nodes, 0}, axis, proportional(2.0)), time, q)), round_off);
-    EXPECT_LT(std::abs(row(rotation_local({nodes, 0}, axis, proportional(2.0)), time, q)),
-              round_off);
+    const model::NodeSlots q = turned(2.0 * time * oblique);
+    EXPECT_LT(std::abs(row(rotation({nodes, 0}, oblique, proportional(2.0)), time, q)),
+              round_off_of_a_row);
+    EXPECT_LT(std::abs(row(rotation_local({nodes, 0}, oblique, proportional(2.0)), time, q)),
+              round_off_of_a_row);
   }
 }
 
 TEST_F(DrivenSupport, RotationRowsMeasureTheAngleThatIsMissing) {
-  const model::NodeSlots q = turned(0.9 * axis);
+  const model::NodeSlots q = turned(0.9 * oblique);
   const double missing = 0.3;
   // a body vector of length one, in the plane of rotation
-  EXPECT_NEAR(row(rotation({nodes, 0}, axis, proportional(0.9 - missing)), 1.0, q),
-              std::sin(missing), round_off);
-  EXPECT_NEAR(row(rotation_local({nodes, 0}, axis, proportional(0.9 - missing)), 1.0, q),
-              -std::sin(missing), round_off);
+  EXPECT_NEAR(row(rotation({nodes, 0}, oblique, proportional(0.9 - missing)), 1.0, q),
+              std::sin(missing), round_off_of_a_row);
+  EXPECT_NEAR(row(rotation_local({nodes, 0}, oblique, proportional(0.9 - missing)), 1.0, q),
+              -std::sin(missing), round_off_of_a_row);
 }
 
 TEST_F(DrivenSupport, RotationLeavesRotationsAcrossTheDrivenVectorFree) {
-  const Vec3 c0 = any_normal(axis);
-  // the plane of axis and c0 is where the row does not look
+  const Vec3 c0 = any_normal(oblique);
+  // the plane of oblique and c0 is where the row does not look
   model::NodeTable aligned;
   model::NodeSlots q = model::NodeSlots::Zero();
-  q.rightCols<3>() << axis, c0, axis.cross(c0);
+  q.rightCols<3>() << oblique, c0, oblique.cross(c0);
   aligned.add(q);
-  const model::Constraint support = rotation({aligned, 0}, axis, proportional(0.0));
+  const model::Constraint support = rotation({aligned, 0}, oblique, proportional(0.0));
   const Mat3 triad = q.rightCols<3>();
-  for (const Vec3& free : {c0, Vec3(axis.cross(c0))}) {
+  for (const Vec3& free : {c0, Vec3(oblique.cross(c0))}) {
     q.rightCols<3>() = exp_rotation(0.7 * free) * triad;
-    EXPECT_LT(std::abs(row(support, 0.0, q)), round_off);
+    EXPECT_LT(std::abs(row(support, 0.0, q)), round_off_of_a_row);
   }
-  q.rightCols<3>() = exp_rotation(0.7 * axis) * triad;
-  EXPECT_NEAR(row(support, 0.0, q), std::sin(0.7), round_off);
+  q.rightCols<3>() = exp_rotation(0.7 * oblique) * triad;
+  EXPECT_NEAR(row(support, 0.0, q), std::sin(0.7), round_off_of_a_row);
 }
 
 TEST_F(DrivenSupport, SimpleSupportsFollowTheirTranslation) {
   model::NodeSlots q = reference;
-  q.col(0) += 0.75 * axis + 2.0 * any_normal(axis);
-  EXPECT_NEAR(row(simple_support({nodes, 0}, axis, Vec3::Zero(), proportional(0.5)), 1.5, q), 0.0,
-              round_off);
-  EXPECT_NEAR(row(simple_support_local({nodes, 0}, axis, proportional(0.5)), 1.5, q), 0.0,
-              round_off);
+  q.col(0) += 0.75 * oblique + 2.0 * any_normal(oblique);
+  EXPECT_NEAR(row(simple_support({nodes, 0}, oblique, Vec3::Zero(), proportional(0.5)), 1.5, q),
+              0.0, round_off_of_a_row);
+  EXPECT_NEAR(row(simple_support_local({nodes, 0}, oblique, proportional(0.5)), 1.5, q), 0.0,
+              round_off_of_a_row);
 }
 
 TEST_F(DrivenSupport, RigidSupportsFollowTheirMotion) {
   const Translation translation{Vec3(0.3, -0.2, 0.5),
                                 model::Amplitude::of_time([](double t) { return t * t; })};
-  const SupportMotion motion{translation, axis, proportional(0.4)};
+  const SupportMotion motion{translation, oblique, proportional(0.4)};
   const double time = 1.5;
-  model::NodeSlots q = turned(0.6 * axis);
+  model::NodeSlots q = turned(0.6 * oblique);
   q.col(0) += 2.25 * translation.amount;
   model::Constraint support = rigid_support({nodes, 0}, motion);
   support.drive(time, support.rows);
   ASSERT_EQ(support.rows.size(), 6U);
   for (const model::ConstraintRow& r : support.rows) {
-    EXPECT_NEAR(model::row_value(r, q), 0.0, round_off);
+    EXPECT_NEAR(model::row_value(r, q), 0.0, round_off_of_a_row);
   }
   EXPECT_FALSE(support.fix);
   EXPECT_TRUE(rigid_support({nodes, 0}).fix);  // at rest it is eliminated
@@ -106,13 +107,13 @@ TEST_F(DrivenSupport, RigidSupportsFollowTheirMotion) {
 
 TEST_F(DrivenSupport, RigidSupportsCircleAPoint) {
   const Vec3 about(0.7, -1.1, 0.4);
-  const Mat3 turn = exp_rotation(0.6 * axis);
-  model::NodeSlots q = turned(0.6 * axis);
+  const Mat3 turn = exp_rotation(0.6 * oblique);
+  model::NodeSlots q = turned(0.6 * oblique);
   q.col(0) = about + turn * (reference.col(0) - about);
-  model::Constraint support = rigid_support({nodes, 0}, {{}, axis, proportional(0.4), about});
+  model::Constraint support = rigid_support({nodes, 0}, {{}, oblique, proportional(0.4), about});
   support.drive(1.5, support.rows);
   for (const model::ConstraintRow& r : support.rows) {
-    EXPECT_NEAR(model::row_value(r, q), 0.0, round_off);
+    EXPECT_NEAR(model::row_value(r, q), 0.0, round_off_of_a_row);
   }
 }
 
@@ -121,10 +122,10 @@ TEST_F(DrivenSupport, OnlyTheLocalDirectionTurnsWithTheNode) {
   model::NodeSlots q = turned(turn);
   const Vec3 away(0.2, 0.5, -0.7);
   q.col(0) += away;
-  EXPECT_NEAR(row(simple_support({nodes, 0}, axis, Vec3::Zero()), 0.0, q), axis.dot(away),
-              round_off);
-  EXPECT_NEAR(row(simple_support_local({nodes, 0}, axis), 0.0, q),
-              (exp_rotation(turn) * axis).dot(away), round_off);
+  EXPECT_NEAR(row(simple_support({nodes, 0}, oblique, Vec3::Zero()), 0.0, q), oblique.dot(away),
+              round_off_of_a_row);
+  EXPECT_NEAR(row(simple_support_local({nodes, 0}, oblique), 0.0, q),
+              (exp_rotation(turn) * oblique).dot(away), round_off_of_a_row);
 }
 
 }  // namespace

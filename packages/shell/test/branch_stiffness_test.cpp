@@ -11,7 +11,7 @@
 namespace culm::shell {
 namespace {
 
-constexpr const char* effect = "shell";
+using kit::effect;
 
 // Faces that relax on a core that does not, all with one Poisson ratio.
 material::Layup sandwich(double ratio) {
@@ -30,7 +30,7 @@ std::shared_ptr<const material::Layup> relaxing_layup() {
   return std::make_shared<material::Layup>(std::move(layup));
 }
 
-Nodes flat_reference() {
+Nodes centred_reference() {
   Nodes q = Nodes::Zero();
   q.col(0) = Vec3(-0.5, -0.4, 0);
   q.col(2) = Vec3(0.5, -0.4, 0);
@@ -58,9 +58,9 @@ TEST(BranchStiffness, OfLayersThatRelaxAlikeIsTheirRatio) {
 // Shares of layers: of the membrane 2 t_f / t, of bending 1 - (t_c / t)^3.
 TEST(BranchStiffness, CountsLayersByTheirPlace) {
   const double g = 0.8;
-  const ElasticShell shell(flat_reference(), std::make_shared<material::Layup>(sandwich(g)));
-  Nodes stretched = flat_reference();
-  Nodes bent = flat_reference();
+  const ElasticShell shell(centred_reference(), std::make_shared<material::Layup>(sandwich(g)));
+  Nodes stretched = centred_reference();
+  Nodes bent = centred_reference();
   for (int a = 0; a < 4; ++a) {
     stretched(0, 2 * a) *= 1.0 + 1e-6;
     bent(0, 2 * a + 1) = 1e-6 * bent(0, 2 * a);
@@ -89,7 +89,7 @@ TEST(BranchStiffness, IsSymmetricAndTakesNoNegativeEnergy) {
   }
 }
 
-void fill(model::Model& model) {
+void fill_relaxing(model::Model& model) {
   const auto layup = relaxing_layup();
   const Nodes reference = warped_reference();
   std::array<int, 4> nodes{};
@@ -104,15 +104,17 @@ void fill(model::Model& model) {
 }
 
 TEST(LayeredRelaxation, TangentIsDerivativeOfResidual) {
-  kit::expect_tangent_is_derivative(fill, effect);
+  kit::expect_tangent_is_derivative(fill_relaxing, effect);
 }
-TEST(LayeredRelaxation, AssemblesWithoutHeap) { kit::expect_no_allocation(fill, effect); }
-TEST(LayeredRelaxation, AttemptsLeaveNoTrace) { kit::expect_attempts_leave_no_trace(fill, effect); }
+TEST(LayeredRelaxation, AssemblesWithoutHeap) { kit::expect_no_allocation(fill_relaxing, effect); }
+TEST(LayeredRelaxation, AttemptsLeaveNoTrace) {
+  kit::expect_attempts_leave_no_trace(fill_relaxing, effect);
+}
 
 // Work of the stress = change of the stored energy + what branches take, in steps of all lengths.
 TEST(LayeredRelaxation, EnergyBalanceIsExact) {
   model::Model model;
-  fill(model);
+  fill_relaxing(model);
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   model::Batch* batch = kit::find_batch(model, effect);

@@ -8,7 +8,7 @@
 namespace culm::shell {
 namespace {
 
-constexpr const char* effect = "shell";
+using kit::effect;
 
 /// Four nodes, and on demand a triad node that the first of them follow.
 std::array<int, 4> add_nodes(model::Model& model, int slaves) {

@@ -9,8 +9,8 @@
 namespace culm::soil {
 namespace {
 
-const SandCurve sand({0.6, 10e3, 22e6}, 5.0, 2.0, false);
-const ClayCurve clay({40e3, 8e3, 0.01, 0.5}, 5.0, 2.0, false);
+const SandCurve sand_curve({0.6, 10e3, 22e6}, 5.0, 2.0, false);
+const ClayCurve clay_curve({40e3, 8e3, 0.01, 0.5}, 5.0, 2.0, false);
 
 /// Force along x after a list of places, each one step.
 struct Path {
@@ -34,7 +34,8 @@ struct Path {
 };
 
 TEST(Sliders, FirstLoadingFollowsTheCurve) {
-  for (const Curve* curve : {static_cast<const Curve*>(&sand), static_cast<const Curve*>(&clay)}) {
+  for (const Curve* curve :
+       {static_cast<const Curve*>(&sand_curve), static_cast<const Curve*>(&clay_curve)}) {
     const double end = curve->knots().back();
     for (const double share : {0.003, 0.02, 0.1, 0.4, 0.9, 3.0}) {
       Path path(*curve);
@@ -46,20 +47,20 @@ TEST(Sliders, FirstLoadingFollowsTheCurve) {
 
 // After a turn at y1 the force is that there less twice the curve at half of the way back.
 TEST(Sliders, LoopsAreThoseOfMasing) {
-  const std::vector<double> knots = sand.knots();
-  Path path(sand);
+  const std::vector<double> knots = sand_curve.knots();
+  Path path(sand_curve);
   const double y = knots[12];
   path.go(y * Vec3::UnitX());
   const double turn = path.force;
   for (const double back : {knots[2], knots[7], knots[12]}) {
     Path one = path;
     one.go((y - 2.0 * back) * Vec3::UnitX());
-    EXPECT_NEAR(one.force, turn - 2.0 * sand.force(back), 1e-9 * turn);
+    EXPECT_NEAR(one.force, turn - 2.0 * sand_curve.force(back), 1e-9 * turn);
   }
 }
 
 TEST(Sliders, WorkIsStoredOrSlid) {
-  Path path(clay);
+  Path path(clay_curve);
   for (int i = 1; i <= 200; ++i) {
     const double angle = 0.31 * i;
     path.go(0.05 * std::sin(0.1 * i) * Vec3(std::cos(angle), std::sin(angle), 0.0));
@@ -82,7 +83,7 @@ TEST(Sliders, CurvesThatFallHaveNone) {
 }
 
 TEST(Sliders, TangentIsDerivativeOfTheForce) {
-  Path path(sand);
+  Path path(sand_curve);
   path.go(Vec3(0.01, -0.004, 0.0));
   const Vec3 next(-0.003, 0.006, 0.0);
   for (const double theta : {0.5, 1.0}) {

@@ -16,7 +16,7 @@
 namespace culm::soil {
 namespace {
 
-constexpr const char* effect = "tested";
+using kit::effect;
 
 // Smooth laws of the size of the random motions.
 void fill(model::Model& model) {

@@ -15,6 +15,7 @@
 namespace culm::strip {
 namespace {
 
+using test::Bent;
 using test::effect;
 
 class Frame final : public model::SteadyRotation {
@@ -34,14 +35,6 @@ class Frame final : public model::SteadyRotation {
 const Vec3 wind(3.0, 7.0, -2.0);
 const Vec3 point(0.4, -0.3, 0.2);
 constexpr double omega = 1.7;
-
-class Bent final : public Airfoil {
- public:
-  Coefficients at(double alpha, Coefficients& slope) const override {
-    slope = {5.0 * std::cos(2.0 * alpha), 0.4 * alpha, 0.1};
-    return {2.5 * std::sin(2.0 * alpha), 0.01 + 0.2 * alpha * alpha, -0.05 + 0.1 * alpha};
-  }
-};
 
 std::unique_ptr<StripLoad> strips(const model::NodeTable& nodes, int node) {
   auto load =

@@ -15,7 +15,7 @@
 
 namespace culm::strip::test {
 
-inline const std::string effect = "tested";
+using kit::effect;
 
 /// Force [N] and moment about the node [N m].
 struct Resultant {
@@ -30,6 +30,15 @@ inline SharedAirfoil airfoil(const std::string& type, const kit::GivenValues& va
   const Schema schema = registry.variants().at(type);
   return registry.make(type, kit::deck_list(schema, values, "section"));
 }
+
+/// Lift and drag that vary with the angle in their own ways, and a moment.
+class Bent final : public Airfoil {
+ public:
+  Coefficients at(double alpha, Coefficients& slope) const override {
+    slope = {5.0 * std::cos(2.0 * alpha), 0.4 * alpha, 0.1};
+    return {2.5 * std::sin(2.0 * alpha), 0.01 + 0.2 * alpha * alpha, -0.05 + 0.1 * alpha};
+  }
+};
 
 class Wind final : public flow::Flow {
  public:

@@ -13,19 +13,10 @@
 namespace culm::strip {
 namespace {
 
-constexpr const char* effect = "Strip, tested";
-constexpr double pi = std::numbers::pi;
-
+using std::numbers::pi;
+using test::Bent;
+using test::effect;
 using test::Wind;
-
-// Lift and drag that vary with the angle in their own ways, and a moment.
-class Bent final : public Airfoil {
- public:
-  Coefficients at(double alpha, Coefficients& slope) const override {
-    slope = {5.0 * std::cos(2.0 * alpha), 0.4 * alpha, 0.1};
-    return {2.5 * std::sin(2.0 * alpha), 0.01 + 0.2 * alpha * alpha, -0.05 + 0.1 * alpha};
-  }
-};
 
 Station station(model::Marker point) {
   Station station{std::move(point), 0.8, 1.3, 0.4};

@@ -27,12 +27,15 @@ constexpr NodeKind kind_of(int node) {
   }
 }
 
+/// Names the batch that a test looks at.
+inline constexpr const char* effect = "tested";
+
 /// Fills a model; called anew for each form.
 using FillModel = std::function<void(model::Model&)>;
 
-inline model::Batch* find_batch(const model::Model& model, const std::string& effect) {
+inline model::Batch* find_batch(const model::Model& model, const std::string& title) {
   for (model::Batch* batch : model.batches()) {
-    if (batch->effect().title() == effect) return batch;
+    if (batch->effect().title() == title) return batch;
   }
   return nullptr;
 }
@@ -42,7 +45,7 @@ inline double largest(const Eigen::MatrixXd& m) { return m.cwiseAbs().maxCoeff()
 /// The tangent of a batch is the derivative of its residual under the update of the solver.
 /// @param step of differences; laws that are not polynomials need a small one
 /// @source formulation 6.7
-inline void expect_tangent_is_derivative(const FillModel& fill, const std::string& effect,
+inline void expect_tangent_is_derivative(const FillModel& fill, const std::string& title,
                                          double step = 2e-3) {
   for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
     for (const Stencil& stencil : law_stencils) {
@@ -51,7 +54,7 @@ inline void expect_tangent_is_derivative(const FillModel& fill, const std::strin
       model::Model model;
       fill(model);
       model.freeze(form);
-      const DenseAssembly::Batches tested = {find_batch(model, effect)};
+      const DenseAssembly::Batches tested = {find_batch(model, title)};
       ASSERT_NE(tested.front(), nullptr);
       const model::State state = random_state(model, 3);
       DenseAssembly dense(model);
@@ -94,7 +97,7 @@ inline Eigen::VectorXd node_rows(const model::Model& model, const Eigen::VectorX
 
 /// The residual of the null-space form is P(q_theta)^T times that of the multiplier form.
 /// No node of the model may have supports. @source formulation 6.2
-inline void expect_residual_is_projected(const FillModel& fill, const std::string& effect) {
+inline void expect_residual_is_projected(const FillModel& fill, const std::string& title) {
   model::Model reduced;
   model::Model full;
   fill(reduced);
@@ -113,16 +116,16 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
     full_state.next = state.next;
     full_state.velocity = state.velocity;
     full_state.acceleration_offset = state.acceleration_offset;
-    set_multipliers(reduced, effect, state);
-    set_multipliers(full, effect, full_state);
+    set_multipliers(reduced, title, state);
+    set_multipliers(full, title, full_state);
     full_state.own_prev = state.own_prev;
     full_state.own = state.own;
     reduced_system.prepare(state, stencil);
     full_system.prepare(full_state, stencil);
     const Eigen::VectorXd r =
-        node_rows(reduced, reduced_system.residual(state, stencil, {find_batch(reduced, effect)}));
+        node_rows(reduced, reduced_system.residual(state, stencil, {find_batch(reduced, title)}));
     const Eigen::VectorXd R =
-        node_rows(full, full_system.residual(full_state, stencil, {find_batch(full, effect)}));
+        node_rows(full, full_system.residual(full_state, stencil, {find_batch(full, title)}));
     const Eigen::MatrixXd P = null_space_matrix(reduced.nodes(), at_theta(state, stencil.theta));
     ASSERT_GT(largest(R), 0.0);
     EXPECT_LT(largest(r - P.transpose() * R), 1e-13 * (1.0 + largest(R)));
@@ -132,12 +135,12 @@ inline void expect_residual_is_projected(const FillModel& fill, const std::strin
 /// Two steps of a batch: what the second one sees, with `attempt` made before each of the first's
 /// and the second's own evaluation.
 inline std::pair<Eigen::VectorXd, Eigen::MatrixXd> second_step(
-    const FillModel& fill, const std::string& effect, const Stencil& stencil,
+    const FillModel& fill, const std::string& title, const Stencil& stencil,
     const std::function<void(DenseAssembly&, const model::State&)>& attempt) {
   model::Model model;
   fill(model);
   model.freeze(model::Form::null_space);
-  const DenseAssembly::Batches tested = {find_batch(model, effect)};
+  const DenseAssembly::Batches tested = {find_batch(model, title)};
   DenseAssembly dense(model);
   model::State state = random_state(model, 3);
   const model::State later = random_state(model, 8);
@@ -156,7 +159,7 @@ inline std::pair<Eigen::VectorXd, Eigen::MatrixXd> second_step(
 
 /// What was attempted and discarded leaves no trace, bit by bit: neither other ends of a step nor
 /// other lengths, nor a preparation that nothing followed.
-inline void expect_attempts_leave_no_trace(const FillModel& fill, const std::string& effect) {
+inline void expect_attempts_leave_no_trace(const FillModel& fill, const std::string& title) {
   const auto wander = [&](DenseAssembly& dense, const model::State& state) {
     for (const Stencil& other : law_stencils) {
       for (const int seed : {21, 22}) {
@@ -164,7 +167,7 @@ inline void expect_attempts_leave_no_trace(const FillModel& fill, const std::str
         trial.next = random_state(dense.model(), seed).next;
         trial.time = state.time_prev + 0.1 * seed;
         dense.prepare(trial, other);
-        dense.tangent(trial, other, {find_batch(dense.model(), effect)});
+        dense.tangent(trial, other, {find_batch(dense.model(), title)});
       }
     }
     dense.prepare(state, Stencil::statics());
@@ -172,15 +175,15 @@ inline void expect_attempts_leave_no_trace(const FillModel& fill, const std::str
   for (const Stencil& stencil : law_stencils) {
     SCOPED_TRACE(testing::Message() << "theta " << stencil.theta << " / " << stencil.theta_strain);
     const auto undisturbed =
-        second_step(fill, effect, stencil, [](DenseAssembly&, const model::State&) {});
-    const auto disturbed = second_step(fill, effect, stencil, wander);
+        second_step(fill, title, stencil, [](DenseAssembly&, const model::State&) {});
+    const auto disturbed = second_step(fill, title, stencil, wander);
     EXPECT_EQ(undisturbed.first, disturbed.first);
     EXPECT_EQ(undisturbed.second, disturbed.second);
   }
 }
 
 /// Assembling the tangent in a step takes no memory from the heap, in neither form.
-inline void expect_no_allocation(const FillModel& fill, const std::string& effect) {
+inline void expect_no_allocation(const FillModel& fill, const std::string& title) {
   for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
     model::Model model;
     fill(model);
@@ -189,7 +192,7 @@ inline void expect_no_allocation(const FillModel& fill, const std::string& effec
     const model::State state = random_state(model, 3);
     const Stencil stencil = Stencil::midpoint(0.4);
     dense.prepare(state, stencil);
-    const DenseAssembly::Batches tested = {find_batch(model, effect)};
+    const DenseAssembly::Batches tested = {find_batch(model, title)};
     NoHeap guard;
     EXPECT_EQ(dense.assemble(state, stencil, Want::residual_and_tangent, tested), Verdict::ok);
   }

@@ -8,6 +8,9 @@
 
 namespace culm::kit {
 
+/// A direction far from all axes.
+inline const Vec3 oblique = Vec3(0.6, -0.3, 0.8).normalized();
+
 /// Numbers in [-1, 1] that are the same on every machine.
 class Random {
  public:
