@@ -150,7 +150,7 @@ TEST(Catenary, SlackLineHangsStraight) {
   EXPECT_NEAR(ends.energy, 90000.0, 1e-6);
 }
 
-constexpr const char* effect = "line";
+using kit::effect;
 
 /// A fairlead off its node, and a line long enough to move slowly, or taut.
 void fill(model::Model& model, const CatenaryLine& line, bool with_slave) {

@@ -1,4 +1,4 @@
-#include <culm/load/moment_load.hpp>
+#include "sample_load.hpp"
 
 #include <culm_kit/load_contract.hpp>
 #include <gtest/gtest.h>
@@ -6,16 +6,14 @@
 namespace culm::load {
 namespace {
 
+using kit::effect;
 using model::NodeTable;
 
-const Vec3 moment(1.3, -2.1, 0.7);
-const char* const effect = "Moment";
-
-void fill(model::Model& model, bool with_slave) {
+void fill_with_moment(model::Model& model, bool with_slave) {
   model.nodes().add(kit::random_shell_node(10), NodeKind::node6);
   auto load = std::make_unique<MomentLoad>(effect, model.nodes(), model::Amplitude::constant(),
                                            Axes::space);
-  load->add_moment(0, moment);
+  load->add_moment(0, components);
   model.add_load(std::move(load));
   if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
 }
@@ -24,23 +22,23 @@ TEST(DirectorMoment, TangentIsDerivativeOfResidual) {
   for (const bool with_slave : {false, true}) {
     SCOPED_TRACE(with_slave);
     // fourth order in the step; the force is a rational function of the director
-    kit::expect_tangent_is_derivative([=](model::Model& model) { fill(model, with_slave); }, effect,
-                                      5e-4);
+    kit::expect_tangent_is_derivative(
+        [=](model::Model& model) { fill_with_moment(model, with_slave); }, effect, 5e-4);
   }
 }
 
 TEST(DirectorMoment, NullSpaceResidualIsProjected) {
   for (const bool with_slave : {false, true}) {
     SCOPED_TRACE(with_slave);
-    kit::expect_residual_is_projected([=](model::Model& model) { fill(model, with_slave); },
-                                      effect);
+    kit::expect_residual_is_projected(
+        [=](model::Model& model) { fill_with_moment(model, with_slave); }, effect);
   }
 }
 
 // d x f = m - (m . d) d / (d . d) and f . d = 0: the couple across the director, no stretching.
 TEST(DirectorMoment, IsACoupleAcrossTheDirector) {
   model::Model model;
-  fill(model, false);
+  fill_with_moment(model, false);
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   const model::State state = kit::random_state(model, 3);
@@ -49,7 +47,7 @@ TEST(DirectorMoment, IsACoupleAcrossTheDirector) {
     const model::Coordinates q = kit::at_theta(state, stencil.theta);
     const Vec3 d = NodeTable::slots(q, 0).col(1);
     const Vec3 f = -r.segment<3>(3);
-    const Vec3 across = moment - moment.dot(d) / d.squaredNorm() * d;
+    const Vec3 across = components - components.dot(d) / d.squaredNorm() * d;
     EXPECT_TRUE(r.head<3>().isZero(0.0));
     EXPECT_LT((d.cross(f) - across).norm(), 1e-14);
     EXPECT_LT(std::abs(f.dot(d)), 1e-14);
@@ -59,7 +57,7 @@ TEST(DirectorMoment, IsACoupleAcrossTheDirector) {
 // The work booked is that of the forces, and the moment the one that acts.
 TEST(DirectorMoment, BooksItsWorkAndMoment) {
   model::Model model;
-  fill(model, false);
+  fill_with_moment(model, false);
   model.freeze(model::Form::null_space);
   kit::DenseAssembly dense(model);
   const model::State state = kit::random_state(model, 3);

@@ -9,7 +9,7 @@
 namespace culm::load {
 namespace {
 
-constexpr const char* effect = "tested";
+using kit::effect;
 
 // f = (sin y, x z, t x^2)
 class Waves final : public model::VectorField {
@@ -26,7 +26,7 @@ class Waves final : public model::VectorField {
 
 model::Marker point() { return {{0, 1}, {0.3, 0.7}, Vec3(0.2, -0.1, 0.4)}; }
 
-void fill(model::Model& model, bool with_slave) {
+void fill_with_waves(model::Model& model, bool with_slave) {
   for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
   const auto amplitude = model::Amplitude::of_time([](double t) { return 1.0 + t; });
   auto load =
@@ -39,26 +39,26 @@ void fill(model::Model& model, bool with_slave) {
 
 TEST(FieldLoad, TangentIsDerivativeOfResidual) {
   for (const bool with_slave : {false, true}) {
-    kit::expect_tangent_is_derivative([&](model::Model& model) { fill(model, with_slave); },
-                                      effect);
+    kit::expect_tangent_is_derivative(
+        [&](model::Model& model) { fill_with_waves(model, with_slave); }, effect);
   }
 }
 
 TEST(FieldLoad, NullSpaceResidualIsProjected) {
   for (const bool with_slave : {false, true}) {
-    kit::expect_residual_is_projected([&](model::Model& model) { fill(model, with_slave); },
-                                      effect);
+    kit::expect_residual_is_projected(
+        [&](model::Model& model) { fill_with_waves(model, with_slave); }, effect);
   }
 }
 
 TEST(FieldLoad, AssembleAllocatesNothing) {
-  kit::expect_no_allocation([](model::Model& model) { fill(model, true); }, effect);
+  kit::expect_no_allocation([](model::Model& model) { fill_with_waves(model, true); }, effect);
 }
 
 // Force at the place in the middle of the step, at its time, and the work of it.
 TEST(FieldLoad, ActsInTheMiddleOfAStep) {
   model::Model model;
-  fill(model, false);
+  fill_with_waves(model, false);
   model.freeze(model::Form::multipliers);
   kit::DenseAssembly dense(model);
   const model::State state = kit::random_state(model, 3);

@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using Numbers = std::vector<double>;
 
-constexpr double round_off = 1e-13;
+constexpr double round_off_of_sums = 1e-13;
 const Vec3 force(1.3, -2.1, 0.7);
 const Vec3 moment(0.4, 0.9, -1.1);
 
@@ -100,7 +100,7 @@ TEST(LineTable, WorksOnShapeFunctionsExactlyWhereverItKinks) {
       const Vec6 exact = integral(table, ends[e], ends[e + 1], [&](double s) {
         return Lagrange<2>::values(2.0 * (s - ends[e]) / (ends[e + 1] - ends[e]) - 1.0)[a];
       });
-      EXPECT_LT((work - exact).norm(), round_off) << "element " << e << ", node " << a;
+      EXPECT_LT((work - exact).norm(), round_off_of_sums) << "element " << e << ", node " << a;
     }
   }
 }
@@ -113,7 +113,7 @@ TEST(LineTable, IsTakenAtThePointsWhereItIsLinear) {
   const double size[] = {1.0, 3.0, 2.0};
   for (std::size_t k = 0; k < line.size(); ++k) {
     const double s = begin[k / 3] + 0.5 * size[k / 3] * (1.0 + gauss_legendre(3)[k % 3].xi);
-    EXPECT_LT((f[k] - s * slope).norm(), round_off);
+    EXPECT_LT((f[k] - s * slope).norm(), round_off_of_sums);
   }
 }
 
@@ -123,8 +123,8 @@ TEST(LineTable, AnElementThatASetListsTwiceCountsTwice) {
   line.insert(line.end(), again.begin(), again.end());
   const std::vector<Vec6> f = intensities(
       {{0.0, 2.0, 2.0, 4.0}, {Vec6::Zero(), Vec6::Zero(), Vec6::Ones(), Vec6::Ones()}}, line);
-  EXPECT_LT(f[0].norm() + f[1].norm(), round_off);
-  EXPECT_LT((f[2] - Vec6::Ones()).norm() + (f[3] - Vec6::Ones()).norm(), round_off);
+  EXPECT_LT(f[0].norm() + f[1].norm(), round_off_of_sums);
+  EXPECT_LT((f[2] - Vec6::Ones()).norm() + (f[3] - Vec6::Ones()).norm(), round_off_of_sums);
 }
 
 /// A line of three elements on seven nodes, and an edge of shell nodes.
@@ -223,7 +223,7 @@ class LineLoads : public testing::Test {
     build(frame + "Line Moment", common);
     const auto [by_table, by_two] = split_forces(2);
     EXPECT_GT(by_two.norm(), 1.0);
-    EXPECT_LT((by_table - by_two).norm(), round_off * by_two.norm());
+    EXPECT_LT((by_table - by_two).norm(), round_off_of_sums * by_two.norm());
   }
 };
 
@@ -255,11 +255,11 @@ TEST_F(LineLoads, ResultantIsTheIntegralOfTheTable) {
   const Eigen::VectorXd all = split_forces(2).first;
   Vec3 sum = Vec3::Zero();
   for (int node = 0; node < nodes; ++node) sum += all.segment<3>(12 * node);
-  EXPECT_LT((sum - exact.head<3>()).norm(), round_off);
+  EXPECT_LT((sum - exact.head<3>()).norm(), round_off_of_sums);
   model::Coordinates q = moved();
   q.resize(12 * nodes);
   const Vec3 moment_sum = kit::resultant_of(slot_forces({loads().back()}), q).moment;
-  EXPECT_LT((moment_sum - exact.tail<3>()).norm(), round_off);
+  EXPECT_LT((moment_sum - exact.tail<3>()).norm(), round_off_of_sums);
 }
 
 TEST_F(LineLoads, PartsThatAreZeroHaveNoBatch) {
@@ -358,7 +358,7 @@ TEST_F(LineFile, IsTheTableOfTheLists) {
                       {"Moments", Numbers{4, 5, 6, 0, 0, 0, 1, 1, 1}}});
   const auto [by_file, by_lists] = split_forces(2);
   EXPECT_GT(by_lists.norm(), 1.0);
-  EXPECT_LT((by_file - by_lists).norm(), round_off * by_lists.norm());
+  EXPECT_LT((by_file - by_lists).norm(), round_off_of_sums * by_lists.norm());
 }
 
 TEST_F(LineFile, MistakesNameFileAndLine) {

@@ -16,10 +16,11 @@ namespace culm::load {
 namespace {
 
 using kit::DenseAssembly;
+using kit::effect;
+using kit::oblique;
 using model::Coordinates;
 using model::NodeTable;
 
-const Vec3 oblique = Vec3(0.6, -0.3, 0.8).normalized();
 // long levers, so that distances are some metres and high derivatives small
 const LinkPoint first{0, Vec3(1.2, -1.5, 0.7)};
 const LinkPoint second{1, Vec3(-0.9, 0.8, 1.6)};
@@ -63,7 +64,6 @@ std::unique_ptr<LinkLaw> drive() {
 
 class LinkLaws : public testing::TestWithParam<LinkCase> {
  protected:
-  static constexpr const char* effect = "tested";
   using Law = std::unique_ptr<LinkLaw> (*)();
 
   static void fill(model::Model& model, Law law, bool with_slave) {

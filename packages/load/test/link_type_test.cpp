@@ -1,5 +1,7 @@
 #include <culm/load/register_load.hpp>
 
+#include "sample_load.hpp"
+
 #include <culm_kit/deck_list.hpp>
 #include <culm_kit/dense_assembly.hpp>
 #include <gmock/gmock.h>
@@ -15,8 +17,6 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 using Numbers = std::vector<double>;
-
-constexpr double round_off = 1e-14;
 
 /// Two nodes 5 m apart.
 class LinkTypes : public testing::Test {

@@ -1,6 +1,6 @@
-#include <culm/load/moment_load.hpp>
 #include <culm/load/pressure_load.hpp>
-#include <culm/load/slot_load.hpp>
+
+#include "sample_load.hpp"
 
 #include <Eigen/Geometry>
 #include <culm_kit/load_contract.hpp>
@@ -14,9 +14,6 @@ namespace {
 using kit::Resultant;
 using model::Coordinates;
 using model::NodeTable;
-
-const Vec3 components(1.3, -2.1, 0.7);
-const Vec3 offset(0.2, -0.5, 0.3);
 
 /// Between nodes, off their axis, as the points of a line are.
 model::Marker point_on(int num_nodes) {

@@ -1,6 +1,8 @@
 #include <culm/load/register_load.hpp>
 #include <culm/model/element_batch.hpp>
 
+#include "sample_load.hpp"
+
 #include <culm_kit/deck_list.hpp>
 #include <culm_kit/load_contract.hpp>
 #include <gmock/gmock.h>
@@ -44,10 +46,8 @@ struct Lump {
   static constexpr std::array<const char*, 1> resultant_names() { return {"None"}; }
 };
 
-const Numbers numbers = {1.3, -2.1, 0.7};
-const Vec3 components(1.3, -2.1, 0.7);
-const Numbers offset_numbers = {0.2, 0.1, -0.4};
-const Vec3 offset(0.2, 0.1, -0.4);
+const Numbers numbers(components.begin(), components.end());
+const Numbers offset_numbers(offset.begin(), offset.end());
 
 /// A line of three nodes with four points, and a lonely node.
 class Loads : public testing::Test {
@@ -137,8 +137,6 @@ class Loads : public testing::Test {
     const Eigen::Map<const Eigen::VectorXd> velocity(v.data(), forces.size());
     EXPECT_NEAR(forces.dot(velocity), expected, round_off);
   }
-
-  static constexpr double round_off = 1e-14;
 };
 
 TEST_F(Loads, TheTypes) {
@@ -217,7 +215,7 @@ TEST_F(Loads, EachSelectedNodeCarriesTheWholeForce) {
 
 TEST_F(Loads, GravityActsAtTheCentreOfMass) {
   // 1/2 (v + w_k xi_k)^2 dm of a mass of 3 kg at a point, and one of 2 kg at a node
-  const Eigen::Vector4d point(1.0, 0.2, 0.1, -0.4);
+  const Eigen::Vector4d point(1.0, offset[0], offset[1], offset[2]);
   auto& lumps = model::elements<Lump>(model, "Lumps");
   lumps.add({3.0 * point * point.transpose()}, {1});
   Mat<4, 4> central = Mat<4, 4>::Zero();

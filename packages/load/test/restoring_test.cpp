@@ -11,9 +11,8 @@
 namespace culm::load {
 namespace {
 
+using kit::effect;
 using model::NodeTable;
-
-constexpr const char* effect = "tested";
 
 Mat6 random_matrix(int seed) {
   std::srand(static_cast<unsigned>(seed));
@@ -29,7 +28,7 @@ RestoringLoad::Values values() {
   return values;
 }
 
-void fill(model::Model& model, bool with_slave) {
+void fill_with_springs(model::Model& model, bool with_slave) {
   model.nodes().add(kit::random_node(10));
   auto load = std::make_unique<RestoringLoad>(effect, model.nodes(), values());
   load->add(0);
@@ -39,24 +38,25 @@ void fill(model::Model& model, bool with_slave) {
 
 TEST(Restoring, TangentIsDerivativeOfResidual) {
   for (const bool with_slave : {false, true}) {
-    kit::expect_tangent_is_derivative([&](model::Model& model) { fill(model, with_slave); }, effect,
-                                      1e-3);
+    kit::expect_tangent_is_derivative(
+        [&](model::Model& model) { fill_with_springs(model, with_slave); }, effect, 1e-3);
   }
 }
 
 TEST(Restoring, AttemptsLeaveNoTrace) {
-  kit::expect_attempts_leave_no_trace([](model::Model& model) { fill(model, true); }, effect);
+  kit::expect_attempts_leave_no_trace([](model::Model& model) { fill_with_springs(model, true); },
+                                      effect);
 }
 
 TEST(Restoring, AssembleAllocatesNothing) {
-  kit::expect_no_allocation([](model::Model& model) { fill(model, true); }, effect);
+  kit::expect_no_allocation([](model::Model& model) { fill_with_springs(model, true); }, effect);
 }
 
 // What the forces do in a step is what is stored, and what is booked as damped.
 TEST(Restoring, KeepsTheEnergyOfAStep) {
   for (int seed = 3; seed < 20; ++seed) {
     model::Model model;
-    fill(model, false);
+    fill_with_springs(model, false);
     model.freeze(model::Form::multipliers);
     const model::State state = kit::random_state(model, seed);
     kit::DenseAssembly dense(model);

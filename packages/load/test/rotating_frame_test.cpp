@@ -9,7 +9,7 @@ namespace culm::load {
 namespace {
 
 // A full symmetric mass between the slots of two nodes, in a frame with an oblique axis.
-void fill(model::Model& model, bool with_slave) {
+void fill_with_frame(model::Model& model, bool with_slave) {
   for (int node = 0; node < 2; ++node) {
     kit::add_random_node(model.nodes(), NodeKind::node12, 10 + node);
   }
@@ -28,15 +28,15 @@ void fill(model::Model& model, bool with_slave) {
 // In statics and, with Coriolis forces, in steps.
 TEST(RotatingFrame, TangentIsDerivativeOfResidual) {
   for (const bool with_slave : {false, true}) {
-    kit::expect_tangent_is_derivative([&](model::Model& model) { fill(model, with_slave); },
-                                      "Rotating Frame");
+    kit::expect_tangent_is_derivative(
+        [&](model::Model& model) { fill_with_frame(model, with_slave); }, "Rotating Frame");
   }
 }
 
 TEST(RotatingFrame, NullSpaceResidualIsProjected) {
   for (const bool with_slave : {false, true}) {
-    kit::expect_residual_is_projected([&](model::Model& model) { fill(model, with_slave); },
-                                      "Rotating Frame");
+    kit::expect_residual_is_projected(
+        [&](model::Model& model) { fill_with_frame(model, with_slave); }, "Rotating Frame");
   }
 }
 

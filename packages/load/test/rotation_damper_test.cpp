@@ -11,19 +11,17 @@
 namespace culm::load {
 namespace {
 
+using kit::effect;
+using kit::oblique;
 using model::NodeTable;
-
-const Vec3 axis = Vec3(0.6, -0.3, 0.8).normalized();
 
 class RotationDampers : public testing::TestWithParam<bool> {
  protected:
-  static constexpr const char* effect = "tested";
-
   static void fill(model::Model& model, bool with_slave) {
     model.nodes().add(kit::random_node(10));
     const PiecewiseLinear moment({-20.0, 0.0, 20.0}, {-30.0, 0.0, 50.0});
     auto damper = std::make_unique<RotationDamper>(effect, model.nodes(), moment);
-    damper->add(0, {axis, GetParam()});
+    damper->add(0, {oblique, GetParam()});
     model.add_load(std::move(damper));
     if (with_slave) model.add_rigid_link("link", 0, model.nodes().add(kit::random_node(20)));
   }
@@ -65,7 +63,7 @@ TEST_P(RotationDampers, MomentFollowsTheAngularVelocity) {
   kit::DenseAssembly dense(model);
   model::State state = model.initial_state();
   const Mat3 D = NodeTable::slots(state.prev, 0).rightCols<3>();
-  const Vec3 n = GetParam() ? Vec3(D * axis) : axis;
+  const Vec3 n = GetParam() ? Vec3(D * oblique) : oblique;
   NodeTable::slots(state.next, 0).rightCols<3>() = exp_rotation(-0.4 * n) * D;
   const Eigen::VectorXd r = dense.residual(state, Stencil::midpoint(0.1));
   EXPECT_LT((r.tail<3>() + 1.5 * 20.0 * std::tan(0.2) * n).norm(), 1e-13);

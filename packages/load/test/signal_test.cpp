@@ -1,23 +1,17 @@
 // Loads that follow signals: the tangent knows how forces change with them.
 #include <culm/load/link_load.hpp>
-#include <culm/load/moment_load.hpp>
-#include <culm/load/slot_load.hpp>
 
-#include <culm_kit/batch_laws.hpp>
+#include "sample_load.hpp"
+
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 
 namespace culm::load {
 namespace {
 
-constexpr const char* effect = "tested";
-const Vec3 components(0.4, -1.1, 0.7);
-
-using Make = std::function<std::unique_ptr<model::Batch>(const model::NodeTable& nodes,
-                                                         const model::Amplitude& amplitude)>;
+using kit::effect;
 
 struct Follower {
   std::string name;
@@ -25,26 +19,8 @@ struct Follower {
   NodeKind kind = NodeKind::node12;
 };
 
-Make force(Axes axes) {
-  return [=](const model::NodeTable& nodes, const model::Amplitude& amplitude) {
-    auto load = std::make_unique<SlotLoad>(effect, nodes, amplitude);
-    model::Marker point = model::marker_at(0);
-    if (nodes.kind(0) == NodeKind::node12) point.offset = Vec3(0.3, 0.1, -0.2);
-    load->add_force(point, components, axes);
-    return load;
-  };
-}
-
-Make moment(Axes axes) {
-  return [=](const model::NodeTable& nodes, const model::Amplitude& amplitude) {
-    auto load = std::make_unique<MomentLoad>(effect, nodes, amplitude, axes);
-    load->add_moment(0, components);
-    return load;
-  };
-}
-
-std::unique_ptr<model::Batch> drive(const model::NodeTable& nodes,
-                                    const model::Amplitude& amplitude) {
+std::unique_ptr<model::Batch> drive_between(const model::NodeTable& nodes,
+                                            const model::Amplitude& amplitude) {
   auto load = std::make_unique<LinkLoad>(effect, nodes, std::make_unique<DriveLaw>(1.7, amplitude));
   const joint::MarkerPair pair(nodes, 0, 1, Vec3::Zero());
   load->add(angle_link(pair, components.normalized()));
@@ -76,13 +52,13 @@ TEST_P(SignalFollowers, TangentIsDerivativeOfResidual) {
 
 INSTANTIATE_TEST_SUITE_P(
     Loads, SignalFollowers,
-    testing::Values(Follower{"DeadForce", force(Axes::space)},
-                    Follower{"FollowerForce", force(Axes::directors)},
-                    Follower{"ShellForce", force(Axes::space), NodeKind::node6},
-                    Follower{"DeadMoment", moment(Axes::space)},
-                    Follower{"FollowerMoment", moment(Axes::directors)},
-                    Follower{"ShellMoment", moment(Axes::space), NodeKind::node6},
-                    Follower{"Drive", drive}),
+    testing::Values(Follower{"DeadForce", force_in(Axes::space)},
+                    Follower{"FollowerForce", force_in(Axes::directors)},
+                    Follower{"ShellForce", force_in(Axes::space), NodeKind::node6},
+                    Follower{"DeadMoment", moment_in(Axes::space)},
+                    Follower{"FollowerMoment", moment_in(Axes::directors)},
+                    Follower{"ShellMoment", moment_in(Axes::space), NodeKind::node6},
+                    Follower{"Drive", drive_between}),
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace

@@ -1,17 +1,11 @@
-#include <culm/load/moment_load.hpp>
-#include <culm/load/slot_load.hpp>
 #include <culm/math/rotation.hpp>
 
-#include <culm_kit/batch_laws.hpp>
-#include <gtest/gtest.h>
+#include "sample_load.hpp"
 
-#include <functional>
-#include <memory>
+#include <gtest/gtest.h>
 
 namespace culm::load {
 namespace {
-
-using Make = std::function<std::unique_ptr<model::Batch>(const model::NodeTable&)>;
 
 /// Work of a load over the step of a state, in the coordinates of the multiplier form.
 struct Step {
@@ -20,13 +14,10 @@ struct Step {
   double work = 0.0;
 };
 
-const Vec3 components(1.3, -2.1, 0.7);
-const Vec3 offset(0.2, -0.5, 0.3);
-
 Step step_with(const Make& make) {
   model::Model model;
   model.nodes().add(kit::random_node(1));
-  model.add_load(make(model.nodes()));
+  model.add_load(make(model.nodes(), model::Amplitude::constant()));
   model.freeze(model::Form::multipliers);
   Step step;
   step.state = kit::random_state(model, 2);
@@ -43,27 +34,14 @@ Step step_with(const Make& make) {
   return step;
 }
 
-constexpr double round_off = 1e-14;
-
 TEST(Work, OfADeadForceIsForceTimesTheMotionOfItsPoint) {
-  const Step step = step_with([](const model::NodeTable& nodes) {
-    auto load = std::make_unique<SlotLoad>("Force", nodes, model::Amplitude::constant());
-    model::Marker point = model::marker_at(0);
-    point.offset = offset;
-    load->add_force(point, components, Axes::space);
-    return load;
-  });
+  const Step step = step_with(force_in(Axes::space));
   EXPECT_NEAR(step.work, components.dot(step.next_point - step.prev_point), round_off);
 }
 
 // @source formulation 3.1
 TEST(Work, OfAMomentIsMomentTimesCayleyVectorOfTheStep) {
-  const Step step = step_with([](const model::NodeTable& nodes) {
-    auto load =
-        std::make_unique<MomentLoad>("Moment", nodes, model::Amplitude::constant(), Axes::space);
-    load->add_moment(0, components);
-    return load;
-  });
+  const Step step = step_with(moment_in(Axes::space));
   ASSERT_GT(step.cayley.norm(), 0.5);
   EXPECT_NEAR(step.work, components.dot(step.cayley), round_off);
 }
