@@ -10,10 +10,9 @@
 namespace culm::flow {
 namespace {
 
+using std::numbers::pi;
 using Upstream = TowerInfluence::Upstream;
 using Downstream = TowerInfluence::Downstream;
-
-constexpr double pi = std::numbers::pi;
 
 TowerInfluence about(Upstream upstream, Downstream downstream) {
   return {.upstream = upstream, .downstream = downstream, .drag = 0.7, .turbulence = 0.2};

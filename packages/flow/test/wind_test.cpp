@@ -37,16 +37,16 @@ class Winds : public FlowTest {
 };
 
 // What rounding of a handful of products leaves of winds of 10 m/s.
-void expect_near(const Vec3& actual, const Vec3& expected) {
+void expect_same(const Vec3& actual, const Vec3& expected) {
   EXPECT_LT((actual - expected).norm(), 1e-13) << actual.transpose();
 }
 
 TEST_F(Winds, PowerLawGrowsWithHeightAndStopsAtTheGround) {
   const SharedFlow wind =
       make("Power Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 90.0}, {"Exponent", 0.5}});
-  expect_near(wind->velocity(hub, 0.0), Vec3(8.0, 0.0, 0.0));
-  expect_near(wind->velocity(Vec3(7.0, -3.0, 22.5), 9.0), Vec3(4.0, 0.0, 0.0));
-  expect_near(wind->velocity(Vec3(0.0, 0.0, -1.0), 0.0), Vec3::Zero());
+  expect_same(wind->velocity(hub, 0.0), Vec3(8.0, 0.0, 0.0));
+  expect_same(wind->velocity(Vec3(7.0, -3.0, 22.5), 9.0), Vec3(4.0, 0.0, 0.0));
+  expect_same(wind->velocity(Vec3(0.0, 0.0, -1.0), 0.0), Vec3::Zero());
 }
 
 TEST_F(Winds, DirectionsNeedNotBeUnitVectors) {
@@ -56,7 +56,7 @@ TEST_F(Winds, DirectionsNeedNotBeUnitVectors) {
                                              {"Exponent", 1.0},
                                              {"Direction", std::vector{0.0, 6.0, 8.0}},
                                              {"Up", std::vector{5.0, 0.0, 0.0}}});
-  expect_near(wind->velocity(Vec3(20.0, 1.0, 2.0), 0.0), Vec3(0.0, 3.0, 4.0));
+  expect_same(wind->velocity(Vec3(20.0, 1.0, 2.0), 0.0), Vec3(0.0, 3.0, 4.0));
   EXPECT_THAT(mistakes("Power Law", {{"Density", 1.2},
                                      {"Speed", 10.0},
                                      {"Height", 40.0},
@@ -88,9 +88,9 @@ TEST_F(Winds, GradientsAreThoseOfTheVelocity) {
 TEST_F(Winds, LogLawVanishesAtTheRoughness) {
   const SharedFlow wind =
       make("Log Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 100.0}, {"Roughness", 0.01}});
-  expect_near(wind->velocity(Vec3(0.0, 0.0, 100.0), 0.0), Vec3(8.0, 0.0, 0.0));
-  expect_near(wind->velocity(Vec3(0.0, 0.0, 1.0), 0.0), Vec3(4.0, 0.0, 0.0));
-  expect_near(wind->velocity(Vec3(0.0, 0.0, 0.005), 0.0), Vec3::Zero());
+  expect_same(wind->velocity(Vec3(0.0, 0.0, 100.0), 0.0), Vec3(8.0, 0.0, 0.0));
+  expect_same(wind->velocity(Vec3(0.0, 0.0, 1.0), 0.0), Vec3(4.0, 0.0, 0.0));
+  expect_same(wind->velocity(Vec3(0.0, 0.0, 0.005), 0.0), Vec3::Zero());
   EXPECT_THAT(
       mistakes("Log Law", {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 1.0}, {"Roughness", 2.0}}),
       ElementsAre(HasSubstr("less than 'Height'")));
@@ -101,10 +101,10 @@ TEST_F(Winds, LawsOfTheHeightFollowAFunction) {
   kit::GivenValues values = {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 100.0}};
   values.insert(values.end(), {{"Function", growing}, {"Exponent", 0.5}});
   const SharedFlow power = make("Power Law", values);
-  expect_near(power->velocity(Vec3(0.0, 0.0, 25.0), 1.5), Vec3(12.0, 0.0, 0.0));
+  expect_same(power->velocity(Vec3(0.0, 0.0, 25.0), 1.5), Vec3(12.0, 0.0, 0.0));
   values.back() = {"Roughness", 0.01};
   const SharedFlow logarithmic = make("Log Law", values);
-  expect_near(logarithmic->velocity(Vec3(0.0, 0.0, 1.0), 1.5), Vec3(12.0, 0.0, 0.0));
+  expect_same(logarithmic->velocity(Vec3(0.0, 0.0, 1.0), 1.5), Vec3(12.0, 0.0, 0.0));
   values[3] = {"Function", std::string("noise")};
   EXPECT_EQ(make("Log Law", values), nullptr);
   EXPECT_THROW(issues_.throw_if_any(), InputError);
@@ -124,12 +124,12 @@ TEST_F(Winds, TablesAreLinearInTimeHeldOutsideAndJumpAtEqualTimes) {
 TEST_F(Winds, DirectionsOfTablesTurnClockwiseFromAbove) {
   const SharedFlow wind = table("0, 10, 90, 0, 0.5, 0, 0, 0\n");
   // blows to -y; across it, to the left, is +x, where the shear adds
-  expect_near(wind->velocity(Vec3(63.0, 5.0, 90.0), 0.0), Vec3(0.0, -12.5, 0.0));
+  expect_same(wind->velocity(Vec3(63.0, 5.0, 90.0), 0.0), Vec3(0.0, -12.5, 0.0));
 }
 
 TEST_F(Winds, TablesShearWithHeight) {
   const SharedFlow wind = table("0, 10, 0, 0, 0, 1, 0.2, 0\n");
-  expect_near(wind->velocity(Vec3(0.0, 0.0, 153.0), 0.0),
+  expect_same(wind->velocity(Vec3(0.0, 0.0, 153.0), 0.0),
               Vec3(10.0 * 153.0 / 90.0 + 1.0, 0.0, 0.0));
 }
 
@@ -162,10 +162,10 @@ constexpr double deviation = 2.264;
 TEST_F(Winds, OperatingGustDipsRisesAndEnds) {
   const SharedFlow wind = gust("EOG");
   const double size = 3.3 * deviation / 1.3;
-  expect_near(wind->velocity(hub, 5.0 + 5.25), Vec3(11.4 + 0.74 * size, 0.0, 0.0));
-  expect_near(wind->velocity(hub, 5.0 + 10.5 / 6.0), Vec3(11.4 - 0.185 * size, 0.0, 0.0));
+  expect_same(wind->velocity(hub, 5.0 + 5.25), Vec3(11.4 + 0.74 * size, 0.0, 0.0));
+  expect_same(wind->velocity(hub, 5.0 + 10.5 / 6.0), Vec3(11.4 - 0.185 * size, 0.0, 0.0));
   for (const double time : {4.0, 5.0, 15.5, 20.0})
-    expect_near(wind->velocity(hub, time), Vec3(11.4, 0.0, 0.0));
+    expect_same(wind->velocity(hub, time), Vec3(11.4, 0.0, 0.0));
 }
 
 TEST_F(Winds, DirectionChangeIsKept) {
@@ -173,17 +173,17 @@ TEST_F(Winds, DirectionChangeIsKept) {
   const auto turned = [](double angle) {
     return Vec3(11.4 * std::cos(angle), -11.4 * std::sin(angle), 0.0);
   };
-  expect_near(gust("EDC")->velocity(hub, 5.0 + 3.0), turned(0.5 * full));
-  expect_near(gust("EDC")->velocity(hub, 99.0), turned(full));
-  expect_near(gust("EDC", {{"Reversed", true}})->velocity(hub, 99.0), turned(-full));
+  expect_same(gust("EDC")->velocity(hub, 5.0 + 3.0), turned(0.5 * full));
+  expect_same(gust("EDC")->velocity(hub, 99.0), turned(full));
+  expect_same(gust("EDC", {{"Reversed", true}})->velocity(hub, 99.0), turned(-full));
 }
 
 TEST_F(Winds, CoherentGustRisesBy15MetresPerSecondAndTurns) {
   const double angle = 4.0 * pi / 11.4;
-  expect_near(gust("ECD")->velocity(hub, 15.0),
+  expect_same(gust("ECD")->velocity(hub, 15.0),
               Vec3(26.4 * std::cos(angle), -26.4 * std::sin(angle), 0.0));
   const SharedFlow weak = gust("ECD", {{"Speed", 3.0}});
-  expect_near(weak->velocity(hub, 15.0), Vec3(-18.0, 0.0, 0.0));
+  expect_same(weak->velocity(hub, 15.0), Vec3(-18.0, 0.0, 0.0));
 }
 
 TEST_F(Winds, ShearGustActsUpwardsOrAcross) {
@@ -192,12 +192,12 @@ TEST_F(Winds, ShearGustActsUpwardsOrAcross) {
   const Vec3 left = hub + Vec3(0.0, 63.0, 0.0);
   const Vec3 more(11.4 + size, 0.0, 0.0);
   const Vec3 same(11.4, 0.0, 0.0);
-  expect_near(gust("EWS")->velocity(above, 11.0), more);
-  expect_near(gust("EWS")->velocity(left, 11.0), same);
+  expect_same(gust("EWS")->velocity(above, 11.0), more);
+  expect_same(gust("EWS")->velocity(left, 11.0), same);
   const SharedFlow across = gust("EWS", {{"Shear", std::string("Horizontal")}});
-  expect_near(across->velocity(left, 11.0), more);
-  expect_near(across->velocity(above, 11.0), same);
-  expect_near(across->velocity(left, 17.0), same);
+  expect_same(across->velocity(left, 11.0), more);
+  expect_same(across->velocity(above, 11.0), same);
+  expect_same(across->velocity(left, 17.0), same);
 }
 
 }  // namespace
