@@ -14,6 +14,22 @@
 
 namespace culm::heat {
 
+constexpr const char* effect = "Temperature, sun";
+
+/// 0.8 K times "day", and gradients.
+inline kit::GivenValues sun_on(const std::string& structure, const std::vector<double>& gradient) {
+  return {{"Structure", structure},
+          {"Value", 0.8},
+          {"Gradient", gradient},
+          {"Function", std::string("day")}};
+}
+
+/// A structure under "sun", and the title of its elements where there is one of all.
+struct Warmed {
+  kit::FillModel fill;
+  std::string elements;
+};
+
 /// Adds a load "sun" that may follow "day" = 1 + t^2. @return what it complains of
 inline std::vector<std::string> add_heat(
     model::Model& model, const kit::GivenValues& values,

@@ -18,11 +18,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Numbers = std::vector<double>;
 
-constexpr const char* effect = "Temperature, sun";
-constexpr double expansion = 0.3;
+constexpr double expansion_of_beam = 0.3;
 
 // A fully coupled section.
-material::Section section(double of_expansion = expansion) {
+material::Section section(double of_expansion = expansion_of_beam) {
   material::Section section;
   section.stiffness = kit::Random(1).positive_matrix<6>();
   section.mass = kit::Random(2).positive_matrix<3>();
@@ -30,7 +29,8 @@ material::Section section(double of_expansion = expansion) {
   return section;
 }
 
-void add_beam(model::Model& model, const GivenValues& values, double of_expansion = expansion) {
+void add_beam(model::Model& model, const GivenValues& values,
+              double of_expansion = expansion_of_beam) {
   std::map<std::string, material::Section> sections{{"bar", section(of_expansion)}};
   std::map<std::string, material::Material> materials;
   InputIssues issues;
@@ -49,45 +49,38 @@ void add_beam(model::Model& model, const GivenValues& values, double of_expansio
   beam::add_beam(options, context);
 }
 
-const GivenValues sun{{"Structure", std::string("bridge")},
-                      {"Value", 0.8},
-                      {"Gradient", Numbers{0.4, -0.7}},
-                      {"Function", std::string("day")}};
+const GivenValues sun_on_bridge = sun_on("bridge", {0.4, -0.7});
 
-struct Kind {
-  GivenValues values;
-  std::string effect;  // of its elements
-};
-const std::vector<Kind> kinds = {
-    {{{"Order", 1}}, "Beam, director, order 1"},
-    {{{"Order", 2}}, "Beam, director, order 2"},
-    {{{"Order", 2}, {"Fidelity", std::string("Linear")}}, "Beam, linear, order 2"},
-    {{{"Order", 2}, {"Torsion", false}}, ""},
-};
-
-kit::FillModel filled(const Kind& kind) {
-  return [&kind](model::Model& model) {
-    add_beam(model, kind.values);
-    EXPECT_THAT(add_heat(model, sun), testing::IsEmpty());
+Warmed warmed_beam(const GivenValues& values, const std::string& elements) {
+  const auto fill = [values](model::Model& model) {
+    add_beam(model, values);
+    EXPECT_THAT(add_heat(model, sun_on_bridge), testing::IsEmpty());
   };
+  return {fill, elements};
 }
+const std::vector<Warmed> warmed_beams = {
+    warmed_beam({{"Order", 1}}, "Beam, director, order 1"),
+    warmed_beam({{"Order", 2}}, "Beam, director, order 2"),
+    warmed_beam({{"Order", 2}, {"Fidelity", std::string("Linear")}}, "Beam, linear, order 2"),
+    warmed_beam({{"Order", 2}, {"Torsion", false}}, ""),
+};
 
 TEST(TemperatureOfBeams, TangentIsDerivativeOfResidual) {
-  for (const Kind& kind : kinds) kit::expect_tangent_is_derivative(filled(kind), effect);
+  for (const Warmed& beam : warmed_beams) kit::expect_tangent_is_derivative(beam.fill, effect);
 }
 TEST(TemperatureOfBeams, NullSpaceResidualIsProjected) {
-  for (const Kind& kind : kinds) kit::expect_residual_is_projected(filled(kind), effect);
+  for (const Warmed& beam : warmed_beams) kit::expect_residual_is_projected(beam.fill, effect);
 }
 TEST(TemperatureOfBeams, AssemblesWithoutHeap) {
-  for (const Kind& kind : kinds) kit::expect_no_allocation(filled(kind), effect);
+  for (const Warmed& beam : warmed_beams) kit::expect_no_allocation(beam.fill, effect);
 }
 TEST(TemperatureOfBeams, AttemptsLeaveNoTrace) {
-  for (const Kind& kind : kinds) kit::expect_attempts_leave_no_trace(filled(kind), effect);
+  for (const Warmed& beam : warmed_beams) kit::expect_attempts_leave_no_trace(beam.fill, effect);
 }
 
 TEST(TemperatureOfBeams, EnergyBalanceIsExact) {
-  for (const Kind& kind : kinds) {
-    if (!kind.effect.empty()) expect_energy_balance(filled(kind), kind.effect, effect);
+  for (const Warmed& beam : warmed_beams) {
+    if (!beam.elements.empty()) expect_energy_balance(beam.fill, beam.elements, effect);
   }
 }
 
@@ -95,7 +88,7 @@ TEST(TemperatureOfBeams, EnergyBalanceIsExact) {
 TEST(TemperatureOfBeams, ResultantsAreThoseOfStrainLessFreeStrain) {
   model::Model model;
   add_beam(model, {{"Order", 2}});
-  ASSERT_THAT(add_heat(model, sun), testing::IsEmpty());
+  ASSERT_THAT(add_heat(model, sun_on_bridge), testing::IsEmpty());
   model.freeze(model::Form::null_space);
   model::State state = model.initial_state();
   state.time = state.time_prev = 0.5;
@@ -103,7 +96,7 @@ TEST(TemperatureOfBeams, ResultantsAreThoseOfStrainLessFreeStrain) {
   dense.prepare(state, Stencil::statics());
   Vec6 free;
   free << 0.0, 0.0, 0.8, -0.7, -0.4, 0.0;
-  const Vec6 expected = -1.25 * expansion * section().stiffness * free;
+  const Vec6 expected = -1.25 * expansion_of_beam * section().stiffness * free;
   const model::Cell& cell = model.find_structure("bridge")->cells[1];
   std::vector<double> found;
   cell.source->resultants(cell.item, state.next, found);
@@ -123,7 +116,7 @@ struct Slope final : model::VectorField {
 TEST(TemperatureOfBeams, FieldAddsByPlace) {
   model::Model model;
   add_beam(model, {{"Order", 2}});
-  GivenValues values = sun;
+  GivenValues values = sun_on_bridge;
   values.emplace_back("Field", std::string("slope"));
   ASSERT_THAT(add_heat(model, values, {{"slope", std::make_shared<Slope>()}}), testing::IsEmpty());
   model.freeze(model::Form::null_space);
@@ -132,7 +125,7 @@ TEST(TemperatureOfBeams, FieldAddsByPlace) {
   dense.prepare(state, Stencil::statics());
   Vec6 free;
   free << 0.0, 0.0, 0.8 + 1.125, -0.7 - 2.0 * 1.125, -0.4 - 0.5 * 1.125, 0.0;
-  const Vec6 expected = -expansion * section().stiffness * free;
+  const Vec6 expected = -expansion_of_beam * section().stiffness * free;
   const model::Cell& cell = model.find_structure("bridge")->cells[1];
   std::vector<double> found;
   cell.source->resultants(cell.item, state.next, found);
@@ -142,7 +135,7 @@ TEST(TemperatureOfBeams, FieldAddsByPlace) {
 TEST(TemperatureOfBeams, FieldMustRest) {
   model::Model model;
   add_beam(model, {});
-  GivenValues values = sun;
+  GivenValues values = sun_on_bridge;
   values.emplace_back("Field", std::string("slope"));
   const auto slope = std::make_shared<Slope>();
   slope->with_time = 1.0;
@@ -157,18 +150,19 @@ TEST(TemperatureOfBeams, MistakesAreNamed) {
     add_beam(model, beam, of_expansion);
     return add_heat(model, heat);
   };
-  EXPECT_THAT(message({}, sun, 0.0), ElementsAre(HasSubstr("its sections need an 'Expansion'")));
-  EXPECT_THAT(message({{"Fidelity", std::string("Kirchhoff")}}, sun, expansion),
+  EXPECT_THAT(message({}, sun_on_bridge, 0.0),
+              ElementsAre(HasSubstr("its sections need an 'Expansion'")));
+  EXPECT_THAT(message({{"Fidelity", std::string("Kirchhoff")}}, sun_on_bridge, expansion_of_beam),
               ElementsAre(HasSubstr("holds its length")));
-  EXPECT_THAT(message({{"Element", std::string("Helical")}}, sun, expansion),
+  EXPECT_THAT(message({{"Element", std::string("Helical")}}, sun_on_bridge, expansion_of_beam),
               ElementsAre(HasSubstr("has helical elements")));
-  EXPECT_THAT(message({{"Fidelity", std::string("Rigid")}}, sun, expansion),
+  EXPECT_THAT(message({{"Fidelity", std::string("Rigid")}}, sun_on_bridge, expansion_of_beam),
               ElementsAre(HasSubstr("no elements that expand")));
-  EXPECT_THAT(message({}, {{"Structure", std::string("bridge")}}, expansion),
+  EXPECT_THAT(message({}, {{"Structure", std::string("bridge")}}, expansion_of_beam),
               ElementsAre(HasSubstr("heats nothing")));
   GivenValues noisy{
       {"Structure", std::string("bridge")}, {"Value", 1.0}, {"Function", std::string("noise")}};
-  EXPECT_THAT(message({}, noisy, expansion), ElementsAre(HasSubstr("one value per step")));
+  EXPECT_THAT(message({}, noisy, expansion_of_beam), ElementsAre(HasSubstr("one value per step")));
 }
 
 }  // namespace

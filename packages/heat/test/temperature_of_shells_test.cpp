@@ -25,13 +25,12 @@ using testing::IsEmpty;
 using Numbers = std::vector<double>;
 using Texts = std::vector<std::string>;
 
-constexpr const char* effect = "Temperature, sun";
-constexpr double expansion = 0.1;
+constexpr double expansion_of_steel = 0.1;
 
 std::map<std::string, material::Material> materials() {
   std::map<std::string, material::Material> all;
   material::Material steel{material::IsotropicMaterial::law(3.0, 0.3), 1.0};
-  steel.expansion.setConstant(expansion);
+  steel.expansion.setConstant(expansion_of_steel);
   material::Material ply{
       material::OrthotropicMaterial::law({5.0, 1.0, 1.2, 0.25, 0.2, 0.3, 0.5, 0.6, 0.4}), 1.0};
   ply.expansion = Vec3(0.02, 0.3, 0.25);
@@ -70,43 +69,38 @@ void add_shell(model::Model& model, const GivenValues& values) {
   registry.make("Shell", options, context);
 }
 
-const GivenValues sun{{"Structure", std::string("roof")},
-                      {"Value", 0.8},
-                      {"Gradient", Numbers{6.0}},
-                      {"Function", std::string("day")}};
+const GivenValues sun_on_roof = sun_on("roof", {6.0});
 
 GivenValues linear(GivenValues values) {
   values.emplace_back("Fidelity", std::string("Linear"));
   return values;
 }
 
-struct Kind {
-  GivenValues values;
-  std::string effect;  // of its elements
-};
-const std::vector<Kind> kinds = {{layered, "Shell"}, {linear(layered), "Shell, linear"}};
-
-kit::FillModel filled(const Kind& kind) {
-  return [&kind](model::Model& model) {
-    add_shell(model, kind.values);
-    EXPECT_THAT(add_heat(model, sun), IsEmpty());
+Warmed warmed_shell(const GivenValues& values, const std::string& elements) {
+  const auto fill = [values](model::Model& model) {
+    add_shell(model, values);
+    EXPECT_THAT(add_heat(model, sun_on_roof), IsEmpty());
   };
+  return {fill, elements};
 }
+const std::vector<Warmed> warmed_shells = {warmed_shell(layered, "Shell"),
+                                           warmed_shell(linear(layered), "Shell, linear")};
 
 TEST(TemperatureOfShells, TangentIsDerivativeOfResidual) {
-  for (const Kind& kind : kinds) kit::expect_tangent_is_derivative(filled(kind), effect);
+  for (const Warmed& shell : warmed_shells) kit::expect_tangent_is_derivative(shell.fill, effect);
 }
 TEST(TemperatureOfShells, NullSpaceResidualIsProjected) {
-  for (const Kind& kind : kinds) kit::expect_residual_is_projected(filled(kind), effect);
+  for (const Warmed& shell : warmed_shells) kit::expect_residual_is_projected(shell.fill, effect);
 }
 TEST(TemperatureOfShells, AssemblesWithoutHeap) {
-  for (const Kind& kind : kinds) kit::expect_no_allocation(filled(kind), effect);
+  for (const Warmed& shell : warmed_shells) kit::expect_no_allocation(shell.fill, effect);
 }
 TEST(TemperatureOfShells, AttemptsLeaveNoTrace) {
-  for (const Kind& kind : kinds) kit::expect_attempts_leave_no_trace(filled(kind), effect);
+  for (const Warmed& shell : warmed_shells) kit::expect_attempts_leave_no_trace(shell.fill, effect);
 }
 TEST(TemperatureOfShells, EnergyBalanceIsExact) {
-  for (const Kind& kind : kinds) expect_energy_balance(filled(kind), kind.effect, effect);
+  for (const Warmed& shell : warmed_shells)
+    expect_energy_balance(shell.fill, shell.elements, effect);
 }
 
 // A wall of one material that grows alike in all directions, to the Green-Lagrange strain of its
@@ -121,7 +115,7 @@ TEST(TemperatureOfShells, FreeGrowthIsFreeOfStress) {
   model.freeze(model::Form::multipliers);
   model::State state = model.initial_state();
   state.time = state.time_prev = 0.5;
-  const double held = std::sqrt(1.0 + 2.0 * expansion * 0.8 * 1.25);
+  const double held = std::sqrt(1.0 + 2.0 * expansion_of_steel * 0.8 * 1.25);
   for (double& coordinate : state.next) coordinate *= held;
   kit::DenseAssembly dense(model);
   dense.prepare(state, Stencil::statics());
@@ -147,7 +141,7 @@ TEST(TemperatureOfShells, ResultantsAreIntegralsOfLayers) {
   model::Model model;
   const Numbers thicknesses{0.04, 0.06};
   add_shell(model, {{"Materials", Texts{"oak", "steel"}}, {"Thicknesses", thicknesses}});
-  ASSERT_THAT(add_heat(model, sun), IsEmpty());
+  ASSERT_THAT(add_heat(model, sun_on_roof), IsEmpty());
   model.freeze(model::Form::null_space);
   const model::State state = kit::random_state(model, 5);
   kit::DenseAssembly dense(model);
@@ -178,8 +172,9 @@ TEST(TemperatureOfShells, MistakesAreNamed) {
   };
   const GivenValues oak{{"Material", std::string("oak")}, {"Thickness", 0.1}};
   const GivenValues rubber{{"Material", std::string("rubber")}, {"Thickness", 0.1}};
-  EXPECT_THAT(message(oak, sun), ElementsAre(HasSubstr("its materials need an 'Expansion'")));
-  EXPECT_THAT(message(rubber, sun), ElementsAre(HasSubstr("for large strains")));
+  EXPECT_THAT(message(oak, sun_on_roof),
+              ElementsAre(HasSubstr("its materials need an 'Expansion'")));
+  EXPECT_THAT(message(rubber, sun_on_roof), ElementsAre(HasSubstr("for large strains")));
   GivenValues two{{"Structure", std::string("roof")}, {"Gradient", Numbers{1.0, 2.0}}};
   EXPECT_THAT(message(single, two),
               ElementsAre(HasSubstr("must have 1 value for the shell 'roof'")));

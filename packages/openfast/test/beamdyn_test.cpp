@@ -38,7 +38,7 @@ False   Echo          - (flag)
 )~";
 
 // Two stations; the mass centre of the first is at (0.1, 0.2).
-constexpr const char* blade = R"~(--- BEAMDYN BLADE ---
+constexpr const char* beamdyn_blade = R"~(--- BEAMDYN BLADE ---
 Our sections
 --- Blade Parameters ---
 2     station_total - Number of stations (-)
@@ -136,7 +136,7 @@ class BeamDynFiles : public SampleFiles {
   }
   void write_all() const {
     write("primary.inp", primary);
-    write("blade.inp", blade);
+    write("blade.inp", beamdyn_blade);
     write("driver.inp", driver);
   }
 };
@@ -228,7 +228,7 @@ TEST_F(BeamDynFiles, OldDriversHaveNoPointLoads) {
 
 TEST_F(BeamDynFiles, UnknownAndContradictoryEntriesAreReported) {
   write_all();
-  write("blade.inp", change(blade, "   0  0  0  0  0  3", "   0  0  0  0  0  4"));
+  write("blade.inp", change(beamdyn_blade, "   0  0  0  0  0  3", "   0  0  0  0  0  4"));
   const auto path =
       write("primary.inp", change(primary, "0.5     rhoinf        - numerics",
                                   "0.5     rhoinf        - numerics\n2   warp  - of tomorrow"));
@@ -241,7 +241,7 @@ TEST_F(BeamDynFiles, UnknownAndContradictoryEntriesAreReported) {
 TEST_F(BeamDynFiles, ImpossibleInputIsRefusedWithItsPlace) {
   write_all();
   const auto with_blade = [&](const std::string& old, const std::string& by) {
-    write("blade.inp", change(blade, old, by));
+    write("blade.inp", change(beamdyn_blade, old, by));
     return message_of("primary.inp");
   };
   EXPECT_THAT(with_blade("  0 0 0 0 1E4 3E5", "  0 0 0 0 2E4 3E5"),
@@ -258,13 +258,14 @@ TEST_F(BeamDynFiles, ImpossibleInputIsRefusedWithItsPlace) {
   EXPECT_THAT(with_blade(" 1.0\n", " 0.9\n"),
               EndsWith("station 2: the last place must be 1, got 0.9"));
   write("blade.inp",
-        change(change(blade, "  1E5 0 0 0 0 0\n  0 2E5 0 0 0 0\n  0 0 9E5 0 0 0\n  0 0 0 5E4 0 0",
+        change(change(beamdyn_blade,
+                      "  1E5 0 0 0 0 0\n  0 2E5 0 0 0 0\n  0 0 9E5 0 0 0\n  0 0 0 5E4 0 0",
                       "  9E5 0 0 0 0 0\n  0 2E5 0 0 0 0\n  0 0 1E5 0 0 0\n  0 0 0 5E4 0 0"),
                "   0  0  0  2  0  0\n   0  0  0  0  1  0\n   0  0  0  0  0  3",
                "   0  0  0  3  0  0\n   0  0  0  0  1  0\n   0  0  0  0  0  2"));
   EXPECT_THAT(message_of("primary.inp"),
               HasSubstr("station 2, mass: the first axis is along the blade"));
-  write("blade.inp", blade);
+  write("blade.inp", beamdyn_blade);
   write("primary.inp", change(primary, "  1  3    ", "  1  4    "));
   EXPECT_THAT(message_of("primary.inp"), HasSubstr("primary.inp:8: kp_total: contradiction: 3 key "
                                                    "points, but 1 members are announced"));

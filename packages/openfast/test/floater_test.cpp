@@ -78,10 +78,6 @@ const std::string added = rows("7", "AddF0 - Preload", "0") +
                           rows(nothing, "AddBLin - Damping", nothing) +
                           rows("9e5 0 0 0 0 0", "AddBQuad - Quadratic", nothing);
 
-std::string parameter(const char* name, const std::string& value) {
-  return fmt::format("<Parameter name=\"{}\" value=\"{}\"/>", name, value);
-}
-
 class Floaters : public SampleFiles {
  protected:
   Floaters() {

@@ -38,10 +38,6 @@ class OffshoreFiles : public SampleFiles {
   }
 };
 
-std::string parameter(const std::string& name, const std::string& value) {
-  return "<Parameter name=\"" + name + "\" value=\"" + value + "\"/>";
-}
-
 double tube_area(double d, double t) { return std::numbers::pi * t * (d - t); }
 
 TEST_F(OffshoreFiles, MembersOfSubDynBecomeBeamsJoinedAtTheirJoints) {

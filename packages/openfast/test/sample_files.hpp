@@ -11,6 +11,11 @@
 
 namespace culm::openfast {
 
+/// As a deck has it.
+inline std::string parameter(const std::string& name, const std::string& value) {
+  return "<Parameter name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+
 /// A folder of its own for each test.
 class SampleFiles : public testing::Test {
  protected:

@@ -1,7 +1,8 @@
-/// A wind and an airfoil for tests of rotors.
+/// A wind, an airfoil and an element of a blade for tests of rotors.
 #pragma once
 
 #include <culm/flow/flow.hpp>
+#include <culm/rotor/induction.hpp>
 #include <culm/strip/airfoil.hpp>
 
 #include <algorithm>
@@ -28,5 +29,10 @@ class Airfoil final : public strip::Airfoil {
     return {2.0 * std::sin(2.0 * (alpha + 0.03)), 0.01 + 0.5 * alpha * alpha, 0.0};
   }
 };
+
+/// At 40 m of a rotor of three blades; `axial` and `tangential` are of the wind that meets it.
+inline BladeElement element(double axial, double tangential, double twist) {
+  return {{3, 40.0, 1.5, 63.0}, {}, 3.0, twist, axial, tangential};
+}
 
 }  // namespace culm::rotor::test

@@ -19,15 +19,12 @@ namespace culm::rotor {
 namespace {
 
 using std::numbers::pi;
+using test::element;
 
 LiftDrag section(double alpha) {
   strip::Coefficients slope;
   const strip::Coefficients c = test::Airfoil().at(alpha, slope);
   return {c[0], c[1], slope[0], slope[1]};
-}
-
-BladeElement element(double axial, double tangential, double twist) {
-  return {{3, 50.0, 1.5, 63.0}, {}, 3.0, twist, axial, tangential};
 }
 
 // Differences of second order.

@@ -3,6 +3,8 @@
 #include <culm/rotor/induction.hpp>
 #include <culm/rotor/skewed_wake.hpp>
 
+#include "rotor_kit.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +14,7 @@ namespace culm::rotor {
 namespace {
 
 using std::numbers::pi;
+using test::element;
 
 // Half of the last digit that the references have.
 constexpr double last_of_six = 0.5e-6;
@@ -81,10 +84,6 @@ TEST(Momentum, BuhlsRootHasNoGapWhereItsDenominatorVanishes) {
 // A flat plate with some drag, at all angles.
 LiftDrag plate(double alpha) {
   return {2.0 * std::sin(2.0 * alpha), 0.05 + std::pow(std::sin(alpha), 2)};
-}
-
-BladeElement element(double axial, double tangential, double twist) {
-  return {{3, 40.0, 1.5, 63.0}, {}, 3.0, twist, axial, tangential};
 }
 
 // The inflow angle must be that of the wind with the induction it gives.
