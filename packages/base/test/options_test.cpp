@@ -6,7 +6,7 @@
 namespace culm {
 namespace {
 
-Options sample() {
+Options beam_options() {
   Options options("beam", {"deck.xml", 3, "Structures / beam"});
   options.set("Length", 2.0, true, {"deck.xml", 4, "Structures / beam / Length"});
   options.set("Elements", 8, false, {});
@@ -30,7 +30,7 @@ TEST(Options, ReadsEachKind) {
 }
 
 TEST(Options, TellsValuesFromDefaultsFromNothing) {
-  const Options options = sample();
+  const Options options = beam_options();
   EXPECT_TRUE(options.has("Length"));
   EXPECT_TRUE(options.given("Length"));
   EXPECT_TRUE(options.has("Elements"));
@@ -40,14 +40,14 @@ TEST(Options, TellsValuesFromDefaultsFromNothing) {
 }
 
 TEST(Options, PlaceOfADefaultIsThatOfItsList) {
-  const Options options = sample();
+  const Options options = beam_options();
   EXPECT_EQ(options.where("Length").line, 4);
   EXPECT_EQ(options.where("Elements").line, 3);
   EXPECT_EQ(options.where("Elements").path, "Structures / beam");
 }
 
 TEST(Options, AskingForWhatIsNotDeclaredIsABug) {
-  const Options options = sample();
+  const Options options = beam_options();
   EXPECT_THROW(options.number("Lenght"), InternalError);
   EXPECT_THROW(options.has("Lenght"), InternalError);
   EXPECT_THROW(options.given("Lenght"), InternalError);
@@ -56,14 +56,14 @@ TEST(Options, AskingForWhatIsNotDeclaredIsABug) {
 }
 
 TEST(Options, ReadingNothingOrAnotherKindIsABug) {
-  const Options options = sample();
+  const Options options = beam_options();
   EXPECT_THROW(options.number("Damping"), InternalError);
   EXPECT_THROW(options.integer("Length"), InternalError);
   EXPECT_THROW(options.list("Section"), InternalError);
 }
 
 TEST(Options, ListsAreFoundByNameAndEntriesKeepTheirOrder) {
-  const Options options = sample();
+  const Options options = beam_options();
   EXPECT_TRUE(options.has_list("Curve"));
   EXPECT_FALSE(options.has_list("Section"));
   EXPECT_EQ(options.list("left").name(), "left");

@@ -12,7 +12,7 @@
 namespace culm {
 namespace {
 
-Snapshot sample() {
+Snapshot sample_snapshot() {
   Snapshot snapshot;
   snapshot.set("state/next", {1.0 / 3.0, -0.0, std::numeric_limits<double>::denorm_min()});
   snapshot.set("empty", std::vector<double>{});
@@ -22,9 +22,9 @@ Snapshot sample() {
 }
 
 TEST(Snapshot, ComesBackBitByBit) {
-  const Snapshot back = Snapshot::decode(sample().encode());
-  EXPECT_EQ(back.encode(), sample().encode());
-  EXPECT_EQ(back.copy("state/next"), sample().copy("state/next"));
+  const Snapshot back = Snapshot::decode(sample_snapshot().encode());
+  EXPECT_EQ(back.encode(), sample_snapshot().encode());
+  EXPECT_EQ(back.copy("state/next"), sample_snapshot().copy("state/next"));
   EXPECT_TRUE(std::signbit(back.numbers("state/next")[1]));
   EXPECT_TRUE(back.numbers("empty").empty());
   EXPECT_EQ(back.integer("steps"), 12345678);
@@ -34,13 +34,13 @@ TEST(Snapshot, ComesBackBitByBit) {
 
 TEST(Snapshot, SaysWhatIsMissing) {
   try {
-    sample().number("analysis/step");
+    sample_snapshot().number("analysis/step");
     FAIL();
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(), "the checkpoint has no 'analysis/step'");
   }
   try {
-    (void)sample().numbers("state/next", 12);
+    (void)sample_snapshot().numbers("state/next", 12);
     FAIL();
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(), "the checkpoint has 3 numbers of 'state/next', the model 12");
@@ -69,7 +69,7 @@ TEST(Snapshot, WholeNumbersAreWholeAndFitAnInt) {
 }
 
 TEST(Snapshot, RefusesBytesThatWereCutOffAtAnyPlace) {
-  const std::string bytes = sample().encode();
+  const std::string bytes = sample_snapshot().encode();
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     EXPECT_THROW(Snapshot::decode(bytes.substr(0, length)), FileError) << length;
   }

@@ -15,22 +15,22 @@ using Eigen::VectorXd;
 using std::numbers::pi;
 
 const FlowChannel water = {1000.0, 0.2, 0.1, Vector3d(0.0, 0.0, 1.0)};
-constexpr int points = 9;
+constexpr int row_points = 9;
 constexpr double distance = 0.1;  // channel of 1 m
 
 VectorXd row() {
-  VectorXd x = VectorXd::Zero(3 * points);
-  for (int i = 0; i < points; ++i) x[3 * i] = (i + 1) * distance;
+  VectorXd x = VectorXd::Zero(3 * row_points);
+  for (int i = 0; i < row_points; ++i) x[3 * i] = (i + 1) * distance;
   return x;
 }
 
 // The masses of the sines are those of the source, for a strip of 0.1 m by 0.1 m at each point.
 TEST(ChannelFlow, HasTheMassesOfTheSource) {
-  const MatrixXd masses = channel_masses(water, points, distance);
+  const MatrixXd masses = channel_masses(water, row_points, distance);
   EXPECT_TRUE(masses.isApprox(masses.transpose(), 1e-14));
-  for (int i = 1; i <= points; ++i) {
-    VectorXd sine(points);
-    for (int k = 0; k < points; ++k) sine[k] = std::sin(pi * i * (k + 1) * distance);
+  for (int i = 1; i <= row_points; ++i) {
+    VectorXd sine(row_points);
+    for (int k = 0; k < row_points; ++k) sine[k] = std::sin(pi * i * (k + 1) * distance);
     const double mass = 1000.0 * 0.1 * distance / (i * pi * std::tanh(i * pi * 0.2));
     EXPECT_LT((masses * sine - mass * sine).norm(), 1e-13 * mass * sine.norm()) << i;
   }
@@ -40,7 +40,7 @@ TEST(ChannelFlow, HasTheMassesOfTheSource) {
 TEST(ChannelFlow, IsThatOfShallowWater) {
   FlowChannel shallow = water;
   shallow.height = 1e-3;
-  const double largest = channel_masses(shallow, points, distance)
+  const double largest = channel_masses(shallow, row_points, distance)
                              .selfadjointView<Eigen::Lower>()
                              .eigenvalues()
                              .maxCoeff();
@@ -51,13 +51,14 @@ TEST(ChannelFlow, IsThatOfShallowWater) {
 TEST(ChannelFlow, KeepsItsBooks) {
   const auto flow = make_channel_flow(water);
   ASSERT_EQ(flow->objection(row()), "");
-  flow->begin(row(), VectorXd::Constant(3 * points, 0.3));
+  flow->begin(row(), VectorXd::Constant(3 * row_points, 0.3));
   double work = 0.0, size = 0.0;
   for (int i = 0; i < 50; ++i) {
-    VectorXd moved(3 * points);
+    VectorXd moved(3 * row_points);
     for (int k = 0; k < moved.size(); ++k) moved[k] = 1e-3 * std::sin(0.7 * i + 1.3 * k);
     const VectorXd forces = flow->forces(moved, 0.01);
-    for (int k = 0; k < points; ++k) EXPECT_EQ(forces.segment<2>(3 * k), Eigen::Vector2d::Zero());
+    for (int k = 0; k < row_points; ++k)
+      EXPECT_EQ(forces.segment<2>(3 * k), Eigen::Vector2d::Zero());
     const VectorXd memory = flow->memory();
     flow->accept(2.0 * moved, 0.01);
     flow->restore(memory);

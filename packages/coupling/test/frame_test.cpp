@@ -15,14 +15,14 @@ namespace {
 using port::Quantity;
 using testing::HasSubstr;
 
-constexpr int points = 2;
+constexpr int frame_points = 2;
 constexpr Quantities wanted = bit(Quantity::motion) | bit(Quantity::rotation);
 
 Window sample() {
   Window window{7, 3, 0.7, 0.8, {}, {}, {}};
-  for (int i = 0; i < 6 * points; ++i) window.of(Quantity::motion).push_back(std::sqrt(i));
-  for (int i = 0; i < 9 * points; ++i) window.of(Quantity::rotation).push_back(-0.1 * i);
-  for (int i = 0; i < 6 * points; ++i) window.loads.push_back(1e9 * i);
+  for (int i = 0; i < 6 * frame_points; ++i) window.of(Quantity::motion).push_back(std::sqrt(i));
+  for (int i = 0; i < 9 * frame_points; ++i) window.of(Quantity::rotation).push_back(-0.1 * i);
+  for (int i = 0; i < 6 * frame_points; ++i) window.loads.push_back(1e9 * i);
   return window;
 }
 
@@ -38,7 +38,7 @@ std::string mistake(const std::string& bytes) {
 TEST(Frames, AreTheSameAfterTheWire) {
   const Frame frame = decode(encode(motion(FrameKind::accept, sample(), wanted)));
   EXPECT_EQ(frame.kind, FrameKind::accept);
-  const Window window = read_motion(frame, wanted, points);
+  const Window window = read_motion(frame, wanted, frame_points);
   EXPECT_EQ(window.number, 7);
   EXPECT_EQ(window.attempt, 3);
   EXPECT_EQ(window.start, 0.7);
@@ -95,11 +95,11 @@ TEST(Frames, SaySoWhenTheyHoldTheWrongThings) {
       return std::string(error.what());
     }
   };
-  Eigen::VectorXd loads = Eigen::VectorXd::Zero(6 * points);
-  EXPECT_THAT(says([&] { read_answer(answer(sample(), loads.head(6)), points); }),
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(6 * frame_points);
+  EXPECT_THAT(says([&] { read_answer(answer(sample(), loads.head(6)), frame_points); }),
               HasSubstr("its answer has 48 bytes; six numbers for each of 2 points are 96"));
   loads[8] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(says([&] { read_answer(answer(sample(), loads), points); }),
+  EXPECT_THAT(says([&] { read_answer(answer(sample(), loads), frame_points); }),
               HasSubstr("nan for component 2 at point 1"));
   EXPECT_THAT(says([] {
                 read_introduction(introduction({"it", 2, 64, 1.0}));
@@ -111,7 +111,8 @@ TEST(Frames, SaySoWhenTheyHoldTheWrongThings) {
               HasSubstr("longest window is 0"));
   Frame frame = motion(FrameKind::attempt, sample(), wanted);
   frame.payload += 'x';
-  EXPECT_THAT(says([&] { read_motion(frame, wanted, points); }), HasSubstr("more than it should"));
+  EXPECT_THAT(says([&] { read_motion(frame, wanted, frame_points); }),
+              HasSubstr("more than it should"));
   EXPECT_THAT(says([&] { read_motion(frame, wanted, 3); }), HasSubstr("less than it must"));
 }
 

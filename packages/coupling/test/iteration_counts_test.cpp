@@ -22,8 +22,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int points = 40;
-constexpr double spacing = 1.0 / (points + 1);
+constexpr int string_points = 40;
+constexpr double spacing = 1.0 / (string_points + 1);
 constexpr double step = 2e-3;
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -44,16 +44,16 @@ class StringOverChannel {
   explicit StringOverChannel(double ratio, const Motion& motion = {})
       : ratio_(ratio), motion_(motion) {
     using std::numbers::pi;
-    const auto x = Eigen::ArrayXd::LinSpaced(points, spacing, 1.0 - spacing);
+    const auto x = Eigen::ArrayXd::LinSpaced(string_points, spacing, 1.0 - spacing);
     place_ = motion.first_wave * (pi * x).sin() + motion.third_wave * (3.0 * pi * x).sin();
     FlowChannel channel = {1.0, motion.depth, 1.0, Eigen::Vector3d::UnitZ()};
-    const MatrixXd masses = channel_masses(channel, points, spacing);
+    const MatrixXd masses = channel_masses(channel, string_points, spacing);
     channel.density = 1.0 / masses.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
     fluid_ = make_channel_flow(channel);
-    VectorXd reference = VectorXd::Zero(3 * points);
-    for (int i = 0; i < points; ++i) reference[3 * i] = (i + 1) * spacing;
-    fluid_->begin(reference, VectorXd::Zero(3 * points));
-    tension_ = MatrixXd::Zero(points, points);
+    VectorXd reference = VectorXd::Zero(3 * string_points);
+    for (int i = 0; i < string_points; ++i) reference[3 * i] = (i + 1) * spacing;
+    fluid_->begin(reference, VectorXd::Zero(3 * string_points));
+    tension_ = MatrixXd::Zero(string_points, string_points);
     tension_.diagonal().setConstant(2.0 / (spacing * spacing));
     tension_.diagonal(1).setConstant(-1.0 / (spacing * spacing));
     tension_.diagonal(-1).setConstant(-1.0 / (spacing * spacing));
@@ -78,9 +78,9 @@ class StringOverChannel {
  private:
   VectorXd solve(const VectorXd& forces) const {
     const double hardening = motion_.hardening;
-    const VectorXd x = VectorXd::LinSpaced(points, spacing, 1.0 - spacing);
+    const VectorXd x = VectorXd::LinSpaced(string_points, spacing, 1.0 - spacing);
     VectorXd load =
-        VectorXd::Constant(points, motion_.push * std::sin(40.0 * (time_ + 0.5 * step)));
+        VectorXd::Constant(string_points, motion_.push * std::sin(40.0 * (time_ + 0.5 * step)));
     if (!motion_.even) load.array() *= x.array() * (1.0 - x.array()) * (1.0 + 0.2 * x.array());
     VectorXd moved = step * velocity_;
     for (int i = 0; i < 30; ++i) {
@@ -98,25 +98,25 @@ class StringOverChannel {
     return moved;
   }
   static VectorXd in_space(const VectorXd& z) {
-    VectorXd all = VectorXd::Zero(3 * points);
-    all.reshaped(3, points).row(2) = z;
+    VectorXd all = VectorXd::Zero(3 * string_points);
+    all.reshaped(3, string_points).row(2) = z;
     return all;
   }
-  static VectorXd along_z(const VectorXd& all) { return all.reshaped(3, points).row(2); }
+  static VectorXd along_z(const VectorXd& all) { return all.reshaped(3, string_points).row(2); }
 
   double ratio_;
   Motion motion_;
   std::unique_ptr<PointModel> fluid_;
   MatrixXd tension_;
-  VectorXd place_ = VectorXd::Zero(points), velocity_ = place_, moved_ = place_;
+  VectorXd place_ = VectorXd::Zero(string_points), velocity_ = place_, moved_ = place_;
   double time_ = 0.0;
 };
 
 // Mean attempts of 60 windows but the first five.
-double attempts(double ratio, Scheme& scheme, double tolerance) {
+double mean_attempts(double ratio, Scheme& scheme, double tolerance) {
   constexpr int windows = 60, first = 5, most = 200;
   StringOverChannel model(ratio);
-  VectorXd forces = VectorXd::Zero(points);
+  VectorXd forces = VectorXd::Zero(string_points);
   int sum = 0;
   for (int window = 0; window < windows; ++window) {
     VectorXd answer = model(forces);
@@ -144,7 +144,7 @@ double attempts_of_places(double ratio, const Motion& motion, double factor, boo
   int sum = 0;
   for (int window = 0; window < windows; ++window) {
     Relaxation scheme(factor);
-    VectorXd moved = foresee ? model.foreseen() : VectorXd::Zero(points);
+    VectorXd moved = foresee ? model.foreseen() : VectorXd::Zero(string_points);
     VectorXd answer = model.move(model.answer(moved));
     int tried = 1;
     for (; (answer - moved).norm() > tolerance * (model.place() + answer).norm(); ++tried) {
@@ -159,11 +159,11 @@ double attempts_of_places(double ratio, const Motion& motion, double factor, boo
 }
 
 // The same where string and fluid begin each attempt together, from forces and a motion.
-double parallel_attempts(double ratio, Scheme& scheme, double tolerance) {
+double mean_parallel_attempts(double ratio, Scheme& scheme, double tolerance) {
   constexpr int windows = 60, first = 5, most = 200;
   StringOverChannel model(ratio);
   PartScale scale;
-  VectorXd forces = VectorXd::Zero(points);
+  VectorXd forces = VectorXd::Zero(string_points);
   int sum = 0;
   for (int window = 0; window < windows; ++window) {
     std::vector<VectorXd> tried = {forces, model.foreseen()}, found;
@@ -194,7 +194,7 @@ Counts quasi_newton(int reuse, double tolerance) {
   Counts counts = {};
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     QuasiNewton scheme(0.1, reuse, 1e-2);
-    counts[i] = attempts(ratios[i], scheme, tolerance);
+    counts[i] = mean_attempts(ratios[i], scheme, tolerance);
   }
   return counts;
 }
@@ -203,7 +203,7 @@ Counts aitken(double tolerance) {
   Counts counts = {};
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     Aitken scheme(0.1);
-    counts[i] = attempts(ratios[i], scheme, tolerance);
+    counts[i] = mean_attempts(ratios[i], scheme, tolerance);
   }
   return counts;
 }
@@ -241,13 +241,13 @@ TEST(IterationCounts, OfParallelQuasiNewtonAreLittleMoreThanOfASerialOne) {
   Counts parallel = {};
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     QuasiNewton scheme(0.1, 15, 1e-2);
-    parallel[i] = parallel_attempts(ratios[i], scheme, 1e-8);
+    parallel[i] = mean_parallel_attempts(ratios[i], scheme, 1e-8);
   }
   note(parallel, "parallel, fifteen windows");
   Counts aitken = {};
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     Aitken scheme(0.1);
-    aitken[i] = parallel_attempts(ratios[i], scheme, 1e-8);
+    aitken[i] = mean_parallel_attempts(ratios[i], scheme, 1e-8);
   }
   note(aitken, "parallel, Aitken");
   const Counts serial = quasi_newton(15, 1e-8);
@@ -292,7 +292,7 @@ TEST(IterationCounts, OfAitkenGrowAsTheFluidGetsHeavier) {
 TEST(IterationCounts, OfAConstantFactorEndAtItsLimit) {
   const auto constant = [](double factor, double ratio) {
     ConstantRelaxation scheme(factor);
-    return attempts(ratio, scheme, 1e-8);
+    return mean_attempts(ratio, scheme, 1e-8);
   };
   EXPECT_LT(constant(1.0, 2.0), 30.0);
   EXPECT_EQ(constant(1.0, 0.95), never);

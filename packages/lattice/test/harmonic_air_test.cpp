@@ -17,7 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 using kit::Wing;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // By column: up, and nose up about the middle of the chord.
 Eigen::MatrixXd heave_and_pitch(const Wing& wing, const Points& grid) {

@@ -9,8 +9,8 @@
 namespace culm::lattice {
 namespace {
 
-const kit::Wing wing{.half_span = 2.0, .inset = false};
-constexpr Panels panels{3, 4};
+const kit::Wing mirrored_wing{.half_span = 2.0, .inset = false};
+constexpr Panels mirrored_panels{3, 4};
 
 Points moved(const Points& grid, double way, const Points& change) {
   Points result = grid;
@@ -47,8 +47,8 @@ Points difference(const Points& grid, const Points& change, const Forces& forces
 }
 
 double steady_error(double alpha) {
-  const Lattice lattice = kit::make(wing, panels, alpha);
-  const Points grid = kit::grid(wing, panels), change = some_motion(grid);
+  const Lattice lattice = kit::make(mirrored_wing, mirrored_panels, alpha);
+  const Points grid = kit::grid(mirrored_wing, mirrored_panels), change = some_motion(grid);
   const FluidResult result = lattice.steady(grid, 0.0);
   const GridStep step{grid, grid, {}, 0.0, 0.0};
   return apart(
@@ -62,8 +62,8 @@ TEST(LatticeTangent, IsTheDerivativeOfASteadyFlow) {
 }
 
 double step_error(double alpha, int before) {
-  const Lattice lattice = kit::make(wing, panels, alpha);
-  const Points grid = kit::grid(wing, panels), change = some_motion(grid);
+  const Lattice lattice = kit::make(mirrored_wing, mirrored_panels, alpha);
+  const Points grid = kit::grid(mirrored_wing, mirrored_panels), change = some_motion(grid);
   constexpr double h = 1.0 / 3.0;
   const auto result_at = [&](const FluidState& state, const Lattice::ComingWake& coming,
                              const Points& end, double time, GridStep& step) {

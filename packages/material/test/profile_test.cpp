@@ -12,7 +12,7 @@
 namespace culm::material {
 namespace {
 
-constexpr double nu = 0.3;
+constexpr double poisson_ratio = 0.3;
 
 // int f dA over a ring, by the midpoint rule in the radius and the trapezoidal rule around.
 double over_ring(double inner, double outer, const std::function<double(double, double)>& f) {
@@ -30,7 +30,7 @@ double over_ring(double inner, double outer, const std::function<double(double, 
 }
 
 TEST(CircleShape, HasTheMomentsOfItsArea) {
-  const Profile circle = CircleSection::profile(0.7, nu);
+  const Profile circle = CircleSection::profile(0.7, poisson_ratio);
   EXPECT_NEAR(circle.area, over_ring(0.0, 0.7, [](double, double) { return 1.0; }), 1e-12);
   EXPECT_NEAR(circle.I1, over_ring(0.0, 0.7, [](double, double y) { return y * y; }), 1e-7);
   EXPECT_NEAR(circle.I2, over_ring(0.0, 0.7, [](double x, double) { return x * x; }), 1e-7);
@@ -38,15 +38,15 @@ TEST(CircleShape, HasTheMomentsOfItsArea) {
 }
 
 TEST(TubeShape, HasTheMomentsOfItsArea) {
-  const Profile tube = TubeSection::profile(0.7, 0.2, nu);
+  const Profile tube = TubeSection::profile(0.7, 0.2, poisson_ratio);
   EXPECT_NEAR(tube.area, over_ring(0.5, 0.7, [](double, double) { return 1.0; }), 1e-12);
   EXPECT_NEAR(tube.I1, over_ring(0.5, 0.7, [](double, double y) { return y * y; }), 1e-8);
   EXPECT_NEAR(tube.torsion, tube.I1 + tube.I2, 1e-15);
 }
 
 TEST(TubeShape, FilledIsTheCircle) {
-  const Profile tube = TubeSection::profile(0.7, 0.7, nu);
-  const Profile circle = CircleSection::profile(0.7, nu);
+  const Profile tube = TubeSection::profile(0.7, 0.7, poisson_ratio);
+  const Profile circle = CircleSection::profile(0.7, poisson_ratio);
   EXPECT_NEAR(tube.area, circle.area, 1e-15);
   EXPECT_NEAR(tube.I1, circle.I1, 1e-15);
   EXPECT_NEAR(tube.k1, circle.k1, 1e-15);
@@ -55,18 +55,18 @@ TEST(TubeShape, FilledIsTheCircle) {
 // Cowper (1966): solid circle 0.886, thin tube 2 (1 + nu) / (4 + 3 nu) = 0.531, rectangle 0.850,
 // thin square tube 20 (1 + nu) / (48 + 39 nu) = 0.436, all for nu = 0.3
 TEST(ShearFactors, AreCowpers) {
-  EXPECT_NEAR(CircleSection::profile(1.0, nu).k1, 0.886, 5e-4);
-  EXPECT_NEAR(TubeSection::profile(1.0, 1e-6, nu).k2, 0.531, 5e-4);
-  EXPECT_NEAR(RectangleSection::profile(1.0, 2.0, nu).k1, 0.850, 5e-4);
-  const Profile square = BoxSection::profile({1.0, 1.0, 1e-6, 1e-6}, nu);
+  EXPECT_NEAR(CircleSection::profile(1.0, poisson_ratio).k1, 0.886, 5e-4);
+  EXPECT_NEAR(TubeSection::profile(1.0, 1e-6, poisson_ratio).k2, 0.531, 5e-4);
+  EXPECT_NEAR(RectangleSection::profile(1.0, 2.0, poisson_ratio).k1, 0.850, 5e-4);
+  const Profile square = BoxSection::profile({1.0, 1.0, 1e-6, 1e-6}, poisson_ratio);
   EXPECT_NEAR(square.k1, 0.436, 5e-4);
   EXPECT_EQ(square.k1, square.k2);
 }
 
 TEST(ShearFactors, OfABoxFollowTheWallsAlongTheForce) {
   // hardly any flange: only the webs are left, and they shear like a rectangle along d2
-  const Profile box = BoxSection::profile({0.1, 1.0, 1e-6, 1e-3}, nu);
-  EXPECT_NEAR(box.k2, 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu), 1e-3);
+  const Profile box = BoxSection::profile({0.1, 1.0, 1e-6, 1e-3}, poisson_ratio);
+  EXPECT_NEAR(box.k2, 10.0 * (1.0 + poisson_ratio) / (12.0 + 11.0 * poisson_ratio), 1e-3);
   EXPECT_LT(box.k1, 0.01);
 }
 
@@ -78,31 +78,33 @@ TEST(RectangleShape, HasTheTabulatedTorsionConstant) {
   for (const auto& [ratio, factor] : table) {
     const double b = 0.3;
     const double tolerance = ratio == 1.0 ? 5e-5 : 6e-4;
-    EXPECT_NEAR(RectangleSection::profile(ratio * b, b, nu).torsion / (ratio * b * b * b * b),
-                factor, tolerance);
-    EXPECT_NEAR(RectangleSection::profile(b, ratio * b, nu).torsion / (ratio * b * b * b * b),
-                factor, tolerance);
+    EXPECT_NEAR(
+        RectangleSection::profile(ratio * b, b, poisson_ratio).torsion / (ratio * b * b * b * b),
+        factor, tolerance);
+    EXPECT_NEAR(
+        RectangleSection::profile(b, ratio * b, poisson_ratio).torsion / (ratio * b * b * b * b),
+        factor, tolerance);
   }
 }
 
 TEST(RectangleShape, NamesItsMomentsByTheAxisTheyAreAbout) {
-  const Profile plank = RectangleSection::profile(3.0, 0.2, nu);  // flat: weak about d1
+  const Profile plank = RectangleSection::profile(3.0, 0.2, poisson_ratio);  // flat: weak about d1
   EXPECT_NEAR(plank.I1, 3.0 * 0.2 * 0.2 * 0.2 / 12.0, 1e-15);
   EXPECT_NEAR(plank.I2, 0.2 * 27.0 / 12.0, 1e-15);
   EXPECT_NEAR(plank.area, 0.6, 1e-15);
 }
 
 TEST(BoxShape, IsTheOuterMinusTheInnerRectangle) {
-  const Profile box = BoxSection::profile({3.0, 2.0, 0.1, 0.2}, nu);
-  const Profile outer = RectangleSection::profile(3.0, 2.0, nu);
-  const Profile inner = RectangleSection::profile(2.6, 1.8, nu);
+  const Profile box = BoxSection::profile({3.0, 2.0, 0.1, 0.2}, poisson_ratio);
+  const Profile outer = RectangleSection::profile(3.0, 2.0, poisson_ratio);
+  const Profile inner = RectangleSection::profile(2.6, 1.8, poisson_ratio);
   EXPECT_NEAR(box.area, outer.area - inner.area, 1e-14);
   EXPECT_NEAR(box.I1, outer.I1 - inner.I1, 1e-14);
   EXPECT_NEAR(box.I2, outer.I2 - inner.I2, 1e-14);
 }
 
 TEST(BoxShape, ThinSquareHasBredtsTorsionConstant) {
-  EXPECT_NEAR(BoxSection::profile({1.0, 1.0, 1e-6, 1e-6}, nu).torsion / 1e-6, 1.0, 1e-5);
+  EXPECT_NEAR(BoxSection::profile({1.0, 1.0, 1e-6, 1e-6}, poisson_ratio).torsion / 1e-6, 1.0, 1e-5);
 }
 
 TEST(Outlines, RunCounterClockwise) {

@@ -136,7 +136,7 @@ TEST(LaminatedStrip, BendsByLaminateTheory) {
 // ends of its axes: Sze, Liu, Lo (2004), 3.4. Displacements of the two points along their loads.
 Vec<2> pinched_hemisphere(int n, const ShellOptions& options) {
   const double R = 10.0;
-  const double pi = std::numbers::pi;
+  using std::numbers::pi;
   NodeColumns nodes(3, 2 * (n + 1) * (n + 1));
   const auto node = [&](int i, int j) { return i * (n + 1) + j; };
   for (int i = 0; i <= n; ++i) {    // around

@@ -27,7 +27,8 @@ const std::array<int, 4> quads[] = {
     {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
 
 template <class Shell>
-ShellModel<Shell> patch(const material::Material::Law& law, const ShellOptions& options = {}) {
+ShellModel<Shell> five_elements(const material::Material::Law& law,
+                                const ShellOptions& options = {}) {
   NodeColumns nodes(3, 16);
   for (int a = 0; a < 8; ++a) {
     nodes.col(2 * a) = Vec3(corners[a][0], corners[a][1], 0.0);
@@ -66,15 +67,15 @@ void expect_homogeneous(ShellModel<Shell> model) {
 }
 
 TEST(MembranePatch, FiniteHomogeneousStateIsExact) {
-  expect_homogeneous(patch<ElasticShell>(st_venant()));
-  expect_homogeneous(patch<ElasticShell>(st_venant(), {.enhancement = {7, 4}}));
-  expect_homogeneous(patch<ElasticShell>(st_venant(), {.enhancement = {0, 0}}));
-  expect_homogeneous(patch<HyperelasticShell>(st_venant()));
+  expect_homogeneous(five_elements<ElasticShell>(st_venant()));
+  expect_homogeneous(five_elements<ElasticShell>(st_venant(), {.enhancement = {7, 4}}));
+  expect_homogeneous(five_elements<ElasticShell>(st_venant(), {.enhancement = {0, 0}}));
+  expect_homogeneous(five_elements<HyperelasticShell>(st_venant()));
 }
 
 // w = 1/2 x . κ x at the outer nodes with the normals of that surface.
 double bending_energy_ratio(const ShellOptions& options) {
-  ShellModel<ElasticShell> model = patch<ElasticShell>(st_venant(), options);
+  ShellModel<ElasticShell> model = five_elements<ElasticShell>(st_venant(), options);
   Mat<2, 2> curvature;
   curvature << 1.0, 0.5, 0.5, 2.0;
   const auto deflection = [&](int a) -> double {
@@ -121,7 +122,7 @@ TEST(BendingPatch, LocksWithoutLinearThicknessStrain) {
 template <class Shell>
 void expect_uniaxial(const material::Material::Law& law, double stretch, double piola,
                      double lateral, double tolerance) {
-  ShellModel<Shell> model = patch<Shell>(law);
+  ShellModel<Shell> model = five_elements<Shell>(law);
   for (int a : {0, 3}) model.hold(a, 0, 0);
   for (int a : {1, 2}) {
     model.q(0, 2 * a) = stretch * width;

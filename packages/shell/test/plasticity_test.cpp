@@ -13,16 +13,16 @@
 namespace culm::shell {
 namespace {
 
-constexpr const char* effect = "Plasticity, wall";
-constexpr double E = 200.0, nu = 0.3, t = 0.1;
+constexpr const char* plastic_part = "Plasticity, wall";
+constexpr double young_modulus = 200.0, poisson_ratio = 0.3, wall_thickness = 0.1;
 
 material::PlaneStressPlasticity law(double yield_stress) {
-  return {E, nu, {yield_stress, 10.0, 5.0}};
+  return {young_modulus, poisson_ratio, {yield_stress, 10.0, 5.0}};
 }
 
 std::shared_ptr<const material::Layup> wall(double yield_stress) {
-  const double mu = E / (2.0 * (1.0 + nu));
-  const double lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);
+  const double mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
+  const double lambda = 2.0 * mu * poisson_ratio / (1.0 - 2.0 * poisson_ratio);
   material::StVenantKirchhoff elastic;
   elastic.C.setZero();
   elastic.C.topLeftCorner<3, 3>().setConstant(lambda);
@@ -31,8 +31,9 @@ std::shared_ptr<const material::Layup> wall(double yield_stress) {
   metal.law = elastic;
   metal.density = 1.0;
   metal.plasticity = {law(yield_stress), 2};
-  return std::make_shared<const material::Layup>(material::Layup{
-      {material::Layer{metal, 0.4 * t, 0.3}, material::Layer{metal, 0.6 * t, -0.7}}});
+  return std::make_shared<const material::Layup>(
+      material::Layup{{material::Layer{metal, 0.4 * wall_thickness, 0.3},
+                       material::Layer{metal, 0.6 * wall_thickness, -0.7}}});
 }
 
 // One distorted element, warped by the height of a corner.
@@ -67,9 +68,11 @@ model::State moved(const model::Model& model, int seed) {
   return state;
 }
 
-TEST(YieldingShell, AssemblesWithoutHeap) { kit::expect_no_allocation(fill_yielding, effect); }
+TEST(YieldingShell, AssemblesWithoutHeap) {
+  kit::expect_no_allocation(fill_yielding, plastic_part);
+}
 TEST(YieldingShell, AttemptsLeaveNoTrace) {
-  kit::expect_attempts_leave_no_trace(fill_yielding, effect);
+  kit::expect_attempts_leave_no_trace(fill_yielding, plastic_part);
 }
 
 TEST(YieldingShell, TangentIsDerivativeOfResidual) {
@@ -77,7 +80,7 @@ TEST(YieldingShell, TangentIsDerivativeOfResidual) {
     model::Model model;
     fill_yielding(model);
     model.freeze(model::Form::null_space);
-    const kit::DenseAssembly::Batches tested = {kit::find_batch(model, effect)};
+    const kit::DenseAssembly::Batches tested = {kit::find_batch(model, plastic_part)};
     kit::DenseAssembly dense(model);
     model::State state = moved(model, 3);
     dense.prepare(state, Stencil::statics());
@@ -98,7 +101,7 @@ TEST(YieldingShell, EnergyBalanceIsExact) {
   model.freeze(model::Form::multipliers);
   kit::DenseAssembly dense(model);
   const std::vector<model::Batch*> batches{kit::find_batch(model, "Shell"),
-                                           kit::find_batch(model, effect)};
+                                           kit::find_batch(model, plastic_part)};
   const auto stored = [&](const model::Coordinates& q) {
     return batches[0]->stored_energy(q) + batches[1]->stored_energy(q);
   };
@@ -140,7 +143,7 @@ TEST(YieldingShell, MeetsEvenStates) {
   for (int node = 0; node < model.nodes().size(); ++node) {
     auto slots = model::NodeTable::slots(state.next, node);
     slots.col(0) *= std::sqrt(1.0 + 2.0 * e);
-    slots.col(1) *= std::sqrt(1.0 - 4.0 * e * nu / (1.0 - nu));
+    slots.col(1) *= std::sqrt(1.0 - 4.0 * e * poisson_ratio / (1.0 - poisson_ratio));
   }
   dense.prepare(state, Stencil::statics());
   dense.accept(state);
@@ -153,7 +156,7 @@ TEST(YieldingShell, MeetsEvenStates) {
   std::vector<double> found;
   shells.resultants(0, state.next, found);
   const ShellResultants expected =
-      t * stress * (ShellResultants() << 1, 1, 0, 0, 0, 0, 0, 0).finished();
+      wall_thickness * stress * (ShellResultants() << 1, 1, 0, 0, 0, 0, 0, 0).finished();
   EXPECT_LT((Eigen::Map<const ShellResultants>(found.data()) - expected).norm(), 1e-13);
 
   ShellForms::Nodes slots;

@@ -13,7 +13,7 @@
 namespace culm::shell {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double fold = pi / 9.0;  // 20 degrees
 
 double area(const ShellMesh& mesh) {

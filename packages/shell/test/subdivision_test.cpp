@@ -8,10 +8,9 @@
 namespace culm::shell {
 namespace {
 
-constexpr double fold = 0.35;
-
 // The same quadrilaterals as if nothing were known but their corners.
 ShellMesh divided(Facets facets, int refinement) {
+  constexpr double fold = 0.35;
   facets.parents.clear();
   return make_mesh(subdivide(facets, make_mesh(facets, fold), refinement), fold);
 }

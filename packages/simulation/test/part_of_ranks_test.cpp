@@ -23,33 +23,33 @@ class Group {
   MPI_Comm handle_ = MPI_COMM_NULL;
 };
 
-const std::vector<std::string> cantilever = {"Sections/bar/Type=Stiffness Values",
-                                             "Sections/bar/EA=100",
-                                             "Sections/bar/GA1=50",
-                                             "Sections/bar/GA2=50",
-                                             "Sections/bar/EI1=2",
-                                             "Sections/bar/EI2=2",
-                                             "Sections/bar/GIp=1",
-                                             "Sections/bar/rhoA=1",
-                                             "Sections/bar/rhoI1=0.01",
-                                             "Sections/bar/rhoI2=0.01",
-                                             "Structures/beam/Type=Beam",
-                                             "Structures/beam/Section=bar",
-                                             "Structures/beam/Curve/Type=Line",
-                                             "Structures/beam/Curve/From={0, 0, 0}",
-                                             "Structures/beam/Curve/To={1, 0, 0}",
-                                             "Structures/beam/Curve/Elements=6",
-                                             "Constraints/clamp/Type=Rigid Support",
-                                             "Constraints/clamp/Node=beam/first",
-                                             "Loads/push/Type=External",
-                                             "Loads/push/Node=beam/last",
-                                             "Analyses/motion/Type=Dynamic",
-                                             "Analyses/motion/End Time=0.2",
-                                             "Analyses/motion/Step=0.05"};
+const std::vector<std::string> clamped_bar = {"Sections/bar/Type=Stiffness Values",
+                                              "Sections/bar/EA=100",
+                                              "Sections/bar/GA1=50",
+                                              "Sections/bar/GA2=50",
+                                              "Sections/bar/EI1=2",
+                                              "Sections/bar/EI2=2",
+                                              "Sections/bar/GIp=1",
+                                              "Sections/bar/rhoA=1",
+                                              "Sections/bar/rhoI1=0.01",
+                                              "Sections/bar/rhoI2=0.01",
+                                              "Structures/beam/Type=Beam",
+                                              "Structures/beam/Section=bar",
+                                              "Structures/beam/Curve/Type=Line",
+                                              "Structures/beam/Curve/From={0, 0, 0}",
+                                              "Structures/beam/Curve/To={1, 0, 0}",
+                                              "Structures/beam/Curve/Elements=6",
+                                              "Constraints/clamp/Type=Rigid Support",
+                                              "Constraints/clamp/Node=beam/first",
+                                              "Loads/push/Type=External",
+                                              "Loads/push/Node=beam/last",
+                                              "Analyses/motion/Type=Dynamic",
+                                              "Analyses/motion/End Time=0.2",
+                                              "Analyses/motion/Step=0.05"};
 
 // The end of the beam after all steps, under a force of this size.
 Vec3 tip_after_motion(const parallel::Comm& comm, double force, int steps) {
-  Simulation simulation = Simulation::make(cantilever, Log(LogLevel::quiet), comm);
+  Simulation simulation = Simulation::make(clamped_bar, Log(LogLevel::quiet), comm);
   analysis::Stepper& stepper = simulation.begin();
   simulation.set_load("push", {0.0, force, 0.1, 0.0, 0.0, 0.0});
   for (int step = 0; step < steps; ++step) {

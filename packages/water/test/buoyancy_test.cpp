@@ -6,7 +6,7 @@
 namespace culm::water {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double weight = 1025.0 * 9.80665;  // of the water per volume
 
 using test::member;

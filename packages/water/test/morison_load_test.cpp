@@ -9,7 +9,7 @@
 namespace culm::water {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using test::effect;
 using test::make_sea;

@@ -14,7 +14,7 @@ using test::mistakes;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // @source fluids C16
 TEST(Dispersion, KnownNumbers) {
