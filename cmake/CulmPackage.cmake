@@ -15,9 +15,9 @@
 # the headers that its layer shares beforehand, once for sources and once, with GoogleTest, for
 # tests. Packages without PRECOMPILE use those of the highest layer that they depend on.
 #
-# With CULM_UNITY the sources of a package are compiled eight at a time, which saves half of the
-# time: their headers and templates are common. So what is in an unnamed namespace has a name
-# that no other source of the package gives to something else.
+# With CULM_UNITY the sources of a package are compiled eight at a time, and so are its tests, which
+# saves half of the time: their headers and templates are common. So what is in an unnamed namespace
+# has a name that no other source, or no other test, of the package gives to something else.
 
 include(CMakePackageConfigHelpers)
 include(GoogleTest)
@@ -102,7 +102,7 @@ function(culm_add_package name)
   culm_choose_layer(${name} PRECOMPILE ${arg_PRECOMPILE} DEPENDS ${arg_DEPENDS})
   if(sources)
     culm_finish_target(${target} SOURCES ${sources} LAYER ${name})
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${CULM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+    culm_compile_together(${target})
   endif()
 
   if(CULM_TESTS AND tests)
@@ -160,6 +160,11 @@ function(culm_precompile target layer use)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
+# Several sources of a target at once; see the top.
+function(culm_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CULM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # Warnings, instrumentation, the C++17 rule and, with LAYER, the precompiled headers of a package's
 # layer; with TESTS, those for tests: for everything we compile.
 function(culm_finish_target target)
@@ -202,6 +207,7 @@ macro(culm_add_package_tests name)
   target_link_libraries(${program} PRIVATE ${target} ${arg_PRIVATE} GTest::gmock GTest::gtest)
   target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit)
   culm_finish_target(${program} SOURCES ${tests} LAYER ${name} TESTS)
+  culm_compile_together(${program})
   # What takes time is compiled into the packages; more optimisation takes a fifth longer to compile.
   target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(EXISTS ${folder}/test/main.cpp)
