@@ -1,3 +1,4 @@
+#include <culm/math/types.hpp>
 #include <culm/output/skin.hpp>
 
 #include <algorithm>
@@ -7,8 +8,6 @@
 namespace culm::output {
 
 namespace {
-
-std::size_t index(int number) { return static_cast<std::size_t>(number); }
 
 // How many lines begin or end at each node: one means that a line ends in the open there.
 std::vector<int> count_line_ends(const StructureMesh& mesh) {
