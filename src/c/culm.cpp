@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdlib>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <sstream>
 #include <string>

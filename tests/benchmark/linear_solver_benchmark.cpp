@@ -13,7 +13,6 @@
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 

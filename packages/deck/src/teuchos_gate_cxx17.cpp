@@ -7,7 +7,6 @@
 #include <exception>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 namespace culm::deck {
 namespace {

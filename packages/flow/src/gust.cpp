@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <utility>
 
 namespace culm::flow {
 namespace {

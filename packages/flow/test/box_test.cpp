@@ -1,10 +1,8 @@
 // Boxes of turbulence, from small files of known values.
 #include "boxes.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "flow_kit.hpp"
 
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include <culm/material/plane_stress_plasticity.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace culm::material {

@@ -8,7 +8,6 @@
 #include <Eigen/SparseQR>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>

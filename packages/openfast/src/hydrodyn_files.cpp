@@ -13,7 +13,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <utility>
 
 namespace culm::openfast {
 

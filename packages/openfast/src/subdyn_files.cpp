@@ -15,7 +15,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <utility>
 
 namespace culm::openfast {
 

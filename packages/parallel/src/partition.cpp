@@ -3,7 +3,6 @@
 
 #include <metis.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace culm::parallel {

@@ -5,7 +5,6 @@
 #include <culm/port/port_load.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 

@@ -7,8 +7,6 @@
 
 #include <Eigen/Cholesky>
 
-#include <utility>
-
 namespace culm::shell {
 
 // W = min over α of 1/2 int (L y + M α) . C (L y + M α), eq. (1.21)

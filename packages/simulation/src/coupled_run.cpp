@@ -16,7 +16,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 
 namespace culm::simulation {
 namespace {

@@ -3,7 +3,6 @@
 #include <culm/base/nearest.hpp>
 #include <culm/load/catenary_load.hpp>
 
-#include <cmath>
 #include <iterator>
 #include <string>
 #include <vector>

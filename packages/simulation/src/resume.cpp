@@ -11,8 +11,6 @@
 
 #include <fmt/core.h>
 
-#include <vector>
-
 namespace culm::simulation {
 
 std::string read_sound_checkpoint(const std::filesystem::path& file) {

@@ -1,7 +1,6 @@
 #include <culm/simulation/quantity.hpp>
 
 #include <memory>
-#include <string>
 
 namespace culm::simulation {
 namespace {

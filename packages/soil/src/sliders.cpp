@@ -1,6 +1,5 @@
 #include <culm/soil/sliders.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace culm::soil {

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <unordered_map>
 

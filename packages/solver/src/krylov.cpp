@@ -7,8 +7,6 @@
 #include <Teuchos_oblackholestream.hpp>
 #include <Tpetra_Operator.hpp>
 
-#include <cmath>
-
 namespace culm::solver {
 namespace {
 

@@ -11,8 +11,6 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace culm::solver {
 namespace {
 

@@ -7,7 +7,6 @@
 #include "symmetry_check.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include <Teuchos_oblackholestream.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace culm::solver {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "blocks.hpp"
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 

@@ -5,8 +5,6 @@
 #include <culm_kit/dense_assembly.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace culm::solver {
 namespace {
 

@@ -2,7 +2,6 @@
 #include "strip_tangent.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>

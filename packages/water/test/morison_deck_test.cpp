@@ -6,7 +6,6 @@
 #include <culm_kit/dense_assembly.hpp>
 
 #include <numbers>
-#include <utility>
 
 namespace culm::water {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "morison_kit.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
