@@ -28,7 +28,7 @@ def imported(program, folder, model):
     return done.stdout
 
 
-def rolls_up(program, complaints):
+def rolls_up(program, complaints, backwards=False):
     """Two-node elements with one Gauss point: an element turned by Delta has M h/EI = sin(Delta) cos(Delta)
     and the length h/cos(Delta/2), so the tip is at h/sin(Delta) (sin(N Delta), 1 - cos(N Delta))."""
     n, h = desio_samples.ELEMENTS, 1.0 / desio_samples.ELEMENTS
@@ -36,10 +36,11 @@ def rolls_up(program, complaints):
     tip = h / numpy.sin(delta) * numpy.array([numpy.sin(n * delta), 1.0 - numpy.cos(n * delta)])
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        imported(program, folder, desio_samples.cantilever())
+        imported(program, folder, desio_samples.cantilever(backwards))
         deck = folder / "model.xml"
         history = '<ParameterList name="Output"><ParameterList name="History"><ParameterList name="tip">'
-        history += '<Parameter name="Type" value="Position"/><Parameter name="Node" value="bar/last"/>'
+        node = "bar/first" if backwards else "bar/last"
+        history += f'<Parameter name="Type" value="Position"/><Parameter name="Node" value="{node}"/>'
         history += "</ParameterList></ParameterList></ParameterList>\n</ParameterList>\n"
         text = deck.read_text().rstrip()
         deck.write_text(text.removesuffix("</ParameterList>") + history)
@@ -183,6 +184,7 @@ def main():
     program = Program(parser.parse_args().culm)
     complaints = []
     rolls_up(program, complaints)
+    rolls_up(program, complaints, backwards=True)
     weighs(complaints)
     sections_agree(complaints)
     shells_are_whole(complaints)

@@ -12,9 +12,9 @@ def table(title, rows):
     return HEAD.format(f"number of {title}") + f"{len(rows)}\n" + HEAD.format(title) + "\n".join(rows) + "\n"
 
 
-def beam(name, start, step, elements, sections):
-    """A straight beam; d1 is y along x, else x."""
-    d3 = [component / sum(c * c for c in step) ** 0.5 for component in step]
+def beam(name, start, step, elements, sections, backwards=False):
+    """A straight beam; d1 is y along x, else x; backwards d3 is against the order of the nodes."""
+    d3 = [(-1) ** backwards * component / sum(c * c for c in step) ** 0.5 for component in step]
     d1 = [0.0, 1.0, 0.0] if abs(d3[0]) > 0.5 else [1.0, 0.0, 0.0]
     d2 = [d3[1] * d1[2] - d3[2] * d1[1], d3[2] * d1[0] - d3[0] * d1[2], d3[0] * d1[1] - d3[1] * d1[0]]
     text = HEAD.format(f"beam {name}: number of nodes (1), number of elements (2):") + f"{elements + 1} {elements}\n"
@@ -53,12 +53,12 @@ TUBE = (
 ELEMENTS, MOMENT = 10, 2.3e7
 
 
-def cantilever():
+def cantilever(backwards=False):
     """1 m long, ten elements, an end moment."""
     internal = [f"internal {i} 0 {NO_VECTORS}" for i in range(2, ELEMENTS + 2)]
     return {
         "simulationinput_structure.txt": simulation("static", "1 0.1 1d-8 50 0"),
-        "beaminput.txt": beams([beam("bar", (0, 0, 0), (1.0 / ELEMENTS, 0, 0), ELEMENTS, [1])], [TUBE]),
+        "beaminput.txt": beams([beam("bar", (0, 0, 0), (1.0 / ELEMENTS, 0, 0), ELEMENTS, [1], backwards)], [TUBE]),
         "constraint12input.txt": table("constraints", [f"rigidsupport 1 0 {NO_VECTORS}", *internal]),
         "load12input.txt": table(
             "loads", [f"linear {MOMENT:.6e} 1.0 {ELEMENTS + 1} {numbers([0, 0, 0, 0, -1, 0] + [0] * 6)}"]

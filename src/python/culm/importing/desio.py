@@ -147,27 +147,32 @@ class Reader:
 
     def _beam(self, beam, table):
         name = unique_name(beam.name, {one.name for one in self.lists["Structures"].lists()})
-        positions = numpy.array([node.position for node in beam.nodes])
+        nodes, properties = beam.nodes, beam.properties
+        if _runs_backwards(nodes):
+            # all strains change their sign with the direction, and so neither energy nor forces
+            nodes, properties = nodes[::-1], properties[::-1]
+            self.findings.assume("d3 points from the last node of a beam to its first: it begins at the last", beam.place)
+        positions = numpy.array([node.position for node in nodes])
         lengths = numpy.linalg.norm(numpy.diff(positions, axis=0), axis=1)
-        self.mass += float(sum(table[index][1][0] * length for index, length in zip(beam.properties, lengths)))
+        self.mass += float(sum(table[index][1][0] * length for index, length in zip(properties, lengths)))
         entry = self.lists["Structures"].list(name, f"{beam.place}", "Beam")
         entry.add("Order", 1, comment="the element of the original; 2 needs fewer nodes for the same accuracy")
-        names, places = _section_steps(beam.properties, lengths)
+        names, places = _section_steps(properties, lengths)
         if len(set(names)) == 1:
             entry.add("Section", names[0])
         else:
             entry.add("Sections", names).add("Section Positions", places)
-        factors = {tuple(table[index][2]) for index in beam.properties}
+        factors = {tuple(table[index][2]) for index in properties}
         if len(factors) > 1:
             self.findings.assume("the dissipation of a beam is that of its first section", beam.place)
         for key, factor in zip(("Dissipation", "Velocity Dissipation"), table[beam.properties[0]][2]):
             if factor:
                 entry.add(key, factor)
         curve = entry.list("Curve", type="Nodes").add("Positions", positions.ravel())
-        curve.add("Directors", numpy.array([node.directors for node in beam.nodes]).ravel())
-        for i, node in enumerate(beam.nodes):
+        curve.add("Directors", numpy.array([node.directors for node in nodes]).ravel())
+        for i, node in enumerate(nodes):
             node.name = f"{name}/{i}"
-            self.nodes.append(node)
+        self.nodes.extend(beam.nodes)
 
     def _node(self, number_, place, first):
         if not first <= number_ < first + len(self.nodes):
@@ -348,6 +353,12 @@ def _section_steps(properties, lengths):
             start = i
     places[-1] = 1.0
     return names, places
+
+
+def _runs_backwards(nodes):
+    """Whether d3 points against the axis everywhere."""
+    steps = zip(nodes, nodes[1:])
+    return all((b.position - a.position) @ (a.directors[2] + b.directors[2]) < 0.0 for a, b in steps)
 
 
 def _has_two(row):
