@@ -143,6 +143,19 @@ def of_beams():
     yield "a node beyond its own is the direction of an element", ups == [(5.0, 5.0, 5.0), (0.0, 0.0, -1.0)]
 
 
+def of_instances():
+    """Directions that a part gives turn with its instance, here by 90 degrees about x."""
+    part = "*part,name=p\n*node\n1,0,0,0\n2,1,0,0\n*element,type=b31,elset=e\n1,1,2\n*element,type=rotaryi,elset=r\n5,2\n"
+    part += "*rotary inertia,elset=r\n1,2,3,0,0,0.5\n*beam section,elset=e,material=m,section=rect\n0.1,0.2\n{}*end part\n"
+    part += "*assembly,name=a\n*instance,name=i,part=p\n0,5,0\n0,5,0,1,5,0,90\n*end instance\n*end assembly\n"
+    part += INP[INP.index("*material") : INP.index("*shell")]
+    made = made_of_text("abaqus", part.format("0,1,0\n"))
+    yield "the direction of a beam section", made.made.beams[0].up == (0, 0, 1)
+    yield "a rotary inertia", numpy.allclose(made.made.masses[0].inertia, [1, 3, 2, -0.5, 0, 0])
+    told = made_of_text("abaqus", part.format("")).findings.assumed
+    yield "one that is not given is told", any("direction of a beam section that the file does not give" in x for x in told)
+
+
 def of_nastran():
     shell = "PSHELL,1,1,.01,1,,1,,2.5\n"
     cylinder = bdf(shell + SQUARE.replace("0.,1.,0.\n", "0.,1.,0.,5\n") + "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nSPC1,1,1,4\n")
@@ -252,7 +265,7 @@ REFUSED = {
 
 def main():
     complaints = []
-    for facts in (of_abaqus, of_beams, of_nastran, of_ansys):
+    for facts in (of_abaqus, of_beams, of_instances, of_nastran, of_ansys):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     complaints += not_refused(REFUSED)
     sys.exit("\n".join(complaints) or 0)

@@ -140,6 +140,15 @@ def placed(reader, position):
     return position
 
 
+def turned(reader, vector):
+    """A direction of the part as its instance has it."""
+    return placed(reader, numpy.array(vector, float)) - placed(reader, numpy.zeros(3))
+
+
+def is_turned(reader):
+    return reader.transform is not None and len(reader.transform[0]) > 1
+
+
 def _numbers(cells, count, place):
     values = numbers_of(cells, place)
     if len(values) > count:

@@ -7,7 +7,7 @@ import numpy
 from .findings import did_you_mean, refuse
 from .keyword_file import NUMBER, number, numbers_of
 from .model import Layer, Material, Section, Wall
-from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, point_mass
+from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, is_turned, point_mass, turned
 from .abaqus_orientations import Orientation, read_orientation
 from .profiles import i_section
 
@@ -117,13 +117,13 @@ def _density(reader, block):
 
 
 def _assignment(reader, block):
-    reader.assignments.append((block, reader.prefix))
+    reader.assignments.append((block, reader.prefix, reader.transform))
 
 
 def resolve_sections(reader):
     """Gives every element what its section says, when the whole file is known."""
     given, blocks = {}, []
-    for block, prefix in reader.assignments:
+    for block, prefix, _ in reader.assignments:
         reader.prefix = prefix
         keys = list(dict.fromkeys(reader.find_elements(block.required("ELSET"), block.place)))
         for key in keys:
@@ -134,13 +134,13 @@ def resolve_sections(reader):
             if key in given:
                 reader.findings.assume("elements that two sections name have the last one", block.place)
             given[key] = block
-        blocks.append((block, prefix, keys))
+        blocks.append(keys)
     actions = {**dict.fromkeys(SHELL_SECTIONS, _shell_section), "MASS": _mass, "ROTARY INERTIA": _rotary}
-    for block, prefix, keys in blocks:
-        reader.prefix = prefix
+    for (block, prefix, transform), keys in zip(reader.assignments, blocks):
+        reader.prefix, reader.transform = prefix, transform
         keys = [key for key in keys if given[key] is block]
         actions.get(block.keyword, _beam_section)(reader, block, keys)
-    reader.prefix = ""
+    reader.prefix, reader.transform = "", None
     for key, (type, _, place) in reader.elements.items():
         if key not in given and type != "DCOUP3D":
             number_ = key[1] if isinstance(key, tuple) else key
@@ -187,6 +187,8 @@ def _shell_section(reader, block, keys):
     orientation = None
     if block.get("ORIENTATION") and not isotropic:
         orientation = _find_orientation(reader, block.get("ORIENTATION"), block.place)
+    elif not isotropic:
+        _tell_default(reader, block, "axis of layers")
     if block.get("SYMMETRIC") is not None or block.has("SYMMETRIC"):
         layers += layers[::-1]
     name = (block.get("ELSET") or "wall").lower()
@@ -309,10 +311,19 @@ def _beam_section(reader, block, keys):
     up = DEFAULT_UP
     if len(block.lines) > 1 and any(block.lines[1][1][:3]):
         place, cells = block.lines[1]
-        up = tuple([*numbers_of(cells[:3], place, "a direction"), 0.0, 0.0][:3])
+        up = [*numbers_of(cells[:3], place, "a direction"), 0.0, 0.0][:3]
+        up = tuple(map(float, numpy.round(turned(reader, up), 12))) if is_turned(reader) else tuple(up)
+    elif any(key not in reader.direction_nodes for key in keys):
+        _tell_default(reader, block, "direction of a beam section")
     for key in keys:
         own = _direction_of(reader, key, block.place)
         reader.model.beams.append(element_of(reader, key, None, name, up if own is None else own))
+
+
+def _tell_default(reader, block, what):
+    if is_turned(reader):
+        text = f"the {what} that the file does not give is that of space, not turned with the instance"
+        reader.findings.assume(text, block.place)
 
 
 def _direction_of(reader, key, place):
@@ -403,6 +414,11 @@ def _rotary(reader, block, keys):
     cells = [cell for cell in block.lines[0][1]]
     values = [number(cell, block.place) if cell else 0.0 for cell in [*cells, *[""] * 6][:6]]
     I11, I22, I33, I12, I13, I23 = values
+    if is_turned(reader):
+        axes = numpy.array([turned(reader, one) for one in numpy.eye(3)])
+        tensor = axes.T @ numpy.array([[I11, I12, I13], [I12, I22, I23], [I13, I23, I33]]) @ axes
+        I11, I22, I33, I12, I13, I23 = map(float, tensor[(0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)])
+        reader.findings.assume("a rotary inertia of a part turns with its instance", block.place)
     for key in keys:
         reader.model.masses.append(point_mass(reader, key, 0.0, (I11, I22, I33, I23, I13, I12)))
         reader.findings.count("rotary inertias")
