@@ -202,6 +202,15 @@ def of_nastran():
     yield "thicknesses of an element and a membrane are told", {"field 10 of CQUAD4"} < set(membrane.findings.left_out)
     other = case_control("101", "LOAD=2\nMFLUID=3\n", "SPC1,2,3,3\n").findings
     yield "supports that no case names are told", "the support set 2 is in no case" in other.assumed
+    turned = "CORD2R,6,5,1.,90.,0.,1.,90.,1.\n,2.,90.,0.\nCORD2C,5,7,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\nCORD2C,7,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n"
+    chained = bdf(shell + turned + "GRID,9,6,1.,0.,0.\n" + SQUARE).made
+    yield "systems in cylindrical ones, in any order", numpy.allclose(chained.nodes[9], [-2, 1, 0])
+    lighter = made_of_text("nastran", BDF.format(shell + SQUARE).replace("LOAD=2\n", "LOAD=2\nPARAM,WTMASS,0.5\n"), "model.bdf")
+    yield "a factor of masses in the case control", lighter.mass == 6.25
+    own = made_of_text("nastran", BDF.format(shell + SQUARE).replace("2.+11,,.3", "2.+11,1.+10,.3"), "model.bdf").findings
+    yield "a shear modulus of its own is told", any("G of a MAT1" in x for x in own.left_out)
+    mixed = case_control("103", "SUBCASE 1\nANALYSIS=STATICS\nLOAD=2\nSUBCASE 2\nMETHOD=4\n", "EIGRL,4,,,5\n").findings
+    yield "another analysis of a case is told", "ANALYSIS of the case control" in mixed.left_out
     response = made_of_text("nastran", BDF.format(shell + SQUARE).replace("SOL 101", "SOL 111"), "model.bdf").made
     yield "modes in place of another solution have its supports", any(s.nodes == [1] and len(s.held) == 6 for s in response.supports)
     yield "what acts by case control and is not read is told", "MFLUID of the case control" in other.left_out
@@ -244,6 +253,8 @@ REFUSED = {
     "differences of words": ("nastran", BDF.format("=,*1,*1\nSPC1,1,A,1\n=,*1,*1\n"), "expected a number"),
     "a superelement before the rest": ("nastran", BDF.format(SQUARE).replace("BEGIN BULK", "BEGIN SUPER=1\nGRID,9\nBEGIN BULK"), "in parts"),
     "a superelement after it": ("nastran", BDF.format(SQUARE + "begin bulk super=2\n"), "in parts, here 'BULK SUPER=2'"),
+    "a word among nodes": ("nastran", BDF.format("PSHELL,1,1,.1,1\n" + SQUARE + "RBE3,3,,4,123456,1.,123,1,THRU\n,3\n"), "RBE3 with 'THRU'"),
+    "systems in each other": ("nastran", BDF.format("CORD2R,1,2\nCORD2R,2,1\n" + SQUARE), "in one that is given in it"),
     "an ellipse": (
         "abaqus",
         INP.replace("s4r", "b31").replace("1,1,2,3,4", "1,1,2").replace("*shell section", "*beam section,section=circ").replace("0.01,5", "0.1,0.2"),

@@ -115,7 +115,7 @@ class Reader:
         return number
 
     def _parameters(self):
-        for card in self.by_name["PARAM"]:
+        for card in [*self.deck.parameters, *self.by_name["PARAM"]]:
             if card.text(1).upper() == "WTMASS":
                 self.masses_by = card.real(2, "a factor")
                 self.findings.assume(f"masses are those of the file times WTMASS = {self.masses_by:g}", card.place)

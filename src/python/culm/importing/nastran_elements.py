@@ -6,6 +6,7 @@ import numpy
 
 from .findings import refuse
 from .model import BeamElement, Coupling, PointMass, ShellElement
+from .nastran_file import REAL
 from .nastran_nodes import find_system
 from .nastran_properties import find_property
 
@@ -123,6 +124,8 @@ def read_couplings(reader):
             # weights are reals; the number after a weight is what is coupled
             if re.fullmatch("[0-9]+", word) and not (i and "." in words[i - 1]):
                 nodes.append(int(word))
+            elif word and not re.fullmatch(r"[0-9]+", word) and not re.fullmatch(REAL, word.upper()):
+                refuse(card.place, f"RBE3 with '{word[:20]}' among its nodes is not read")
         reader.findings.assume("RBE3 is a rigid coupling, which is stiffer", card.place)
         _couple(reader, reader.node(card, 3), nodes, card, "rbe3")
 

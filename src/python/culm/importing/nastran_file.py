@@ -96,6 +96,7 @@ class Deck:
     control: list
     cards: list
     is_closed: bool
+    parameters: list  # cards PARAM of the case control
 
 
 def read_deck(path):
@@ -110,7 +111,12 @@ def read_deck(path):
     end = next((i for i, (_, text) in enumerate(bulk) if text.strip().upper().startswith("ENDDATA")), None)
     if begin is not None and end is None:
         refuse(lines[-1][0], "the file ends without ENDDATA")
-    return Deck(control, _cards(bulk[:end]), end is not None)
+    parameters = [
+        Card("PARAM", [cell.strip() for cell in re.split("[,=]", text)[1:]], place)
+        for place, text in control
+        if re.match(r"PARAM\s*,", text, re.I)
+    ]
+    return Deck(control, _cards(bulk[:end]), end is not None, parameters)
 
 
 def _lines(path, depth):

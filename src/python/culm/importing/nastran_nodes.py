@@ -10,19 +10,32 @@ def read_systems(reader):
     """Systems by three points: (origin, rows of axes)."""
     reader.systems = {0: (numpy.zeros(3), numpy.eye(3))}
     reader.curved = {}  # their cards: of these places are read, and directions refused
+    cards = {}
     for card in reader.cards("CORD2R", "CORD2C", "CORD2S"):
-        number = reader.unique(reader.systems, card, "coordinate system")
-        origin, axes = reader.find(reader.systems, card.integer(2, default=0), card, "coordinate system")
-        a, b, c = (numpy.array([card.real(i + k, default=0.0) for k in range(3)]) for i in (3, 6, 9))
-        z, x = b - a, c - a
-        if numpy.linalg.norm(numpy.cross(z, x)) <= 1e-9 * numpy.linalg.norm(z) * numpy.linalg.norm(x):
-            refuse(card.place, "the three points of the system are on one line")
-        z = z / numpy.linalg.norm(z)
-        y = numpy.cross(z, x) / numpy.linalg.norm(numpy.cross(z, x))
-        local = numpy.array([numpy.cross(y, z), y, z])
-        reader.systems[number] = (origin + a @ axes, local @ axes)
-        if card.name != "CORD2R":
-            reader.curved[number] = card
+        cards[reader.unique({**reader.systems, **cards}, card, "coordinate system")] = card
+    waiting = list(cards.values())
+    while waiting:
+        ready = [card for card in waiting if card.integer(2, default=0) in reader.systems or card.integer(2) not in cards]
+        if not ready:
+            refuse(waiting[0].place, "the system is given in one that is given in it")
+        for card in ready:
+            _read_system(reader, card)
+        waiting = [card for card in waiting if card not in ready]
+
+
+def _read_system(reader, card):
+    """Three points in another system, which may be a cylindrical one."""
+    number = card.integer(1)
+    reader.find(reader.systems, card.integer(2, default=0), card, "coordinate system")
+    a, b, c = (_position(reader, card, 2, first) for first in (3, 6, 9))
+    z, x = b - a, c - a
+    if numpy.linalg.norm(numpy.cross(z, x)) <= 1e-9 * numpy.linalg.norm(z) * numpy.linalg.norm(x):
+        refuse(card.place, "the three points of the system are on one line")
+    z = z / numpy.linalg.norm(z)
+    y = numpy.cross(z, x) / numpy.linalg.norm(numpy.cross(z, x))
+    reader.systems[number] = (a, numpy.array([numpy.cross(y, z), y, z]))
+    if card.name != "CORD2R":
+        reader.curved[number] = card
 
 
 def find_system(reader, card, i):
@@ -32,11 +45,12 @@ def find_system(reader, card, i):
     return reader.find(reader.systems, number, card, "coordinate system")
 
 
-def _position(reader, card, i):
-    """A place in any system: x, y, z, or r, theta, z."""
+def _position(reader, card, i, first=None):
+    """A place in any system, which field i names: x, y, z, or r, theta, z from field `first` on, or else behind it."""
     number = card.integer(i, default=0)
     origin, axes = reader.find(reader.systems, number, card, "coordinate system")
-    place = numpy.array([card.real(i + k, default=0.0) for k in (1, 2, 3)])
+    first = i + 1 if first is None else first
+    place = numpy.array([card.real(first + k, default=0.0) for k in range(3)])
     if number in reader.curved:
         if reader.curved[number].name == "CORD2S":
             refuse(card.place, f"places in the system {number}, CORD2S, are not read")

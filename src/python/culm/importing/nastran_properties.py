@@ -14,6 +14,8 @@ def read_materials(reader):
         E, G, nu = (card.real(i) if card.text(i) else None for i in (2, 3, 4))
         if [E, G, nu].count(None) > 1:
             refuse(card.place, "MAT1 needs two of E, G and nu")
+        if None not in (E, G, nu) and abs(G - E / (2.0 * (1.0 + nu))) > 0.01 * abs(G):
+            reader.findings.leave_out("G of a MAT1 that is not E / (2 (1 + nu)), which is taken", card.place)
         E = 2.0 * G * (1.0 + nu) if E is None else E
         nu = E / (2.0 * G) - 1.0 if nu is None else nu
         values = {"Young Modulus": E, "Poisson Ratio": nu, "Density": card.real(5, default=0.0) * reader.masses_by}
