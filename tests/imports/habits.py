@@ -59,6 +59,8 @@ ANTYPE,0
 D,1,ALL,0
 """
 
+CONSTANTS = CDB.replace("ET,1,181", "ET,1,{}").replace("SECTYPE,1,SHELL\nSECDATA,0.01,1\n", "R,1,{}\n")
+
 
 def inp(*blocks, base=INP):
     return made_of_text("abaqus", base + "".join(STEP.format(block) for block in blocks))
@@ -230,6 +232,11 @@ def of_ansys():
     # the beam lies along x, z of its section is up
     yield "a load along a line", numpy.allclose(one(turned, "line").value, [0, 0, -4])
     yield "a modulus that depends on temperature is told", "field 4 of MP" in turned.findings.left_out
+    told = cdb("TB,FRIC,1\nMP,GXY,1,1e10\nSECFUNCTION,%T%\n").findings.left_out
+    yield "tables, a shear modulus of its own, walls by functions are told", len(told) == 3
+    section = {k: CDB.replace("BEAM,RECT\nSECDATA,0.1,0.2", f"BEAM,ASEC\nSECDATA,0.02,1e-5,{k},2e-5,,3e-5") for k in ("", "0")}
+    blank, zero = (next(iter(made_of_text("ansys", text + "SOLVE\n", "model.cdb").made.sections.values())).values for text in section.values())
+    yield "a value of a section that is left out is 0", blank == zero and numpy.isclose(blank["EI2"], 4e6)
     modes = cdb("ANTYPE,2\nPSTRES,ON\n")
     yield "prestress of modes is told", any("PSTRES" in text for text in modes.findings.left_out)
     yield "the first of two analyses is told", any("static analysis before" in text for text in both.findings.left_out)
@@ -255,6 +262,17 @@ REFUSED = {
     "a superelement after it": ("nastran", BDF.format(SQUARE + "begin bulk super=2\n"), "in parts, here 'BULK SUPER=2'"),
     "a word among nodes": ("nastran", BDF.format("PSHELL,1,1,.1,1\n" + SQUARE + "RBE3,3,,4,123456,1.,123,1,THRU\n,3\n"), "RBE3 with 'THRU'"),
     "systems in each other": ("nastran", BDF.format("CORD2R,1,2\nCORD2R,2,1\n" + SQUARE), "in one that is given in it"),
+    "an angle among constants": ("ansys", CONSTANTS.format("63", "0.01,0,0,0,0,30"), "constant 6 of the set 1 is 30: of SHELL63"),
+    "mass among constants": ("ansys", CONSTANTS.format("181", "0.01,0,0,0,0,30"), "constant 6 of the set 1 is 30: of SHELL181"),
+    "mass of a BEAM4": (
+        "ansys",
+        CDB.replace("2,188", "2,4").replace("        1        2        1        2", "        1        2        2        2")
+        + "R,2,0.02,1e-5,2e-5,0.1,0.2,0,0,3e-5,1.2,1.2,0,7\n",
+        "constant 12 of the set 2 is 7",
+    ),
+    "a centroid beside the node": ("ansys", CDB.replace("RECT\nSECDATA,0.1,0.2", "ASEC\nSECDATA,1,1,0,1,0,1,0,.1"), "beside the node"),
+    "a table of moduli": ("ansys", CDB + "TB,ELAS,1\nTBDATA,1,1e11,.2\n", "TB,ELAS is not read"),
+    "a mass in a plane": ("ansys", CDB.replace("2,188", "2,21") + "KEYOPT,2,3,4\nR,1,5\n", "MASS21 in a plane"),
     "an ellipse": (
         "abaqus",
         INP.replace("s4r", "b31").replace("1,1,2,3,4", "1,1,2").replace("*shell section", "*beam section,section=circ").replace("0.01,5", "0.1,0.2"),

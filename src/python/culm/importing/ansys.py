@@ -46,7 +46,7 @@ SILENT = {
     "ETCON", "EXTOPT", "FINI", "FINISH", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
     "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
     "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "MPDELE", "TBDELE",
-    "SECFUNCTION", "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
+    "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
     "CRPLIM", "TRNOPT", "RATE", "UIMP", "BUCOPT",
 }  # fmt: skip
 # What does nothing with zeros; and words that stand beside them, where Workbench calls a very small number _TINY.

@@ -44,6 +44,8 @@ def make_elements(reader):
             _beam(reader, number_, kind, material, real, section, nodes, place)
         elif kind == MASS:
             seen[number_] = None
+            if reader.keys.get((type, 1), 0) or reader.keys.get((type, 3), 0) not in (0, 2):
+                refuse(place, "MASS21 in a plane, or by its volume (KEYOPT(3) = 3 or 4, KEYOPT(1) = 1), is not read")
             _point_mass(reader, nodes[0], real, reader.keys.get((type, 3), 0), place)
         else:
             refuse(place, f"elements of type {kind} have no counterpart in culm: it has shells, beams, point masses")

@@ -20,6 +20,9 @@ def make_materials(reader):
             nu = values.get("PRXY", values.get("NUXY", 0.3))
             if "PRXY" not in values and "NUXY" not in values:
                 reader.findings.assume("a material without Poisson's ratio has 0.3", place)
+            shear = values["EX"] / (2.0 * (1.0 + nu))
+            if abs(values.get("GXY", shear) - shear) > 0.01 * abs(shear):
+                reader.findings.leave_out("GXY of an isotropic material that is not EX / (2 (1 + PRXY)), which is taken", place)
             reader.model.materials[name] = Material(
                 "Isotropic", {"Young Modulus": values["EX"], "Poisson Ratio": nu, "Density": density}, place
             )
@@ -67,12 +70,20 @@ def make_wall(reader, kind, material, real, section, place):
         refuse(place, f"neither section {section} nor constants {real} give this shell a thickness")
     name = f"real {real} material {material}"
     values = reader.constants[real]
+    _refuse_constants(reader, real, values, range(4, len(values)), f"SHELL{kind}", place)
     if any(value not in (0.0, values[0]) for value in values[1:4]):
         reader.findings.assume("a thickness that varies over an element is that of its first node", place)
     if values[0] <= 0.0:
         refuse(place, f"a thickness must be > 0, got {values[0]:g}")
     reader.model.walls.setdefault(name, Wall([Layer(values[0], find_material(reader, material, place))], place))
     return name
+
+
+def _refuse_constants(reader, real, values, places, what, place):
+    """Angles, foundations, masses and strains among real constants; 1 and more count from the first."""
+    for i in places:
+        if i < len(values) and values[i]:
+            refuse(place, f"constant {i + 1} of the set {real} is {values[i]:g}: of {what} it is not read")
 
 
 def _has_materials(reader, section):
@@ -112,6 +123,7 @@ def _by_constants(reader, real, solid, place):
     A, Izz, Iyy, angle, J = values[0], values[1], values[2], values[5], values[7]
     if angle:
         refuse(place, "BEAM4 with THETA is not read")
+    _refuse_constants(reader, real, values, (6, 11), "BEAM4", place)
     return _values(reader, A, Iyy, Izz, 0.0, J or Iyy + Izz, solid, place)
 
 
@@ -133,11 +145,14 @@ def _by_section(reader, section, solid):
     needed = {"RECT": 2, "CSOLID": 1, "CTUBE": 2, "HREC": 6, "I": 6, "ASEC": 6}
     if shape not in needed:
         refuse(place, f"beam sections of shape {shape or 'none'} are not read; {', '.join(needed)} are")
-    cells = [(at, cell.strip()) for at, row in rows for cell in row if cell.strip()]
+    cells = [(at, cell.strip()) for at, row in rows for cell in row]
+    cells = cells[: max((i + 1 for i, (_, cell) in enumerate(cells) if cell), default=0)]
     if len(cells) < needed[shape]:
         refuse(place, f"a section of shape {shape} needs {needed[shape]} dimensions")
-    sizes = [number(cell, at, "a dimension") for at, cell in cells]
+    sizes = [number(cell or "0", at, "a dimension") for at, cell in cells]
     if shape == "ASEC":
+        if any(sizes[6:10]):
+            refuse(place, "a section ASEC with its centroid or shear centre beside the node is not read")
         A, Iyy, Iyz, Izz, _, J = sizes[:6]
         return _values(reader, A, Iyy, Izz, Iyz, J, solid, place)
     if min(sizes[: needed[shape]]) <= 0.0:

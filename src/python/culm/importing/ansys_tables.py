@@ -58,6 +58,10 @@ def _add_property(reader, label, material, value, command):
 def read_table(reader, command):
     if command.text(1).upper()[:4] in TABLES:
         reader.findings.leave_out(f"TB,{command.text(1).upper()}: materials are linear", command.place)
+    elif command.text(1).upper()[:4] in ("ELAS", "DENS"):
+        refuse(command.place, f"TB,{command.text(1).upper()} is not read: moduli and densities are, by MP and MPDATA")
+    else:
+        reader.findings.leave_out(f"TB,{command.text(1).upper()}", command.place)
 
 
 def read_section_type(reader, command):
