@@ -41,6 +41,24 @@ def checked(name, data, kind, order, complaints):
         complaints.append(f"{name}: {found}, not {expected}")
 
 
+SQUARE = "{}$Nodes\n{}$EndNodes\n$Elements\n{}$EndElements\n"
+OLD = '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 "a"\n2 2 "b"\n$EndPhysicalNames\n'
+NEW = '$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 "a"\n$EndPhysicalNames\n'
+PARTS = "$PartitionedEntities\n2\n1\n9 1\n0 0 1 0\n2 2 1 1 1 0 0 0 1 1 0 1 1 0\n$EndPartitionedEntities\n"
+
+
+def repeats(complaints):
+    """Elements in two groups, which the old format has twice; groups of the parts of a mesh that is in parts."""
+    old = SQUARE.format(OLD, "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n", "2\n1 3 2 1 1 1 2 3 4\n2 3 2 2 1 1 2 3 4\n")
+    twice = made_of_text("gmsh", old, "sheet.msh")
+    if abs(twice.mass - MASS / 2) > 1e-9 or twice.made.surface_sets != {"a": [0], "b": [0]}:
+        complaints.append(f"an element in two groups: {twice.mass} kg, {twice.made.surface_sets}")
+    nodes = "1 4 1 4\n2 2 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+    parts = made_of_text("gmsh", SQUARE.format(NEW + PARTS, nodes, "1 1 1 1\n2 2 3 1\n1 1 2 3 4\n"), "sheet.msh")
+    if parts.made.surface_sets != {"a": [0]}:
+        complaints.append(f"a mesh in parts has the surfaces {parts.made.surface_sets}")
+
+
 def built(program, complaints):
     """culm finds the mass, the sets and both sides of the fold."""
     points, elements = gmsh_samples.mesh(gmsh_samples.TRIANGLE, 2)
@@ -64,6 +82,7 @@ def main():
     complaints = []
     for name, data, kind, order in gmsh_samples.all_forms():
         checked(name, data, kind, order, complaints)
+    repeats(complaints)
     built(program, complaints)
     sys.exit("\n".join(complaints) if complaints else 0)
 

@@ -123,6 +123,8 @@ def of_abaqus():
     yield "what is moved anew is moved once", at_3 == {0: [0.01], 1: [0.02]}
     again = made_of_text("abaqus", INP + STEP.format("*cload\n3,1,10\n") + STEP.format("*cload\n3,2,4\n").replace("*step", "*step,perturbation"))
     yield "a static perturbation is told", any("PERTURBATION" in text for text in again.findings.assumed)
+    normal = inp("", base=INP.replace("9,5,5,5", "9,5,5,5,0,1,0"))
+    yield "a normal of a node is told", any("normals of *NODE" in x for x in normal.findings.left_out)
     warm = inp("", base=INP.replace("1000.,", "1000.,20\n900.,500"))
     yield "a density by temperature is told", warm.mass == 10 and any("by temperature" in text for text in warm.findings.assumed)
     yield "a density of a section is told", "DENSITY of *SHELL SECTION" in inp(

@@ -54,6 +54,8 @@ def _nodes(reader, block):
         if key in reader.model.nodes:
             refuse(place, f"node {cells[0]} is there twice")
         reader.model.nodes[key] = placed(reader, position)
+        if reader.program == "Abaqus" and any(numbers_of(cells[4:7], place, "a direction")):
+            reader.findings.leave_out("normals of *NODE, which directions of beam sections follow", place)
         found.append(key)
     reader.findings.count("nodes", len(found))
     _add_to_set(reader.model.node_sets, reader, block.get("NSET"), found)

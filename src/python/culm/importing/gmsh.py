@@ -37,11 +37,15 @@ def read(path, arguments):
 def _add_elements(model, mesh):
     edges = _edges(mesh)
     loose = 0
+    same = {}  # a surface element -> its number: files have one in several groups once for each
     surfaces, curves, points = (collections.defaultdict(list) for _ in range(3))
     for element in mesh.elements:
         if element.type in SURFACES:
-            number = len(model.shells)
-            model.shells.append(ShellElement(number + 1, element.nodes, "shell", element.place))
+            number = same.setdefault(frozenset(element.nodes), len(model.shells))
+            if number == len(model.shells):
+                model.shells.append(ShellElement(number + 1, element.nodes, "shell", element.place))
+            else:
+                model.findings.assume("elements of the same nodes, as those in several groups, are one", element.place)
             for _, name in element.groups:
                 surfaces[name].append(number)
         elif element.type in LINES:

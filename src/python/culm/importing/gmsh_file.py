@@ -123,6 +123,7 @@ class _Reader:
         actions = {
             "PhysicalNames": self.physical_names,
             "Entities": self.entities,
+            "PartitionedEntities": self.partitioned_entities,
             "Nodes": self.nodes_2 if old else self.nodes_4,
             "Elements": self.elements_2 if old else self.elements_4,
         }
@@ -183,6 +184,24 @@ class _Reader:
         for dimension, count in enumerate(counts):
             for _ in range(count):
                 (tag,) = self.numbers(1, "i4")
+                self.numbers(3 if dimension == 0 else 6, "f8")
+                numbers = self.numbers(self.numbers(1, "u8")[0], "i4")
+                self.physical[(dimension, tag)] = [self.group(dimension, abs(number)) for number in numbers]
+                if dimension:
+                    self.numbers(self.numbers(1, "u8")[0], "i4")
+        self._line_end()
+
+    def partitioned_entities(self):
+        """As entities, with the entity and the partitions that each is part of."""
+        self.numbers(1, "u8")
+        ghosts = self.numbers(1, "u8")[0]
+        self.numbers(2 * ghosts, "i4")
+        counts = self.numbers(4, "u8")
+        for dimension, count in enumerate(counts):
+            for _ in range(count):
+                (tag,) = self.numbers(1, "i4")
+                self.numbers(2, "i4")
+                self.numbers(self.numbers(1, "u8")[0], "i4")
                 self.numbers(3 if dimension == 0 else 6, "f8")
                 numbers = self.numbers(self.numbers(1, "u8")[0], "i4")
                 self.physical[(dimension, tag)] = [self.group(dimension, abs(number)) for number in numbers]
@@ -253,7 +272,7 @@ class _Reader:
                     self.fail(f"element {number} has {tags} tags")
                 found = self.numbers(tags, "i4")
                 dimension = 0 if type == POINT else 1 if type in LINES else 2
-                groups = [self.group(dimension, found[0])] if found and found[0] else []
+                groups = [self.group(dimension, abs(found[0]))] if found and found[0] else []
                 self.add_element(type, self.numbers(self.size(type), "i4"), groups, place)
                 done += 1
         self._line_end()
