@@ -132,6 +132,8 @@ def counts_once():
     yield "both sets are their own", nodes == {(3, 4): {1, 2, 3}, (1, 2): {3}}
     twice = steps("*static\n*cload\nn,1,5\n*dload\nf,p,7\n", base=INP + "*nset,nset=n\n3,3\n*elset,elset=f\n1,1\n")
     yield "a member that is listed twice is loaded once", node_force(twice)[0] == 5 and one(twice, "pressure").elements == [0]
+    by_elements = steps("*static\n*cload\nn,1,5\n", base=INP + "*nset,nset=n,elset=e\n")
+    yield "a set of the nodes of elements", node_force(by_elements)[0] == 20
     again = made_of_text("abaqus", INP + "*shell section,elset=e,material=m\n0.03\n")
     yield "of two sections the last one holds, and that is said", again.mass == 30 and any("two sections" in x for x in again.findings.assumed)
 

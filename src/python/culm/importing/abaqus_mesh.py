@@ -356,11 +356,11 @@ def _set(reader, block, name, sets, find, existing):
                 refuse(place, "more than 1e7 numbers")
             keys = [reader.key(i) for i in range(values[0], values[1] + 1, step)]
             found += [key for key in keys if key in existing]
-        elif block.has("ELSET") and block.keyword == "NSET":
-            refuse(block.place, "*NSET by ELSET is not read")
         else:
             for cell in cells:
                 found += find(cell, place)
+    if block.keyword == "NSET" and block.get("ELSET"):
+        found += [node for key in reader.find_elements(block.get("ELSET"), block.place) for node in reader.elements[key][1]]
     reader.prefix = before  # a set of an instance that the assembly names is one of the assembly
     _add_to_set(sets, reader, name, found)
     if not found:
