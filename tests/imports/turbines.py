@@ -15,6 +15,7 @@ import numpy
 import turbine_samples as samples
 import yaml
 from reading import made_of_text
+from culm.errors import CulmError
 from culm.program import Program
 
 
@@ -64,6 +65,11 @@ def windio_tells_its_masses(complaints):
     told = made_of_text("windio", yaml.safe_dump(root, sort_keys=False), "turbine.yaml").findings.left_out
     if "joint of the blade: 3000.0 kg" not in told:
         complaints.append(f"the mass of a joint is not told: {list(told)}")
+    root = yaml.safe_load(samples.windio_2())
+    root["components"]["blade"]["structure"]["elastic_properties"]["point_mass"] = {"grid": [0.5], "mass": [1000.0]}
+    told = made_of_text("windio", yaml.safe_dump(root, sort_keys=False), "turbine.yaml").findings.left_out
+    if "point_mass of the blade's elastic properties" not in told:
+        complaints.append(f"masses of elastic properties are not told: {list(told)}")
 
 
 def both_forms_of_windio_are_alike(complaints):
@@ -83,6 +89,22 @@ def hawc2_finds_its_files(complaints):
     made = made_of_text("hawc2", {"model/htc/blade.htc": htc, "model/data/blade.st": files["blade.st"]})
     if made.mass != made_of_text("hawc2", files).mass or "concentrated_mass of the body" not in made.findings.left_out:
         complaints.append("a body of HAWC2 with files beside the folder of its htc file is another one, or its mass is lost in silence")
+
+
+def hawc2_keeps_its_order(complaints):
+    """Places of the axis are numbered; blocks that are not read are told, and a set that is not named."""
+    files = samples.hawc2()
+    other = files["blade.htc"].replace("set 1 1 ;", "").replace("begin c2_def", "begin other;\n end other;\n begin c2_def")
+    made = made_of_text("hawc2", {**files, "blade.htc": other})
+    if "the block other of the body" not in made.findings.left_out or not any("names no set" in x for x in made.findings.assumed):
+        complaints.append(f"a block of HAWC2, or a set that is not named, is not told: {made.messages()}")
+    swapped = files["blade.htc"].replace("sec 2", "sec 4")
+    try:
+        made_of_text("hawc2", {**files, "blade.htc": swapped})
+        complaints.append("places of c2_def out of order are not refused")
+    except CulmError as error:
+        if "numbered in their order" not in str(error):
+            complaints.append(f"places of c2_def out of order: {error}")
 
 
 def tower_weighs(program, complaints):
@@ -163,6 +185,7 @@ def main():
     both_forms_of_windio_are_alike(complaints)
     windio_tells_its_masses(complaints)
     hawc2_finds_its_files(complaints)
+    hawc2_keeps_its_order(complaints)
     tower_weighs(program, complaints)
     hawc2_has_its_centres(complaints)
     bar_vibrates(program, complaints)

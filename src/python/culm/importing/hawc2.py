@@ -134,6 +134,9 @@ def _body(path, name, findings):
     for place, words in body.lines:
         if words[0] not in HARMLESS:
             findings.leave_out(f"{words[0]} of the body", place)
+    for block in body.blocks:
+        if block.name not in ("timoschenko_input", "c2_def"):
+            findings.leave_out(f"the block {block.name} of the body", block.place)
     sections, axis = body.all("timoschenko_input"), body.all("c2_def")
     if len(sections) != 1 or len(axis) != 1:
         refuse(body.place, f"the body {name} needs one timoschenko_input and one c2_def")
@@ -143,11 +146,15 @@ def _body(path, name, findings):
     numbers = [integer(word, chosen[0]) for word in chosen[1][1:3]] if chosen is not None else [1, 1]
     if len(numbers) != 2:
         refuse(chosen[0], "set needs two numbers")
+    if chosen is None:
+        findings.assume("a timoschenko_input that names no set has set 1 1", sections[0].place)
     table = []
     for place, words in axis[0].lines:
         if words[0] == "sec":
             if len(words) < 6:
                 refuse(place, "expected number, x, y, z and twist")
+            if integer(words[1], place) != len(table) + 1:
+                refuse(place, f"the places of c2_def must be numbered in their order: expected {len(table) + 1}, found {words[1]}")
             table.append([number(word, place) for word in words[2:6]])
     count = axis[0].first("nsec")
     if count is not None and (len(count[1]) < 2 or integer(count[1][1], count[0]) != len(table)):

@@ -14,6 +14,8 @@ from .ready_deck import ReadyDeck
 FILE = "ontology, .yaml"
 DEEPEST = 100
 SYMMETRY = 21  # values of an upper triangle
+# of elastic properties, in the first form and the second
+READ = (("reference_axis", "twist", "stiff_matrix", "inertia_matrix"), ("stiffness_matrix", "inertia_matrix"))
 
 
 def declare(parser):
@@ -170,8 +172,15 @@ def _blade(root, parts, path, findings):
     findings.read["blade"] = f"{len(stations)} stations, {length:.6g} m, {weight:.6g} kg"
     findings.assume("axes and twist are those of BeamDyn: x to the suction side, z to the tip, twist about -z")
     _tell_masses(blade, "blade", ("joint",), findings)
+    for key, value in _elastic(blade, is_new).items():
+        if key not in READ[is_new] and value:
+            findings.leave_out(f"{key} of the blade's elastic properties")
     findings.leave_out("everything of the turbine but the blade")
     return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
+
+
+def _elastic(blade, is_new):
+    return blade["structure"]["elastic_properties"] if is_new else blade["elastic_properties_mb"]["six_x_six"]
 
 
 def _tell_masses(part, name, keys, findings):
