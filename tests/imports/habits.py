@@ -239,6 +239,8 @@ def of_ansys():
     section = {k: CDB.replace("BEAM,RECT\nSECDATA,0.1,0.2", f"BEAM,ASEC\nSECDATA,0.02,1e-5,{k},2e-5,,3e-5") for k in ("", "0")}
     blank, zero = (next(iter(made_of_text("ansys", text + "SOLVE\n", "model.cdb").made.sections.values())).values for text in section.values())
     yield "a value of a section that is left out is 0", blank == zero and numpy.isclose(blank["EI2"], 4e6)
+    older = made_of_text("ansys", CDB.replace("ET,1,181", "ET,1,63") + "R,1,0.03\nSOLVE\n", "model.cdb")
+    yield "SHELL63 has its constants, not the section of its number", abs(older.mass - 70) < 1e-9
     modes = cdb("ANTYPE,2\nPSTRES,ON\n")
     yield "prestress of modes is told", any("PSTRES" in text for text in modes.findings.left_out)
     yield "the first of two analyses is told", any("static analysis before" in text for text in both.findings.left_out)

@@ -8,6 +8,8 @@ from .keyword_file import number
 from .model import Layer, Material, Section, Wall
 from .profiles import i_section
 
+BY_CONSTANTS = (43, 63, 93)  # shells that have no sections, whatever number of one they carry
+
 
 def make_materials(reader):
     for material, values in reader.materials.items():
@@ -57,7 +59,7 @@ def find_material(reader, number_, place):
 
 
 def make_wall(reader, kind, material, real, section, place):
-    if section in reader.sections and reader.sections[section][0] == "SHELL":
+    if kind not in BY_CONSTANTS and section in reader.sections and reader.sections[section][0] == "SHELL":
         name = f"section {section}" if _has_materials(reader, section) else f"section {section} material {material}"
         if name not in reader.model.walls:
             _, _, rows, where = reader.sections[section]
