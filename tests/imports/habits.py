@@ -241,6 +241,10 @@ def of_ansys():
     yield "a value of a section that is left out is 0", blank == zero and numpy.isclose(blank["EI2"], 4e6)
     older = made_of_text("ansys", CDB.replace("ET,1,181", "ET,1,63") + "R,1,0.03\nSOLVE\n", "model.cdb")
     yield "SHELL63 has its constants, not the section of its number", abs(older.mass - 70) < 1e-9
+    lighter = cdb("MPDELE,DENS,1\nMP,DENS,1,10\nMPDELE,ALL,7\nMPDELE,DENS,ALL\n")
+    yield "a density that is deleted is none", lighter.mass == 0
+    triangle = CDB.replace("        1        2        3        4\n", "        1        2        3        3\n") + "SFE,1,1,PRES,0,10.,20.,30.,30.\n"
+    yield "a pressure that varies over a triangle", pressures(made_of_text("ansys", triangle + "SOLVE\n", "model.cdb")) == [20]
     modes = cdb("ANTYPE,2\nPSTRES,ON\n")
     yield "prestress of modes is told", any("PSTRES" in text for text in modes.findings.left_out)
     yield "the first of two analyses is told", any("static analysis before" in text for text in both.findings.left_out)

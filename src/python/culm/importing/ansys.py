@@ -22,6 +22,7 @@ from .ansys_nodes import (
 )
 from .ansys_properties import make_materials
 from .ansys_tables import (
+    delete_property,
     read_constants,
     read_constants_block,
     read_key,
@@ -45,7 +46,7 @@ SILENT = {
     "AUTOTS", "CDWRITE", "CEWRITE", "CM", "CNTR", "CNVTOL", "DMPOPT", "DMPOPTION", "DOF", "EMUNIT", "EQSL", "EQSLV", "ERESX",
     "ETCON", "EXTOPT", "FINI", "FINISH", "KBC", "KUSE", "LUMPM", "MAT", "MODCONTROL", "MPTEMP", "MXPAND", "NCNV", "NEQIT",
     "NLDIAG", "NSUB", "NSUBST", "NUMOFF", "OUTRES", "QRDOPT", "REAL", "RESCONTROL", "SECNUM", "SHPP", "STEF",
-    "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "MPDELE", "TBDELE",
+    "TBDATA", "TBTEMP", "THOPT", "TIME", "TIMINT", "TINTP", "TOFFST", "TREF", "TSHAPE", "TYPE", "XMLO", "TBDELE",
     "RESUME", "SAVE", "ESYS", "LSCLEAR", "PRED", "ARCLEN", "MPAMOD", "CHECK", "WAVES", "NLIST",
     "CRPLIM", "TRNOPT", "RATE", "UIMP", "BUCOPT",
 }  # fmt: skip
@@ -58,7 +59,7 @@ NO_NUMBERS = ("ALL", "NONE", "TEMP", "_TINY")
 ACTIONS = {
     "NBLOCK": read_nodes, "N": read_node, "EBLOCK": read_elements, "EN": read_element, "ET": read_type, "ETBLOCK": read_type_block,
     "KEYOPT": read_key, "KEYOP": read_key, "KEYO": read_key, "R": read_constants, "RLBLOCK": read_constants_block, "MP": read_property,
-    "MPDATA": read_property_data, "SECTYPE": read_section_type, "SECDATA": read_section_data,
+    "MPDATA": read_property_data, "MPDELE": delete_property, "SECTYPE": read_section_type, "SECDATA": read_section_data,
     "SECBLOCK": read_section_block, "SECOFFSET": read_section_offset, "SECOFF": read_section_offset,
     "LOCAL": read_system, "CSYS": read_active, "D": read_support, "F": read_force, "SFE": read_pressure, "ACEL": read_gravity,
     "ANTYPE": read_kind, "NLGEOM": read_large, "PSTRES": read_prestress, "MODOPT": read_count, "BUCOPT": read_count,

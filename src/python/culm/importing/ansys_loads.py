@@ -99,7 +99,8 @@ def _make_pressures(reader):
         if values[0] and any(value == 0.0 for value in values[1:]):
             reader.findings.assume("a pressure of which the other values are 0 is that of its first node, all over", command.place)
             values = values[:1]
-        corners = 3 if len(reader.model.shells[reader.numbers[element]].nodes) in (3, 6) else 4
+        # a triangle has its last corner twice
+        corners = 3 if len(set(reader.model.shells[reader.numbers[element]].nodes[:4])) == 3 else 4
         values = [*values, *[values[0]] * 4][:corners]
         if min(values) != max(values):
             reader.findings.assume("pressure that varies over an element is its mean", command.place)

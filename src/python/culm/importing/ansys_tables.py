@@ -50,6 +50,16 @@ def read_property_data(reader, command):
         _add_property(reader, command.text(first + 2), command.integer(first + 3), command.real(first + 5), command)
 
 
+def delete_property(reader, command):
+    """MPDELE,label,material: of one material, or all of it."""
+    label, name = command.text(1).upper(), command.text(2).upper()
+    if any(command.text(i) for i in range(3, 6)) or not (is_integer(name) or name in ("ALL", "")):
+        refuse(command.place, f"MPDELE with '{','.join(command.fields)[:40]}': one material or all are read")
+    for material in [int(name)] if is_integer(name) else list(reader.materials):
+        for one in [label] if label != "ALL" else list(reader.materials[material]):
+            reader.materials[material].pop(one, None)
+
+
 def _add_property(reader, label, material, value, command):
     reader.materials[material][label.upper()] = value
     reader.material_places.setdefault(material, command.place)
