@@ -142,6 +142,12 @@ def of_beams():
     yield "the number of CIRC is a radius in Abaqus", numpy.isclose(round_["abaqus"].mass, 2000 * numpy.pi * 0.02**2)
     yield "and that is said", any("calculix" in text for text in round_["abaqus"].findings.assumed)
     yield "a diameter in CalculiX", numpy.isclose(round_["calculix"].mass, 2000 * numpy.pi * 0.01**2)
+    across = bars.format("rect", "0.1,0.2") + STEP.format("*dload\n2,p1,5\n2,p2,7\n")
+    forces = [[x.value for x in made_of_text(format, across).made.element_loads] for format in ("abaqus", "calculix")]
+    yield "P1 and P2 are forces per length in Abaqus", numpy.allclose(forces[0], [[0, 0, -5], [-7, 0, 0]])
+    yield "and pressures on a face in CalculiX", numpy.allclose(forces[1], [[0, 0, -1], [-0.7, 0, 0]])
+    told = made_of_text("calculix", bars.format("circ", "0.02") + STEP.format("*dload\n2,p1,5\n")).findings.left_out
+    yield "which are told on other sections", any("no rectangle" in x for x in told)
     pair = made_of_text("calculix", bars.format("circ", "0.02,0.02"))
     yield "of which there may be two", numpy.isclose(pair.mass, round_["calculix"].mass)
     yield "a node beyond its own is the direction of an element", ups == [(5.0, 5.0, 5.0), (0.0, 0.0, -1.0)]

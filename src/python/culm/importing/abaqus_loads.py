@@ -115,6 +115,28 @@ def _body_force(model, shells, beams, places, beam_places, force, place, steps):
 def _line_in_section(reader, beams, beam_places, axis, value, place, steps):
     """Along an axis of the section. CalculiX has it as a pressure on a face of the solid beam."""
     model = reader.model
+    if reader.program == "CalculiX":
+        _pressure_on_face(reader, beams, beam_places, axis, value, place, steps)
+        return
+    reader.findings.assume("P1 and P2 on beams are forces per length, as in Abaqus; CalculiX has pressures: culm import calculix", place)
+    _line_along(model, beams, beam_places, axis, value, place, steps)
+
+
+def _pressure_on_face(reader, beams, beam_places, axis, value, place, steps):
+    """On the face that is normal to the axis: its width makes it a force per length."""
+    model = reader.model
+    by_section = collections.defaultdict(list)
+    for key in beams:
+        by_section[model.beams[beam_places[key]].section].append(key)
+    for name, members in by_section.items():
+        section = model.sections[name]
+        if section.type != "Rectangle":
+            reader.findings.leave_out("P1 and P2 on beams whose section is no rectangle, pressures on a face in CalculiX", place)
+            continue
+        _line_along(model, members, beam_places, axis, value * section.values[("Height", "Width")[axis - 1]], place, steps)
+
+
+def _line_along(model, beams, beam_places, axis, value, place, steps):
     groups = collections.defaultdict(list)
     for key in beams:
         element = model.beams[beam_places[key]]
@@ -124,6 +146,5 @@ def _line_in_section(reader, beams, beam_places, axis, value, place, steps):
         first = first / (numpy.linalg.norm(first) or 1.0)
         direction = first if axis == 1 else numpy.cross(tangent, first)
         groups[tuple(numpy.round(direction * value, 12))].append(beam_places[key])
-    reader.findings.assume("P1 and P2 on beams are forces per length, as in Abaqus", place)
     for force, members in groups.items():
         model.element_loads.append(ElementLoad("line", members, numpy.array(force), place, "line load", steps))
