@@ -183,6 +183,13 @@ def of_nastran():
     yield "nor is a blank one", numpy.allclose([values["GA1"], values["GA2"]], 1e3 * 0.01 * 2e11 / 2.6)
     yield "pressures at corners that are not given are the first one", pressures(varied) == [1.25]
     yield "pressure on what is no shell is told", any("no shells" in x for x in bdf("PBARL,1,1,,ROD\n,.1\n" + BARS.format("") + "PLOAD4,2,1,1.\n").findings.left_out)
+    # 2 kg and 6 kg, 0.4 m apart along z: 0.3 m from the first, 2 * 6 / 8 * 0.16 kg m^2 about it
+    pair = "CONM2,8,3,,2.,0.,0.,.1\n,1.,,2.,,,3.\nCONM2,9,3,,6.,0.,0.,.5\n,1.,,1.,,,1.\n"
+    (body,) = [one for one in bdf(shell + SQUARE + pair).root.lists() if one.name == "Structures"][0].lists()[1:]
+    values = {item[0]: item[1] for item in body.items}
+    found = [[float(x) for x in values[key].strip("{}").split(",")] for key in ("Centre", "Inertia")]
+    yield "masses at one node have the centre and inertia of all", values["Mass"] == "8" and numpy.allclose(found[0], [0, 0, 0.4])
+    yield "about that centre", numpy.allclose(found[1], [2.24, 3.24, 4, 0, 0, 0])
     G = 2e11 / 2.6
     arm = rod.made.couplings[0]
     written = bdf("PBARL,1,1,,ROD\n,.1\nGRID,1,,0.,0.,0.,,456\n=,*1,=,*(.5),==\n=(2)\nCBAR,1,1,1,2,0.,0.,1.\n=       *1      =       *1      *1      ==\n=,*1,=,*1,*1,==\nFORCE,2,4,,1.,1.,0.,0.\n")

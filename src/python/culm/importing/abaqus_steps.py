@@ -244,7 +244,7 @@ def _by_rotation_node(reader, nodes, held):
 
 
 def _watch(reader, block):
-    if block.get("NSET") and any("U" in cells for _, cells in block.lines):
+    if block.get("NSET") and any("U" in map(str.upper, cells) for _, cells in block.lines):
         reader.model.watched += reader.find_nodes(block.get("NSET"), block.place)
 
 

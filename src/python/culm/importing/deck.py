@@ -170,9 +170,10 @@ class Deck:
         """Rigid bodies for nodes that lead others, or have inertia, and have no triad of a beam."""
         bodies = List("bodies")
         inertia = {mass.node: mass for mass in self.model.masses if mass.inertia is not None or any(mass.offset)}
-        weights = collections.Counter()
+        weights, at_node = collections.Counter(), collections.defaultdict(list)
         for mass in self.model.masses:
             weights[mass.node] += mass.mass
+            at_node[mass.node].append(mass)
         wanted = {}
         for coupling in self.model.couplings:
             if not any(not spot.is_shell for spot in self.places.spots.get(coupling.reference, [])):
@@ -185,9 +186,7 @@ class Deck:
             name = self.places.unique_structure(f"node {name_of(node)}")
             body = bodies.list(name, f"{place}", "Rigid Body").add("Position", self.model.nodes[node])
             mass = weights[node]
-            tensor = numpy.zeros(6)
-            if node in inertia and inertia[node].inertia is not None:
-                tensor += inertia[node].inertia
+            centre, tensor = _centre_and_inertia(at_node[node])
             if mass <= 0.0:
                 mass = FAINT * scale
                 self.model.findings.assume(f"reference nodes without mass get {mass:.3g} kg", place)
@@ -196,8 +195,8 @@ class Deck:
                 tensor[:3] += faint
                 self.model.findings.assume("point masses that turn get a small inertia", place)
             body.add("Mass", mass).add("Inertia", tensor)
-            if node in inertia and any(inertia[node].offset):
-                body.add("Centre", numpy.array(inertia[node].offset, float))
+            if centre.any():
+                body.add("Centre", centre)
             del weights[node]
             self.places.add_body(node, name)
         self._weights = weights
@@ -422,6 +421,19 @@ def _refuse_far_nodes(model):
         if not numpy.abs(position).max() < FARTHEST:
             place = (model.shells or model.beams)[0].place if model.shells or model.beams else model.title
             refuse(place, f"node {name_of(number)} of its model lies at {position.tolist()}, which no structure does")
+
+
+def _centre_and_inertia(masses):
+    """Of all masses at one node: their centre from it, and 11, 22, 33, 23, 13, 12 about that."""
+    total = sum(one.mass for one in masses)
+    places = [(one.mass, numpy.array(one.offset, float)) for one in masses]
+    centre = places[0][1] if len(masses) == 1 else sum(mass * place for mass, place in places) / total if total else numpy.zeros(3)
+    tensor = sum((numpy.array(one.inertia, float) for one in masses if one.inertia is not None), numpy.zeros(6))
+    for mass, place in places:
+        arm = place - centre
+        about = mass * ((arm @ arm) * numpy.eye(3) - numpy.outer(arm, arm))
+        tensor += about[(0, 1, 2, 1, 0, 0), (0, 1, 2, 2, 2, 1)]
+    return centre, tensor
 
 
 def name_of(number):
