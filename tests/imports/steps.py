@@ -138,6 +138,30 @@ def counts_once():
     yield "of two sections the last one holds, and that is said", again.mass == 30 and any("two sections" in x for x in again.findings.assumed)
 
 
+def holds_between():
+    """Triangles become quadrilaterals, with nodes between those of the file: what holds both ends of a side holds these,
+    whether the file names the ends together or one by one."""
+    base = INP[: INP.index("*boundary")].replace("s4r", "s3").replace("1,1,2,3,4\n", "1,1,2,3\n2,1,3,4\n")
+    held_by = {
+        "together": "*nset,nset=f\n1,4\n*boundary\nf,1,6\n",
+        "one by one": "*boundary\n1,1,6\n4,1,6\n",
+        "one more than the other": "*boundary\n1,1,6\n4,1,3\n",
+    }
+    made = {name: steps("*static\n", base=base + text) for name, text in held_by.items()}
+    together, alone, less = ([x for x in one.root.lists() if x.name == "Constraints"][0].lists() for one in made.values())
+    yield "together", [x.items[0][1] for x in together] == ["Rigid Support"]
+    yield "one by one", [x.items[0][1] for x in alone].count("Rigid Support") == 3
+    yield "what both have", [x.items[0][1] for x in less].count("Spherical Support") == 2
+    yield "by node and name", any(x.name == "between 1" for x in alone)
+    words = "nodes that were added between supported ones are free"
+    yield "of which nothing is told", not any(words in x for one in made.values() for x in one.findings.assumed)
+    around = "*nset,nset=f\n1,4\n*transform,nset=f,type=c\n-1,0,0,-1,0,1\n*boundary\n1,1\n4,1\n"
+    yield "those along other axes are free, which is told", any(words in x for x in steps("*static\n", base=base + around).findings.assumed)
+    led = steps("*static\n*boundary\n9,1,6\n", base=base + "*mpc\nbeam,1,9\nbeam,4,9\n")
+    rigid = [x.items[0][1] for x in [x for x in led.root.lists() if x.name == "Constraints"][0].lists()]
+    yield "nodes that one leads are one coupling", rigid.count("Rigid Connection") == 1
+
+
 def loads_both():
     """Loads of a set of shells and beams, of which each kind acts on one of them."""
     mixed = INP.replace("*material", "*element,type=b31,elset=b\n7,3,9\n*elset,elset=all\ne,b\n*material", 1)
@@ -202,7 +226,7 @@ REFUSED = {
 
 def main():
     complaints = []
-    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, loads_both, makes_nodes, leaves_out, has_sections):
+    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, holds_between, loads_both, makes_nodes, leaves_out, has_sections):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     complaints += not_refused(REFUSED)
     sys.exit("\n".join(complaints) or 0)

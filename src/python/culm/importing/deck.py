@@ -1,6 +1,7 @@
 """A finite-element model as a deck, with meshes of shells in files beside it."""
 
 import collections
+import dataclasses
 
 import numpy
 
@@ -249,8 +250,16 @@ class Deck:
     def _connection_name(self, name, constraints):
         return unique_name(name, {one.name for one in constraints.lists()})
 
-    def _add_couplings(self, constraints):
+    def _joined_couplings(self):
+        """Those that lead node by node from one as one: it has nodes that were added between them, too."""
+        found = {}
         for coupling in self.model.couplings:
+            _, followers = found.setdefault((coupling.reference, coupling.name), (coupling, {}))
+            followers.update(dict.fromkeys(coupling.followers))
+        return [dataclasses.replace(first, followers=list(followers)) for first, followers in found.values()]
+
+    def _add_couplings(self, constraints):
+        for coupling in self._joined_couplings():
             master = self.places.names([coupling.reference], coupling.name)[0]
             followers = [n for n in self.quads.with_added(coupling.followers) if n != coupling.reference]
             loose = [node for node in followers if not self.places.spots.get(node)]

@@ -4,6 +4,7 @@ import collections
 
 import numpy
 
+from .model import Support
 from .places import directors, is_smooth
 
 UNIT = numpy.eye(3)
@@ -14,10 +15,53 @@ DRILLING = 0.05  # sine of axis and director, below which a rotation is one abou
 def add_supports(model, places, quads, constraints):
     """Supports of the model to the list Constraints. @return names by step: {name: steps or None}"""
     steps_of = {}
-    for support in model.supports:
+    for support in [*model.supports, *_between(model, quads)]:
         for name in _add_support(support, model, places, quads, constraints):
             steps_of[name] = support.steps
     return steps_of
+
+
+def _between(model, quads):
+    """Supports of nodes that were added between those of several supports, as files have them that hold node by node: of
+    each degree of freedom that both ends have alike."""
+    if not quads.is_split:
+        return []
+    holders, all_holders, has = collections.defaultdict(list), collections.defaultdict(list), collections.defaultdict(set)
+    places = {}
+    for support in model.supports:
+        when = None if support.steps is None else frozenset(support.steps)
+        axes = None if support.axes is None else tuple(_rounded(support.axes.ravel()))
+        for i, value in support.held.items():
+            holders[(i, value, axes, when)] += support.nodes
+            all_holders[(i, when)] += support.nodes
+            places.setdefault((i, value, axes, when), support.place)
+            places.setdefault((i, when), support.place)
+        if len(support.nodes) > 1:
+            for node in _added(quads, support.nodes):
+                has[node] |= {(i, when) for i in support.held}
+    found = collections.defaultdict(dict)
+    for (i, value, axes, when), nodes in holders.items():
+        for node in _added(quads, nodes):
+            if (i, when) not in has[node]:
+                found[(node, axes, when)][i] = value
+    for (node, axes, when), held in found.items():
+        has[node] |= {(i, when) for i in held}
+    for (i, when), nodes in all_holders.items():
+        if any((i, when) not in has[node] for node in _added(quads, nodes)):
+            text = "nodes that were added between supported ones are free where those are held along other axes, or moved otherwise"
+            model.findings.assume(text, places[(i, when)])
+    groups = collections.defaultdict(list)
+    for (node, axes, when), held in found.items():
+        groups[(tuple(sorted(held.items())), axes, when)].append(node)
+    return [
+        Support(nodes, dict(held), places[(*held[0], axes, when)], "between", when and set(when), axes and numpy.reshape(axes, (3, 3)))
+        for (held, axes, when), nodes in groups.items()
+    ]
+
+
+def _added(quads, nodes):
+    known = set(nodes)
+    return [node for node in quads.with_added(nodes) if node not in known]
 
 
 def _add_support(support, model, places, quads, constraints):
