@@ -118,7 +118,8 @@ def _line_in_section(reader, beams, beam_places, axis, value, place, steps):
     if reader.program == "CalculiX":
         _pressure_on_face(reader, beams, beam_places, axis, value, place, steps)
         return
-    reader.findings.assume("P1 and P2 on beams are forces per length, as in Abaqus; CalculiX has pressures: culm import calculix", place)
+    text = "P1 and P2 on beams are forces per length, as in Abaqus; CalculiX has pressures: culm import calculix"
+    reader.findings.assume(text, place)
     _line_along(model, beams, beam_places, axis, value, place, steps)
 
 
@@ -131,9 +132,11 @@ def _pressure_on_face(reader, beams, beam_places, axis, value, place, steps):
     for name, members in by_section.items():
         section = model.sections[name]
         if section.type != "Rectangle":
-            reader.findings.leave_out("P1 and P2 on beams whose section is no rectangle, pressures on a face in CalculiX", place)
+            text = "P1 and P2 on beams whose section is no rectangle, pressures on a face in CalculiX"
+            reader.findings.leave_out(text, place)
             continue
-        _line_along(model, members, beam_places, axis, value * section.values[("Height", "Width")[axis - 1]], place, steps)
+        width = section.values[("Height", "Width")[axis - 1]]
+        _line_along(model, members, beam_places, axis, value * width, place, steps)
 
 
 def _line_along(model, beams, beam_places, axis, value, place, steps):

@@ -360,7 +360,8 @@ def _set(reader, block, name, sets, find, existing):
             for cell in cells:
                 found += find(cell, place)
     if block.keyword == "NSET" and block.get("ELSET"):
-        found += [node for key in reader.find_elements(block.get("ELSET"), block.place) for node in reader.elements[key][1]]
+        members = reader.find_elements(block.get("ELSET"), block.place)
+        found += [node for key in members for node in reader.elements[key][1]]
     reader.prefix = before  # a set of an instance that the assembly names is one of the assembly
     _add_to_set(sets, reader, name, found)
     if not found:

@@ -24,7 +24,8 @@ def make_materials(reader):
                 reader.findings.assume("a material without Poisson's ratio has 0.3", place)
             shear = values["EX"] / (2.0 * (1.0 + nu))
             if abs(values.get("GXY", shear) - shear) > 0.01 * abs(shear):
-                reader.findings.leave_out("GXY of an isotropic material that is not EX / (2 (1 + PRXY)), which is taken", place)
+                text = "GXY of an isotropic material that is not EX / (2 (1 + PRXY)), which is taken"
+                reader.findings.leave_out(text, place)
             reader.model.materials[name] = Material(
                 "Isotropic", {"Young Modulus": values["EX"], "Poisson Ratio": nu, "Density": density}, place
             )

@@ -436,7 +436,10 @@ def _centre_and_inertia(masses):
     """Of all masses at one node: their centre from it, and 11, 22, 33, 23, 13, 12 about that."""
     total = sum(one.mass for one in masses)
     places = [(one.mass, numpy.array(one.offset, float)) for one in masses]
-    centre = places[0][1] if len(masses) == 1 else sum(mass * place for mass, place in places) / total if total else numpy.zeros(3)
+    if len(masses) == 1:
+        centre = places[0][1]
+    else:
+        centre = sum((mass * place for mass, place in places), numpy.zeros(3)) / (total or 1.0)
     tensor = sum((numpy.array(one.inertia, float) for one in masses if one.inertia is not None), numpy.zeros(6))
     for mass, place in places:
         arm = place - centre

@@ -154,7 +154,8 @@ def _body(path, name, findings):
             if len(words) < 6:
                 refuse(place, "expected number, x, y, z and twist")
             if integer(words[1], place) != len(table) + 1:
-                refuse(place, f"the places of c2_def must be numbered in their order: expected {len(table) + 1}, found {words[1]}")
+                expected = f"expected {len(table) + 1}, found {words[1]}"
+                refuse(place, f"the places of c2_def must be numbered in their order: {expected}")
             table.append([number(word, place) for word in words[2:6]])
     count = axis[0].first("nsec")
     if count is not None and (len(count[1]) < 2 or integer(count[1][1], count[0]) != len(table)):

@@ -15,7 +15,8 @@ def read_systems(reader):
         cards[reader.unique({**reader.systems, **cards}, card, "coordinate system")] = card
     waiting = list(cards.values())
     while waiting:
-        ready = [card for card in waiting if card.integer(2, default=0) in reader.systems or card.integer(2) not in cards]
+        waits_for = [card.integer(2, default=0) for card in waiting]
+        ready = [card for card, one in zip(waiting, waits_for) if one in reader.systems or one not in cards]
         if not ready:
             refuse(waiting[0].place, "the system is given in one that is given in it")
         for card in ready:

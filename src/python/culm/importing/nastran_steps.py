@@ -15,7 +15,8 @@ READ = ("LOAD", "SPC", "METHOD", "STATSUB", "MPC", "TEMPERATURE")
 # What acts and is not read; requests of output do not.
 ACTING = (
     "DEFORM", "SUBCOM", "SUBSEQ", "SYM", "SYMCOM", "SYMSEQ", "REPCASE", "K2GG", "M2GG", "B2GG", "P2G", "NSM", "SUPORT1",
-    "BCONTACT", "BGSET", "BCSET", "MFLUID", "K2PP", "M2PP", "A2GG", "K42GG", "PRETENSION", "BOLTLD", "CLOAD", "ANALYSIS",
+    "BCONTACT", "BGSET", "BCSET", "MFLUID", "K2PP", "M2PP", "A2GG", "K42GG", "PRETENSION", "BOLTLD", "CLOAD",
+    "ANALYSIS",
 )  # fmt: skip
 
 

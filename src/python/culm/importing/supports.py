@@ -22,12 +22,12 @@ def add_supports(model, places, quads, constraints):
 
 
 def _between(model, quads):
-    """Supports of nodes that were added between those of several supports, as files have them that hold node by node: of
-    each degree of freedom that both ends have alike."""
+    """Supports of nodes that were added between those of several supports, as files have them that hold node by
+    node: of each degree of freedom that both ends have alike."""
     if not quads.is_split:
         return []
-    holders, all_holders, has = collections.defaultdict(list), collections.defaultdict(list), collections.defaultdict(set)
-    places = {}
+    holders, all_holders = collections.defaultdict(list), collections.defaultdict(list)
+    has, places = collections.defaultdict(set), {}
     for support in model.supports:
         when = None if support.steps is None else frozenset(support.steps)
         axes = None if support.axes is None else tuple(_rounded(support.axes.ravel()))
@@ -48,15 +48,17 @@ def _between(model, quads):
         has[node] |= {(i, when) for i in held}
     for (i, when), nodes in all_holders.items():
         if any((i, when) not in has[node] for node in _added(quads, nodes)):
-            text = "nodes that were added between supported ones are free where those are held along other axes, or moved otherwise"
-            model.findings.assume(text, places[(i, when)])
+            text = "nodes that were added between supported ones are free where those are held along other axes"
+            model.findings.assume(f"{text}, or moved otherwise", places[(i, when)])
     groups = collections.defaultdict(list)
     for (node, axes, when), held in found.items():
         groups[(tuple(sorted(held.items())), axes, when)].append(node)
-    return [
-        Support(nodes, dict(held), places[(*held[0], axes, when)], "between", when and set(when), axes and numpy.reshape(axes, (3, 3)))
-        for (held, axes, when), nodes in groups.items()
-    ]
+    made = []
+    for (held, axes, when), nodes in groups.items():
+        rows = None if axes is None else numpy.reshape(axes, (3, 3))
+        steps = None if when is None else set(when)
+        made.append(Support(nodes, dict(held), places[(*held[0], axes, when)], "between", steps, rows))
+    return made
 
 
 def _added(quads, nodes):
