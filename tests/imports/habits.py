@@ -292,6 +292,7 @@ REFUSED = {
         "constant 12 of the set 2 is 7",
     ),
     "a centroid beside the node": ("ansys", CDB.replace("RECT\nSECDATA,0.1,0.2", "ASEC\nSECDATA,1,1,0,1,0,1,0,.1"), "beside the node"),
+    "nodes of elements": ("ansys", CDB + "ESEL,S,TYPE,,2\nNSLE,S\nF,ALL,FX,5\n", "F of ALL after NSLE"),
     "a table of moduli": ("ansys", CDB + "TB,ELAS,1\nTBDATA,1,1e11,.2\n", "TB,ELAS is not read"),
     "a mass in a plane": ("ansys", CDB.replace("2,188", "2,21") + "KEYOPT,2,3,4\nR,1,5\n", "MASS21 in a plane"),
     "an ellipse": (

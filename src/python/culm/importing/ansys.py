@@ -19,6 +19,7 @@ from .ansys_nodes import (
     read_system,
     select_component,
     select_nodes,
+    select_others,
 )
 from .ansys_properties import make_materials
 from .ansys_tables import (
@@ -65,7 +66,8 @@ ACTIONS = {
     "ANTYPE": read_kind, "NLGEOM": read_large, "PSTRES": read_prestress, "MODOPT": read_count, "BUCOPT": read_count,
     "/TITLE": read_title, "TB": read_table, "CMBLOCK": read_component, "CMSEL": select_component,
     "SOLVE": read_solution, "LSWRITE": read_solution,
-    "NSEL": select_nodes, "ALLSEL": select_nodes, "EMOD": modify_element, "EMODIF": modify_element,
+    "NSEL": select_nodes, "ALLSEL": select_nodes, **dict.fromkeys(("NSLE", "NSLK", "NSLL", "NSLA", "NSLV"), select_others),
+    "EMOD": modify_element, "EMODIF": modify_element,
 }  # fmt: skip
 # Commands whose values are told if they are not read.
 BY_VALUE = {"MP", "ET", "SECOFFSET", "SECOFF", "ANTYPE"}
@@ -97,7 +99,7 @@ class Reader:
         self.axes = {}  # rows of the systems of nodes that are turned
         self.current = None  # the section that SECDATA adds to
         self.components = {}  # name -> nodes or elements
-        self.selected = None  # nodes that ALL means; None for all
+        self.selected = None  # nodes that ALL means; None for all, the command where they are not known
         self.beam_places = {}  # number of a beam element -> its place in the model
         self.elements = []  # [number, material, type, real, section, system, nodes, place]
         self.supports = collections.defaultdict(dict)

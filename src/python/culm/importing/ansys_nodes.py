@@ -126,6 +126,11 @@ def select_nodes(reader, command):
     reader.selected = None
 
 
+def select_others(reader, command):
+    """Nodes of elements, lines, areas: not known, which counts where ALL of them are meant."""
+    reader.selected = command
+
+
 def _named(reader, command, name):
     if name.upper() not in reader.components:
         refuse(command.place, f"there is no component '{name}'{did_you_mean(name.upper(), reader.components)}")
@@ -149,6 +154,8 @@ def nodes_of(reader, command):
     name = command.text(1)
     if is_integer(name):
         nodes = [int(name)]
+    elif name.upper() == "ALL" and hasattr(reader.selected, "fields"):
+        refuse(command.place, f"{command.name} of ALL after {reader.selected.name}: nodes are selected by components")
     elif name.upper() == "ALL":
         nodes = list(reader.model.nodes) if reader.selected is None else reader.selected
     else:
