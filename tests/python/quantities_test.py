@@ -4,6 +4,7 @@ import pathlib
 import tempfile
 import unittest
 
+import culm
 from culm import quantities
 from culm.errors import CulmError
 from culm.history import History
@@ -15,6 +16,11 @@ def history(rows):
         path = pathlib.Path(folder) / "history.csv"
         path.write_text("time,rotor thrust [N]\n" + "".join(f"{time},{value}\n" for time, value in rows))
         return History(path)
+
+
+class Names(unittest.TestCase):
+    def test_the_function_outlives_the_import_of_the_module_of_its_name(self):
+        self.assertTrue(callable(culm.history) and isinstance(History, type))
 
 
 class Measures(unittest.TestCase):

@@ -19,6 +19,8 @@ _LIBRARY = ("Simulation", "Stepper", "Snapshot", "Port", "Error", "UsageError", 
             "NonFiniteError", "FileError")
 __all__ = [*_LIBRARY, "history", "read"]
 
+from . import history as _history  # noqa: E402,F401  first: a later import of it would take the name of the function
+
 
 def __getattr__(name):
     """What the extension module offers, loaded with MPI and Trilinos when it is first asked for."""
