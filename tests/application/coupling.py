@@ -970,6 +970,8 @@ class Decks(CouplingTest):
 
     def test_whose_partners_cannot_serve(self):
         self.says("'nowhere' is no address: 'unix:PATH'", self.remote, "Coupling/Partners/water/Address=nowhere")
+        for port in ("99999", "0", "-1"):
+            self.says("ports are 1 to 65535", self.remote, f"Coupling/Partners/water/Address=tcp:{port}")
         gas = "Coupling/Partners/gas/"
         self.says("face 0 names point 9; there are 1, from 0", self.deck, gas + "Type=Pressure", gas + "Port=top",
                   gas + "Pressure=1", gas + "Triangles={9, 0, 0}")

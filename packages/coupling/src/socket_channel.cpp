@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -192,6 +193,9 @@ Address tcp_address(const std::string& text) {
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   if (port.empty() || host.empty()) refuse(text);
+  char* end = nullptr;
+  const long number = std::strtol(port.c_str(), &end, 10);  // getaddrinfo takes any, modulo 65536
+  if (*end == '\0' && (number < 1 || number > 65535)) refuse(text, "ports are 1 to 65535");
   const int code = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
   if (code != 0) refuse(text, ::gai_strerror(code));
   Address address;
