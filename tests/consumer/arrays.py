@@ -34,6 +34,7 @@ net = mast.port("net")
 assert len(net) == 3 and net.reference.shape == (3, 3)
 refused(culm.UsageError, "did you mean 'net'?", mast.port, "nett")
 refused(culm.UsageError, "shape (points, 3)", mast.add_port, "other", points.T[:, :2])
+refused(culm.UsageError, "a reach above 0 m, got nan", mast.add_port, "other", points, ["mast"], np.nan)
 stepper = mast.begin()
 
 # one load in every layout: each attempt gives the same bits

@@ -16,6 +16,8 @@ overrides = [
 
 def make(name):
     mast = culm.Simulation(deck, overrides)
+    if name == "detours":  # a port without loads changes nothing
+        mast.add_port("net", [[0.2, 0.0, 3.0]], ["mast"], 1.0)
     mast.write_results(str(folder / name))
     return mast, mast.begin()
 
@@ -45,6 +47,7 @@ while not stepper.is_at_end:
     assert stepper.attempt()
     stepper.accept()
 mast.close_results()
+assert (folder / "detours/port_skin.vtu").exists() and (folder / "detours/port_net.vtu").exists()
 
 words = [word for one in overrides for word in ("--set", one)]
 subprocess.run([program, "run", deck, *words, "--output", folder / "run", "--quiet"], check=True)

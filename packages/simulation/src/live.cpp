@@ -6,6 +6,7 @@
 #include <culm/simulation/simulation.hpp>
 
 #include "load_watch.hpp"
+#include "port_picture.hpp"
 #include "simulation_parts.hpp"
 
 #include <fmt/format.h>
@@ -98,6 +99,7 @@ void Simulation::write_results(const std::filesystem::path& folder) {
   settings.folder = folder;
   settings.quiet = true;
   p.results = open_results(settings, nullptr, nullptr);
+  for (const std::string& name : port_names()) write_port(name, folder / port_picture(name));
 }
 
 bool Simulation::writes_results() const { return parts_->results != nullptr; }

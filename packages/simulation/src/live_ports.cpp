@@ -43,6 +43,9 @@ void Simulation::add_port(const std::string& name, port::Cloud cloud) {
                    [](double x) { return std::isfinite(x); })) {
     throw NonFiniteError("port '" + name + "' got a point that is no number");
   }
+  if (!(cloud.reach > 0.0)) {
+    throw UsageError(fmt::format("port '{}' needs a reach above 0 m, got {}", name, cloud.reach));
+  }
   p.phases.add_port(name, std::move(cloud));
   p.tell_of(port(name));
 }

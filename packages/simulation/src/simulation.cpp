@@ -227,7 +227,7 @@ std::unique_ptr<Simulation::Results> Simulation::open_results(const RunSettings&
                                                               const Snapshot* from) {
   Parts& p = *parts_;
   const Options& output = p.deck.list("Output");
-  const Phase& phase = p.phases.of(p.present);
+  const Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);  // a new port took its system
   const ResultSettings wanted = {settings.folder,
                                  describe_run(p.deck, *p.phases.of(0).model, p.comm, from),
                                  names_of(p.deck.list("Analyses").entries()),
