@@ -297,6 +297,7 @@ class Structure:
 
 def _bits(wants):
     names = [name for name, _ in QUANTITIES]
+    wants = (wants,) if isinstance(wants, str) else wants  # ("velocity") is a text
     for name in wants:
         if name not in names:
             raise ValueError(f"there is no quantity '{name}' to want; allowed: {', '.join(names)}")

@@ -583,6 +583,9 @@ class Partners(CouplingTest):
         self.assertIn("it says: ValueError: there is no quantity 'speed' to want; allowed: position", errors)
         partner.kill()
 
+    def test_that_want_one_quantity_by_its_name(self):
+        self.assertEqual(culm_partner._bits("velocity"), culm_partner._bits(("velocity",)))
+
     def test_that_are_killed_and_resumed_from_an_early_checkpoint(self):
         """Checkpoints are there although the run is much shorter than their interval."""
         self.start_partner()
