@@ -137,6 +137,10 @@ class Findings(StudyTest):
         self.assertIn("Nothing is refined: errors are differences from form=Null Space", output)
         self.assertLess(float(self.rows()[1]["error of other end"]), 1e-10)
 
+    def test_the_least_tolerance_is_the_reference(self):
+        output = self.study(INPUTS / "coupling/partners.xml", "--vary", "Coupling/Tolerance=1e-4,1e-9,1e-6", "--repeat", "1")
+        self.assertIn("errors are differences from Tolerance=1e-9", output)
+
     def test_failed_runs_do_not_stop_it(self):
         # 8 elements of order 1 have no solution beyond 0.6366 of the load: doc/verification/roll_up.md
         output = self.study(

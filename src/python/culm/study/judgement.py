@@ -268,9 +268,21 @@ class Judgement:
                 self.notes.append(f"The reference {self.label(index)} failed: {record.reason}")
 
     def _best_combination(self):
-        """That whose own limit is the least uncertain, among those that must all lead to the same one."""
+        """Of those that must all lead to the same limit: of the least tolerances, and then the least uncertain one."""
         candidates = [c for c in self.combinations() if all(map(self._may_be_true, self.compared, c))]
-        return min(candidates, key=self._uncertainty_of)
+
+        def rank(combination):
+            has_failed = self.at(combination) not in self._histories
+            return has_failed, self._tolerances(combination), self._uncertainty_of(combination)
+
+        return min(candidates, key=rank)
+
+    def _tolerances(self, combination):
+        found = [(self.axes[a], i) for a, i in zip(self.compared, combination)]
+        try:
+            return [axis.number(i) for axis, i in found if axis.name.lower().endswith("tolerance")]
+        except ValueError:  # of a word or a variable
+            return []
 
     def _may_be_true(self, a, i):
         axis = self.axes[a]
