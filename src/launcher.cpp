@@ -126,6 +126,9 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   _exit(127);
 }
 
+// A file that tells that culm has come to the partner's MPI.
+fs::path begun(const fs::path& verdict) { return verdict.string() + ".begun"; }
+
 std::vector<pid_t> children() {
   std::vector<pid_t> found;
   std::error_code ignored;
@@ -162,6 +165,10 @@ int wait_for(pid_t launcher, const HeldSignals& signals, const fs::path& verdict
       was_stopped = true;
     }
     if (!last_word && fs::exists(verdict, ignored)) last_word = Clock::now();
+    // MPI_Init of culm waits without an end for a partner that has left without its own
+    const bool is_alone = fs::exists(verdict.parent_path() / "partner", ignored) &&
+                          !fs::exists(begun(verdict), ignored);
+    if (!last_word && is_alone) last_word = Clock::now();
     if (!last_word || Clock::now() - *last_word < last_grace) continue;
     last_signal = last_signal == 0 ? SIGTERM : SIGKILL;
     kill(launcher, last_signal);
@@ -207,6 +214,10 @@ Verdict read_verdict(const fs::path& folder, const Launch& launch, int code) {
 }
 
 }  // namespace
+
+void tell_begin(const fs::path& verdict) {
+  if (!verdict.empty()) std::ofstream(begun(verdict)) << '\n';
+}
 
 void leave_verdict(const fs::path& file, const Verdict& verdict) {
   if (file.empty()) return;

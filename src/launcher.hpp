@@ -17,6 +17,9 @@ struct Verdict {
   std::filesystem::path started;  ///< folder of results, where there are some
 };
 
+/// Tells who waits for a verdict that MPI has begun. Nowhere where the name is empty.
+void tell_begin(const std::filesystem::path& verdict);
+
 /// Leaves a verdict in a file, as a whole. Nowhere where the name is empty.
 void leave_verdict(const std::filesystem::path& file, const Verdict& verdict);
 

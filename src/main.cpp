@@ -346,6 +346,7 @@ End act(int argc, char** argv, Arguments& arguments, bool is_inside,
   const auto partners = [&]() -> const PartnerArguments& { return arguments.partners(); };
   try {
     app.parse(argc, argv);
+    if (comm.is_root()) culm::app::tell_begin(partners().verdict);
     const bool is_part = partners().ranks > 0 && !starts_others(partners(), is_inside);
     action(is_part ? culm::parallel::first_ranks(partners().ranks) : comm);
     if (!partners().needs_launcher || !is_inside) return {};

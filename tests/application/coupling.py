@@ -701,6 +701,8 @@ class Partners(CouplingTest):
         errors = self.finish(self.start_alone("run", deck, *words, "exit 3"), FAILED_PARTNER)
         self.assertIn("the partner 'exit 3' ended with code 3, and the launcher ended culm with it", errors)
         self.assertFalse((self.folder / "never").exists())
+        errors = self.finish(self.start_alone("run", deck, *words, "true"), FAILED_PARTNER)  # no MPI, and no error
+        self.assertIn("the partner 'true' ended with code 0", errors)
         errors = self.finish(self.start_alone("run", deck, *words, "true", "--set", "Coupling/Partners/water/Rank=7"), 2)
         self.assertIn(f"as rank {OPTIONS.ranks}; its 'Rank' is 7", errors)
         errors = self.finish(self.start_alone("run", deck, *words, "true", "--set", "Coupling/Scheme=Aitkn"), 3)
