@@ -290,7 +290,7 @@ int culm_add_port(culm_simulation* simulation, const char* port, const double* x
   return with(simulation, [&](culm_simulation& s) {
     const auto all = values(xyz, 3 * points, "there are no points: the array is NULL");
     culm::port::Cloud cloud{{all.begin(), all.end()}, texts(structures, count)};
-    if (!(reach <= 0.0)) cloud.reach = reach;
+    if (!(reach <= 0.0)) cloud.reach = reach;  // what is no number, too: it is refused
     if (smooth != 0) cloud.weights = culm::port::Weights::smooth;
     s.simulation.add_port(port, std::move(cloud));
   });

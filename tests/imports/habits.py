@@ -123,6 +123,8 @@ def of_abaqus():
     yield "what is moved anew is moved once", at_3 == {0: [0.01], 1: [0.02]}
     again = made_of_text("abaqus", INP + STEP.format("*cload\n3,1,10\n") + STEP.format("*cload\n3,2,4\n").replace("*step", "*step,perturbation"))
     yield "a static perturbation is told", any("PERTURBATION" in text for text in again.findings.assumed)
+    quoted = inp('*cload\n"3",1,10\n', base=INP + '*nset,nset="3"\n1,2\n')
+    yield "a number in quotes is the name of a set", [load.nodes for load in quoted.made.node_loads] == [[1, 2]]
     normal = inp("", base=INP.replace("9,5,5,5", "9,5,5,5,0,1,0"))
     yield "a normal of a node is told", any("normals of *NODE" in x for x in normal.findings.left_out)
     warm = inp("", base=INP.replace("1000.,", "1000.,20\n900.,500"))

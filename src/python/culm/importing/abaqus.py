@@ -147,11 +147,12 @@ class Reader:
         return (self.prefix[:-1], number) if self.prefix else number
 
     def find(self, text, numbers, sets, place, what):
-        """Numbers that a cell names: one by its number, or those of a set."""
+        """Numbers that a cell names: one by its number, or those of a set, which alone may stand in quotes."""
+        is_quoted = text.strip().startswith('"')
         name = text.strip().strip('"').upper()
         for candidate in (self.prefix + name, name):
             instance, _, last = candidate.rpartition(".")
-            if is_integer(last):
+            if is_integer(last) and not is_quoted:
                 key = (instance, int(last)) if instance else int(last)
                 if key in numbers:
                     return [key]

@@ -180,28 +180,23 @@ class _Reader:
         return dimension, name
 
     def entities(self):
-        counts = self.numbers(4, "u8")
-        for dimension, count in enumerate(counts):
-            for _ in range(count):
-                (tag,) = self.numbers(1, "i4")
-                self.numbers(3 if dimension == 0 else 6, "f8")
-                numbers = self.numbers(self.numbers(1, "u8")[0], "i4")
-                self.physical[(dimension, tag)] = [self.group(dimension, abs(number)) for number in numbers]
-                if dimension:
-                    self.numbers(self.numbers(1, "u8")[0], "i4")
-        self._line_end()
+        self._entities(is_partitioned=False)
 
     def partitioned_entities(self):
-        """As entities, with the entity and the partitions that each is part of."""
         self.numbers(1, "u8")
         ghosts = self.numbers(1, "u8")[0]
         self.numbers(2 * ghosts, "i4")
+        self._entities(is_partitioned=True)
+
+    def _entities(self, is_partitioned):
+        """Of a mesh in parts each with the entity and the parts that it belongs to."""
         counts = self.numbers(4, "u8")
         for dimension, count in enumerate(counts):
             for _ in range(count):
                 (tag,) = self.numbers(1, "i4")
-                self.numbers(2, "i4")
-                self.numbers(self.numbers(1, "u8")[0], "i4")
+                if is_partitioned:
+                    self.numbers(2, "i4")
+                    self.numbers(self.numbers(1, "u8")[0], "i4")
                 self.numbers(3 if dimension == 0 else 6, "f8")
                 numbers = self.numbers(self.numbers(1, "u8")[0], "i4")
                 self.physical[(dimension, tag)] = [self.group(dimension, abs(number)) for number in numbers]
