@@ -35,10 +35,11 @@ struct PackFrame {
   }
 };
 
-// Γ_i = d_i . x' ,  K_i = 1/2 (d_j' . d_k - d_k' . d_j), less those of the reference
+// e += weight (Γ, K) less that of the reference, with Γ_i = d_i . x' and
+// K_i = 1/2 (d_j' . d_k - d_k' . d_j)
 template <int Order>
-CULM_INLINE void compute_strain(const typename DirectorPack<Order>::Point& p,
-                                const PackFrame<Order>& frame, Pack* e) {
+CULM_INLINE void add_strain(const typename DirectorPack<Order>::Point& p,
+                            const PackFrame<Order>& frame, double weight, Pack* e) {
   for (int i = 0; i < 3; ++i) {
     const int j = next_axis(i);
     const int k = next_axis(j);
@@ -49,8 +50,58 @@ CULM_INLINE void compute_strain(const typename DirectorPack<Order>::Point& p,
       bend += frame.df[director(j) + c] * frame.f[director(k) + c] -
               frame.df[director(k) + c] * frame.f[director(j) + c];
     }
-    e[i] = shear;
-    e[3 + i] = 0.5 * bend - p.reference[static_cast<std::size_t>(3 + i)];
+    e[i] += weight * shear;
+    e[3 + i] += weight * (0.5 * bend - p.reference[static_cast<std::size_t>(3 + i)]);
+  }
+}
+
+// e += weight B^T dq, with the frames of q and dq
+template <int Order>
+CULM_INLINE void add_strain_increment(const PackFrame<Order>& q, const PackFrame<Order>& dq,
+                                      double weight, Pack* e) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = director(next_axis(i));
+    const int k = director(next_axis(next_axis(i)));
+    Pack shear = {};
+    Pack bend = {};
+    for (int c = 0; c < 3; ++c) {
+      shear += q.f[director(i) + c] * dq.df[c] + dq.f[director(i) + c] * q.df[c];
+      bend += q.df[j + c] * dq.f[k + c] + dq.df[j + c] * q.f[k + c] - q.df[k + c] * dq.f[j + c] -
+              dq.df[k + c] * q.f[j + c];
+    }
+    e[i] += weight * shear;
+    e[3 + i] += 0.5 * weight * bend;
+  }
+}
+
+// e += the mean of the strains at both ends of the step that the stencil asks for
+template <int Order>
+CULM_INLINE void add_mean_strain(const typename DirectorPack<Order>::Point& p,
+                                 const PackMotion<Order + 1>& motion, const PackFrame<Order>& next,
+                                 const Stencil& stencil, Pack* e) {
+  const double weight = stencil.theta_strain;
+  add_strain<Order>(p, next, weight, e);
+  if (weight != 1.0) {
+    add_strain<Order>(p, PackFrame<Order>(p, motion.prev.data()), 1.0 - weight, e);
+  }
+}
+
+// The symmetric matrix of a point in full.
+template <int Order>
+CULM_INLINE void unpack_stiffness(const typename DirectorPack<Order>::Point& p, Pack* C) {
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) {
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) {
+      C[6 * i + j] = p.stiffness.numbers[DirectorPack<Order>::entry(6, i, j)];
+    }
+  }
+}
+
+CULM_INLINE void compute_stress(const Pack* C, const Pack* e, Pack* stress) {
+  for (int i = 0; i < 6; ++i) {
+    stress[i] = C[6 * i] * e[0];
+    for (int j = 1; j < 6; ++j) stress[i] += C[6 * i + j] * e[j];
   }
 }
 
@@ -237,7 +288,7 @@ CULM_INLINE void add_inertia(const Pack* mass, const Pack* acceleration, double 
 template <int Order>
 CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>::Points& points,
                                              const typename DirectorPack<Order>::Mass& mass,
-                                             const PackMotion<Order + 1>& motion, const Pack* prev,
+                                             const PackMotion<Order + 1>& motion,
                                              const Pack* predicted, const Stencil& stencil,
                                              bool with_tangent, PackSum<Order + 1>& sum) noexcept {
   constexpr int N = Order + 1;
@@ -258,21 +309,10 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     const auto& p = points[g];
     const PackFrame<Order> next_frame(p, motion.next.data());
     const PackFrame<Order> mid_frame(p, mid);
-    Pack e[6], stress[6];
-    compute_strain<Order>(p, next_frame, e);
-    for (std::size_t i = 0; i < 6; ++i) e[i] = weight * e[i] + (1.0 - weight) * prev[6 * g + i];
-    Pack C[36];
-#pragma GCC unroll 6
-    for (int i = 0; i < 6; ++i) {
-#pragma GCC unroll 6
-      for (int j = 0; j < 6; ++j) {
-        C[6 * i + j] = p.stiffness.numbers[DirectorPack<Order>::entry(6, i, j)];
-      }
-    }
-    for (int i = 0; i < 6; ++i) {
-      stress[i] = C[6 * i] * e[0];
-      for (int j = 1; j < 6; ++j) stress[i] += C[6 * i + j] * e[j];
-    }
+    Pack C[36], e[6] = {}, stress[6];
+    add_mean_strain<Order>(p, motion, next_frame, stencil, e);
+    unpack_stiffness<Order>(p, C);
+    compute_stress(C, e, stress);
     add_force<Order>(p, mid_frame, stress, force);
     if (!with_tangent) continue;
     const Pack* S = stress;
@@ -290,8 +330,14 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     for (int c = 0; c < 12 * N; ++c) tangent_force[c] = force[c];
   }
   if (stencil.inertia != 0.0) {
+    Pack acceleration[12 * N];
+    for (int c = 0; c < 12 * N; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      acceleration[c] =
+          motion.acceleration_offset[at] + stencil.inertia * (motion.next[at] - motion.prev[at]);
+    }
     Pack inertia_force[12 * N] = {};
-    add_inertia<Order>(mass.data(), motion.acceleration.data(), stencil.inertia, A, inertia_force);
+    add_inertia<Order>(mass.data(), acceleration, stencil.inertia, A, inertia_force);
     for (int c = 0; c < 12 * N; ++c) {
       force[c] += inertia_force[c];
       tangent_force[c] += inertia_force[c];
@@ -311,6 +357,22 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
   }
   if (with_tangent) {
     add_geometry<Order>(A, tangent_force, mid, motion.next.data(), theta, sum.tangent.data());
+  }
+}
+
+template <int Order>
+CULM_FOR_EACH_VECTOR_UNIT void extrapolate_pack(const typename DirectorPack<Order>::Points& points,
+                                                const PackMotion<Order + 1>& motion,
+                                                const Pack* increment, const Stencil& stencil,
+                                                Pack* stress) noexcept {
+  for (std::size_t g = 0; g < Order; ++g) {
+    const auto& p = points[g];
+    const PackFrame<Order> next(p, motion.next.data());
+    Pack C[36], e[6] = {};
+    add_mean_strain<Order>(p, motion, next, stencil, e);
+    add_strain_increment<Order>(next, PackFrame<Order>(p, increment), stencil.theta_strain, e);
+    unpack_stiffness<Order>(p, C);
+    compute_stress(C, e, stress + 6 * g);
   }
 }
 
@@ -350,10 +412,16 @@ DirectorPack<Order>::DirectorPack(
 }
 
 template <int Order>
-void DirectorPack<Order>::evaluate(const Motion& motion, const Pack* prev, const Pack* predicted,
+void DirectorPack<Order>::evaluate(const Motion& motion, const Pack* predicted,
                                    const Stencil& stencil, bool with_tangent,
                                    Sum& sum) const noexcept {
-  evaluate_pack<Order>(points_, mass_, motion, prev, predicted, stencil, with_tangent, sum);
+  evaluate_pack<Order>(points_, mass_, motion, predicted, stencil, with_tangent, sum);
+}
+
+template <int Order>
+void DirectorPack<Order>::extrapolate(const Motion& motion, const Pack* increment,
+                                      const Stencil& stencil, Pack* stress) const noexcept {
+  extrapolate_pack<Order>(points_, motion, increment, stencil, stress);
 }
 
 template class DirectorPack<1>;

@@ -5,6 +5,9 @@
 #include <culm_kit/batch_laws.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <vector>
+
 namespace culm::beam {
 namespace {
 
@@ -56,6 +59,34 @@ TYPED_TEST(ProjectedElement, NullSpaceResidualIsProjected) {
 TYPED_TEST(ProjectedElement, ResidualOfManyIsProjected) {
   kit::expect_residual_is_projected(
       [&](model::Model& model) { fill<TypeParam>(model, true, pack_lanes + 3); }, effect);
+}
+
+// The tangent of a stress that was extrapolated along an increment is that of the stress there, up
+// to the square of the increment; in packs and one by one.
+TYPED_TEST(ProjectedElement, ExtrapolatedStressIsOfFirstOrder) {
+  for (const model::Form form : {model::Form::null_space, model::Form::multipliers}) {
+    for (const Stencil& stencil : kit::law_stencils) {
+      const auto error = [&](double size, bool extrapolates) {
+        model::Model model;
+        fill<TypeParam>(model, true, pack_lanes + 3);
+        model.freeze(form);
+        const std::vector<model::Batch*> tested = {kit::find_batch(model, effect)};
+        kit::DenseAssembly dense(model);
+        model::State state = kit::random_state(model, 3);
+        model::Coordinates increment = state.velocity;
+        for (double& number : increment) number *= size;
+        dense.prepare(state, stencil);
+        if (extrapolates) tested.front()->extrapolate(state, stencil, increment);
+        for (std::size_t i = 0; i < increment.size(); ++i) state.next[i] += increment[i];
+        const Eigen::MatrixXd found = dense.tangent(state, stencil, tested);
+        dense.prepare(state, stencil);
+        return kit::largest(found - dense.tangent(state, stencil, tested));
+      };
+      const double coarse = error(1e-3, true);
+      EXPECT_NEAR(error(0.5e-3, true) / coarse, 0.25, 0.01);
+      EXPECT_EQ(error(1e-3, false), 0.0);
+    }
+  }
 }
 
 TYPED_TEST(ProjectedElement, AttemptsLeaveNoTrace) {

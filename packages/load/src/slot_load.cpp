@@ -3,7 +3,10 @@
 #include <culm/load/slot_load.hpp>
 #include <culm/model/item_motion.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 
 namespace culm::load {
 namespace {
@@ -115,6 +118,23 @@ void SlotLoad::place(model::Placement placement, model::Form form) {
   placement_ = std::move(placement);
   form_ = form;
   has_tangent_ = has_tangent();
+  free_.clear();
+  others_.clear();
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const Item& item = items_[index(placement_.items[i])];
+    if (is_free(item)) {
+      free_.push_back({i, item.nodes[0], nodes_.turns(item.nodes[0]),
+                       !item.constant.rightCols<3>().isZero(0.0), item.constant.data()});
+    } else {
+      others_.push_back(i);
+    }
+  }
+}
+
+// Only the directors of its own node, if anything, turn such an item.
+bool SlotLoad::is_free(const Item& item) const {
+  return form_ == model::Form::null_space && item.nodes.size() == 1 && !item.follows &&
+         !item.is_settable && amplitude_.signal() == nullptr && !nodes_.is_slave(item.nodes[0]);
 }
 
 Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -122,7 +142,10 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
   const double factor = amplitude_.in_step(state, stencil);
   const bool tangent = has_tangent_ && want == Want::residual_and_tangent;
   Verdict verdict = Verdict::ok;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+  for (const Free& item : free_) {
+    verdict = worse(verdict, assemble_free(item, state, stencil, factor, tangent, target));
+  }
+  for (const std::size_t i : others_) {
     const Verdict one =
         form_ == model::Form::null_space
             ? assemble_item<model::NullSpace>(i, state, stencil, factor, tangent, target)
@@ -132,10 +155,40 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
   return verdict;
 }
 
+// What assemble_item does, without looking for masters, slots of other nodes and signals.
+Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, const Stencil& stencil,
+                                double factor, bool tangent, model::Target& target) const {
+  const Eigen::Map<const model::NodeSlots> constant(item.constant);
+  const bool has_arms = item.turns && item.on_directors;
+  Vec6 residual;
+  residual.head<3>() = -factor * constant.col(0);
+  residual.tail<3>().setZero();
+  if (has_arms) {
+    const model::NodeSlots mid =
+        (1.0 - stencil.theta) * model::NodeTable::slots(state.prev, item.node) +
+        stencil.theta * model::NodeTable::slots(state.next, item.node);
+    for (int s = 1; s < 4; ++s) {
+      residual.tail<3>() -= factor * Vec3(mid.col(s)).cross(Vec3(constant.col(s)));
+    }
+  } else if (!item.turns) {
+    residual.tail<3>() = -factor * constant.col(1);
+  }
+  if (!std::isfinite(residual.sum())) return Verdict::not_finite;
+  target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
+  placement_.scatter.add_residual(item.local, 0, residual.data(), target);
+  if (!tangent || !has_arms) return Verdict::ok;
+  model::Arms<4> arms{model::NodeTable::slots(state.next, item.node)};
+  arms.slots.col(0).setZero();
+  RowMat<6, 6> block = RowMat<6, 6>::Zero();
+  model::NullSpace::add_turning(-factor * constant, arms, stencil.theta, block);
+  placement_.scatter.add_tangent(item.local, 0, 0, block, target);
+  return Verdict::ok;
+}
+
 template <class Space>
 Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                 double factor, bool tangent, model::Target& target) const {
-  const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+  const Item& item = items_[index(placement_.items[i])];
   const SlotMotion motion(nodes_, item.nodes, state, stencil.theta);
   const auto& [mid, next, arms_mid, arms_next] = motion;
 
@@ -173,7 +226,7 @@ double SlotLoad::stored_energy(const model::Coordinates& q) const {
   double work = 0.0;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const Item& item = items_[index(placement_.items[i])];
     for (std::size_t a = 0; a < item.nodes.size(); ++a) {
       const auto forces = item.constant.middleCols<4>(4 * static_cast<int>(a));
       work += forces.cwiseProduct(model::NodeTable::slots(q, item.nodes[a])).sum();
@@ -188,7 +241,7 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
   const bool works = !has_potential();
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
-    const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
+    const Item& item = items_[index(placement_.items[i])];
     const Ends ends(item.nodes, state, stencil.theta);
     ItemSlots f = factor * item.constant;
     if (item.follows) f.noalias() += factor * ends.mid.lazyProduct(item.linear.transpose());

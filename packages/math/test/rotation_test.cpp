@@ -21,7 +21,7 @@ TEST(Skew, GivesTheCrossProduct) {
 }
 
 TEST(ExpRotation, IsARotationThatKeepsItsAxis) {
-  for (const double angle : {0.0, 1e-9, 1e-5, 9.9e-3, 1.01e-2, 0.5, 2.0, 3.1, 6.0, 40.0}) {
+  for (const double angle : {0.0, 1e-9, 1e-5, 1e-2, 0.099, 0.101, 0.5, 2.0, 3.1, 6.0, 40.0}) {
     const Mat3 R = exp_rotation(angle * axis);
     EXPECT_LT(triad_defect(R), 1e-15 * (10.0 + angle)) << angle;
     EXPECT_LT((R * axis - axis).norm(), 1e-14) << angle;
@@ -35,9 +35,9 @@ TEST(ExpRotation, TurnsFirstToSecondAxisAboutTheThird) {
 }
 
 TEST(ExpRotation, DoesNotJumpWhereTheSeriesEnds) {
-  const Mat3 below = exp_rotation(0.01 * (1.0 - 1e-12) * axis);
-  const Mat3 above = exp_rotation(0.01 * (1.0 + 1e-12) * axis);
-  EXPECT_LT(distance(below, above), 1e-13);
+  const Mat3 below = exp_rotation(0.1 * (1.0 - 1e-15) * axis);
+  const Mat3 above = exp_rotation(0.1 * (1.0 + 1e-15) * axis);
+  EXPECT_LT(distance(below, above), 2e-15);
 }
 
 TEST(LogRotation, InvertsTheExponentialUpToPi) {
@@ -46,6 +46,21 @@ TEST(LogRotation, InvertsTheExponentialUpToPi) {
     EXPECT_LT((log_rotation(exp_rotation(theta)) - theta).norm(), 1e-12) << angle;
   }
   EXPECT_EQ(log_rotation(Mat3::Identity()).norm(), 0.0);
+}
+
+TEST(LogRotation, IsExactToRoundingOnBothSidesOfTheEndOfTheSeries) {
+  for (const double angle : {1e-9, 1e-4, 0.01, 0.05, 0.0999, 0.1002, 0.1003, 0.2}) {
+    const Vec3 theta = angle * axis;
+    const double there = (log_rotation(exp_rotation(theta)) - theta).norm();
+    EXPECT_LT(there, 1e-15) << angle;
+    EXPECT_LT((log_rotation(exp_rotation(theta)) + log_rotation(exp_rotation(-theta))).norm(),
+              1e-15);
+  }
+}
+
+TEST(LogRotation, TellsHalfATurnFromNone) {
+  EXPECT_NEAR(log_rotation(exp_rotation((std::numbers::pi - 0.01) * axis)).norm(),
+              std::numbers::pi - 0.01, 1e-9);
 }
 
 TEST(PolarCorrection, SquaresTheDefect) {

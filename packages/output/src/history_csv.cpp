@@ -38,10 +38,11 @@ std::string header(const std::vector<HistoryColumn>& columns) {
 
 std::string line(const HistoryRow& row) {
   fmt::memory_buffer line;
-  fmt::format_to(std::back_inserter(line), "{:.17g}", row.time);
+  // as few digits as give the same number back
+  fmt::format_to(std::back_inserter(line), "{}", row.time);
   for (const double value : row.values) {
     line.push_back(',');
-    if (value != absent) fmt::format_to(std::back_inserter(line), "{:.17g}", value);
+    if (value != absent) fmt::format_to(std::back_inserter(line), "{}", value);
   }
   fmt::format_to(std::back_inserter(line), ",{},{}\n", row.analysis, row.step);
   return fmt::to_string(line);

@@ -88,18 +88,24 @@ bool factor_panel(double* D, Size size, Columns columns, const double* before, d
   return true;
 }
 
-/// The same for sizes that are known, so that it works in a copy without loops. These blocks are
-/// nodes, whose rows are of one scale.
+/// The same for sizes that are known, so that it works in a copy without loops. Rows of a node are
+/// of one scale.
 template <int size, int columns>
 bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, double least,
-                  int* exchanged, double*) {
+                  int* exchanged, double* weight) {
+  constexpr bool is_node = size == 6;
   constexpr int stride = size + columns;
   std::array<double, size * stride> a;
   std::copy_n(D, a.size(), a.data());
+  if (!is_node) find_row_weights(D, stride, Fixed<size>(), weight);
   const auto eliminate = [&](auto c) {
     double* row_c = a.data() + c * stride;
-    const int best = find_pivot(a.data(), stride, Fixed<size>(), c, [](int) { return 1.0; });
-    if (best != c) std::swap_ranges(row_c, row_c + stride, a.data() + best * stride);
+    const int best = find_pivot(a.data(), stride, Fixed<size>(), c,
+                                [&](int row) { return is_node ? 1.0 : weight[row]; });
+    if (best != c) {
+      std::swap_ranges(row_c, row_c + stride, a.data() + best * stride);
+      if (!is_node) std::swap(weight[c], weight[best]);
+    }
     exchanged[c] = best;
     if (!(std::abs(row_c[c]) > least * before[c])) return false;
     row_c[c] = 1.0 / row_c[c];

@@ -33,12 +33,16 @@ constexpr double rest_of_rounding = 512.0 * std::numeric_limits<double>::epsilon
 // held at one end have smaller ones, whatever the choice.
 constexpr double good_pivot = 1e-6;
 
-// What takes a fixed size where it can: the unknowns of a node.
+// What takes a fixed size where it can: the unknowns of a node, and those of a body with the forces
+// of a ball joint.
 constexpr Fixed<6> node{};
+constexpr Fixed<3> ball{};
+constexpr Fixed<node + ball> jointed{};
 
 // Nodes of chains have one or two neighbours that are eliminated later.
 template <class Visit>
 auto with_sizes(const BlockPlan::Panel& panel, const Visit& visit) {
+  if (panel.size == jointed && panel.width == node) return visit(jointed, node);
   if (panel.size != node) return visit(panel.size, panel.width);
   if (panel.width == node) return visit(node, node);
   if (panel.width == 2 * node) return visit(node, Fixed<2 * node>());
@@ -76,9 +80,11 @@ bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
 // Pivots have to exceed so much of what has been on the diagonal.
 bool BlockLu::factor_as_planned(double least) {
   failed_ = nullptr;
-  copy();
-  return std::ranges::all_of(eliminated(),
-                             [&](const auto& panel) { return eliminate(panel, least); });
+  noted_ = 0;
+  const auto eliminates = [&](const auto& panel) { return eliminate(panel, least); };
+  if (!std::ranges::all_of(eliminated(), eliminates)) return false;
+  if (kept_ > 0) fill_before(plan_.panels.back());
+  return true;
 }
 
 std::span<const BlockPlan::Panel> BlockLu::eliminated() const {
@@ -141,11 +147,13 @@ void BlockLu::plan() {
   row_weight_.assign(index(tallest), 0.0);
 }
 
-void BlockLu::copy() {
-  for (const auto& [begin, end] : plan_.gaps) {
-    std::fill(values_.begin() + static_cast<std::ptrdiff_t>(begin),
-              values_.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
-  }
+BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
+  const auto number = &panel - plan_.panels.data();
+  return number == 0 ? BlockPlan::Panel() : plan_.panels[index(number - 1)];
+}
+
+// Brings from the matrix what the elimination of a panel is the first to need.
+void BlockLu::fill_before(const BlockPlan::Panel& panel) {
   const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns) {
     const double* source = rows_.values(c.source);
     double* target = values_.data() + c.target;
@@ -153,21 +161,35 @@ void BlockLu::copy() {
       for (int k = 0; k < columns; ++k) target[k] = source[k];
     }
   };
-  for (const BlockPlan::Copy& c : plan_.copies) {
+  const BlockPlan::Panel done = before(panel);
+  for (std::size_t k = done.gaps; k < panel.gaps; ++k) {
+    std::fill_n(values_.data() + plan_.gaps[k].target, plan_.gaps[k].size, 0.0);
+  }
+  for (std::size_t k = done.copies; k < panel.copies; ++k) {
+    const BlockPlan::Copy& c = plan_.copies[k];
     if (c.columns == node) {
       copy_rows(c, node);
+    } else if (c.columns == 2 * node) {
+      copy_rows(c, Fixed<2 * node>());
+    } else if (c.columns == ball) {
+      copy_rows(c, ball);
     } else {
       copy_rows(c, c.columns);
     }
   }
-  for (std::size_t place = 0; place < before_.size(); ++place) {
-    before_[place] = diagonal_[place] == no_place ? 0.0 : std::abs(rows_.value(diagonal_[place]));
-  }
+}
+
+// What is on the diagonal of the matrix at a place.
+double BlockLu::start_at(std::size_t place) const {
+  return diagonal_[place] == no_place ? 0.0 : std::abs(rows_.value(diagonal_[place]));
 }
 
 // Also notes how large entries of the diagonal have been. Multipliers begin with nothing there, so
 // that there is no growth to judge.
 bool BlockLu::has_grown(const BlockPlan::Panel& panel) {
+  const std::size_t first = index(panel.first);
+  noted_ = first + index(panel.size);
+  for (std::size_t place = first; place < noted_; ++place) before_[place] = start_at(place);
   const double* entry = values_.data() + panel.pivot;
   for (int i = 0; i < panel.size; ++i, entry += panel.stride() + 1) {
     const std::size_t place = index(panel.first + i);
@@ -206,7 +228,9 @@ double BlockLu::largest_behind_joints(int row) const {
     const double least = smallest_share * largest_in_row(joint);
     for_entries(joint, [&](int other, double there) {
       const double ratio = here / std::max(there, least);
-      largest = std::max(largest, ratio * ratio * before_[index(place_[index(other)])]);
+      const std::size_t place = index(place_[index(other)]);
+      largest =
+          std::max(largest, ratio * ratio * (place < noted_ ? before_[place] : start_at(place)));
     });
   });
   return largest;
@@ -214,6 +238,7 @@ double BlockLu::largest_behind_joints(int row) const {
 
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
                                                                    double least) {
+  fill_before(panel);
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
@@ -223,8 +248,7 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
     failed_ = &panel;
     return false;
   }
-  const auto number = static_cast<std::size_t>(&panel - plan_.panels.data());
-  update(panel, number == 0 ? 0 : plan_.panels[number - 1].updates);
+  update(panel, before(panel).updates);
   return true;
 }
 
@@ -242,6 +266,8 @@ void BlockLu::update(const BlockPlan::Panel& panel, std::size_t from) {
       subtract_product(L, V, stride, target, u.stride, node, node, Fixed<2 * node>());
     } else if (panel.size == node) {
       subtract_product(L, V, stride, target, u.stride, u.rows, node, u.columns);
+    } else if (panel.size == jointed && u.rows == node && u.columns == node) {
+      subtract_product(L, V, stride, target, u.stride, node, jointed, node);
     } else {
       subtract_product(L, V, stride, target, u.stride, u.rows, panel.size, u.columns);
     }

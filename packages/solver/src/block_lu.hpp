@@ -55,7 +55,9 @@ class BlockLu {
   bool merge_failed();
   void plan();
   std::span<const BlockPlan::Panel> eliminated() const;
-  void copy();
+  BlockPlan::Panel before(const BlockPlan::Panel& panel) const;
+  void fill_before(const BlockPlan::Panel& panel);
+  double start_at(std::size_t place) const;
   bool eliminate(const BlockPlan::Panel& panel, double least);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
@@ -78,6 +80,7 @@ class BlockLu {
   std::vector<int> place_;                    ///< of each row
   std::vector<double> values_;
   std::vector<double> before_;      ///< by place: largest size of the diagonal so far
+  std::size_t noted_ = 0;           ///< places that `before_` knows
   std::vector<int> exchanged_;      ///< by place: the row of the block it was exchanged with
   std::vector<double> x_;           ///< by place
   std::vector<double> beside_;      ///< of one panel

@@ -26,6 +26,7 @@ class Planner {
     list_copies();
     list_updates();
     find_gaps();
+    fill_when_needed();
   }
   BlockPlan take() { return std::move(plan_); }
 
@@ -119,6 +120,7 @@ class Planner {
   void list_copies() {
     std::vector<std::pair<int, std::size_t>> entries;  // column and source
     for (std::size_t b = 0; b < blocks_.sizes.size(); ++b) {
+      const std::size_t first = plan_.copies.size();  // of this block
       entries.clear();
       rows_.for_entries(first_row_[b], [&](int column, std::size_t source) {
         entries.emplace_back(column, source);
@@ -134,8 +136,16 @@ class Planner {
           ++run;
         }
         const Place target = find(static_cast<int>(b), other);
-        plan_.copies.push_back({source, target.at + index(column - first_row_[index(other)]),
-                                blocks_.widths[b], target.stride, blocks_.sizes[b], run});
+        const std::size_t at = target.at + index(column - first_row_[index(other)]);
+        BlockPlan::Copy* last_copy = plan_.copies.size() > first ? &plan_.copies.back() : nullptr;
+        if (last_copy != nullptr && last_copy->source + index(last_copy->columns) == source &&
+            last_copy->target + index(last_copy->columns) == at &&
+            last_copy->target_stride == target.stride) {
+          last_copy->columns += run;
+        } else {
+          plan_.copies.push_back(
+              {source, at, blocks_.widths[b], target.stride, blocks_.sizes[b], run});
+        }
         k += index(run);
       }
     }
@@ -175,14 +185,52 @@ class Planner {
         std::fill_n(is_filled.begin() + static_cast<std::ptrdiff_t>(first), copy.columns, true);
       }
     }
-    for (std::size_t k = 0; k < is_filled.size(); ++k) {
-      if (is_filled[k]) continue;
-      if (k > 0 && !is_filled[k - 1]) {
-        ++plan_.gaps.back().second;
-      } else {
-        plan_.gaps.emplace_back(k, k + 1);
+    for (std::size_t g = 0; g < plan_.panels.size(); ++g) {
+      bool goes_on = false;
+      for (std::size_t k = plan_.panels[g].pivot; k < end_of(g); ++k) {
+        if (!is_filled[k] && goes_on) ++plan_.gaps.back().size;
+        if (!is_filled[k] && !goes_on) plan_.gaps.push_back({k, 1});
+        goes_on = !is_filled[k];
       }
     }
+  }
+
+  // Of the values of a panel.
+  std::size_t end_of(std::size_t panel) const {
+    return panel + 1 < plan_.panels.size() ? plan_.panels[panel + 1].pivot : plan_.num_values;
+  }
+
+  // A panel is filled before it is eliminated or another one updates it first, and not earlier, so
+  // that it is still in the cache.
+  void fill_when_needed() {
+    std::vector<std::size_t> needed_by(plan_.panels.size());
+    std::iota(needed_by.begin(), needed_by.end(), std::size_t{0});
+    std::size_t k = 0;
+    for (std::size_t g = 0; g < plan_.panels.size(); ++g) {
+      for (; k < plan_.panels[g].updates; ++k) {
+        std::size_t& first = needed_by[panel_of(plan_.updates[k].target)];
+        first = std::min(first, g);
+      }
+    }
+    sort_by_need(needed_by, plan_.copies, &BlockPlan::Panel::copies);
+    sort_by_need(needed_by, plan_.gaps, &BlockPlan::Panel::gaps);
+  }
+
+  std::size_t panel_of(std::size_t value) const {
+    const auto next = std::ranges::upper_bound(plan_.panels, value, {}, &BlockPlan::Panel::pivot);
+    return index(next - plan_.panels.begin()) - 1;
+  }
+
+  template <class Item>
+  void sort_by_need(const std::vector<std::size_t>& needed_by, std::vector<Item>& items,
+                    std::size_t BlockPlan::Panel::*end) {
+    std::vector<std::size_t> next(plan_.panels.size(), 0);  // place of the next item, by panel
+    for (const Item& item : items) ++next[needed_by[panel_of(item.target)]];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    std::vector<Item> sorted(items.size());
+    for (const Item& item : items) sorted[next[needed_by[panel_of(item.target)]]++] = item;
+    for (std::size_t g = 0; g < plan_.panels.size(); ++g) plan_.panels[g].*end = next[g];
+    items = std::move(sorted);
   }
 
   const BlockRows& rows_;

@@ -4,7 +4,6 @@
 #include "block_rows.hpp"
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace culm::solver {
@@ -17,13 +16,17 @@ namespace culm::solver {
 /// R - L V, V = D^-1 U.
 struct BlockPlan {
   struct Panel {
-    int size = 0;             ///< unknowns of the group
-    int width = 0;            ///< columns of U, rows of L
-    int first = 0;            ///< place of its first unknown in the order of elimination
-    std::size_t beside = 0;   ///< its part of `beside`
-    std::size_t pivot = 0;    ///< [D U] in the values of the factors
-    std::size_t below = 0;    ///< L in the values of the factors
-    std::size_t updates = 0;  ///< end of its updates, which begin where those of the last one end
+    int size = 0;            ///< unknowns of the group
+    int width = 0;           ///< columns of U, rows of L
+    int first = 0;           ///< place of its first unknown in the order of elimination
+    std::size_t beside = 0;  ///< its part of `beside`
+    std::size_t pivot = 0;   ///< [D U] in the values of the factors
+    std::size_t below = 0;   ///< L in the values of the factors
+    /// Ends of its updates, and of the copies and gaps that are to be done before it is eliminated;
+    /// they begin where those of the panel before end.
+    std::size_t updates = 0;
+    std::size_t copies = 0;
+    std::size_t gaps = 0;
     int stride() const { return size + width; }
   };
   /// target -= L V, for some rows of L and some columns of V.
@@ -50,8 +53,12 @@ struct BlockPlan {
   std::vector<int> beside;   ///< places of the columns of each U
   std::vector<Update> updates;
   std::vector<Copy> copies;
-  /// Begin and end of what the matrix leaves empty and updates may fill.
-  std::vector<std::pair<std::size_t, std::size_t>> gaps;
+  /// What the matrix leaves empty in a panel and updates may fill.
+  struct Gap {
+    std::size_t target = 0;
+    std::size_t size = 0;
+  };
+  std::vector<Gap> gaps;
   std::size_t num_values = 0;
 };
 

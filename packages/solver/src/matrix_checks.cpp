@@ -1,31 +1,98 @@
 #include "matrix_checks.hpp"
 
+#include <culm/math/types.hpp>
+#include <culm/math/vector_units.hpp>
+#include <culm/mechanics/pack.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace culm::solver {
 
 using assembly::CrsMatrix;
 using assembly::Vector;
 
-Residual residual(const CrsMatrix& A, std::span<const double> x, std::span<const double> b,
-                  std::span<double> r) {
-  const auto matrix = A.getLocalMatrixHost();
+namespace {
+
+// Products of a row with x, summed, and their sizes, summed.
+struct RowSum {
+  double products = 0.0;
+  double sizes = 0.0;
+};
+
+[[gnu::always_inline]] inline double sum_of_lanes(Pack a) {
+  a += __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3);
+  a += __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5);
+  a += __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6);
+  return a[0];
+}
+
+// At least pack_lanes columns that stand side by side.
+[[gnu::always_inline]] inline RowSum multiply(const double* row, const double* x,
+                                              std::size_t count) {
+  Pack products{}, sizes{};
+  const auto product_at = [&](std::size_t k) __attribute__((always_inline)) {
+    Pack of_row, of_x;
+    std::memcpy(&of_row, row + k, sizeof(Pack));
+    std::memcpy(&of_x, x + k, sizeof(Pack));
+    return of_row * of_x;
+  };
+  const auto add = [&](const Pack& product) __attribute__((always_inline)) {
+    products += product;
+    sizes += product < 0.0 ? -product : product;
+  };
+  std::size_t k = 0;
+  for (; k + pack_lanes <= count; k += pack_lanes) add(product_at(k));
+  if (k < count) {
+    // the last lanes are new, those before have been added
+    constexpr Pack lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    const auto added = static_cast<double>(pack_lanes - (count - k));
+    add(lane >= added ? product_at(count - pack_lanes) : Pack{});
+  }
+  return {sum_of_lanes(products), sum_of_lanes(sizes)};
+}
+
+[[gnu::always_inline]] inline RowSum multiply(const double* row, const int* columns,
+                                              const double* x, std::size_t count) {
+  RowSum sum;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double product = row[k] * x[columns[k]];
+    sum.products += product;
+    sum.sizes += std::abs(product);
+  }
+  return sum;
+}
+
+// Columns are in order, and in chains mostly side by side.
+CULM_FOR_EACH_VECTOR_UNIT Residual residual_of(const std::size_t* row_begin, const int* columns,
+                                               const double* values, const double* x,
+                                               std::span<const double> b, std::span<double> r) {
   Residual result;
   for (std::size_t row = 0; row < b.size(); ++row) {
-    double rest = b[row];
-    double terms = std::abs(b[row]);
-    for (auto k = matrix.graph.row_map(row); k < matrix.graph.row_map(row + 1); ++k) {
-      const double term = matrix.values(k) * x[static_cast<std::size_t>(matrix.graph.entries(k))];
-      rest -= term;
-      terms += std::abs(term);
-    }
+    const std::size_t first = row_begin[row];
+    const std::size_t count = row_begin[row + 1] - first;
+    const int* of_row = columns + first;
+    const bool side_by_side =
+        count >= pack_lanes && index(of_row[count - 1] - of_row[0]) == count - 1;
+    const RowSum sum = side_by_side ? multiply(values + first, x + of_row[0], count)
+                                    : multiply(values + first, of_row, x, count);
+    const double rest = b[row] - sum.products;
     if (!std::isfinite(rest)) return {HUGE_VAL, 1.0};
     if (!r.empty()) r[row] = rest;
     result.largest = std::max(result.largest, std::abs(rest));
-    result.size = std::max(result.size, terms);
+    result.size = std::max(result.size, std::abs(b[row]) + sum.sizes);
   }
   return result;
+}
+
+}  // namespace
+
+Residual residual(const CrsMatrix& A, std::span<const double> x, std::span<const double> b,
+                  std::span<double> r) {
+  const auto matrix = A.getLocalMatrixHost();
+  return residual_of(matrix.graph.row_map.data(), matrix.graph.entries.data(), matrix.values.data(),
+                     x.data(), b, r);
 }
 
 double largest_entry(const CrsMatrix& A) {

@@ -20,10 +20,13 @@ class DirectorPack {
   explicit DirectorPack(const std::array<const DirectorBeam<Order>*, pack_lanes>& elements);
 
   /// @see ComesInPacks
-  /// @param prev  strains at the start of the step, shape (Order, 6); no weight in statics
   /// @param predicted  stress that the tangent is to have, shape (Order, 6), or nullptr
-  void evaluate(const Motion& motion, const Pack* prev, const Pack* predicted,
-                const Stencil& stencil, bool with_tangent, Sum& sum) const noexcept;
+  void evaluate(const Motion& motion, const Pack* predicted, const Stencil& stencil,
+                bool with_tangent, Sum& sum) const noexcept;
+  /// @param increment  of the slots, shape (12 num_nodes)
+  /// @param stress     shape (Order, 6)
+  void extrapolate(const Motion& motion, const Pack* increment, const Stencil& stencil,
+                   Pack* stress) const noexcept;
 
   /// Where the entry (i, j) of a symmetric matrix of n rows is among those on and above the
   /// diagonal, by rows.

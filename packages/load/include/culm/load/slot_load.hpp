@@ -57,9 +57,21 @@ class SlotLoad final : public model::Batch, public model::Booked {
     bool is_settable = false;   // f0 may become another one
   };
 
+  // A local item with constant forces on one node, which is no slave.
+  struct Free {
+    std::size_t local;
+    int node;
+    bool turns;              // its directors turn with it
+    bool on_directors;       // some forces act there
+    const double* constant;  // of the item
+  };
+
   Item& item_on(const std::vector<int>& nodes);
   bool turns(const Item& item) const;
   bool has_potential() const;
+  bool is_free(const Item& item) const;
+  Verdict assemble_free(const Free& item, const model::State& state, const Stencil& stencil,
+                        double factor, bool tangent, model::Target& target) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;
@@ -71,6 +83,8 @@ class SlotLoad final : public model::Batch, public model::Booked {
   model::Placement placement_;
   model::Form form_ = model::Form::null_space;
   bool has_tangent_ = false;
+  std::vector<Free> free_;
+  std::vector<std::size_t> others_;  // local items
 };
 
 }  // namespace culm::load

@@ -3,6 +3,7 @@
 
 #include <culm/mechanics/element.hpp>
 
+#include <array>
 #include <cstddef>
 
 namespace culm {
@@ -29,13 +30,25 @@ struct Packs {
   double of(int l, int at) const { return reinterpret_cast<const double*>(numbers + at)[l]; }
 };
 
+/// Puts `count` numbers of each element side by side, number c of lane l from rows[l][c].
+/// @param count  at least pack_lanes
+void to_lanes(const std::array<const double*, pack_lanes>& rows, int count, Pack* numbers);
+/// The way back.
+void from_lanes(const Pack* numbers, int count, const std::array<double*, pack_lanes>& rows);
+
 /// Where N triads of each element are in a step, by coordinates of their slots.
 template <int N>
 struct PackMotion {
-  Packs<12 * N> prev;  ///< wanted unless stencil.theta is 1
+  Packs<12 * N> prev;  ///< wanted where it counts, see `counts_start`
   Packs<12 * N> next;
-  Packs<12 * N> acceleration;  ///< wanted with inertia: M a acts
+  /// State::acceleration_offset, wanted with inertia: M a acts with a = inertia (next - prev) + it.
+  Packs<12 * N> acceleration_offset;
 };
+
+/// Whether the start of a step has a part in its forces.
+constexpr bool counts_start(const Stencil& stencil) {
+  return stencil.theta != 1.0 || stencil.theta_strain != 1.0 || stencil.inertia != 0.0;
+}
 
 /// What a pack answers, in six unknowns of each of N triads: dx and dtheta, with dd = dtheta x d
 /// for d where forces act in rows and at the end of the step in columns.
@@ -47,14 +60,18 @@ struct PackSum {
 };
 
 /// Elements of triads whose law is linear, and that come in packs: E::Pack holds the constants of
-/// pack_lanes elements; evaluate() is what ElementBatch does for one of them.
+/// pack_lanes elements; evaluate() and extrapolate() are what ElementBatch does for one of them.
 template <class E>
 concept ComesInPacks = HasStiffness<E> &&
     requires(const typename E::Pack& pack, const PackMotion<E::num_nodes>& motion,
-             const ::culm::Pack* strains, const Stencil& stencil, PackSum<E::num_nodes>& sum) {
-  // strains: at the start of the step, num_points x num_strains; stress of the tangent in the
-  // same order, or nullptr for that of the motion; without tangent only the residual is written
-  { pack.evaluate(motion, strains, strains, stencil, true, sum) }
+             const ::culm::Pack* numbers, ::culm::Pack* stress, const Stencil& stencil,
+             PackSum<E::num_nodes>& sum) {
+  // numbers: stress of the tangent, num_points x num_strains, or nullptr for that of the motion;
+  // without tangent only the residual is written
+  { pack.evaluate(motion, numbers, stencil, true, sum) }
+  noexcept->std::same_as<void>;
+  // numbers: increments of the slots; stress: of the motion and what they add, to first order
+  { pack.extrapolate(motion, numbers, stencil, stress) }
   noexcept->std::same_as<void>;
 };
 

@@ -49,10 +49,13 @@ class ConstraintBatch final : public Batch {
     std::vector<ConstraintRow> rows_mid;   ///< as they act on forces
     std::vector<ConstraintRow> rows_next;  ///< as they must hold at the end of the step
     std::vector<double> measure;           ///< what |h| is judged against, per row
+    bool holds_point = false;              ///< rows of one point of nodes that turn, at rest
     /// Derivatives of both by the signal that is followed; empty without one.
     std::vector<ConstraintRow> slopes_mid, slopes_next;
   };
 
+  Verdict assemble_point(std::size_t i, const State& state, const Stencil& stencil, Want want,
+                         Target& target) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) const;

@@ -101,7 +101,7 @@ class ElementBatch final : public Batch,
     form_ = form;
     const std::size_t points = placement_.items.size() * E::num_points;
     laws_.resize(points);
-    predicted_stress_.resize(points);
+    predicted_stress_.clear();
     use_predicted_ = false;
     if constexpr (ComesInPacks<E>) {
       packs_.make(form == Form::null_space ? placement_.items.size() : 0,
@@ -111,12 +111,16 @@ class ElementBatch final : public Batch,
 
   void prepare(const State& state, const Stencil& stencil) override {
     use_predicted_ = false;
+    if constexpr (ComesInPacks<E>) packs_.forget_extrapolation();
     const bool wants_strains = laws_.prepare(stencil);
-    if (stencil.inertia != 0.0 && masses_.empty() && !comes_in_packs(laws_.damped(stencil))) {
+    const Stencil damped = laws_.damped(stencil);
+    const bool in_packs = comes_in_packs(damped);
+    if (stencil.inertia != 0.0 && masses_.empty() && !in_packs) {
       masses_.reserve(placement_.items.size());
       for (int item : placement_.items) masses_.push_back(element(item).mass());
     }
-    if (!wants_strains) return;
+    // packs find the strains of the start themselves
+    if (!wants_strains || (in_packs && !laws_.takes(damped))) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(placement_.items[i], state.prev);
       const E& element = this->element(placement_.items[i]);
@@ -191,6 +195,13 @@ class ElementBatch final : public Batch,
   void extrapolate(const State& state, const Stencil& stencil,
                    const Coordinates& increment) override {
     const Stencil damped = laws_.damped(stencil);
+    if constexpr (ComesInPacks<E>) {
+      if (comes_in_packs(damped)) {
+        packs_.extrapolate(placement_.items.size(), local_nodes(), state, damped, increment);
+        return;
+      }
+    }
+    predicted_stress_.resize(placement_.items.size() * E::num_points);
     Response<M> response;
     Strain y, ahead, behind;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
@@ -359,6 +370,11 @@ class ElementBatch final : public Batch,
     return item * E::num_points + static_cast<std::size_t>(point);
   }
 
+  // The nodes of each local item.
+  auto local_nodes() const {
+    return
+        [this](std::size_t i) -> const std::array<int, N>& { return nodes(placement_.items[i]); };
+  }
   ItemSlots gather(int item, const Coordinates& q) const { return gather_slots<K>(nodes(item), q); }
   double least_cosine(int item, const Coordinates& q) const requires HasTurn<E> {
     return element(item).least_cosine(gather(item, q));
@@ -398,12 +414,12 @@ class ElementBatch final : public Batch,
 
   Verdict assemble_packs(const State& state, const Stencil& stencil, Want want,
                          Target& target) requires ComesInPacks<E> {
-    const std::vector<int>& items = placement_.items;
-    return packs_.evaluate(
-        items.size(), [&](std::size_t i) -> const auto& { return nodes(items[i]); },
-        {nodes_, state, stencil, laws_.prev(), use_predicted_ ? &predicted_stress_ : nullptr,
-         want == Want::residual_and_tangent},
-        [&](std::size_t i, auto& c) { c.scatter(i, placement_.scatter, target); });
+    const bool with_tangent = want == Want::residual_and_tangent;
+    return packs_.evaluate(placement_.items.size(), local_nodes(), nodes_, state, stencil,
+                           with_tangent, [&](std::size_t i, const auto& c) {
+                             add_to_target<N>(i, c.residual, with_tangent ? &c.tangent : nullptr,
+                                              placement_.scatter, target);
+                           });
   }
 
   template <class Space>

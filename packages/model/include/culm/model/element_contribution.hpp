@@ -9,6 +9,26 @@
 
 namespace culm::model {
 
+/// Adds residual and tangent of an element with N nodes in the unknowns that are solved for.
+/// @param i  local number of the element @param tangent  nullptr where none is wanted
+template <int N, int Size>
+void add_to_target(std::size_t i, const Vec<Size>& residual, const RowMat<Size, Size>* tangent,
+                   const Scatter& places, Target& target) {
+  constexpr int W = Size / N;
+  target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
+  for (int a = 0; a < N; ++a) places.add_residual(i, a, residual.data() + W * a, target);
+  if (tangent == nullptr) return;
+  for (int a = 0; a < N; ++a) {
+    if constexpr (W == 6) {
+      places.add_tangent_rows<N>(i, a, tangent->template middleRows<6>(6 * a), target);
+    } else {
+      for (int b = 0; b < N; ++b) {
+        places.add_tangent(i, a, b, tangent->template block<W, W>(W * a, W * b), target);
+      }
+    }
+  }
+}
+
 /// Residual and tangent of an element in the unknowns of a space, and the parts of the tangent that
 /// come from scalars between slots and from forces on slots. @source formulation 5.2
 template <class Space, class E>
@@ -60,19 +80,7 @@ struct ElementContribution {
   void scatter(std::size_t i, const Motion& motion, double theta, const Scatter& places,
                Target& target) {
     if (with_tangent) add_scalars_and_forces(motion, theta);
-    scatter(i, places, target);
-  }
-
-  /// The same where the tangent is complete.
-  void scatter(std::size_t i, const Scatter& places, Target& target) {
-    target.force_scale = std::max(target.force_scale, residual.template lpNorm<Eigen::Infinity>());
-    for (int a = 0; a < N; ++a) places.add_residual(i, a, residual.data() + W * a, target);
-    if (!with_tangent) return;
-    for (int a = 0; a < N; ++a) {
-      for (int b = 0; b < N; ++b) {
-        places.add_tangent(i, a, b, tangent.template block<W, W>(W * a, W * b), target);
-      }
-    }
+    add_to_target<N>(i, residual, with_tangent ? &tangent : nullptr, places, target);
   }
 
   Vec<W* N> residual = Vec<W * N>::Zero();

@@ -3,8 +3,7 @@
 
 #include <culm/mechanics/pack.hpp>
 #include <culm/model/batch.hpp>
-#include <culm/model/element_contribution.hpp>
-#include <culm/model/point_laws.hpp>
+#include <culm/model/projection.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,8 +17,14 @@ template <class E>
 class ElementPacks {
  public:
   static constexpr int N = E::num_nodes;
-  using Contribution = ElementContribution<NullSpace, E>;
+  static constexpr int W = 6 * N;  ///< unknowns of an element
   using Nodes = std::array<int, N>;
+
+  /// What an element adds to the equations.
+  struct Contribution {
+    Vec<W> residual;
+    RowMat<W, W> tangent;
+  };
 
   /// Packs of `count` elements in place of all before. @param element  of each local item
   template <class ElementOf>
@@ -32,33 +37,50 @@ class ElementPacks {
         lanes[l] = &element(std::min(first + l, count - 1));
       packs_.emplace_back(lanes);
     }
+    stress_.clear();
+    is_extrapolated_ = false;
   }
 
-  /// What acts in the items of a pack.
-  struct Input {
-    const NodeTable& table;
-    const State& state;
-    const Stencil& stencil;
-    const std::vector<Vec<E::num_strains>>& prev;  ///< strains at the start of the step, by point
-    const std::vector<Vec<E::num_strains>>* predicted;  ///< stress of the tangent, by point, if any
-    bool with_tangent;
-  };
+  /// Tangents belong to the stress of the motion again.
+  void forget_extrapolation() { is_extrapolated_ = false; }
+
+  /// Extrapolates the stress along an increment of the coordinates; tangents belong to it from now
+  /// on. @param nodes  of each local item
+  template <class NodesOf>
+  void extrapolate(std::size_t count, NodesOf nodes, const State& state, const Stencil& stencil,
+                   const Coordinates& increment) {
+    stress_.resize(packs_.size());
+    Packs<12 * N> change;
+    for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+      const Lanes lanes = lanes_of(pack, count, nodes);
+      gather(lanes, state, stencil.theta_strain != 1.0, false);
+      gather(lanes, increment, change);
+      packs_[pack].extrapolate(motion_, change.data(), stencil, stress_[pack].data());
+    }
+    is_extrapolated_ = true;
+  }
+
   /// Evaluates items and calls add(i, contribution) for each. @param nodes  of each local item
   template <class NodesOf, class Add>
-  Verdict evaluate(std::size_t count, NodesOf nodes, const Input& input, Add add) {
+  Verdict evaluate(std::size_t count, NodesOf nodes, const NodeTable& table, const State& state,
+                   const Stencil& stencil, bool with_tangent, Add add) {
     Verdict verdict = Verdict::ok;
-    Contribution c(input.with_tangent);
-    for (std::size_t first = 0; first < count; first += pack_lanes) {
-      const std::size_t end = std::min(first + pack_lanes, count);
-      for (std::size_t l = 0; l < pack_lanes; ++l) {
-        const std::size_t i = std::min(first + l, end - 1);
-        gather(i, nodes(i), static_cast<int>(l), input);
-      }
-      packs_[first / pack_lanes].evaluate(motion_, prev_.data(),
-                                          input.predicted != nullptr ? predicted_.data() : nullptr,
-                                          input.stencil, input.with_tangent, sum_);
-      for (std::size_t i = first; i < end; ++i) {
-        take(nodes(i), static_cast<int>(i - first), input, c);
+    for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+      const Lanes lanes = lanes_of(pack, count, nodes);
+      gather(lanes, state, counts_start(stencil), stencil.inertia != 0.0);
+      packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
+                            with_tangent, sum_);
+      take(with_tangent);
+      const std::size_t first = pack * pack_lanes;
+      for (std::size_t i = first; i < std::min(first + pack_lanes, count); ++i) {
+        const std::size_t l = i - first;
+        Contribution& c = contributions_[l];
+        for (int a = 0; a < N; ++a) {
+          if (table.is_slave((*lanes[l])[index(a)])) {
+            add_lever(*lanes[l], a, static_cast<int>(l), table, state, stencil.theta, with_tangent,
+                      c);
+          }
+        }
         if (std::isfinite(c.residual.sum())) {
           add(i, c);
         } else {
@@ -71,63 +93,53 @@ class ElementPacks {
 
  private:
   static constexpr int num_values = E::num_points * E::num_strains;
+  using Lanes = std::array<const Nodes*, pack_lanes>;
 
-  void gather(std::size_t i, const Nodes& nodes, int l, const Input& input) {
-    const State& state = input.state;
-    const bool moves = input.stencil.theta != 1.0;
-    const bool has_inertia = input.stencil.inertia != 0.0;
-    for (int a = 0; a < N; ++a) {
-      const int offset = NodeTable::offset(nodes[static_cast<std::size_t>(a)]);
-      const double* next = state.next.data() + offset;
-      const double* prev = state.prev.data() + offset;
-      for (int c = 0; c < 12; ++c) motion_.next.of(l, 12 * a + c) = next[c];
-      if (moves) {
-        for (int c = 0; c < 12; ++c) motion_.prev.of(l, 12 * a + c) = prev[c];
-      }
-      if (!has_inertia) continue;
-      const double* start = state.acceleration_offset.data() + offset;
-      for (int c = 0; c < 12; ++c) {
-        motion_.acceleration.of(l, 12 * a + c) =
-            start[c] + input.stencil.inertia * (next[c] - prev[c]);
-      }
-    }
-    for (int p = 0; p < E::num_points; ++p) {
-      const std::size_t point = i * E::num_points + static_cast<std::size_t>(p);
-      for (int s = 0; s < E::num_strains; ++s) {
-        const int at = p * E::num_strains + s;
-        prev_.of(l, at) = input.prev[point][s];
-        if (input.predicted != nullptr) {
-          predicted_.of(l, at) = (*input.predicted)[point][s];
-        }
-      }
+  template <class NodesOf>
+  static Lanes lanes_of(std::size_t pack, std::size_t count, NodesOf nodes) {
+    Lanes lanes;
+    for (std::size_t l = 0; l < pack_lanes; ++l)
+      lanes[l] = &nodes(std::min(pack * pack_lanes + l, count - 1));
+    return lanes;
+  }
+
+  static void gather(const Lanes& lanes, const Coordinates& q, Packs<12 * N>& slots) {
+    std::array<const double*, pack_lanes> rows;
+    for (std::size_t a = 0; a < N; ++a) {
+      for (std::size_t l = 0; l < pack_lanes; ++l)
+        rows[l] = q.data() + NodeTable::offset((*lanes[l])[a]);
+      to_lanes(rows, 12, slots.data() + 12 * a);
     }
   }
 
-  // The contribution of the item in a lane.
-  void take(const Nodes& nodes, int l, const Input& input, Contribution& c) {
-    for (int u = 0; u < 6 * N; ++u) c.residual[u] = sum_.residual.of(l, u);
-    if (c.with_tangent) {
-      double* tangent = c.tangent.data();
-      for (int u = 0; u < 36 * N * N; ++u) tangent[u] = sum_.tangent.of(l, u);
-    }
-    for (int a = 0; a < N; ++a) {
-      if (input.table.is_slave(nodes[static_cast<std::size_t>(a)]))
-        add_lever(nodes, a, l, input, c);
-    }
+  void gather(const Lanes& lanes, const State& state, bool with_start, bool with_inertia) {
+    gather(lanes, state.next, motion_.next);
+    if (with_start) gather(lanes, state.prev, motion_.prev);
+    if (with_inertia) gather(lanes, state.acceleration_offset, motion_.acceleration_offset);
+  }
+
+  // The contributions of all lanes.
+  void take(bool with_tangent) {
+    std::array<double*, pack_lanes> rows;
+    for (std::size_t l = 0; l < pack_lanes; ++l) rows[l] = contributions_[l].residual.data();
+    from_lanes(sum_.residual.data(), W, rows);
+    if (!with_tangent) return;
+    for (std::size_t l = 0; l < pack_lanes; ++l) rows[l] = contributions_[l].tangent.data();
+    from_lanes(sum_.tangent.data(), W * W, rows);
   }
 
   // A node at a lever moves by dx + dtheta x lever of its master.
-  void add_lever(const Nodes& nodes, int a, int l, const Input& input, Contribution& c) const {
-    const int node = nodes[static_cast<std::size_t>(a)];
-    const double theta = input.stencil.theta;
-    const Arms<4> next = arms_of(input.table, node, input.state.next);
+  void add_lever(const Nodes& nodes, int a, int l, const NodeTable& table, const State& state,
+                 double theta, bool with_tangent, Contribution& c) const {
+    const int node = nodes[index(a)];
+    const Arms<4> next = arms_of(table, node, state.next);
     const Arms<4> mid =
-        theta == 1.0 ? next : at_theta(theta, arms_of(input.table, node, input.state.prev), next);
+        theta == 1.0 ? next : at_theta(theta, arms_of(table, node, state.prev), next);
     const Vec3 lever_mid = mid.slots.col(0);
     const Vec3 lever_next = next.slots.col(0);
     c.residual.template segment<3>(6 * a + 3) +=
         lever_mid.cross(Vec3(c.residual.template segment<3>(6 * a)));
-    if (!c.with_tangent) return;
+    if (!with_tangent) return;
     auto& K = c.tangent;
     K.template middleRows<3>(6 * a + 3) += skew(lever_mid) * K.template middleRows<3>(6 * a);
     K.template middleCols<3>(6 * a + 3) -= K.template middleCols<3>(6 * a) * skew(lever_next);
@@ -138,10 +150,12 @@ class ElementPacks {
   }
 
   std::vector<typename E::Pack> packs_;
+  std::vector<Packs<num_values>> stress_;  // extrapolated, by pack
+  bool is_extrapolated_ = false;
   // of the pack that is evaluated
   PackMotion<N> motion_;
   PackSum<N> sum_;
-  Packs<num_values> prev_, predicted_;
+  std::array<Contribution, pack_lanes> contributions_;
 };
 
 }  // namespace culm::model

@@ -43,6 +43,10 @@ class Scatter {
     const Rows& rows = rows_[first_block_[item] + static_cast<std::size_t>(a)];
     if (rows.first < 0) return;
     double* out = target.residual.data() + rows.first;
+    if (is_node(*rows.shape)) {
+      Eigen::Map<Vec6>(out) += Eigen::Map<const Vec6>(values);
+      return;
+    }
     for (int i = 0; i < rows.shape->width; ++i) {
       const int at = rows.shape->position[static_cast<std::size_t>(i)];
       if (at >= 0) {
@@ -66,12 +70,11 @@ class Scatter {
     const BlockShape& column_shape = *rows_[first + static_cast<std::size_t>(b)].shape;
     const auto blocks = static_cast<int>(first_block_[item + 1] - first);
     const int offset = offsets_[first_pair_[item] + static_cast<std::size_t>(a * blocks + b)];
-    if (row_shape.full() && column_shape.full() && row_shape.width == 6 &&
-        column_shape.width == 6) {
+    if (is_node(row_shape) && is_node(column_shape)) {
       const std::size_t* row = target.row_begin.data() + rows.first;
       for (int i = 0; i < 6; ++i) {
-        double* out = target.values.data() + row[i] + offset;
-        for (int j = 0; j < 6; ++j) out[j] += K(i, j);
+        Eigen::Map<RowMat<1, 6>>(target.values.data() + row[i] + offset) +=
+            K.row(i).template head<6>();
       }
       return;
     }
@@ -91,9 +94,37 @@ class Scatter {
     }
   }
 
+  /// The same for the blocks of a and of all N blocks of an item, side by side in K of the shape
+  /// (6, 6 N), all of them nodes with six unknowns.
+  template <int N, class Derived>
+  void add_tangent_rows(std::size_t item, int a, const Eigen::MatrixBase<Derived>& K,
+                        Target& target) const {
+    const std::size_t first = first_block_[item];
+    const Rows& rows = rows_[first + static_cast<std::size_t>(a)];
+    if (rows.first < 0) return;
+    const int* offsets = offsets_.data() + first_pair_[item] + N * a;
+    bool side_by_side = is_node(*rows.shape);
+    for (int b = 0; b < N; ++b) {
+      side_by_side = side_by_side && offsets[b] == offsets[0] + 6 * b &&
+                     is_node(*rows_[first + static_cast<std::size_t>(b)].shape);
+    }
+    if (!side_by_side) {
+      for (int b = 0; b < N; ++b) {
+        add_tangent(item, a, b, K.template middleCols<6>(6 * b), target);
+      }
+      return;
+    }
+    const std::size_t* row = target.row_begin.data() + rows.first;
+    for (int i = 0; i < 6; ++i) {
+      Eigen::Map<RowMat<1, 6 * N>>(target.values.data() + row[i] + offsets[0]) += K.row(i);
+    }
+  }
+
   std::size_t size() const { return first_block_.size() - 1; }
 
  private:
+  static bool is_node(const BlockShape& shape) { return shape.full() && shape.width == 6; }
+
   std::vector<Rows> rows_;
   std::vector<int> offsets_;
   std::vector<std::size_t> first_block_{0};
