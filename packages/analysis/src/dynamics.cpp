@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace culm::analysis {
 
@@ -43,7 +44,7 @@ StepSettings step_settings(const Options& options) {
   return steps;
 }
 
-double largest(const std::vector<double>& v) {
+double largest(std::span<const double> v) {
   double result = 0.0;
   for (double entry : v) result = std::max(result, std::abs(entry));
   return result;
@@ -159,7 +160,8 @@ void Dynamics::fit_motion() {
   state.at_rest = false;
   const assembly::VelocityFit fit =
       system().project_velocity(state, 1e-4 * settings_.steps.step, mass_solver(context(), state));
-  if (fit.change > tolerance * std::max(1.0, largest(state.velocity))) {
+  const double fastest = system().comm().max(largest(state.velocity));
+  if (fit.change > tolerance * std::max(1.0, fastest)) {
     context().findings.warn(
         "initial velocities",
         fmt::format("initial velocities were made to fit the constraints; largest change {:.3g}",
@@ -303,7 +305,7 @@ void Dynamics::do_save(Snapshot& snapshot) const {
 }
 
 void Dynamics::do_restore(const Snapshot& snapshot) {
-  scheme_->restore(snapshot);
+  scheme_->restore(system(), snapshot);
   control_.restore(snapshot);
   predictor_.restore(snapshot);
   cut_backs_.restore(snapshot);

@@ -153,9 +153,11 @@ ElementTurn ElementTurns::find(const model::Coordinates& q, double share) const 
     }
     const auto& structure =
         system_.model().structures()[static_cast<std::size_t>(source.cells[item].first)];
+    const auto& reference = system_.model().nodes().reference();
+    const double turn = source.turns->owns(first) ? source.turns->turn_of(first, reference) : 0.0;
     found = {share,
              share * source.good_for,
-             source.turns->turn_of(first, system_.model().nodes().reference()),
+             system_.comm().max(turn),
              *source.turns->turn_kind(),
              structure.name,
              deck_number(structure, source.cells[item].second),

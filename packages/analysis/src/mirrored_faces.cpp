@@ -19,10 +19,15 @@ bool is_mirrored(const model::Face& face, const model::Coordinates& q) {
   return first.cross(second).dot(director) < 0.0;
 }
 
-bool has_mirrored_face(const model::Model& model, const model::Coordinates& q) {
-  return std::ranges::any_of(model.structures(), [&](const model::Structure& structure) {
-    return std::ranges::any_of(structure.faces,
-                               [&](const model::Face& face) { return is_mirrored(face, q); });
+// Of the faces whose nodes this rank has; each face is on some rank.
+bool has_mirrored_face(const assembly::System& system, const model::Coordinates& q) {
+  const auto is_here = [&](const model::Face& face) {
+    return std::ranges::all_of(face.nodes, [&](int node) { return system.needs(node); });
+  };
+  return std::ranges::any_of(system.model().structures(), [&](const model::Structure& structure) {
+    return std::ranges::any_of(structure.faces, [&](const model::Face& face) {
+      return is_here(face) && is_mirrored(face, q);
+    });
   });
 }
 
@@ -33,8 +38,10 @@ void refuse_mirrored(Context& context, model::State& state, solver::StepOutcome&
   const bool has_faces = std::ranges::any_of(
       model.structures(), [](const model::Structure& s) { return !s.faces.empty(); });
   if (!has_faces || !outcome.converged()) return;
-  context.system.synchronise(state);
-  if (has_mirrored_face(model, state.next)) outcome.end = solver::StepEnd::out_of_range;
+  const bool is_found = has_mirrored_face(context.system, state.next);
+  if (context.system.comm().max(is_found ? 1 : 0) != 0) {
+    outcome.end = solver::StepEnd::out_of_range;
+  }
 }
 
 }  // namespace culm::analysis

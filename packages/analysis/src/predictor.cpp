@@ -77,8 +77,7 @@ void Predictor::accept(const model::State& state, double step) {
 double Predictor::measure_reversal(const Motions& start, const MeanVelocity& now) const {
   const double arm = PathCondition::turning_arm(system_.model());
   std::array<double, 3> products{};  // before . before, after . after, before . after
-  for (const int i : system_.owned_nodes()) {
-    const auto node = static_cast<std::size_t>(i);
+  for (std::size_t node = 0; node < system_.num_own_motions(); ++node) {
     Vec6 before = start[node] - past_.front().values[node];
     Vec6 after = now.values[node] - start[node];
     for (Vec6* change : {&before, &after}) change->tail<3>() *= arm;
@@ -97,7 +96,7 @@ void Predictor::save(Snapshot& snapshot) const {
   std::vector<double> times;
   for (std::size_t k = 0; k < past_.size(); ++k) {
     times.push_back(past_[k].time);
-    snapshot.set(past_name(k), system_.gather_motions(past_[k].values));
+    system_.save(past_[k].values, past_name(k), snapshot);
   }
   snapshot.set("predictor/times", std::move(times));
 }
@@ -107,7 +106,7 @@ void Predictor::restore(const Snapshot& snapshot) {
   reversal_ = snapshot.number("predictor/reversal");
   past_.clear();
   for (const double time : snapshot.numbers("predictor/times")) {
-    past_.push_back({time, system_.spread_motions(snapshot.copy(past_name(past_.size())))});
+    past_.push_back({time, system_.restore_motions(snapshot, past_name(past_.size()))});
   }
 }
 

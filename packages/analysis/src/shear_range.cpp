@@ -2,6 +2,7 @@
 
 #include <culm/model/layer_source.hpp>
 #include <culm/model/shear_source.hpp>
+#include <culm/parallel/owned_numbers.hpp>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -72,8 +73,9 @@ constexpr double notable_motion = 1e-3;  // of the largest: less is the rest of 
 // stands still while others move.
 // @param states_at(source, cell)
 template <class StatesAt>
-void compute_share(const model::Model& model, const Coordinates& from, const Coordinates& q,
+void compute_share(const assembly::System& system, const Coordinates& from, const Coordinates& q,
                    const StatesAt& states_at, double& share, std::string& most) {
+  const model::Model& model = system.model();
   Energy sum;
   double largest = 0.0;
   double furthest = 0.0;
@@ -86,11 +88,19 @@ void compute_share(const model::Model& model, const Coordinates& from, const Coo
     if (motion_of(structure, from, q) < notable_motion * furthest) continue;
     Energy own;
     const std::size_t stride = std::max<std::size_t>(1, structure.cells.size() / most_cells);
-    for (std::size_t c = 0; c < structure.cells.size(); c += stride) {
-      const double size = static_cast<double>(stride) * area(structure.cells[c], q);
-      const Energy cell = energy_of(*wall, states_at(*structure.layers, static_cast<int>(c)));
-      own.all += size * cell.all;
-      own.missing += size * cell.missing;
+    const auto cell_of = [&](int i) { return static_cast<int>(stride) * i; };
+    const std::vector<double> energies = parallel::share_owned(
+        system.comm(), (structure.cells.size() + stride - 1) / stride, 2,
+        [&](int i) { return structure.layers->owns(cell_of(i)); },
+        [&](int i, std::vector<double>& numbers) {
+          const auto c = static_cast<std::size_t>(cell_of(i));
+          const double size = static_cast<double>(stride) * area(structure.cells[c], q);
+          const Energy cell = energy_of(*wall, states_at(*structure.layers, cell_of(i)));
+          numbers.insert(numbers.end(), {size * cell.all, size * cell.missing});
+        });
+    for (std::size_t i = 0; i < energies.size(); i += 2) {
+      own.all += energies[i];
+      own.missing += energies[i + 1];
     }
     if (own.missing > largest) most = structure.name;
     largest = std::max(largest, own.missing);
@@ -123,7 +133,7 @@ void warn_of_shear(Context& context, model::State& state) {
   double share = 0.0;
   std::string structure;
   compute_share(
-      model, model.nodes().reference(), state.next,
+      context.system, model.nodes().reference(), state.next,
       [&](const model::LayerSource& source, int cell) { return source.states(cell, state.next); },
       share, structure);
   if (share < notable_error) return;
@@ -163,7 +173,7 @@ void warn_of_shear(Context& context, const model::State& state, const ModeSet& s
     };
     double share = 0.0;
     std::string structure;
-    compute_share(model, state.next, forward, slopes, share, structure);
+    compute_share(context.system, state.next, forward, slopes, share, structure);
     if (share < notable_error) continue;
     context.findings.warn(
         "thick wall",

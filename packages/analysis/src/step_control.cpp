@@ -155,12 +155,8 @@ void StepControl::reject(solver::StepEnd reason, double taken) {
 void StepControl::save(Snapshot& snapshot) const {
   snapshot.set("steps/lengths", {memory_.next, memory_.last, memory_.before_last});
   snapshot.set("steps/failed", memory_.failed ? 1.0 : 0.0);
-  for (const auto& [name, values] : {std::pair{"steps/velocity", &memory_.velocity},
-                                     {"steps/acceleration", &memory_.acceleration}}) {
-    model::Coordinates all = *values;
-    if (!snapshot.is_for_memory()) system_.complete(all);
-    snapshot.set(name, std::move(all));
-  }
+  system_.save(memory_.velocity, "steps/velocity", snapshot);
+  system_.save(memory_.acceleration, "steps/acceleration", snapshot);
 }
 
 void StepControl::restore(const Snapshot& snapshot) {
@@ -169,8 +165,8 @@ void StepControl::restore(const Snapshot& snapshot) {
   memory_.last = lengths[1];
   memory_.before_last = lengths[2];
   memory_.failed = snapshot.number("steps/failed") != 0.0;
-  memory_.velocity = snapshot.copy("steps/velocity");
-  memory_.acceleration = snapshot.copy("steps/acceleration");
+  system_.restore(snapshot, "steps/velocity", memory_.velocity);
+  system_.restore(snapshot, "steps/acceleration", memory_.acceleration);
   // steps that become adaptive now do not know the ones before
   if (settings_.adaptive && memory_.velocity.empty()) memory_.last = memory_.before_last = 0.0;
 }

@@ -20,6 +20,7 @@ void Stepper::fit() {
 
 void Stepper::begin() {
   require(stage_ == Stage::unbegun, "begin");
+  system().forget_others(state_);
   do_begin();
   system().sample(state_);
   newton().keep();
@@ -31,6 +32,7 @@ void Stepper::resume(const Snapshot& snapshot) {
   do_prepare_resume();
   stage_ = Stage::resting;
   restore(snapshot);
+  system().forget_others(state_);
 }
 
 const StepReport& Stepper::attempt(double target) {

@@ -7,9 +7,8 @@ namespace culm::analysis {
 // Dv / h = 2 Dq / h^2 - 2 v / h
 Stencil ConservingScheme::begin(model::State& state, double h) {
   state.acceleration_offset.resize(state.velocity.size());
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    state.acceleration_offset[i] = -2.0 / h * state.velocity[i];
-  }
+  const auto offset = [h](double, double v) { return -2.0 / h * v; };
+  model::combine(state.acceleration_offset, offset, state.velocity);
   return Stencil::midpoint(h);
 }
 
@@ -17,10 +16,10 @@ Stencil ConservingScheme::begin(model::State& state, double h) {
 // makes of 2 / h and 2 / h^2 would else pull the same way in every step and change the momenta.
 void ConservingScheme::finish(model::State& state, double h) {
   const double inertia = Stencil::midpoint(h).inertia;
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    const double moved = state.next[i] - state.prev[i];
-    state.velocity[i] += h * (inertia * moved + state.acceleration_offset[i]);
-  }
+  const auto faster = [h, inertia](double v, double next, double prev, double offset) {
+    return v + h * (inertia * (next - prev) + offset);
+  };
+  model::combine(state.velocity, faster, state.next, state.prev, state.acceleration_offset);
 }
 
 GeneralisedAlphaScheme::GeneralisedAlphaScheme(double spectral_radius)
@@ -46,31 +45,31 @@ double GeneralisedAlphaScheme::error_constant() const {
 // the equations hold with (1 - alpha_m) a_next + alpha_m a at q between the ends
 Stencil GeneralisedAlphaScheme::begin(model::State& state, double h) {
   state.acceleration_offset.resize(state.velocity.size());
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    state.acceleration_offset[i] = (1.0 - alpha_m_) * (-state.velocity[i] / (beta_ * h) -
-                                                       (0.5 / beta_ - 1.0) * acceleration_[i]) +
-                                   alpha_m_ * acceleration_[i];
-  }
+  const auto offset = [this, h](double, double v, double a) {
+    return (1.0 - alpha_m_) * (-v / (beta_ * h) - (0.5 / beta_ - 1.0) * a) + alpha_m_ * a;
+  };
+  model::combine(state.acceleration_offset, offset, state.velocity, acceleration_);
   return {h, 1.0 - alpha_f_, 1.0 - alpha_f_, (1.0 - alpha_m_) / (beta_ * h * h)};
 }
 
 void GeneralisedAlphaScheme::finish(model::State& state, double h) {
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    const double next = (state.next[i] - state.prev[i]) / (beta_ * h * h) -
-                        state.velocity[i] / (beta_ * h) - (0.5 / beta_ - 1.0) * acceleration_[i];
-    state.velocity[i] += h * ((1.0 - gamma_) * acceleration_[i] + gamma_ * next);
-    acceleration_[i] = next;
-  }
+  const model::Coordinates before = acceleration_;
+  const auto acceleration = [this, h](double a, double next, double prev, double v) {
+    return (next - prev) / (beta_ * h * h) - v / (beta_ * h) - (0.5 / beta_ - 1.0) * a;
+  };
+  model::combine(acceleration_, acceleration, state.next, state.prev, state.velocity);
+  const auto faster = [this, h](double v, double first, double last) {
+    return v + h * ((1.0 - gamma_) * first + gamma_ * last);
+  };
+  model::combine(state.velocity, faster, before, acceleration_);
 }
 
 void GeneralisedAlphaScheme::save(const assembly::System& system, Snapshot& snapshot) const {
-  model::Coordinates all = acceleration_;
-  if (!snapshot.is_for_memory()) system.complete(all);
-  snapshot.set("scheme/acceleration", std::move(all));
+  system.save(acceleration_, "scheme/acceleration", snapshot);
 }
 
-void GeneralisedAlphaScheme::restore(const Snapshot& snapshot) {
-  acceleration_ = snapshot.copy("scheme/acceleration");
+void GeneralisedAlphaScheme::restore(const assembly::System& system, const Snapshot& snapshot) {
+  system.restore(snapshot, "scheme/acceleration", acceleration_);
 }
 
 }  // namespace culm::analysis

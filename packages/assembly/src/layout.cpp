@@ -14,6 +14,7 @@ Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   for (model::Batch* batch : model.batches()) {
     batch->place(place(*batch, unknowns), unknowns.form());
   }
+  runs_ = {};
 }
 
 // Blocks that share an item, each block with itself; sorted.
@@ -73,6 +74,20 @@ void Layout::number_locally(const model::UnknownTable& unknowns, const Neighbour
   }
 }
 
+// Of the matrix, in rows of this rank.
+std::size_t Layout::count_entries(const model::UnknownTable& unknowns,
+                                  const Neighbours& neighbours) const {
+  std::size_t count = 0;
+  for (const LocalBlock& local : local_blocks_) {
+    if (!local.owned) continue;
+    const auto rows = static_cast<std::size_t>(unknowns.block(local.block).shape.active);
+    for (int other : neighbours[index(local.block)]) {
+      count += rows * static_cast<std::size_t>(unknowns.block(other).shape.active);
+    }
+  }
+  return count;
+}
+
 void Layout::build_pattern(const model::UnknownTable& unknowns, const Neighbours& neighbours) {
   std::vector<long long> rows;
   std::vector<long long> columns;
@@ -88,6 +103,7 @@ void Layout::build_pattern(const model::UnknownTable& unknowns, const Neighbours
 
   std::vector<std::size_t> begin = {0};
   std::vector<int> column_of;
+  column_of.reserve(count_entries(unknowns, neighbours));
   runs_.resize(neighbours.size());
   for (const LocalBlock& local : local_blocks_) {
     if (!local.owned) continue;

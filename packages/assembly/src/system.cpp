@@ -59,8 +59,8 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
   }
   for (const auto& batch : model.constraint_batches()) driven_.push_back(batch.get());
   for (const auto& batch : model.loads()) driven_.push_back(batch.get());
+  find_needed_nodes();
   for (int node = 0; node < model.nodes().size(); ++node) {
-    if (model.nodes().is_slave(node)) slaves_.push_back(node);
     if (layout_.owners()[index(unknowns.node_block(node))] == comm_.rank()) {
       owned_nodes_.push_back(node);
     }
@@ -87,6 +87,46 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
 }
 
 System::~System() = default;
+
+// Nodes that rows of this rank depend on, and the eliminated ones among them.
+void System::find_needed_nodes() {
+  const model::UnknownTable& unknowns = model_.unknowns();
+  std::vector<bool> is_local(unknowns.blocks().size(), false);
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    is_local[index(local.block)] = true;
+    const model::Block& block = unknowns.block(local.block);
+    const bool moves = block.kind == model::BlockKind::node && block.shape.active > 0;
+    if (local.owned && moves) ++num_own_motions_;
+  }
+  for (int node = 0; node < model_.nodes().size(); ++node) {
+    is_needed_.push_back(is_local[index(unknowns.node_block(node))]);
+    if (is_needed_.back() && model_.nodes().is_slave(node)) slaves_.push_back(node);
+  }
+}
+
+void System::forget_others(model::State& state) const {
+  if (needs_all_nodes_) return;
+  const auto begin_of = [](auto place, const std::vector<bool>& all) {
+    return static_cast<std::size_t>(
+        model::NodeTable::offset(static_cast<int>(place - all.begin())));
+  };
+  for (model::Coordinates* values :
+       {&state.prev, &state.next, &state.velocity, &state.acceleration_offset}) {
+    if (values->empty()) continue;
+    // runs of nodes that are not needed
+    for (auto first = is_needed_.begin(); first != is_needed_.end();) {
+      first = std::find(first, is_needed_.end(), false);
+      const auto last = std::find(first, is_needed_.end(), true);
+      values->release(begin_of(first, is_needed_), begin_of(last, is_needed_));
+      first = last;
+    }
+  }
+}
+
+void System::forget_other_items() {
+  if (needs_all_nodes_) return;
+  for (model::Batch* batch : batches_) batch->forget_others();
+}
 
 void System::prepare(const model::State& state, const Stencil& stencil) {
   parallel::together(comm_, [&] {

@@ -107,24 +107,25 @@ NodeMotions System::node_motions() const {
 }
 
 System::Motions System::motions(const model::State& state) const {
-  Motions motions(index(model_.nodes().size()), Vec6::Zero());
+  Motions motions;
   each_moving_node([&](int node, const model::BlockShape&) {
-    motions[index(node)] = model_.nodes().motion(node, state.prev, state.next);
+    motions.push_back(model_.nodes().motion(node, state.prev, state.next));
   });
   return motions;
 }
 
 System::Motions System::velocities(const model::State& state) const {
-  Motions velocities(index(model_.nodes().size()), Vec6::Zero());
+  Motions velocities;
   each_moving_node([&](int node, const model::BlockShape&) {
-    velocities[index(node)] = velocity_of(model_.nodes(), state, node);
+    velocities.push_back(velocity_of(model_.nodes(), state, node));
   });
   return velocities;
 }
 
 void System::move_nodes(model::State& state, const Motions& motions) const {
+  auto motion = motions.begin();
   each_moving_node([&](int node, const model::BlockShape& shape) {
-    Vec6 u = motions[index(node)];
+    Vec6 u = *motion++;
     for (int i = 0; i < 6 && shape.width == 6; ++i) {
       if (shape.position[index(i)] < 0) u[i] = 0.0;
     }
@@ -134,19 +135,44 @@ void System::move_nodes(model::State& state, const Motions& motions) const {
   if (needs_all_nodes_) complete(state.next);
 }
 
-std::vector<double> System::gather_motions(const Motions& motions) const {
-  std::vector<double> numbers(6 * motions.size(), nothing);
-  for (const int node : owned_nodes_) {
-    Eigen::Map<Vec6>(numbers.data() + 6 * node) = motions[index(node)];
+void System::save(const Motions& motions, std::string_view name, Snapshot& snapshot) const {
+  if (snapshot.is_for_memory()) {
+    std::vector<double> numbers;
+    for (const Vec6& motion : motions) numbers.insert(numbers.end(), motion.begin(), motion.end());
+    snapshot.set(name, std::move(numbers));
+    return;
   }
-  comm_.sum(numbers);
-  return numbers;
+  std::vector<double> own;
+  own.reserve(6 * owned_nodes_.size());
+  auto node = owned_nodes_.begin();
+  const auto add_still = [&](auto end) {
+    for (; node != end; ++node) own.insert(own.end(), 6, 0.0);
+  };
+  std::size_t i = 0;
+  each_moving_node([&](int moving, const model::BlockShape&) {
+    if (i == num_own_motions_) return;
+    add_still(std::find(node, owned_nodes_.end(), moving));
+    own.insert(own.end(), motions[i].begin(), motions[i].end());
+    ++node;
+    ++i;
+  });
+  add_still(owned_nodes_.end());
+  snapshot.set(name, gather_nodes(own, 6));
 }
 
-System::Motions System::spread_motions(const std::vector<double>& numbers) const {
-  Motions motions(index(model_.nodes().size()), Vec6::Zero());
+System::Motions System::restore_motions(const Snapshot& snapshot, std::string_view name) const {
+  std::vector<double> numbers = snapshot.copy(name);
+  Motions motions;
+  if (snapshot.is_for_memory()) {
+    for (std::size_t i = 0; i < numbers.size(); i += 6) {
+      motions.push_back(Eigen::Map<const Vec6>(numbers.data() + i));
+    }
+    return motions;
+  }
+  numbers.resize(6 * index(model_.nodes().size()));
+  comm_.broadcast(std::span<double>(numbers));
   each_moving_node([&](int node, const model::BlockShape&) {
-    motions[index(node)] = Eigen::Map<const Vec6>(numbers.data() + 6 * node);
+    motions.push_back(Eigen::Map<const Vec6>(numbers.data() + 6 * node));
   });
   return motions;
 }
@@ -239,7 +265,7 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
 
   const model::Coordinates before = state.velocity;
   const std::span<const double> all = column_values(velocity);
-  std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
+  state.velocity.assign(state.velocity.size(), 0.0);
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
     const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);
     model::NodeTable::slots(state.velocity, block.owner) =

@@ -1,10 +1,14 @@
 #include <culm/assembly/system.hpp>
+#include <culm/base/error.hpp>
 #include <culm/parallel/shared_failure.hpp>
 
 #include "block_values.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace culm::assembly {
@@ -20,10 +24,65 @@ void System::complete(model::Coordinates& values) const {
 }
 
 void System::synchronise(model::State& state) {
-  gathered_reactions_ = reactions_;
-  if (comm_.size() == 1) return;
   complete(state.next);
   complete(state.velocity);
+  gather_forces(state);
+}
+
+model::State System::gather(const model::State& state) {
+  model::State whole;
+  whole.time_prev = state.time_prev;
+  whole.time = state.time;
+  whole.at_rest = state.at_rest;
+  const auto all = [&](const model::Coordinates& values) {
+    if (comm_.size() == 1 || values.empty()) return values;
+    const std::vector<double> found = gather_slots(values);
+    return comm_.is_root() ? model::Coordinates(found) : values;
+  };
+  whole.next = all(state.next);
+  whole.velocity = all(state.velocity);
+  whole.multipliers = state.multipliers;
+  whole.own = state.own;
+  gather_forces(whole);
+  return whole;
+}
+
+// Numbers of all nodes, `of_node` each, on rank 0 and empty elsewhere; given those of the nodes of
+// this rank.
+std::vector<double> System::gather_nodes(std::span<const double> own, std::size_t of_node) const {
+  const std::vector<double> pieces = comm_.gather(own);
+  if (!comm_.is_root()) return {};
+  const model::UnknownTable& unknowns = model_.unknowns();
+  const auto owner_of = [&](int node) {
+    return layout_.owners()[index(unknowns.node_block(node))];
+  };
+  std::vector<std::size_t> next(index(comm_.size() + 1), 0);  // of each rank in the pieces
+  const int count = model_.nodes().size();
+  for (int node = 0; node < count; ++node) next[index(owner_of(node) + 1)] += of_node;
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<double> all(of_node * index(count));
+  for (int node = 0; node < count; ++node) {
+    std::size_t& from = next[index(owner_of(node))];
+    std::copy_n(pieces.data() + from, of_node, all.data() + of_node * index(node));
+    from += of_node;
+  }
+  return all;
+}
+
+std::vector<double> System::gather_slots(const model::Coordinates& values) const {
+  std::vector<double> own;
+  own.reserve(12 * owned_nodes_.size());
+  for (const int node : owned_nodes_) {
+    const double* slots = values.data() + model::NodeTable::offset(node);
+    own.insert(own.end(), slots, slots + 12);
+  }
+  return gather_nodes(own, 12);
+}
+
+// Multipliers, unknowns of batches and reactions of all ranks on all.
+void System::gather_forces(model::State& state) {
+  gathered_reactions_ = reactions_;
+  if (comm_.size() == 1) return;
   const model::UnknownTable& unknowns = model_.unknowns();
   for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
     const model::Block& block = unknowns.block(b);
@@ -58,11 +117,33 @@ void System::synchronise(model::State& state, std::span<const int> nodes) const 
   });
 }
 
+void System::save(const model::Coordinates& values, std::string_view name,
+                  Snapshot& snapshot) const {
+  if (snapshot.is_for_memory() || comm_.size() == 1 || values.empty()) {
+    snapshot.set(name, values);
+  } else {
+    snapshot.set(name, gather_slots(values));
+  }
+}
+
+void System::restore(const Snapshot& snapshot, std::string_view name,
+                     model::Coordinates& values) const {
+  if (snapshot.is_for_memory() || comm_.size() == 1) {
+    values.assign(snapshot.numbers(name));
+    return;
+  }
+  const auto found = snapshot.numbers(name);
+  std::vector<double> all(index(comm_.max(static_cast<int>(found.size()))));
+  if (comm_.is_root()) std::ranges::copy(found, all.begin());
+  comm_.broadcast(std::span<double>(all));
+  values.assign(all);
+}
+
 void System::save(model::State& state, Snapshot& snapshot) {
-  if (!snapshot.is_for_memory()) synchronise(state);
+  if (!snapshot.is_for_memory()) gather_forces(state);
   snapshot.set("state/time", state.time);
-  snapshot.set("state/position", state.next);
-  snapshot.set("state/velocity", state.velocity);
+  save(state.next, "state/position", snapshot);
+  save(state.velocity, "state/velocity", snapshot);
   snapshot.set("state/multipliers", state.multipliers);
   snapshot.set("state/own", state.own);
   snapshot.set("state/at rest", state.at_rest ? 1.0 : 0.0);
@@ -106,8 +187,14 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
   const auto put = [](std::span<const double> numbers, auto&... targets) {
     (targets.assign(numbers.begin(), numbers.end()), ...);
   };
-  put(snapshot.numbers("state/position", state.next.size()), state.next, state.prev);
-  put(snapshot.numbers("state/velocity"), state.velocity);
+  const std::size_t size = state.next.size();
+  restore(snapshot, "state/position", state.next);
+  if (state.next.size() != size) {
+    throw FileError(fmt::format("the checkpoint has {} numbers of 'state/position', the model {}",
+                                state.next.size(), size));
+  }
+  state.prev = state.next;
+  restore(snapshot, "state/velocity", state.velocity);
   state.acceleration_offset.assign(state.velocity.size(), 0.0);
   put(snapshot.numbers("state/multipliers", state.multipliers.size()), state.multipliers,
       state.multipliers_prev);
@@ -159,15 +246,12 @@ void System::save_matrix(Snapshot& snapshot) const {
   } else {
     snapshot.set("matrix/values", comm_.gather(mine));
   }
-  if (tangent_point_.empty()) return;
-  model::Coordinates point = tangent_point_;
-  if (!snapshot.is_for_memory()) complete(point);
-  snapshot.set("matrix/point", point);
+  if (!tangent_point_.empty()) save(tangent_point_, "matrix/point", snapshot);
 }
 
 bool System::restore_matrix(const Snapshot& snapshot) {
   if (snapshot.integer("matrix/ranks") != comm_.size()) return false;
-  if (snapshot.has("matrix/point")) tangent_point_ = snapshot.copy("matrix/point");
+  if (snapshot.has("matrix/point")) restore(snapshot, "matrix/point", tangent_point_);
   const auto values = matrix_->values();
   if (snapshot.is_for_memory()) {
     std::ranges::copy(snapshot.numbers("matrix/values", values.size()), values.data());

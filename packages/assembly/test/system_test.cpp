@@ -5,6 +5,9 @@
 #include <culm_kit/dense_assembly.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace culm::assembly {
 namespace {
 
@@ -86,6 +89,86 @@ TEST_P(SystemTest, MoveAndSynchroniseGiveTheSameStateOnAllRanks) {
   }
   for (std::size_t i = 0; i < state.multipliers.size(); ++i) {
     EXPECT_DOUBLE_EQ(state.multipliers[i], expected.multipliers[i]);
+  }
+}
+
+TEST_P(SystemTest, GatheredStateHasAllNodesOnRankZero) {
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  const model::State expected = kit::random_state(model, 3);
+  model::State state = expected;
+  system.forget_others(state);
+  const model::State whole = system.gather(state);
+  if (!system.comm().is_root()) return;
+  EXPECT_TRUE(std::ranges::equal(whole.next, expected.next));
+  EXPECT_TRUE(std::ranges::equal(whole.velocity, expected.velocity));
+  EXPECT_EQ(whole.multipliers, expected.multipliers);
+}
+
+// What no row needs is zero, and nothing changes by that.
+TEST_P(SystemTest, EvaluatesTheSameWithoutNodesAndItemsOfOthers) {
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  const Stencil stencil = Stencil::midpoint(0.1);
+  model::State state = kit::random_state(model, 3);
+  const auto residual = [&] {
+    system.prepare(state, stencil);
+    system.evaluate(state, stencil, Want::residual_and_tangent);
+    const auto values = system.residual().values();
+    return std::vector<double>(values.begin(), values.end());
+  };
+  const std::vector<double> before = residual();
+  const double energy = system.strain_energy(state.next);
+  const System::Motions motions = system.motions(state);
+  system.forget_others(state);
+  system.forget_other_items();
+  EXPECT_EQ(residual(), before);
+  EXPECT_EQ(system.strain_energy(state.next), energy);
+  EXPECT_EQ(system.motions(state), motions);
+  const auto others = static_cast<std::size_t>(model.nodes().size()) - system.owned_nodes().size();
+  if (system.comm().size() == 1) {
+    EXPECT_EQ(others, 0U);
+    return;
+  }
+  const auto& batch = model::elements<kit::SpringLink>(model, "Spring link");
+  int here = 0;
+  for (int item = 0; item < batch.size(); ++item) {
+    const bool is_here = system.needs(item) && system.needs(item + 1);
+    here += is_here;
+    if (!is_here) EXPECT_THROW(batch.element(item), InternalError);
+  }
+  EXPECT_LT(here, batch.size());
+  int zeros = 0;
+  for (int node = 0; node < model.nodes().size(); ++node) {
+    const bool is_zero = model::NodeTable::slots(state.next, node).isZero(0.0);
+    EXPECT_EQ(is_zero, !system.needs(node));
+    zeros += is_zero;
+  }
+  EXPECT_GT(zeros, 0);
+}
+
+TEST_P(SystemTest, SnapshotsTakeNodesAndMotionsThereAndBack) {
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  const model::State expected = kit::random_state(model, 3);
+  for (const Snapshot::Use use : {Snapshot::Use::files, Snapshot::Use::memory}) {
+    model::State state = expected;
+    if (use == Snapshot::Use::files) system.forget_others(state);
+    const System::Motions motions = system.motions(expected);
+    Snapshot snapshot(use);
+    system.save(state, snapshot);
+    system.save(motions, "motions", snapshot);
+    model::State restored = model.initial_state();
+    system.restore(snapshot, restored);
+    EXPECT_TRUE(std::ranges::equal(restored.next, expected.next));
+    EXPECT_TRUE(std::ranges::equal(restored.velocity, expected.velocity));
+    EXPECT_EQ(system.restore_motions(snapshot, "motions"), motions);
   }
 }
 

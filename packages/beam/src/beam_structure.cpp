@@ -266,6 +266,9 @@ void add_beam(const Options& options, structure::StructureContext& context) {
         largest_turn, family->add({chain, nodes, sections, damping, context.model, structure}));
     if (density.refinement > 1) number_as_in_deck(density.refinement, nodes, structure);
   }
+  const bool has_outlines =
+      std::ranges::any_of(structure.outlines, [](const auto& outline) { return !outline.empty(); });
+  if (!has_outlines) structure.outlines = {};
   structure.sets["first"] = {structure.nodes.front()};
   structure.sets["last"] = {structure.nodes.back()};
   structure.sets["all"] = structure.nodes;

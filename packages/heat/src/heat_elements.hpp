@@ -6,6 +6,7 @@
 #include <culm/structure/plastic_batch.hpp>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,7 @@ bool heat_shells(const HeatRequest& request);
 
 /// The place of a point with the shape functions N of the first nodes, in the reference.
 template <class Shapes>
-Vec3 place_of(const std::vector<int>& nodes, const Shapes& N, const model::Model& model) {
+Vec3 place_of(std::span<const int> nodes, const Shapes& N, const model::Model& model) {
   Vec3 place = Vec3::Zero();
   for (Eigen::Index a = 0; a < N.size(); ++a) {
     place += N[a] *

@@ -140,7 +140,7 @@ Points LatticeLoad::grid(const model::Coordinates& q) const {
 }
 
 void LatticeLoad::prepare(const model::State& state, const Stencil& stencil) {
-  evaluated_.clear();
+  evaluated_.resize(0);
   knows_stiffness_ = false;
   linearises_ = stencil.frees_states;
   step_ = stencil.inertia > 0.0 ? stencil.step : 0.0;  // a linearisation is about the steady flow
@@ -163,7 +163,7 @@ GridStep LatticeLoad::step_to(const model::State& state) const {
 
 // Newton, work and acceptance ask for the same configuration.
 const FluidResult& LatticeLoad::result_at(const model::State& state) const {
-  if (evaluated_ == state.next) return result_;
+  if (std::ranges::equal(evaluated_, state.next)) return result_;
   if (step_ == 0.0) {
     result_ = lattice_.steady(grid(state.next), state.time);
   } else {

@@ -96,7 +96,7 @@ void LatticeLoad::refuse_large_linearisation() const {
 }
 
 const LaggedAir& LatticeLoad::air_at(const model::State& state) const {
-  if (linearised_ == state.next && linearised_at_ == state.time) return air_;
+  if (std::ranges::equal(linearised_, state.next) && linearised_at_ == state.time) return air_;
   refuse_large_linearisation();
   const SlotMotions moving = motions_of_slots();
   air_ = fit_lags(

@@ -51,11 +51,11 @@ Eigen::VectorXd follower_factors(const model::Marker& point, const Vec3& compone
 
 SlotLoad::Item& SlotLoad::item_on(const std::vector<int>& nodes) {
   internal_check(nodes.size() <= max_nodes, "a load acts on more nodes than SlotLoad provides for");
-  if (items_.empty() || items_.back().nodes != nodes) {
+  if (size() == 0 || items_[size() - 1].nodes != nodes) {
     const int slots = 4 * static_cast<int>(nodes.size());
-    items_.push_back({nodes, Eigen::Matrix3Xd::Zero(3, slots), {}});
+    items_.add({nodes, Eigen::Matrix3Xd::Zero(3, slots), {}});
   }
-  return items_.back();
+  return items_[size() - 1];
 }
 
 void SlotLoad::add_force(const model::Marker& point, const Vec3& components, Axes axes) {
@@ -67,6 +67,7 @@ void SlotLoad::add_force(const model::Marker& point, const Vec3& components, Axe
     if (item.linear.size() == 0) item.linear.setZero(T.size(), T.size());
     item.linear += T * follower_factors(point, components).transpose();
     item.follows = !item.linear.isZero(0.0);
+    follows_ = follows_ || item.follows;
   }
 }
 
@@ -75,19 +76,20 @@ void SlotLoad::add_slot_forces(int node, const model::NodeSlots& forces) {
 }
 
 int SlotLoad::add_settable_force(int node) {
-  items_.push_back({{node}, Eigen::Matrix3Xd::Zero(3, 4), {}, false, true});
+  items_.add({{node}, Eigen::Matrix3Xd::Zero(3, 4), {}, false, true});
   return size() - 1;
 }
 
 void SlotLoad::set_force(int item, const Vec3& force) {
-  Item& it = items_[static_cast<std::size_t>(item)];
+  if (!items_.has(item)) return;  // another rank evaluates it
+  Item& it = items_[item];
   internal_check(it.is_settable, "a force that is fixed was set");
   it.constant.col(0) = force;
 }
 
 std::vector<int> SlotLoad::blocks(int item, const model::UnknownTable& unknowns) const {
   std::vector<int> result;
-  for (int node : items_[static_cast<std::size_t>(item)].nodes) {
+  for (int node : items_[item].nodes) {
     result.push_back(unknowns.node_block(node));
   }
   if (const model::Signal* signal = amplitude_.signal()) {
@@ -109,22 +111,22 @@ bool SlotLoad::turns(const Item& item) const {
 }
 
 bool SlotLoad::has_tangent() const {
-  return amplitude_.signal() != nullptr ||
-         std::any_of(items_.begin(), items_.end(),
-                     [this](const Item& item) { return item.follows || turns(item); });
+  if (has_tangent_) return *has_tangent_;
+  return amplitude_.signal() != nullptr || follows_ ||
+         std::ranges::any_of(items_.here(), [this](const Item& item) { return turns(item); });
 }
 
 void SlotLoad::place(model::Placement placement, model::Form form) {
   placement_ = std::move(placement);
   form_ = form;
-  has_tangent_ = has_tangent();
+  has_tangent_ = has_tangent();  // the same on all ranks, whatever they keep
   free_.clear();
   others_.clear();
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    const Item& item = items_[index(placement_.items[i])];
+    const Item& item = local(i);
     if (is_free(item)) {
       free_.push_back({i, item.nodes[0], nodes_.turns(item.nodes[0]),
-                       !item.constant.rightCols<3>().isZero(0.0), item.constant.data()});
+                       !item.constant.rightCols<3>().isZero(0.0)});
     } else {
       others_.push_back(i);
     }
@@ -140,7 +142,7 @@ bool SlotLoad::is_free(const Item& item) const {
 Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
                            model::Target& target) {
   const double factor = amplitude_.in_step(state, stencil);
-  const bool tangent = has_tangent_ && want == Want::residual_and_tangent;
+  const bool tangent = has_tangent() && want == Want::residual_and_tangent;
   Verdict verdict = Verdict::ok;
   for (const Free& item : free_) {
     verdict = worse(verdict, assemble_free(item, state, stencil, factor, tangent, target));
@@ -158,7 +160,7 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
 // What assemble_item does, without looking for masters, slots of other nodes and signals.
 Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, const Stencil& stencil,
                                 double factor, bool tangent, model::Target& target) const {
-  const Eigen::Map<const model::NodeSlots> constant(item.constant);
+  const Eigen::Map<const model::NodeSlots> constant(local(item.local).constant.data());
   const bool has_arms = item.turns && item.on_directors;
   Vec6 residual;
   residual.head<3>() = -factor * constant.col(0);
@@ -188,7 +190,7 @@ Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, con
 template <class Space>
 Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                                 double factor, bool tangent, model::Target& target) const {
-  const Item& item = items_[index(placement_.items[i])];
+  const Item& item = local(i);
   const SlotMotion motion(nodes_, item.nodes, state, stencil.theta);
   const auto& [mid, next, arms_mid, arms_next] = motion;
 
@@ -216,17 +218,14 @@ Verdict SlotLoad::assemble_item(std::size_t i, const model::State& state, const 
   return Verdict::ok;
 }
 
-bool SlotLoad::has_potential() const {
-  return amplitude_.is_constant() &&
-         std::none_of(items_.begin(), items_.end(), [](const Item& item) { return item.follows; });
-}
+bool SlotLoad::has_potential() const { return amplitude_.is_constant() && !follows_; }
 
 double SlotLoad::stored_energy(const model::Coordinates& q) const {
   if (!has_potential()) return 0.0;
   double work = 0.0;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
-    const Item& item = items_[index(placement_.items[i])];
+    const Item& item = local(i);
     for (std::size_t a = 0; a < item.nodes.size(); ++a) {
       const auto forces = item.constant.middleCols<4>(4 * static_cast<int>(a));
       work += forces.cwiseProduct(model::NodeTable::slots(q, item.nodes[a])).sum();
@@ -241,7 +240,7 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
   const bool works = !has_potential();
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
-    const Item& item = items_[index(placement_.items[i])];
+    const Item& item = local(i);
     const Ends ends(item.nodes, state, stencil.theta);
     ItemSlots f = factor * item.constant;
     if (item.follows) f.noalias() += factor * ends.mid.lazyProduct(item.linear.transpose());

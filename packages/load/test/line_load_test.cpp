@@ -141,7 +141,7 @@ class LineLoads : public testing::Test {
     for (int seed = 0; seed < nodes; ++seed) {
       line.nodes.push_back(model.nodes().add(kit::random_node(seed)));
     }
-    line.line_points = line_of_three();
+    for (const model::LinePoint& point : line_of_three()) line.line_points.push_back(point);
     model::Structure& sheet = model.add_structure("sheet");
     for (int i = 0; i < 2; ++i) {
       model::NodeSlots slots = model::NodeSlots::Zero();
@@ -178,10 +178,10 @@ class LineLoads : public testing::Test {
     model::Coordinates q;
     for (int seed = 30; seed < 30 + nodes; ++seed) {
       const model::NodeSlots slots = kit::random_node(seed);
-      q.insert(q.end(), slots.data(), slots.data() + slots.size());
+      q.append({slots.data(), static_cast<std::size_t>(slots.size())});
     }
     const auto sheet = model.nodes().reference().begin() + 12 * nodes;
-    q.insert(q.end(), sheet, model.nodes().reference().end());
+    q.append({sheet, model.nodes().reference().end()});
     return q;
   }
   std::vector<model::Batch*> loads() const {

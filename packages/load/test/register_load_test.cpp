@@ -99,7 +99,7 @@ class Loads : public testing::Test {
     model::Coordinates q;
     for (int seed = 30; seed < 34; ++seed) {
       const model::NodeSlots slots = kit::random_node(seed);
-      q.insert(q.end(), slots.data(), slots.data() + slots.size());
+      q.append({slots.data(), static_cast<std::size_t>(slots.size())});
     }
     return q;
   }
@@ -131,7 +131,7 @@ class Loads : public testing::Test {
     model::Coordinates v(q.size());
     for (double& value : v) value = random.number();
     double expected = 0.0;
-    for (const auto& [marker, length] : model.find_structure("line")->line_points) {
+    for (const auto& [marker, length] : model.find_structure("line")->line_points.copy()) {
       expected += length * force_at(triad(marker, q)).dot(position(marker, offset, v));
     }
     const Eigen::Map<const Eigen::VectorXd> velocity(v.data(), forces.size());

@@ -1,18 +1,23 @@
 #include <culm/model/massless.hpp>
 
-#include <cmath>
+#include <span>
 
 namespace culm::model {
 
-// A vector without any structure is mapped to zero in rows that are zero only.
 std::vector<bool> slots_with_mass(const Model& model) {
-  Coordinates irregular(model.nodes().reference().size());
-  for (std::size_t i = 0; i < irregular.size(); ++i) {
-    irregular[i] = std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0) + 0.1;
+  std::vector<bool> result(4 * static_cast<std::size_t>(model.nodes().size()), false);
+  for (const auto& batch : model.element_batches()) {
+    const auto* source = dynamic_cast<const MassSource*>(batch.get());
+    if (source == nullptr) continue;
+    source->visit_masses([&](std::span<const int> nodes, const Eigen::MatrixXd& mass) {
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        for (int s = 0; s < 4; ++s) {
+          const auto slot = static_cast<std::size_t>(4 * nodes[a] + s);
+          if (!mass.row(static_cast<Eigen::Index>(4 * a) + s).isZero(0.0)) result[slot] = true;
+        }
+      }
+    });
   }
-  const Coordinates image = model.mass_times(irregular);
-  std::vector<bool> result(image.size() / 3);
-  for (std::size_t slot = 0; slot < result.size(); ++slot) result[slot] = image[3 * slot] != 0.0;
   return result;
 }
 

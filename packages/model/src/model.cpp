@@ -287,6 +287,7 @@ std::vector<std::string> Model::freeze(Form form) {
   std::vector<int> multipliers;
   for (const Constraint& c : equations_) multipliers.push_back(static_cast<int>(c.rows.size()));
   unknowns_ = UnknownTable(nodes_, multipliers, own_blocks_, form);
+  mass_ = mass();
   for (const auto& batch : constraint_batches_) batch->number(unknowns_);
   return notes;
 }
@@ -306,9 +307,9 @@ void Model::add_element_set(std::string name, const Structure& structure,
   const std::size_t per_element = structure.line_points.size() / structure.cells.size();
   for (int element : elements) {
     for (int cell : structure.cells_of(element)) {
-      const auto first =
-          structure.line_points.begin() + static_cast<std::ptrdiff_t>(per_element) * cell;
-      points.insert(points.end(), first, first + static_cast<std::ptrdiff_t>(per_element));
+      const auto some =
+          structure.line_points.copy(per_element * static_cast<std::size_t>(cell), per_element);
+      points.insert(points.end(), some.begin(), some.end());
     }
   }
 }
@@ -320,7 +321,7 @@ std::vector<LinePoint> Model::line_points(std::string_view name) const {
   const auto slash = name.find('/');
   const Structure* structure = find_structure(name.substr(0, slash));
   if (structure == nullptr) return {};
-  if (slash == std::string_view::npos) return structure->line_points;
+  if (slash == std::string_view::npos) return structure->line_points.copy();
   const auto edge = structure->edges.find(std::string(name.substr(slash + 1)));
   return edge == structure->edges.end() ? std::vector<LinePoint>{} : edge->second;
 }
@@ -411,6 +412,7 @@ Coordinates Model::mass_times(const Coordinates& acceleration) const {
 }
 
 double Model::mass() const {
+  if (mass_) return *mass_;
   Coordinates unit(nodes_.reference().size(), 0.0);
   for (int node = 0; node < nodes_.size(); ++node) NodeTable::slots(unit, node)(0, 0) = 1.0;
   const Coordinates force = mass_times(unit);

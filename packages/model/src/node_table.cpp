@@ -6,7 +6,7 @@
 namespace culm::model {
 
 int NodeTable::add(const NodeSlots& slots, NodeKind kind) {
-  reference_.insert(reference_.end(), slots.data(), slots.data() + slots.size());
+  reference_.append({slots.data(), static_cast<std::size_t>(slots.size())});
   kinds_.push_back(kind);
   fixed_.emplace_back();
   link_of_.push_back(-1);

@@ -65,9 +65,10 @@ Patch make_patch(const model::Model& model, int structure, int number) {
   Patch patch;
   patch.structure = structure;
   patch.cell = number;
-  patch.nodes = model.structures()[static_cast<std::size_t>(structure)]
-                    .cells[static_cast<std::size_t>(number)]
-                    .nodes;
+  const model::CellNodes& nodes = model.structures()[static_cast<std::size_t>(structure)]
+                                      .cells[static_cast<std::size_t>(number)]
+                                      .nodes;
+  patch.nodes.assign(nodes.begin(), nodes.end());
   if (patch.nodes.size() > 1) {
     const bool is_surface = model.nodes().kind(patch.nodes.front()) == NodeKind::node6;
     patch.shape = is_surface ? Shape::surface : Shape::line;

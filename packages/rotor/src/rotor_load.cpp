@@ -138,7 +138,7 @@ std::optional<RotorState> RotorLoad::state() const {
 }
 
 void RotorLoad::prepare(const model::State&, const Stencil&) {
-  evaluated_.clear();
+  evaluated_.resize(0);
   trial_.angles = accepted_.angles;  // a step that is repeated finds the same
 }
 
@@ -280,7 +280,7 @@ double RotorLoad::skew(const RotorState& rotor, const Element& element,
 }
 
 void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
-  if (evaluated_ == state.next && evaluated_time_ == state.time &&
+  if (std::ranges::equal(evaluated_, state.next) && evaluated_time_ == state.time &&
       evaluated_stencil_.step == stencil.step && evaluated_stencil_.inertia == stencil.inertia &&
       evaluated_stencil_.frees_states == stencil.frees_states) {
     return;
@@ -425,7 +425,7 @@ void RotorLoad::restore(std::span<const double> numbers) {
   }
   std::copy_n(rest, accepted_.angles.size(), accepted_.angles.begin());
   trial_ = accepted_;
-  evaluated_.clear();
+  evaluated_.resize(0);
 }
 
 }  // namespace culm::rotor

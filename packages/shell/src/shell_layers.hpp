@@ -6,6 +6,7 @@
 #include <culm/model/shear_source.hpp>
 #include <culm/shell/shell_results.hpp>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -17,21 +18,22 @@ class ShellLayers final : public model::LayerSource, public model::ShearSource {
  public:
   /// @param items     of the batch, which must outlive this, one or more
   /// @param left_out  see ShearSource
-  ShellLayers(const model::ElementBatch<E>& batch, std::vector<int> items, const Vec<2>& left_out)
-      : batch_(batch), items_(std::move(items)), left_out_(left_out) {}
+  ShellLayers(const model::ElementBatch<E>& batch, std::vector<int> items,
+              std::shared_ptr<const material::Layup> layup, const Vec<2>& left_out)
+      : batch_(batch), items_(std::move(items)), layup_(std::move(layup)), left_out_(left_out) {}
 
   std::vector<Layer> shear_layers() const override {
     std::vector<Layer> layers;
-    for (const material::Layer& layer : batch_.element(items_.front()).layup().layers) {
+    for (const material::Layer& layer : layup_->layers) {
       layers.push_back({layer.thickness, layer.angle});
     }
     return layers;
   }
   Vec<2> left_out() const override { return left_out_; }
 
-  int layers() const override {
-    return static_cast<int>(batch_.element(items_.front()).layup().layers.size());
-  }
+  int layers() const override { return static_cast<int>(layup_->layers.size()); }
+
+  bool owns(int cell) const override { return batch_.owns(items_[static_cast<std::size_t>(cell)]); }
 
   std::vector<LayerState> states(int cell, const model::Coordinates& q) const override {
     const int item = items_[static_cast<std::size_t>(cell)];
@@ -72,6 +74,7 @@ class ShellLayers final : public model::LayerSource, public model::ShearSource {
 
   const model::ElementBatch<E>& batch_;
   std::vector<int> items_;
+  std::shared_ptr<const material::Layup> layup_;
   Vec<2> left_out_;
 };
 

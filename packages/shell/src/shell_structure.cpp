@@ -283,7 +283,7 @@ void add_elements(const std::string& effect, const ShellMesh& mesh,
     add_yielding_layers(batch, items, structure.name, model);
   }
   structure.layers =
-      std::make_shared<ShellLayers<E>>(batch, std::move(items), left_out(*layup, options));
+      std::make_shared<ShellLayers<E>>(batch, std::move(items), layup, left_out(*layup, options));
 }
 
 // Elements that all see one frame besides their own nodes.
@@ -307,7 +307,7 @@ void add_linear(const ShellMesh& mesh, const std::shared_ptr<const material::Lay
     structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
     structure.faces.push_back({nodes, layup->thickness()});
   }
-  structure.layers = std::make_shared<ShellLayers<LinearShell>>(batch, std::move(items),
+  structure.layers = std::make_shared<ShellLayers<LinearShell>>(batch, std::move(items), layup,
                                                                 left_out(*layup, options));
 }
 

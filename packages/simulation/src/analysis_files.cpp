@@ -4,12 +4,14 @@
 #include <culm/output/file_part.hpp>
 #include <culm/output/vtu.hpp>
 
+#include "on_root.hpp"
 #include "pictures.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 namespace culm::simulation {
 namespace {
@@ -17,20 +19,23 @@ namespace {
 // Of one period, evenly spaced; the end of the period would repeat the start.
 constexpr int frames_per_period = 16;
 
-void animate(const model::Model& model, const analysis::Shape& shape, const std::string& stem,
-             const model::State& state, const std::filesystem::path& folder) {
-  output::Pictures pictures(folder, stem, meshes_of(model, {}));
+void animate(const assembly::System& system, const analysis::Shape& shape,
+             const std::filesystem::path& folder, const std::string& stem,
+             const model::State& state) {
+  const model::Model& model = system.model();
+  std::optional<output::Pictures> pictures;
+  on_root(system.comm(), [&] { pictures.emplace(folder, stem, meshes_of(model, {})); });
   const double factor = analysis::visible_factor(model, shape);
   for (int i = 0; i < frames_per_period; ++i) {
     const double part = static_cast<double>(i) / frames_per_period;
     model::Coordinates q = state.next;
     analysis::displace(model, shape, factor, 2.0 * std::numbers::pi * part, q);
-    output::Picture picture = picture_of(model, {}, q);
+    output::Picture picture = picture_of(system, {}, q);
     picture.index = i;
     picture.time = part;
-    pictures.add(picture);
+    on_root(system.comm(), [&] { pictures->add(picture); });
   }
-  pictures.write();
+  on_root(system.comm(), [&] { pictures->write(); });
 }
 
 void append_rows(std::vector<double>& all, const std::vector<int>& nodes,
@@ -75,28 +80,30 @@ output::AnalysisResults results_of(const model::Model& model, const std::string&
 }
 
 std::vector<std::filesystem::path> write_analysis_files(
-    const model::Model& model, const std::string& name, const analysis::AnalysisReport& report,
+    const assembly::System& system, const std::string& name, const analysis::AnalysisReport& report,
     const model::State& state, const std::filesystem::path& folder, bool pictures) {
   const std::filesystem::path own = std::filesystem::path("analyses") / output::file_part(name);
-  std::error_code failure;
-  std::filesystem::remove_all(folder / own, failure);  // of an earlier run with other modes
-  if (!failure) std::filesystem::create_directories(folder / own, failure);
-  if (failure) throw FileError((folder / own).string(), failure.message());
   std::vector<std::filesystem::path> files;
-  for (const analysis::ReportTable& table : report.tables) {
-    files.push_back(own / (table.name + ".csv"));
-    output::write_csv(folder / files.back(),
-                      {table.name, table.columns, table.rows, table.remarks});
-  }
-  for (const analysis::ReportMatrix& m : report.matrices) {
-    files.push_back(own / (m.name + ".mtx"));
-    output::write_matrix_market(folder / files.back(),
-                                {m.name, m.rows, m.columns, m.row, m.column, m.value});
-  }
+  on_root(system.comm(), [&] {
+    std::error_code failure;
+    std::filesystem::remove_all(folder / own, failure);  // of an earlier run with other modes
+    if (!failure) std::filesystem::create_directories(folder / own, failure);
+    if (failure) throw FileError((folder / own).string(), failure.message());
+    for (const analysis::ReportTable& table : report.tables) {
+      files.push_back(own / (table.name + ".csv"));
+      output::write_csv(folder / files.back(),
+                        {table.name, table.columns, table.rows, table.remarks});
+    }
+    for (const analysis::ReportMatrix& m : report.matrices) {
+      files.push_back(own / (m.name + ".mtx"));
+      output::write_matrix_market(folder / files.back(),
+                                  {m.name, m.rows, m.columns, m.row, m.column, m.value});
+    }
+  });
   if (!pictures) return files;
   for (std::size_t i = 0; i < report.shapes.size(); ++i) {
     const std::string stem = fmt::format("shape_{:02}", i + 1);
-    animate(model, report.shapes[i], stem, state, folder / own);
+    animate(system, report.shapes[i], folder / own, stem, state);
     if (i == 0) files.push_back(own / (stem + ".pvd"));
   }
   return files;

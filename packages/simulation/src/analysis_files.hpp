@@ -15,10 +15,11 @@ output::AnalysisResults results_of(const model::Model& model, const std::string&
                                    const analysis::AnalysisReport& report);
 
 /// Writes <folder>/analyses/<name>/<table>.csv, and per shape an animation of one period about a
-/// state, shape_01.pvd and so on. On one process only. Throws FileError.
+/// state, shape_01.pvd and so on. Collective. Throws FileError.
+/// @param state  with all nodes on rank 0
 /// @return what a user opens, relative to the folder
 std::vector<std::filesystem::path> write_analysis_files(
-    const model::Model& model, const std::string& name, const analysis::AnalysisReport& report,
+    const assembly::System& system, const std::string& name, const analysis::AnalysisReport& report,
     const model::State& state, const std::filesystem::path& folder, bool pictures);
 
 }  // namespace culm::simulation

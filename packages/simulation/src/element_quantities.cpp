@@ -1,4 +1,5 @@
 #include <culm/model/layer_source.hpp>
+#include <culm/parallel/owned_numbers.hpp>
 #include <culm/simulation/quantity.hpp>
 
 #include <fmt/format.h>
@@ -9,17 +10,22 @@
 namespace culm::simulation {
 namespace {
 
-// Mean over the cells that an element of the deck was divided into.
+// Mean over the cells that an element of the deck was divided into. Collective.
 std::vector<double> mean_resultants(const std::vector<model::Cell>& cells,
-                                    const model::Coordinates& q) {
-  std::vector<double> mean;
-  for (const model::Cell& cell : cells) {
-    std::vector<double> one;
-    cell.source->resultants(cell.item, q, one);
-    mean.resize(one.size(), 0.0);
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      mean[i] += one[i] / static_cast<double>(cells.size());
-    }
+                                    const assembly::System& system, const model::Coordinates& q) {
+  const auto cell_of = [&](int i) -> const model::Cell& {
+    return cells[static_cast<std::size_t>(i)];
+  };
+  const std::size_t width = cells.front().source->resultant_names().size();
+  const std::vector<double> all = parallel::share_owned(
+      system.comm(), cells.size(), width,
+      [&](int i) { return cell_of(i).source->owns(cell_of(i).item); },
+      [&](int i, std::vector<double>& numbers) {
+        cell_of(i).source->resultants(cell_of(i).item, q, numbers);
+      });
+  std::vector<double> mean(width, 0.0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    mean[i % width] += all[i] / static_cast<double>(cells.size());
   }
   return mean;
 }
@@ -39,9 +45,10 @@ class StressResultants final : public Quantity {
     }
     return columns;
   }
-  void evaluate(const assembly::System&, const model::State& state,
+  std::optional<std::vector<int>> nodes() const override { return std::vector<int>(); }
+  void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
-    const std::vector<double> mean = mean_resultants(cells_, state.next);
+    const std::vector<double> mean = mean_resultants(cells_, system, state.next);
     numbers.insert(numbers.end(), mean.begin(), mean.end());
   }
 
@@ -65,9 +72,10 @@ class SectionStress final : public Quantity {
     for (const Component& component : components_) columns.push_back({component.name, "N/m^2"});
     return columns;
   }
-  void evaluate(const assembly::System&, const model::State& state,
+  std::optional<std::vector<int>> nodes() const override { return std::vector<int>(); }
+  void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
-    const Vec6 resultants(mean_resultants(cells_, state.next).data());
+    const Vec6 resultants(mean_resultants(cells_, system, state.next).data());
     for (const Component& component : components_) {
       numbers.push_back(component.factors.dot(resultants));
     }
@@ -100,13 +108,19 @@ class LayerQuantity final : public Quantity {
     }
     return columns;
   }
-  void evaluate(const assembly::System&, const model::State& state,
+  std::optional<std::vector<int>> nodes() const override { return std::vector<int>(); }
+  void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
+    const auto cell_of = [&](int i) { return cells_[static_cast<std::size_t>(i)]; };
+    const std::vector<double> all = parallel::share_owned(
+        system.comm(), cells_.size(), 6, [&](int i) { return source_->owns(cell_of(i)); },
+        [&](int i, std::vector<double>& values) {
+          const model::LayerState layer = source_->states(cell_of(i), state.next)[place_];
+          const Vec6& one = kind_ == Kind::stress ? layer.stress : layer.strain;
+          values.insert(values.end(), one.begin(), one.end());
+        });
     Vec6 shown = Vec6::Zero();
-    for (int cell : cells_) {
-      const model::LayerState layer = source_->states(cell, state.next)[place_];
-      shown += kind_ == Kind::stress ? layer.stress : layer.strain;
-    }
+    for (std::size_t i = 0; i < all.size(); i += 6) shown += Vec6(all.data() + i);
     shown /= static_cast<double>(cells_.size());
     numbers.insert(numbers.end(), shown.begin(), shown.end());
   }

@@ -91,9 +91,9 @@ void draw_model(const assembly::System& system, const output::RunInfo& info, dou
     const auto actions = largest_actions(system, *load, state, end);
     if (!actions.empty()) add_load(model, *load, actions, meshes);
   }
+  output::Picture picture = picture_of(system, {}, state.next);
   on_root(system.comm(), [&] {
     output::Recorder recorder(path, info, meshes, {});
-    output::Picture picture = picture_of(model, {}, state.next);
     picture.arrays = links_of(model);
     recorder.record(picture);
     recorder.close();

@@ -1,6 +1,7 @@
 #include "pictures.hpp"
 
 #include <culm/model/layer_source.hpp>
+#include <culm/parallel/owned_numbers.hpp>
 
 #include "place.hpp"
 
@@ -104,21 +105,20 @@ std::vector<output::CellArray> layer_arrays(const model::Structure& structure,
   return arrays;
 }
 
-// The numbers of those arrays.
-std::vector<std::vector<double>> layer_values(const model::Structure& structure,
+// The numbers of those arrays. Collective; on rank 0 only.
+std::vector<std::vector<double>> layer_values(const parallel::Comm& comm,
+                                              const model::Structure& structure,
                                               const LayerSettings& settings,
                                               const model::Coordinates& q) {
   const std::vector<int> shown = shown_layers(structure, settings);
   std::vector<std::vector<double>> values;
   if (shown.empty()) return values;
   values.resize(layer_arrays(structure, settings).size());
-  for (std::size_t cell = 0; cell < structure.cells.size(); ++cell) {
-    const std::vector<model::LayerState> states =
-        structure.layers->states(static_cast<int>(cell), q);
-    auto array = values.begin();
-    const auto add = [&](const Vec6& v) {
-      array->insert(array->end(), v.begin(), v.end()), ++array;
-    };
+  const std::size_t count = structure.cells.size();
+  const auto owns = [&](int cell) { return structure.layers->owns(cell); };
+  const auto append = [&](int cell, std::vector<double>& numbers) {
+    const std::vector<model::LayerState> states = structure.layers->states(cell, q);
+    const auto add = [&](const Vec6& v) { numbers.insert(numbers.end(), v.begin(), v.end()); };
     for (int layer : shown) {
       for (std::size_t height = 0; height < model::layer_heights.size(); ++height) {
         const model::LayerState& state =
@@ -127,8 +127,45 @@ std::vector<std::vector<double>> layer_values(const model::Structure& structure,
         if (settings.strains) add(state.strain);
       }
     }
+  };
+  // cell after cell, and in each array after array
+  const std::vector<double> all =
+      parallel::gather_owned(comm, count, 6 * values.size(), owns, append);
+  for (std::size_t at = 0; at < all.size(); at += 6) {
+    std::vector<double>& array = values[at / 6 % values.size()];
+    array.insert(array.end(), all.data() + at, all.data() + at + 6);
   }
   return values;
+}
+
+// Stress resultants by cell; empty where there are none. Collective; on rank 0 only.
+std::vector<std::vector<double>> resultants_of(const parallel::Comm& comm,
+                                               const model::Structure& structure,
+                                               const model::Coordinates& q) {
+  const std::vector<model::Cell>& cells = structure.cells;
+  const auto cell_of = [&](int item) -> const model::Cell& {
+    return cells[static_cast<std::size_t>(item)];
+  };
+  std::size_t width = 0;
+  for (const model::Cell& cell : cells) {
+    if (cell.source != nullptr) width = cell.source->resultant_names().size();
+    if (width > 0) break;
+  }
+  const std::vector<double> all = parallel::gather_owned(
+      comm, cells.size(), width,
+      [&](int item) {
+        const model::Cell& cell = cell_of(item);
+        return cell.source != nullptr && cell.source->owns(cell.item);
+      },
+      [&](int item, std::vector<double>& numbers) {
+        cell_of(item).source->resultants(cell_of(item).item, q, numbers);
+      });
+  std::vector<std::vector<double>> rows(comm.is_root() ? cells.size() : 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (width == 0 || cells[i].source == nullptr) continue;
+    rows[i].assign(all.data() + width * i, all.data() + width * (i + 1));
+  }
+  return rows;
 }
 
 }  // namespace
@@ -143,17 +180,14 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
   return meshes;
 }
 
-output::Picture picture_of(const model::Model& model, const LayerSettings& layers,
+output::Picture picture_of(const assembly::System& system, const LayerSettings& layers,
                            const model::Coordinates& q) {
   output::Picture picture;
-  for (const model::Structure& structure : model.structures()) {
+  for (const model::Structure& structure : system.model().structures()) {
     output::StructureState s;
-    read_nodes(structure, q, s.positions, s.triads);
-    for (const model::Cell& cell : structure.cells) {
-      s.resultants.emplace_back();
-      if (cell.source != nullptr) cell.source->resultants(cell.item, q, s.resultants.back());
-    }
-    s.cell_values = layer_values(structure, layers, q);
+    if (system.comm().is_root()) read_nodes(structure, q, s.positions, s.triads);
+    s.resultants = resultants_of(system.comm(), structure, q);
+    s.cell_values = layer_values(system.comm(), structure, layers, q);
     picture.structures.push_back(std::move(s));
   }
   return picture;

@@ -11,8 +11,9 @@ namespace culm::simulation {
 std::vector<output::StructureMesh> meshes_of(const model::Model& model,
                                              const LayerSettings& layers);
 
-/// The structures in a configuration that is up to date for all nodes; index and time stay zero.
-output::Picture picture_of(const model::Model& model, const LayerSettings& layers,
+/// The structures in a configuration; index and time stay zero. Collective; on rank 0 only.
+/// @param q  up to date for all nodes on rank 0, elsewhere for those that the rank needs
+output::Picture picture_of(const assembly::System& system, const LayerSettings& layers,
                            const model::Coordinates& q);
 
 /// Makes velocities of nodes [m/s], and angular velocities of those with triads [rad/s], part of

@@ -232,11 +232,11 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
 
 void ResultFiles::record(double time, int analysis, int step, model::State& state,
                          bool was_solved) {
-  system_->synchronise(state);
+  const model::State whole = system_->gather(state);
+  output::Picture f = picture_of(*system_, settings_.layers, whole.next);
   on_root(system_->comm(), [&] {
-    output::Picture f = picture_of(system_->model(), settings_.layers, state.next);
-    if (settings_.velocities) add_velocities(system_->model(), state, f);
-    if (settings_.constraint_forces && was_solved) f.arrays = constraint_forces(*system_, state);
+    if (settings_.velocities) add_velocities(system_->model(), whole, f);
+    if (settings_.constraint_forces && was_solved) f.arrays = constraint_forces(*system_, whole);
     f.index = static_cast<int>(frames_);
     f.time = time;
     f.analysis = analysis;
@@ -245,7 +245,7 @@ void ResultFiles::record(double time, int analysis, int step, model::State& stat
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
     if (files_->pictures) files_->pictures->add(f);
-    if (files_->fluid) add_fluid(f.index, time, state);
+    if (files_->fluid) add_fluid(f.index, time, whole);
   });
   ++frames_;
 }
@@ -262,14 +262,15 @@ void ResultFiles::add_fluid(int index, double time, const model::State& state) {
 void ResultFiles::add_results(const std::string& name, const analysis::AnalysisReport& report,
                               const model::State& state) {
   if (report.tables.empty() && report.shapes.empty() && report.matrices.empty()) return;
+  const model::State whole = system_->gather(state);
   on_root(system_->comm(), [&] {
     output::AnalysisResults results = results_of(system_->model(), name, report);
     results.state = static_cast<int>(frames_) - 1;
     files_->recorder.write_results(results);
-    const auto written = write_analysis_files(system_->model(), name, report, state,
-                                              settings_.folder, settings_.pictures);
-    analysis_files_.insert(analysis_files_.end(), written.begin(), written.end());
   });
+  const auto written =
+      write_analysis_files(*system_, name, report, whole, settings_.folder, settings_.pictures);
+  analysis_files_.insert(analysis_files_.end(), written.begin(), written.end());
 }
 
 void ResultFiles::finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,

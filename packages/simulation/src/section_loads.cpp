@@ -1,3 +1,4 @@
+#include <culm/parallel/owned_numbers.hpp>
 #include <culm/simulation/quantity.hpp>
 
 #include "place.hpp"
@@ -42,16 +43,32 @@ class SectionLoads final : public Quantity {
     }
     return columns;
   }
-  void evaluate(const assembly::System&, const model::State& state,
+  std::optional<std::vector<int>> nodes() const override {
+    std::vector<int> nodes = station_.nodes;
+    for (const Source& source : sources_) {
+      nodes.insert(nodes.end(), source.centre.nodes.begin(), source.centre.nodes.end());
+    }
+    if (axes_ == Axes::frame) nodes.push_back(frame_);
+    return nodes;
+  }
+  void evaluate(const assembly::System& system, const model::State& state,
                 std::vector<double>& numbers) const override {
+    const auto cell_of = [&](int i) -> const model::Cell& {
+      return sources_[static_cast<std::size_t>(i)].cell;
+    };
+    const std::vector<double> resultants = parallel::share_owned(
+        system.comm(), sources_.size(), 6,
+        [&](int i) { return cell_of(i).source->owns(cell_of(i).item); },
+        [&](int i, std::vector<double>& values) {
+          cell_of(i).source->resultants(cell_of(i).item, state.next, values);
+        });
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
-    for (const Source& source : sources_) {
-      std::vector<double> resultants;
-      source.cell.source->resultants(source.cell.item, state.next, resultants);
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      const Source& source = sources_[i];
       const Mat3 directors = slots_at(source.centre, state.next).rightCols<3>();
-      force += source.weight * directors * Vec3(resultants.data());
-      moment += source.weight * directors * Vec3(resultants.data() + 3);
+      force += source.weight * directors * Vec3(resultants.data() + 6 * i);
+      moment += source.weight * directors * Vec3(resultants.data() + 6 * i + 3);
     }
     const Mat3 axes = axes_in(state.next);
     for (const Vec3& vector : {force, moment}) {
@@ -80,7 +97,7 @@ std::vector<double> centres_of(const model::Structure& beam) {
   double length = 0.0;
   for (std::size_t first = 0; first < beam.line_points.size(); first += per_element) {
     double own = 0.0;
-    for (std::size_t k = 0; k < per_element; ++k) own += beam.line_points[first + k].length;
+    for (std::size_t k = 0; k < per_element; ++k) own += beam.line_points.length(first + k);
     centres.push_back(length + 0.5 * own);
     length += own;
   }

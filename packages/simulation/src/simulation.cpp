@@ -259,6 +259,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     const bool resumes = from != nullptr && i == first;
     Phase& phase = p.phases.enter(i, p.comm, p.ledger);
     if (!resumes) start_analysis(i, state);
+    phase.system->synchronise(state);
     files.use(*phase.system, phase.watched);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
     if (!resumes) phase.system->forget_reactions();
@@ -272,9 +273,8 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     warn("overlap", deep_contacts(*phase.model, state.next));
     if (entries[i].text("Type") != "Dynamic") warn("friction", contacts_at_rest(*phase.model));
     warn("lost moment", moments_that_are_not_carried(*phase.model));
-    const auto warn_of_kinks = [&](model::Coordinates q) {
-      phase.system->complete(q);
-      warn("taut beam", taut_beams(*phase.model, q));
+    const auto warn_of_kinks = [&](const model::Coordinates& q) {
+      warn("taut beam", taut_beams(*phase.system, q));
     };
     analysis::AnalysisReport report;
     try {
@@ -308,6 +308,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     observer.finish(report, state);
     return report;
   }
+  if (!inspection_follows()) context.system.forget_other_items();
   const auto stepper = known.steppers.make(type, entry, context, state);
   const bool is_motion = dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
   observer.follow(stepper.get(), coupled, is_motion ? served : nullptr);
@@ -341,6 +342,14 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     if (coupled == nullptr || dynamic_cast<const NumericalError*>(&error) == nullptr) throw;
     throw NumericalError(error.what() + observer.way_on());
   }
+}
+
+// Whether an analysis after the present one looks at a state; such ones want all elements.
+bool Simulation::inspection_follows() const {
+  const auto& entries = parts_->deck.list("Analyses").entries();
+  const auto& inspections = parts_->catalogue.analyses.inspections;
+  return std::any_of(entries.begin() + static_cast<std::ptrdiff_t>(parts_->present), entries.end(),
+                     [&](const Options& one) { return inspections.contains(one.text("Type")); });
 }
 
 // Brings the state to where an analysis starts, in its phase.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace culm::simulation {
@@ -23,6 +24,8 @@ struct Taut {
   int order = 0;
   double tension = 0.0;  // [N]
   double limit = 0.0;    // [N]
+
+  double excess() const { return tension / limit; }
 };
 
 template <int Order>
@@ -41,25 +44,44 @@ std::optional<Taut> taut(const model::Cell& cell, double length, const model::Co
   return Taut{0, Order, resultants[2], limits[Order - 1] * EI / (length * length)};
 }
 
-// The tautest element of a line beyond its limit, if any.
+// The tautest element of this rank in a line beyond its limit, if any.
 std::optional<Taut> tautest(const model::Structure& structure, const model::Coordinates& q) {
   if (structure.line_points.empty() || structure.cells.empty()) return {};
   const std::size_t per_element = structure.line_points.size() / structure.cells.size();
   std::optional<Taut> worst;
   for (std::size_t i = 0; i < structure.cells.size(); ++i) {
+    const model::Cell& cell = structure.cells[i];
+    if (cell.source == nullptr || !cell.source->owns(cell.item)) continue;
     double length = 0.0;
     for (std::size_t p = 0; p < per_element; ++p) {
-      length += structure.line_points[per_element * i + p].length;
+      length += structure.line_points.length(per_element * i + p);
     }
-    const model::Cell& cell = structure.cells[i];
     std::optional<Taut> found = taut<1>(cell, length, q);
     if (!found) found = taut<2>(cell, length, q);
     if (!found) found = taut<3>(cell, length, q);
-    if (!found || found->tension <= alone * found->limit) continue;
+    if (!found || !(found->tension > alone * found->limit)) continue;
     found->cell = i;
-    if (!worst || found->tension * worst->limit > worst->tension * found->limit) worst = found;
+    if (!worst || found->excess() > worst->excess()) worst = found;
   }
   return worst;
+}
+
+// That of all ranks, on all of them; the first of several that are equal.
+std::optional<Taut> tautest(const parallel::Comm& comm, const std::optional<Taut>& here) {
+  const double most = comm.max(here ? here->excess() : 0.0);
+  if (most == 0.0) return {};
+  const int none = std::numeric_limits<int>::max();
+  const bool is_one = here && here->excess() == most;
+  const int cell = -comm.max(is_one ? -static_cast<int>(here->cell) : -none);
+  const bool is_it = is_one && static_cast<int>(here->cell) == cell;
+  double numbers[3] = {};
+  if (is_it) {
+    numbers[0] = here->order;
+    numbers[1] = here->tension;
+    numbers[2] = here->limit;
+  }
+  comm.max(numbers);
+  return Taut{static_cast<std::size_t>(cell), static_cast<int>(numbers[0]), numbers[1], numbers[2]};
 }
 
 // The number that the deck has for a cell.
@@ -73,10 +95,10 @@ std::size_t number_of(std::size_t cell, const model::Structure& structure) {
 
 }  // namespace
 
-std::vector<std::string> taut_beams(const model::Model& model, const model::Coordinates& q) {
+std::vector<std::string> taut_beams(const assembly::System& system, const model::Coordinates& q) {
   std::vector<std::string> sentences;
-  for (const model::Structure& structure : model.structures()) {
-    const std::optional<Taut> worst = tautest(structure, q);
+  for (const model::Structure& structure : system.model().structures()) {
+    const std::optional<Taut> worst = tautest(system.comm(), tautest(structure, q));
     if (!worst) continue;
     sentences.push_back(fmt::format(
         "element {} of '{}', of order {}, carries a tension of {:.3g} N, but as long as it is its "

@@ -1,7 +1,7 @@
 /// Beams that are too taut for the length of their elements.
 #pragma once
 
-#include <culm/model/model.hpp>
+#include <culm/assembly/system.hpp>
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace culm::simulation {
 /// c EI / L^2, c = 4, 24, 64.1 for orders 1 to 3. Between nodes that turn to and fro, so that the
 /// points of quadrature feel nothing, directors are shorter than one: tension gains by that what
 /// bending loses, and beyond the limit such turns grow by themselves.
-/// @param q  complete on this rank
-std::vector<std::string> taut_beams(const model::Model& model, const model::Coordinates& q);
+/// Collective. @param q  up to date for the nodes that the rank needs
+std::vector<std::string> taut_beams(const assembly::System& system, const model::Coordinates& q);
 
 }  // namespace culm::simulation

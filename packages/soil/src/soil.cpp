@@ -111,7 +111,7 @@ class PileLine {
   PileLine(const model::Structure& structure, const model::NodeTable& nodes, const Vec3& ground,
            const Vec3& down)
       : structure_(structure), nodes_(nodes), ground_(ground), down_(down.normalized()) {
-    for (const model::LinePoint& point : structure.line_points) length_ += point.length;
+    length_ += structure.line_points.length();
   }
 
   model::Marker point(double s) const { return *model::marker_at_fraction(structure_, s); }

@@ -47,7 +47,7 @@ std::vector<Place> places_on_line(const Options& options, model::BuildContext& c
   if (structure == nullptr) return {};
   const int count = options.integer("Stations");
   double length = 0.0;
-  for (const model::LinePoint& point : structure->line_points) length += point.length;
+  length += structure->line_points.length();
   std::vector<Place> places;
   for (int i = 0; i < count; ++i) {
     const double s = (i + 0.5) / count;

@@ -204,7 +204,7 @@ std::optional<Member> member_on_line(const Options& options, model::BuildContext
   const model::Structure* structure = model::select_structure(options, context);
   if (structure == nullptr) return {};
   Member member;
-  for (const model::LinePoint& point : structure->line_points) member.length += point.length;
+  member.length += structure->line_points.length();
   member.piece = [structure](double begin, double end) {
     return through_gauss_points(*structure, begin, end);
   };

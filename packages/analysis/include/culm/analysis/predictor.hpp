@@ -38,7 +38,7 @@ class Predictor {
   using Motions = assembly::System::Motions;
   struct MeanVelocity {
     double time = 0.0;  ///< middle of the step [s]
-    Motions values;     ///< by node [m/s, rad/s]
+    Motions values;     ///< [m/s, rad/s]
   };
 
   int plain() const { return past_.size() > 1 && reversal_ < 0.0 ? 2 : 0; }

@@ -27,7 +27,7 @@ class TimeScheme {
   virtual void finish(model::State& state, double h) = 0;
   /// What the scheme remembers beside position and velocity, under "scheme/"; see Analysis.
   virtual void save(const assembly::System&, Snapshot&) const {}
-  virtual void restore(const Snapshot&) {}
+  virtual void restore(const assembly::System&, const Snapshot&) {}
 };
 
 /// Energy-momentum conserving: mean velocity, forces at mid-step, mean of the end strains.
@@ -57,7 +57,7 @@ class GeneralisedAlphaScheme : public TimeScheme {
   Stencil begin(model::State& state, double h) override;
   void finish(model::State& state, double h) override;
   void save(const assembly::System& system, Snapshot& snapshot) const override;
-  void restore(const Snapshot& snapshot) override;
+  void restore(const assembly::System& system, const Snapshot& snapshot) override;
 
  protected:
   /// @param alpha_m, alpha_f  weights of the start of the step in inertia and in all other forces

@@ -40,6 +40,8 @@ class Layout {
   Neighbours couple_blocks(const model::Model& model) const;
   void choose_owners(const model::UnknownTable& unknowns, const Neighbours& neighbours);
   void number_locally(const model::UnknownTable& unknowns, const Neighbours& neighbours);
+  std::size_t count_entries(const model::UnknownTable& unknowns,
+                            const Neighbours& neighbours) const;
   void build_pattern(const model::UnknownTable& unknowns, const Neighbours& neighbours);
   model::Placement place(const model::Batch& batch, const model::UnknownTable& unknowns) const;
   int offset_in_row(int row_block, int column_block) const;
@@ -49,7 +51,8 @@ class Layout {
   std::vector<LocalBlock> local_blocks_;
   std::vector<int> local_row_;     ///< first owned row of a block, -1 when not owned
   std::vector<int> local_column_;  ///< first local column of a block, -1 when not here
-  /// For owned blocks: the coupled blocks in the order of their columns, and where each run begins.
+  /// For owned blocks: the coupled blocks in the order of their columns, and where each run begins;
+  /// only while items are placed.
   std::vector<std::vector<std::pair<int, int>>> runs_;
   std::optional<Rows> rows_;
   std::optional<Rows> columns_;

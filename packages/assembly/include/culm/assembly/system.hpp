@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -96,14 +97,26 @@ class System {
   /// Predicts stresses for the next tangent from the same increment, before move.
   void extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
                    double factor);
-  /// Brings coordinates, multipliers and reactions of all nodes up to date on all ranks, for
-  /// output.
+  /// Brings coordinates, multipliers and reactions of all nodes up to date on all ranks.
   void synchronise(model::State& state);
+  /// The end of the step, with all nodes on rank 0 for output, and with all multipliers and
+  /// reactions; arrays that only steps need are empty. Collective.
+  model::State gather(const model::State& state);
+  /// Takes the nodes from a state that no row of this rank needs, and their memory: they are zero
+  /// until they are synchronised again.
+  void forget_others(model::State& state) const;
+  /// Takes the items from all batches that no row of this rank needs. From then on what asks for
+  /// single items of the model asks their owners.
+  void forget_other_items();
   /// The same of coordinates and velocities of some nodes only, each named once.
   void synchronise(model::State& state, std::span<const int> nodes) const;
   /// Brings an array over the slots of all nodes up to date on all ranks: each value from the rank
   /// that owns the node, exactly.
   void complete(model::Coordinates& values) const;
+  /// Writes an array over the slots of all nodes, and takes it back; collective where the snapshot
+  /// is for files. Throws FileError if it does not fit.
+  void save(const model::Coordinates& values, std::string_view name, Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot, std::string_view name, model::Coordinates& values) const;
   /// Writes the state, and what system and batches remember from step to step. Collective where the
   /// snapshot is for files.
   void save(model::State& state, Snapshot& snapshot);
@@ -130,18 +143,21 @@ class System {
   /// reference before the first one.
   NodeMotions node_motions() const;
 
-  /// Motions of the six unknowns of nodes, or their rates: of those that this rank needs, by node,
-  /// and zero for others and for eliminated ones.
+  /// Motions of the six unknowns of nodes, or their rates: of those nodes that this rank needs and
+  /// that have unknowns of their own, its own ones first and each part in the order of the model.
   using Motions = std::vector<Vec6>;
+  /// How many of them belong to nodes of this rank.
+  std::size_t num_own_motions() const { return num_own_motions_; }
   /// From the start of the step to state.next [m, rad].
   Motions motions(const model::State& state) const;
   /// At the start of the step [m/s, rad/s].
   Motions velocities(const model::State& state) const;
   /// Moves state.next by motions, except where supports hold it.
   void move_nodes(model::State& state, const Motions& motions) const;
-  /// As numbers of all nodes, for checkpoints, and back; collective.
-  std::vector<double> gather_motions(const Motions& motions) const;
-  Motions spread_motions(const std::vector<double>& numbers) const;
+  /// Writes motions and takes them back, as numbers of all nodes where the snapshot is for files;
+  /// collective there.
+  void save(const Motions& motions, std::string_view name, Snapshot& snapshot) const;
+  Motions restore_motions(const Snapshot& snapshot, std::string_view name) const;
   /// Makes the velocity follow from supports, links and constraints: the nearest one in the metric
   /// of the mass, H v = dg/dt. The speed of prescribed motions is found by differences over times
   /// up to `probe` [s]. `solve_mass` solves with the matrix as it stands when it is called. There
@@ -185,6 +201,8 @@ class System {
   const Layout& layout() const { return layout_; }
   /// Whose blocks this rank owns, eliminated ones with their masters' included; rising.
   const std::vector<int>& owned_nodes() const { return owned_nodes_; }
+  /// Whether rows of this rank depend on a node, which it keeps up to date then.
+  bool needs(int node) const { return is_needed_[static_cast<std::size_t>(node)]; }
   const model::Model& model() const { return model_; }
   const parallel::Comm& comm() const { return comm_; }
 
@@ -199,6 +217,10 @@ class System {
   int largest_equation(std::span<const double> rows, double largest) const;
   double largest_diagonal() const;
   void carry_residual(double time);
+  void find_needed_nodes();
+  void gather_forces(model::State& state);
+  std::vector<double> gather_nodes(std::span<const double> own, std::size_t of_node) const;
+  std::vector<double> gather_slots(const model::Coordinates& values) const;
   std::vector<double> gather_carried() const;
   void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);
@@ -215,7 +237,9 @@ class System {
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
   bool needs_all_nodes_ = false;  ///< on all ranks, up to date in each evaluation
-  std::vector<int> slaves_;
+  std::vector<int> slaves_;       ///< whose masters this rank needs
+  std::vector<bool> is_needed_;   ///< by node
+  std::size_t num_own_motions_ = 0;
   std::vector<int> owned_nodes_;
   std::vector<double> reactions_;           ///< owned ones
   std::vector<double> gathered_reactions_;  ///< all

@@ -5,9 +5,11 @@
 #include <culm/model/amplitude.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/booked.hpp>
+#include <culm/model/local_items.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/structure.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +37,12 @@ class SlotLoad final : public model::Batch, public model::Booked {
   void set_force(int item, const Vec3& force);
 
   const model::Effect& effect() const override { return effect_; }
-  int size() const override { return static_cast<int>(items_.size()); }
+  int size() const override { return items_.size(); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   /// Only forces that follow, or that have an arm about a node, change with its rotation.
   bool has_tangent() const override;
   void place(model::Placement placement, model::Form form) override;
+  void forget_others() override { items_.keep(placement_.items); }
   void prepare(const model::State&, const Stencil&) override {}  // nothing is kept
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
@@ -61,12 +64,13 @@ class SlotLoad final : public model::Batch, public model::Booked {
   struct Free {
     std::size_t local;
     int node;
-    bool turns;              // its directors turn with it
-    bool on_directors;       // some forces act there
-    const double* constant;  // of the item
+    bool turns;         // its directors turn with it
+    bool on_directors;  // some forces act there
   };
 
   Item& item_on(const std::vector<int>& nodes);
+  // The i-th of those that this rank evaluates.
+  const Item& local(std::size_t i) const { return items_.local(placement_.items, i); }
   bool turns(const Item& item) const;
   bool has_potential() const;
   bool is_free(const Item& item) const;
@@ -79,10 +83,11 @@ class SlotLoad final : public model::Batch, public model::Booked {
   model::Effect effect_;
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
-  std::vector<Item> items_;
+  model::LocalItems<Item> items_;
+  bool follows_ = false;  ///< some item does
   model::Placement placement_;
   model::Form form_ = model::Form::null_space;
-  bool has_tangent_ = false;
+  std::optional<bool> has_tangent_;  ///< once placed
   std::vector<Free> free_;
   std::vector<std::size_t> others_;  // local items
 };

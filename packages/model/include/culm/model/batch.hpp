@@ -63,6 +63,8 @@ class Batch {
 
   /// Once before the first step.
   virtual void place(Placement placement, Form form) = 0;
+  /// From now on nobody asks for items that this rank does not evaluate: what they hold may go.
+  virtual void forget_others() {}
   /// Before each attempt of a step, when state.prev is accepted and state.time is the end of the
   /// step: any number of times, and as if it were the first.
   virtual void prepare(const State& state, const Stencil& stencil) = 0;
@@ -114,9 +116,11 @@ struct Momentum {
 class MassSource {
  public:
   virtual ~MassSource() = default;
-  /// force += M acceleration over all items, both in director coordinates.
+  /// force += M acceleration over all items that are here, both in director coordinates: whole at
+  /// each node of the rank, see Batch::forget_others.
   virtual void add_mass_times(const Coordinates& acceleration, Coordinates& force) const = 0;
-  /// Hands out every item: its nodes, and its mass between their slots, four per node in memory.
+  /// Hands out every item that is here: its nodes, and its mass between their slots, four per node
+  /// in memory.
   using MassVisitor = std::function<void(std::span<const int> nodes, const Eigen::MatrixXd& mass)>;
   virtual void visit_masses(const MassVisitor& visit) const = 0;
   /// Adds what the owned items contribute at a configuration and its velocity.
@@ -129,7 +133,9 @@ class ResultantSource {
  public:
   virtual ~ResultantSource() = default;
   virtual std::vector<std::string> resultant_names() const = 0;
-  /// Mean over the points of an item, appended to `out`.
+  /// Whether this rank counts the item; exactly one does.
+  virtual bool owns(int item) const = 0;
+  /// Mean over the points of an item that is here, appended to `out`.
   virtual void resultants(int item, const Coordinates& q, std::vector<double>& out) const = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <culm/model/element_packs.hpp>
 #include <culm/model/inertia.hpp>
 #include <culm/model/layer_source.hpp>
+#include <culm/model/local_items.hpp>
 #include <culm/model/model.hpp>
 #include <culm/model/point_laws.hpp>
 #include <culm/model/projection.hpp>
@@ -51,25 +52,15 @@ class ElementBatch final : public Batch,
 
   /// Adds an element. @return item number
   int add(E element, const std::array<int, N>& nodes) {
-    elements_.push_back(std::move(element));
-    connectivity_.push_back(nodes);
+    items_.add({std::move(element), nodes});
     return size() - 1;
   }
 
   /// So many elements will be added.
-  void expect(int more) {
-    const auto total = static_cast<std::size_t>(size() + more);
-    if (total <= elements_.capacity()) return;
-    // batches grow by many short chains, too
-    const std::size_t room = std::max(total, elements_.capacity() + elements_.capacity() / 4);
-    elements_.reserve(room);
-    connectivity_.reserve(room);
-  }
+  void expect(int more) { items_.expect(more); }
 
-  const E& element(int item) const { return elements_[static_cast<std::size_t>(item)]; }
-  const std::array<int, N>& nodes(int item) const {
-    return connectivity_[static_cast<std::size_t>(item)];
-  }
+  const E& element(int item) const { return items_[item].element; }
+  const std::array<int, N>& nodes(int item) const { return items_[item].nodes; }
 
   /// Notes how much an element grows per kelvin, for those who heat it: by point [1/K].
   void set_expansion(int item, const Vec<E::num_points>& expansion) {
@@ -88,7 +79,7 @@ class ElementBatch final : public Batch,
 
   const StrainDamping& damping() const { return laws_.damping(); }
   const Effect& effect() const override { return effect_; }
-  int size() const override { return static_cast<int>(elements_.size()); }
+  int size() const override { return items_.size(); }
   bool has_tangent() const override { return true; }
   std::vector<int> blocks(int item, const UnknownTable& unknowns) const override {
     std::vector<int> result;
@@ -104,9 +95,16 @@ class ElementBatch final : public Batch,
     predicted_stress_.clear();
     use_predicted_ = false;
     if constexpr (ComesInPacks<E>) {
-      packs_.make(form == Form::null_space ? placement_.items.size() : 0,
-                  [&](std::size_t i) -> const E& { return element(placement_.items[i]); });
+      packs_.make(
+          form == Form::null_space ? placement_.items.size() : 0,
+          [&](std::size_t i) -> const auto& { return local(i); });
     }
+  }
+  void forget_others() override { items_.keep(placement_.items); }
+  bool owns(int item) const override {
+    const auto found = std::ranges::lower_bound(placement_.items, item);
+    return found != placement_.items.end() && *found == item &&
+           placement_.owned[static_cast<std::size_t>(found - placement_.items.begin())];
   }
 
   void prepare(const State& state, const Stencil& stencil) override {
@@ -117,13 +115,15 @@ class ElementBatch final : public Batch,
     const bool in_packs = comes_in_packs(damped);
     if (stencil.inertia != 0.0 && masses_.empty() && !in_packs) {
       masses_.reserve(placement_.items.size());
-      for (int item : placement_.items) masses_.push_back(element(item).mass());
+      for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+        masses_.push_back(local(i).element.mass());
+      }
     }
     // packs find the strains of the start themselves
     if (!wants_strains || (in_packs && !laws_.takes(damped))) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-      const ItemSlots q = gather(placement_.items[i], state.prev);
-      const E& element = this->element(placement_.items[i]);
+      const ItemSlots q = gather(i, state.prev);
+      const E& element = local(i).element;
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, laws_.prev(at(i, p)));
       }
@@ -151,9 +151,9 @@ class ElementBatch final : public Batch,
     if (laws_.branches().empty()) return;
     Strain y;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-      const ItemSlots q = gather(placement_.items[i], state.next);
+      const ItemSlots q = gather(i, state.next);
       for (int p = 0; p < E::num_points; ++p) {
-        element(placement_.items[i]).strain(p, q, y);
+        local(i).element.strain(p, q, y);
         laws_.accept(at(i, p), y);
       }
     }
@@ -197,7 +197,7 @@ class ElementBatch final : public Batch,
     const Stencil damped = laws_.damped(stencil);
     if constexpr (ComesInPacks<E>) {
       if (comes_in_packs(damped)) {
-        packs_.extrapolate(placement_.items.size(), local_nodes(), state, damped, increment);
+        packs_.extrapolate(state, damped, increment);
         return;
       }
     }
@@ -205,9 +205,9 @@ class ElementBatch final : public Batch,
     Response<M> response;
     Strain y, ahead, behind;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-      const ItemSlots q = gather(placement_.items[i], state.next);
-      const ItemSlots du = gather(placement_.items[i], increment);
-      const E& element = this->element(placement_.items[i]);
+      const ItemSlots q = gather(i, state.next);
+      const ItemSlots du = gather(i, increment);
+      const E& element = local(i).element;
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, y);
         // central differences of a quadratic form are its derivative, B^T du
@@ -226,8 +226,8 @@ class ElementBatch final : public Batch,
     Strain y;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
-      const ItemSlots slots = gather(placement_.items[i], q);
-      const E& element = this->element(placement_.items[i]);
+      const ItemSlots slots = gather(i, q);
+      const E& element = local(i).element;
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, slots, y);
         energy += laws_.energy(element, p, at(i, p), y);
@@ -237,10 +237,10 @@ class ElementBatch final : public Batch,
   }
 
   void add_mass_times(const Coordinates& acceleration, Coordinates& force) const override {
-    for (int item = 0; item < size(); ++item) {
-      const ItemSlots f = gather(item, acceleration) * element(item).mass();  // mass is symmetric
+    for (const auto& [element, nodes] : items_.here()) {
+      const ItemSlots f = gather_slots<K>(nodes, acceleration) * element.mass();  // is symmetric
       for (int a = 0; a < N; ++a) {
-        NodeTable::slots(force, nodes(item)[static_cast<std::size_t>(a)]).template leftCols<K>() +=
+        NodeTable::slots(force, nodes[static_cast<std::size_t>(a)]).template leftCols<K>() +=
             f.template middleCols<K>(K * a);
       }
     }
@@ -248,14 +248,14 @@ class ElementBatch final : public Batch,
 
   void visit_masses(const MassVisitor& visit) const override {
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(4 * N, 4 * N);
-    for (int item = 0; item < size(); ++item) {
-      const SlotMatrix<S> scalars = element(item).mass();
+    for (const auto& [element, nodes] : items_.here()) {
+      const SlotMatrix<S> scalars = element.mass();
       for (int a = 0; a < N; ++a) {
         for (int b = 0; b < N; ++b) {
           mass.block<K, K>(4 * a, 4 * b) = scalars.template block<K, K>(K * a, K * b);
         }
       }
-      visit(nodes(item), mass);
+      visit(nodes, mass);
     }
   }
 
@@ -263,9 +263,8 @@ class ElementBatch final : public Batch,
                     Momentum& momentum) const override {
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
-      const int item = placement_.items[i];
-      add_item_momentum<K, S>(masses_.empty() ? element(item).mass() : masses_[i], gather(item, q),
-                              gather(item, velocity), momentum);
+      add_item_momentum<K, S>(masses_.empty() ? local(i).element.mass() : masses_[i], gather(i, q),
+                              gather(i, velocity), momentum);
     }
   }
 
@@ -276,8 +275,8 @@ class ElementBatch final : public Batch,
     Strain y;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
-      const E& element = this->element(placement_.items[i]);
-      const ItemSlots q = gather(placement_.items[i], state.next);
+      const E& element = local(i).element;
+      const ItemSlots q = gather(i, state.next);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, y);
         laws_.add_taken(element, p, at(i, p), y, damped, taken);
@@ -297,19 +296,20 @@ class ElementBatch final : public Batch,
   }
 
   void resultants(int item, const Coordinates& q, std::vector<double>& out) const override {
-    const ItemSlots slots = gather(item, q);
+    const auto& [element, nodes] = items_[item];
+    const ItemSlots slots = gather_slots<K>(nodes, q);
     Vec<E::num_resultants> mean = Vec<E::num_resultants>::Zero();
     Strain y;
     for (int p = 0; p < E::num_points; ++p) {
-      element(item).strain(p, slots, y);
+      element.strain(p, slots, y);
       if constexpr (ElementWithInternals<E>) {
-        // the item may be evaluated elsewhere: internals as at rest in this configuration
+        // of any configuration: internals as at rest there
         Vec<E::num_internals> internals = Vec<E::num_internals>::Zero();
         Response<M> response;
-        element(item).respond(p, y, y, internals, Stencil::statics(), internals, response);
-        mean += element(item).resultants(p, y, internals) / E::num_points;
+        element.respond(p, y, y, internals, Stencil::statics(), internals, response);
+        mean += element.resultants(p, y, internals) / E::num_points;
       } else {
-        mean += element(item).resultants(p, y) / E::num_points;
+        mean += element.resultants(p, y) / E::num_points;
       }
     }
     for (const AddedStresses* more : added_)
@@ -326,8 +326,7 @@ class ElementBatch final : public Batch,
     double least = 1.0;
     if constexpr (HasTurn<E>) {
       for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-        const int item = placement_.items[i];
-        if (placement_.owned[i]) least = std::min(least, least_cosine(item, q));
+        if (placement_.owned[i]) least = std::min(least, least_cosine(local(i), q));
       }
     }
     return turn_from(least);
@@ -337,8 +336,8 @@ class ElementBatch final : public Batch,
                    [[maybe_unused]] double turn) const override {
     if constexpr (HasTurn<E>) {
       for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-        const int item = placement_.items[i];
-        if (placement_.owned[i] && turn_of(item, q) >= turn) return item;
+        if (!placement_.owned[i]) continue;
+        if (turn_from(least_cosine(local(i), q)) >= turn) return placement_.items[i];
       }
     }
     return -1;
@@ -346,13 +345,17 @@ class ElementBatch final : public Batch,
 
   double turn_of([[maybe_unused]] int item, [[maybe_unused]] const Coordinates& q) const override {
     double least = 1.0;
-    if constexpr (HasTurn<E>) least = least_cosine(item, q);
+    if constexpr (HasTurn<E>) least = least_cosine(items_[item], q);
     return turn_from(least);
   }
 
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
   using Motion = ElementMotion<E>;
+  struct Item {
+    E element;
+    std::array<int, N> nodes;
+  };
   template <class Space>
   using Contribution = ElementContribution<Space, E>;
 
@@ -370,21 +373,20 @@ class ElementBatch final : public Batch,
     return item * E::num_points + static_cast<std::size_t>(point);
   }
 
-  // The nodes of each local item.
-  auto local_nodes() const {
-    return
-        [this](std::size_t i) -> const std::array<int, N>& { return nodes(placement_.items[i]); };
+  // The i-th of those that this rank evaluates.
+  const Item& local(std::size_t i) const { return items_.local(placement_.items, i); }
+  ItemSlots gather(std::size_t i, const Coordinates& q) const {
+    return gather_slots<K>(local(i).nodes, q);
   }
-  ItemSlots gather(int item, const Coordinates& q) const { return gather_slots<K>(nodes(item), q); }
-  double least_cosine(int item, const Coordinates& q) const requires HasTurn<E> {
-    return element(item).least_cosine(gather(item, q));
+  static double least_cosine(const Item& item, const Coordinates& q) requires HasTurn<E> {
+    return item.element.least_cosine(gather_slots<K>(item.nodes, q));
   }
   static double turn_from(double cosine) {
     if constexpr (HasTurn<E>) return E::turn_kind.order * std::acos(std::clamp(cosine, -1.0, 1.0));
     return 0.0;
   }
   Motion motion_of(std::size_t i, const State& state, double theta) const {
-    return Motion(nodes_, nodes(placement_.items[i]), state, theta, form_);
+    return Motion(nodes_, local(i).nodes, state, theta, form_);
   }
 
   // Calls action(space) with the space of the form; shell nodes have the same six unknowns in both.
@@ -415,11 +417,10 @@ class ElementBatch final : public Batch,
   Verdict assemble_packs(const State& state, const Stencil& stencil, Want want,
                          Target& target) requires ComesInPacks<E> {
     const bool with_tangent = want == Want::residual_and_tangent;
-    return packs_.evaluate(placement_.items.size(), local_nodes(), nodes_, state, stencil,
-                           with_tangent, [&](std::size_t i, const auto& c) {
-                             add_to_target<N>(i, c.residual, with_tangent ? &c.tangent : nullptr,
-                                              placement_.scatter, target);
-                           });
+    return packs_.evaluate(nodes_, state, stencil, with_tangent, [&](std::size_t i, const auto& c) {
+      add_to_target<N>(i, c.residual, with_tangent ? &c.tangent : nullptr, placement_.scatter,
+                       target);
+    });
   }
 
   template <class Space>
@@ -444,7 +445,7 @@ class ElementBatch final : public Batch,
   Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil,
                      Contribution<Space>& c) {
     constexpr int W = Space::width * N;
-    const E& element = this->element(placement_.items[i]);
+    const E& element = local(i).element;
     Verdict verdict = Verdict::ok;
     Strain y;
     Response<M> response;
@@ -480,7 +481,7 @@ class ElementBatch final : public Batch,
   template <class Space>
   Verdict add_stress_to_unknowns(std::size_t i, const Motion& motion, const Stencil& stencil,
                                  Contribution<Space>& c) {
-    const E& element = this->element(placement_.items[i]);
+    const E& element = local(i).element;
     Verdict verdict = Verdict::ok;
     Strain y;
     Response<M> response;
@@ -500,7 +501,7 @@ class ElementBatch final : public Batch,
     c.add_slot_force(force, motion);
     if (!c.with_tangent) return verdict;
     if (!use_predicted_) c.slot_force += force;
-    c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
+    c.turn_tangent(motion, nodes_, local(i).nodes);
     return verdict;
   }
 
@@ -508,7 +509,7 @@ class ElementBatch final : public Batch,
   template <class Space>
   Verdict assemble_branch(std::size_t i, std::size_t branch, const State& state, Target& target) {
     constexpr int W = Space::width * N;
-    const E& element = this->element(placement_.items[i]);
+    const E& element = local(i).element;
     const Motion motion = motion_of(i, state, 1.0);
     Contribution<Space> c(true);
     for (int p = 0; p < E::num_points; ++p) {
@@ -526,7 +527,7 @@ class ElementBatch final : public Batch,
       }
     }
     if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
-      c.turn_tangent(motion, nodes_, nodes(placement_.items[i]));
+      c.turn_tangent(motion, nodes_, local(i).nodes);
     }
     if (!std::isfinite(c.tangent.sum())) return Verdict::not_finite;
     c.scatter(i, motion, 1.0, placement_.scatter, target);
@@ -537,11 +538,10 @@ class ElementBatch final : public Batch,
   template <class Space>
   void add_inertia(std::size_t i, const Motion& motion, const State& state, const Stencil& stencil,
                    Contribution<Space>& c) {
-    const int item = placement_.items[i];
     const SlotMatrix<S>& mass = masses_[i];
-    ItemSlots force = gather(item, state.acceleration_offset);
+    ItemSlots force = gather(i, state.acceleration_offset);
     force += stencil.inertia *
-             (motion.next - (stencil.theta == 1.0 ? gather(item, state.prev) : motion.prev));
+             (motion.next - (stencil.theta == 1.0 ? gather(i, state.prev) : motion.prev));
     force = inertia_force<S>(mass, force);
     c.add_slot_force(force, motion);
     if (!c.with_tangent) return;
@@ -554,7 +554,7 @@ class ElementBatch final : public Batch,
   Verdict assemble_mass(std::size_t i, const State& state, Target& target) {
     const Motion motion = motion_of(i, state, 1.0);
     Contribution<Space> c(true);
-    c.scalars = element(placement_.items[i]).mass();
+    c.scalars = local(i).element.mass();
     c.scatter(i, motion, 1.0, placement_.scatter, target);
     return Verdict::ok;
   }
@@ -571,8 +571,7 @@ class ElementBatch final : public Batch,
   Effect effect_;
   const NodeTable& nodes_;
   PointLaws<E> laws_;
-  std::vector<E> elements_;
-  std::vector<std::array<int, N>> connectivity_;
+  LocalItems<Item> items_;
   std::vector<Vec<E::num_points>> expansions_;  // by item; empty where nothing expands
   std::vector<const AddedStresses*> added_;
   Placement placement_;

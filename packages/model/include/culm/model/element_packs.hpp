@@ -26,16 +26,24 @@ class ElementPacks {
     RowMat<W, W> tangent;
   };
 
-  /// Packs of `count` elements in place of all before. @param element  of each local item
-  template <class ElementOf>
-  void make(std::size_t count, ElementOf element) {
+  /// Packs of `count` items in place of all before. @param item  of each number: element and nodes
+  template <class ItemOf>
+  void make(std::size_t count, ItemOf item) {
+    count_ = count;
     packs_.clear();
+    nodes_.clear();
     packs_.reserve((count + pack_lanes - 1) / pack_lanes);
+    nodes_.reserve(packs_.capacity());
     for (std::size_t first = 0; first < count; first += pack_lanes) {
-      std::array<const E*, pack_lanes> lanes;
-      for (std::size_t l = 0; l < pack_lanes; ++l)
-        lanes[l] = &element(std::min(first + l, count - 1));
-      packs_.emplace_back(lanes);
+      std::array<const E*, pack_lanes> elements;
+      Lanes lanes;
+      for (std::size_t l = 0; l < pack_lanes; ++l) {
+        const auto& one = item(std::min(first + l, count - 1));
+        elements[l] = &one.element;
+        lanes[l] = one.nodes;
+      }
+      packs_.emplace_back(elements);
+      nodes_.push_back(lanes);
     }
     stress_.clear();
     is_extrapolated_ = false;
@@ -45,39 +53,36 @@ class ElementPacks {
   void forget_extrapolation() { is_extrapolated_ = false; }
 
   /// Extrapolates the stress along an increment of the coordinates; tangents belong to it from now
-  /// on. @param nodes  of each local item
-  template <class NodesOf>
-  void extrapolate(std::size_t count, NodesOf nodes, const State& state, const Stencil& stencil,
-                   const Coordinates& increment) {
+  /// on.
+  void extrapolate(const State& state, const Stencil& stencil, const Coordinates& increment) {
     stress_.resize(packs_.size());
     Packs<12 * N> change;
     for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
-      const Lanes lanes = lanes_of(pack, count, nodes);
-      gather(lanes, state, stencil.theta_strain != 1.0, false);
-      gather(lanes, increment, change);
+      gather(nodes_[pack], state, stencil.theta_strain != 1.0, false);
+      gather(nodes_[pack], increment, change);
       packs_[pack].extrapolate(motion_, change.data(), stencil, stress_[pack].data());
     }
     is_extrapolated_ = true;
   }
 
-  /// Evaluates items and calls add(i, contribution) for each. @param nodes  of each local item
-  template <class NodesOf, class Add>
-  Verdict evaluate(std::size_t count, NodesOf nodes, const NodeTable& table, const State& state,
-                   const Stencil& stencil, bool with_tangent, Add add) {
+  /// Evaluates all items and calls add(number, contribution) for each.
+  template <class Add>
+  Verdict evaluate(const NodeTable& table, const State& state, const Stencil& stencil,
+                   bool with_tangent, Add add) {
     Verdict verdict = Verdict::ok;
     for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
-      const Lanes lanes = lanes_of(pack, count, nodes);
+      const Lanes& lanes = nodes_[pack];
       gather(lanes, state, counts_start(stencil), stencil.inertia != 0.0);
       packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
                             with_tangent, sum_);
       take(with_tangent);
       const std::size_t first = pack * pack_lanes;
-      for (std::size_t i = first; i < std::min(first + pack_lanes, count); ++i) {
+      for (std::size_t i = first; i < std::min(first + pack_lanes, count_); ++i) {
         const std::size_t l = i - first;
         Contribution& c = contributions_[l];
         for (int a = 0; a < N; ++a) {
-          if (table.is_slave((*lanes[l])[index(a)])) {
-            add_lever(*lanes[l], a, static_cast<int>(l), table, state, stencil.theta, with_tangent,
+          if (table.is_slave(lanes[l][index(a)])) {
+            add_lever(lanes[l], a, static_cast<int>(l), table, state, stencil.theta, with_tangent,
                       c);
           }
         }
@@ -93,21 +98,13 @@ class ElementPacks {
 
  private:
   static constexpr int num_values = E::num_points * E::num_strains;
-  using Lanes = std::array<const Nodes*, pack_lanes>;
-
-  template <class NodesOf>
-  static Lanes lanes_of(std::size_t pack, std::size_t count, NodesOf nodes) {
-    Lanes lanes;
-    for (std::size_t l = 0; l < pack_lanes; ++l)
-      lanes[l] = &nodes(std::min(pack * pack_lanes + l, count - 1));
-    return lanes;
-  }
+  using Lanes = std::array<Nodes, pack_lanes>;
 
   static void gather(const Lanes& lanes, const Coordinates& q, Packs<12 * N>& slots) {
     std::array<const double*, pack_lanes> rows;
     for (std::size_t a = 0; a < N; ++a) {
       for (std::size_t l = 0; l < pack_lanes; ++l)
-        rows[l] = q.data() + NodeTable::offset((*lanes[l])[a]);
+        rows[l] = q.data() + NodeTable::offset(lanes[l][a]);
       to_lanes(rows, 12, slots.data() + 12 * a);
     }
   }
@@ -149,7 +146,9 @@ class ElementPacks {
                            K.template block<6, 6>(6 * a, 6 * a));
   }
 
+  std::size_t count_ = 0;
   std::vector<typename E::Pack> packs_;
+  std::vector<Lanes> nodes_;               // of the lanes of each pack
   std::vector<Packs<num_values>> stress_;  // extrapolated, by pack
   bool is_extrapolated_ = false;
   // of the pack that is evaluated

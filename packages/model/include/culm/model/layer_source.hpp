@@ -25,7 +25,10 @@ class LayerSource {
   virtual ~LayerSource() = default;
   /// How many layers each cell has.
   virtual int layers() const = 0;
-  /// States at the centre of a cell: layer by layer from the bottom, at the heights above.
+  /// Whether this rank counts a cell; exactly one does.
+  virtual bool owns(int cell) const = 0;
+  /// States at the centre of a cell that is here: layer by layer from the bottom, at the heights
+  /// above.
   virtual std::vector<LayerState> states(int cell, const Coordinates& q) const = 0;
 };
 

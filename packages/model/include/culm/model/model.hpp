@@ -11,6 +11,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -138,7 +139,8 @@ class Model {
     return constraint_batches_;
   }
 
-  /// Mass times acceleration over all structures, in director coordinates.
+  /// Mass times acceleration over all structures, in director coordinates: whole at the nodes of
+  /// this rank, and everywhere until batches forget the items of others.
   Coordinates mass_times(const Coordinates& acceleration) const;
   /// Total mass [kg].
   double mass() const;
@@ -173,6 +175,7 @@ class Model {
   std::vector<InitialVelocity> initial_velocities_;
   std::vector<InitialDisplacement> initial_displacements_;
   bool keeps_redundant_rows_ = false;
+  std::optional<double> mass_;  ///< once frozen
   UnknownTable unknowns_;
 };
 

@@ -1,16 +1,14 @@
 /// The state of a model at both ends of a step.
 #pragma once
 
-#include <span>
+#include <culm/model/coordinates.hpp>
+
 #include <vector>
 
 namespace culm::model {
 
-/// Director coordinates of all nodes, node after node as the NodeTable lays them out.
-using Coordinates = std::vector<double>;
-
-/// Everything that changes while a model is solved. Every rank holds arrays for all nodes but keeps
-/// only the nodes that its rows need up to date.
+/// Everything that changes while a model is solved. Arrays have a place for every node, but a rank
+/// keeps only the nodes that its rows need up to date, and in steps it has no others.
 struct State {
   double time_prev = 0.0;  ///< start of the step: time [s], or the load parameter in statics [-]
   double time = 0.0;       ///< end of the step

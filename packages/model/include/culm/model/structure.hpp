@@ -4,6 +4,10 @@
 #include <culm/math/types.hpp>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,6 +36,34 @@ struct LinePoint {
   double length = 0.0;  ///< quadrature weight [m]
 };
 
+/// The quadrature points of a line, element after element. Long lines have many, so that they are
+/// kept without what a LinePoint needs to stand alone.
+class LinePoints {
+ public:
+  LinePoints() = default;
+  LinePoints(std::initializer_list<LinePoint> points) {
+    for (const LinePoint& point : points) push_back(point);
+  }
+
+  /// @pre at no offset, and on as many nodes as those before
+  void push_back(const LinePoint& point);
+  std::size_t size() const { return lengths_.size(); }
+  bool empty() const { return lengths_.empty(); }
+  LinePoint operator[](std::size_t i) const;
+  double length(std::size_t i) const { return lengths_[i]; }
+  /// Length of all.
+  double length() const;
+  /// Copies of some that follow each other.
+  std::vector<LinePoint> copy(std::size_t first, std::size_t count) const;
+  std::vector<LinePoint> copy() const { return copy(0, size()); }
+
+ private:
+  std::size_t per_point_ = 0;    // nodes
+  std::vector<int> nodes_;       // of point after point
+  std::vector<double> weights_;  // likewise
+  std::vector<double> lengths_;
+};
+
 /// A patch of surface with its nodes counter-clockwise seen from its upper side, for loads per
 /// area: x = sum_a N_a (x_a + zeta d_a) with bilinear N_a.
 struct Face {
@@ -39,9 +71,30 @@ struct Face {
   double thickness = 0.0;  ///< zeta from -thickness / 2 to thickness / 2 [m]
 };
 
+/// Up to four nodes, in place.
+class CellNodes {
+ public:
+  CellNodes(std::initializer_list<int> nodes) : CellNodes(nodes.begin(), nodes.end()) {}
+  template <std::input_iterator Iterator>
+  CellNodes(Iterator first, Iterator last) {
+    for (; first != last; ++first) nodes_.at(size_++) = *first;
+  }
+
+  std::size_t size() const { return size_; }
+  int operator[](std::size_t a) const { return nodes_[a]; }
+  int front() const { return nodes_.front(); }
+  const int* data() const { return nodes_.data(); }
+  const int* begin() const { return data(); }
+  const int* end() const { return data() + size_; }
+
+ private:
+  std::array<int, 4> nodes_{};
+  std::uint8_t size_ = 0;
+};
+
 /// What an element looks like in pictures: its nodes in order along the line or around the face.
 struct Cell {
-  std::vector<int> nodes;
+  CellNodes nodes;
   const ResultantSource* source = nullptr;  ///< where its stress resultants come from
   int item = 0;                             ///< its number there
 };
@@ -59,13 +112,14 @@ struct Structure {
   std::vector<int> nodes;                        ///< node numbers in the model, in order
   std::map<std::string, std::vector<int>> sets;  ///< named node sets: first, last, all, …
   std::vector<Cell> cells;
-  std::vector<LinePoint> line_points;  ///< quadrature points for loads per length
+  LinePoints line_points;  ///< quadrature points for loads per length
   /// The same of its edges by name; an edge is also a node set.
   std::map<std::string, std::vector<LinePoint>> edges;
   std::vector<Face> faces;                        ///< for loads per area, one per cell of a shell
   std::shared_ptr<const LayerSource> layers;      ///< what happens within the wall of a shell
   std::map<std::string, std::vector<int>> parts;  ///< cells by name
-  /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none.
+  /// Outline of the cross-section at each node in (xi1, xi2) [m]; empty where there is none, and no
+  /// entries where no node has one.
   std::vector<std::vector<Eigen::Vector2d>> outlines;
   DeckNumbers deck;
 

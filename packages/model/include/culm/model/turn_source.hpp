@@ -35,7 +35,9 @@ class TurnSource {
   virtual double largest_turn(const Coordinates& q) const = 0;
   /// The first owned item turned by at least so much; -1 if there is none.
   virtual int first_turned(const Coordinates& q, double turn) const = 0;
-  /// Turn of one item, whoever owns it [rad].
+  /// Whether this rank counts the item; exactly one does.
+  virtual bool owns(int item) const = 0;
+  /// Turn of an item that is here [rad].
   virtual double turn_of(int item, const Coordinates& q) const = 0;
 };
 

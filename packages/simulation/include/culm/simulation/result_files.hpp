@@ -80,7 +80,6 @@ class ResultFiles {
   ///                        constraints are known
   void record(double time, int analysis, int step, model::State& state, bool was_solved);
   /// Records what an analysis says at its end; its pictures and tables go to a folder of its name.
-  /// @param state up to date on all ranks
   void add_results(const std::string& name, const analysis::AnalysisReport& report,
                    const model::State& state);
   /// Ends the files with the report of the run.
@@ -113,7 +112,7 @@ class ResultFiles {
   const std::vector<WatchedQuantity>* watched_;
   std::optional<std::vector<int>> read_nodes_;  ///< by what is watched; none: everything
   std::unique_ptr<Files> files_;
-  std::vector<std::filesystem::path> analysis_files_;  ///< for listing(); on rank 0
+  std::vector<std::filesystem::path> analysis_files_;  ///< for listing()
   std::size_t frames_ = 0;
   std::size_t rows_ = 0;  ///< of the history
 };

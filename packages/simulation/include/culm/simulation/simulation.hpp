@@ -163,6 +163,7 @@ class Simulation {
                                         model::State& state, RunObserver& observer,
                                         CoupledRun* coupled, ServedRun* served,
                                         const Snapshot* from);
+  bool inspection_follows() const;
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void keep_state(const std::string& name, model::State& state);

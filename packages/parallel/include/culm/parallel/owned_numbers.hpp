@@ -1,0 +1,50 @@
+/// Numbers of items that each belong to one rank.
+#pragma once
+
+#include <culm/parallel/comm.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace culm::parallel {
+
+/// `width` numbers of each of `count` items, one after the other, on rank 0; empty elsewhere.
+/// Collective.
+/// @param owns(item)             true on one rank
+/// @param append(item, numbers)  called there
+template <class Owns, class Append>
+std::vector<double> gather_owned(const parallel::Comm& comm, std::size_t count, std::size_t width,
+                                 const Owns& owns, const Append& append) {
+  std::vector<int> items;
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int item = static_cast<int>(i);
+    if (!owns(item)) continue;
+    items.push_back(item);
+    append(item, numbers);
+  }
+  if (comm.size() == 1) return numbers;
+  items = comm.gather(std::span<const int>(items));
+  numbers = comm.gather(std::span<const double>(numbers));
+  if (!comm.is_root()) return {};
+  std::vector<double> all(count * width);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::size_t to = width * static_cast<std::size_t>(items[i]);
+    std::copy_n(numbers.data() + width * i, width, all.data() + to);
+  }
+  return all;
+}
+
+/// The same on all ranks, of few items.
+template <class Owns, class Append>
+std::vector<double> share_owned(const parallel::Comm& comm, std::size_t count, std::size_t width,
+                                const Owns& owns, const Append& append) {
+  std::vector<double> all = gather_owned(comm, count, width, owns, append);
+  all.resize(count * width);
+  comm.broadcast(std::span<double>(all));
+  return all;
+}
+
+}  // namespace culm::parallel
