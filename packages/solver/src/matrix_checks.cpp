@@ -21,7 +21,8 @@ struct RowSum {
   double sizes = 0.0;
 };
 
-[[gnu::always_inline]] inline double sum_of_lanes(Pack a) {
+[[gnu::always_inline]] inline double sum_of_lanes(const Pack& pack) {
+  Pack a = pack;
   a += __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3);
   a += __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5);
   a += __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6);
@@ -32,24 +33,19 @@ struct RowSum {
 [[gnu::always_inline]] inline RowSum multiply(const double* row, const double* x,
                                               std::size_t count) {
   Pack products{}, sizes{};
-  const auto product_at = [&](std::size_t k) __attribute__((always_inline)) {
+  const auto add = [&](std::size_t k, double first_new) __attribute__((always_inline)) {
+    constexpr Pack lane = {0, 1, 2, 3, 4, 5, 6, 7};
     Pack of_row, of_x;
     std::memcpy(&of_row, row + k, sizeof(Pack));
     std::memcpy(&of_x, x + k, sizeof(Pack));
-    return of_row * of_x;
-  };
-  const auto add = [&](const Pack& product) __attribute__((always_inline)) {
+    const Pack product = lane >= first_new ? of_row * of_x : Pack{};
     products += product;
     sizes += product < 0.0 ? -product : product;
   };
   std::size_t k = 0;
-  for (; k + pack_lanes <= count; k += pack_lanes) add(product_at(k));
-  if (k < count) {
-    // the last lanes are new, those before have been added
-    constexpr Pack lane = {0, 1, 2, 3, 4, 5, 6, 7};
-    const auto added = static_cast<double>(pack_lanes - (count - k));
-    add(lane >= added ? product_at(count - pack_lanes) : Pack{});
-  }
+  for (; k + pack_lanes <= count; k += pack_lanes) add(k, 0.0);
+  // the first lanes of the last ones have been added before
+  if (k < count) add(count - pack_lanes, static_cast<double>(k + pack_lanes - count));
   return {sum_of_lanes(products), sum_of_lanes(sizes)};
 }
 
