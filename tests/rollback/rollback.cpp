@@ -7,6 +7,7 @@
 #include <culm/simulation/session.hpp>
 #include <culm/simulation/simulation.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <sstream>
@@ -87,8 +88,8 @@ void wander(const Deck& deck, analysis::Stepper& stepper) {
 
 bool is_equal(const model::State& one, const model::State& two, const analysis::Stepper& a,
               const analysis::Stepper& b) {
-  return one.time == two.time && one.next == two.next && one.velocity == two.velocity &&
-         one.multipliers == two.multipliers && one.own == two.own && a.steps() == b.steps() &&
+  return one.time == two.time && std::ranges::equal(one.next, two.next) &&
+         std::ranges::equal(one.velocity, two.velocity) && one.multipliers == two.multipliers && one.own == two.own && a.steps() == b.steps() &&
          a.proposal() == b.proposal();
 }
 

@@ -150,7 +150,7 @@ WeakDirection::Motions WeakDirection::moved_nodes(const Vector& motion) const {
   for (const auto& [node, slots] : increments) {
     moved[node] = model.unknowns().form() == model::Form::null_space
                       ? Vec6(Eigen::Map<const Vec6>(slots.data()))
-                      : model.nodes().unknown_motion(node, slots, state_.next);
+                      : model.nodes().unknown_motion(node, slots, q_);
   }
   return moved;
 }
@@ -225,7 +225,7 @@ std::string WeakDirection::rigid_motions(const Motions& moved) const {
   for (const model::Structure& structure : model.structures()) {
     const auto first = moved.find(model.nodes().master(structure.nodes.front()));
     if (first == moved.end()) continue;
-    const Vec3 x0 = model::NodeTable::slots(state_.next, first->first).col(0);
+    const Vec3 x0 = model::NodeTable::slots(q_, first->first).col(0);
     const Vec3 v0 = first->second.head<3>();
     const Vec3 turn = first->second.tail<3>();
     const bool is_rigid =
@@ -234,7 +234,7 @@ std::string WeakDirection::rigid_motions(const Motions& moved) const {
           const int master = model.nodes().master(node);
           const auto at = moved.find(master);
           const Vec6 motion = at == moved.end() ? Vec6(Vec6::Zero()) : at->second;
-          const Vec3 arm = Vec3(model::NodeTable::slots(state_.next, master).col(0)) - x0;
+          const Vec3 arm = Vec3(model::NodeTable::slots(q_, master).col(0)) - x0;
           Vec6 rigid;
           rigid << v0 + turn.cross(arm), turn;
           return (motion - rigid).lpNorm<Eigen::Infinity>() < notable;

@@ -10,7 +10,9 @@ namespace culm::analysis {
 class WeakDirection {
  public:
   WeakDirection(const assembly::System& system, const model::State& state)
-      : system_(system), names_(system), state_(state) {}
+      : system_(system), names_(system), q_(state.next) {
+    system.complete(q_);
+  }
 
   /// Whether rounding of the matrix is all that resists a motion, however soft the motion and stiff
   /// the rest: a mechanism, or stiffness that is lost beside a much larger one.
@@ -51,7 +53,7 @@ class WeakDirection {
 
   const assembly::System& system_;
   UnknownNames names_;
-  const model::State& state_;
+  model::Coordinates q_;  ///< of all nodes
 };
 
 }  // namespace culm::analysis

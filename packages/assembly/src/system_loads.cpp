@@ -137,7 +137,9 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
   for (const double force : residual) share.whole = std::max(share.whole, std::abs(force));
   share.whole = comm_.max(share.whole);
   if (share.whole == 0.0) return share;  // it does not act now
-  const HeldDirections held(model_, state.next);
+  model::Coordinates q = state.next;
+  if (!model_.equations().empty()) complete(q);  // joints lead to what is held on other ranks
+  const HeldDirections held(model_, q);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = model_.unknowns().block(local.block);
     if (!local.owned || block.kind != model::BlockKind::node || block.shape.active == 0) continue;

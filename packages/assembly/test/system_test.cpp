@@ -139,7 +139,9 @@ TEST_P(SystemTest, EvaluatesTheSameWithoutNodesAndItemsOfOthers) {
   for (int item = 0; item < batch.size(); ++item) {
     const bool is_here = system.needs(item) && system.needs(item + 1);
     here += is_here;
-    if (!is_here) EXPECT_THROW(batch.element(item), InternalError);
+    if (!is_here) {
+      EXPECT_THROW(batch.element(item), InternalError);
+    }
   }
   EXPECT_LT(here, batch.size());
   int zeros = 0;

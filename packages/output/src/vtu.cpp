@@ -210,10 +210,10 @@ void Pictures::write_files(const Picture& picture, Step& step) {
                                 reference_skins_[s]));
     }
     const std::string file = stem(group, picture.index);
-    write_picture(file + ".vtu", merge(centres), picture.time);
+    write_picture(file + ".vtu", merge(std::move(centres)), picture.time);
     step.centres.emplace_back(g, file + ".vtu");
     if (skins.empty()) continue;
-    write_picture(file + "_skin.vtu", merge(skins), picture.time);
+    write_picture(file + "_skin.vtu", merge(std::move(skins)), picture.time);
     step.skins.emplace_back(g, file + "_skin.vtu");
   }
 }

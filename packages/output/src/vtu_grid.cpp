@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace culm::output {
 
@@ -34,7 +35,8 @@ void place(std::vector<VtuArray>& target, const std::vector<VtuArray>& source, s
 
 }  // namespace
 
-VtuGrid merge(const std::vector<VtuGrid>& grids) {
+VtuGrid merge(std::vector<VtuGrid> grids) {
+  if (grids.size() == 1) return std::move(grids.front());
   std::size_t points = 0;
   std::size_t cells = 0;
   for (const VtuGrid& grid : grids) {

@@ -26,7 +26,7 @@ struct VtuGrid {
 };
 
 /// All grids as one. Data that a grid lacks is NaN there.
-VtuGrid merge(const std::vector<VtuGrid>& grids);
+VtuGrid merge(std::vector<VtuGrid> grids);
 
 /// Writes a .vtu file, numbers in base64. Throws FileError.
 /// @param time   s

@@ -232,7 +232,7 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
 
 void ResultFiles::record(double time, int analysis, int step, model::State& state,
                          bool was_solved) {
-  const model::State whole = system_->gather(state);
+  model::State whole = system_->gather(state);
   output::Picture f = picture_of(*system_, settings_.layers, whole.next);
   on_root(system_->comm(), [&] {
     if (settings_.velocities) add_velocities(system_->model(), whole, f);
@@ -242,10 +242,11 @@ void ResultFiles::record(double time, int analysis, int step, model::State& stat
     f.analysis = analysis;
     f.step = step;
     if (!is_finite(f)) refuse_infinite(meshes_in(system_->model()), f);
+    if (files_->fluid) add_fluid(f.index, time, whole);
+    whole = {};  // files take memory of their own while they are written
     files_->recorder.record(f);
     files_->xdmf.add_step(f.index, time);
     if (files_->pictures) files_->pictures->add(f);
-    if (files_->fluid) add_fluid(f.index, time, whole);
   });
   ++frames_;
 }
