@@ -89,8 +89,8 @@ void wander(const Deck& deck, analysis::Stepper& stepper) {
 bool is_equal(const model::State& one, const model::State& two, const analysis::Stepper& a,
               const analysis::Stepper& b) {
   return one.time == two.time && std::ranges::equal(one.next, two.next) &&
-         std::ranges::equal(one.velocity, two.velocity) && one.multipliers == two.multipliers && one.own == two.own && a.steps() == b.steps() &&
-         a.proposal() == b.proposal();
+         std::ranges::equal(one.velocity, two.velocity) && one.multipliers == two.multipliers &&
+         one.own == two.own && a.steps() == b.steps() && a.proposal() == b.proposal();
 }
 
 // @return what differs; empty if nothing does

@@ -17,7 +17,8 @@ double number(std::size_t l, std::size_t c) {
 class Lanes : public testing::TestWithParam<int> {
  protected:
   std::size_t count = static_cast<std::size_t>(GetParam());
-  std::vector<Pack> numbers = std::vector<Pack>(count + 1);
+  std::vector<Packs<1>> store = std::vector<Packs<1>>(count + 1);  // one more than count
+  Pack* numbers = store[0].data();
   std::array<std::vector<double>, pack_lanes> rows;
 };
 
@@ -27,12 +28,12 @@ TEST_P(Lanes, HoldTheNumbersOfTheirRows) {
     for (std::size_t c = 0; c < count; ++c) rows[l].push_back(number(l, c));
     begins[l] = rows[l].data();
   }
-  numbers.back() = Pack{} + 0.5;
-  to_lanes(begins, GetParam(), numbers.data());
+  numbers[count] = Pack{} + 0.5;
+  to_lanes(begins, GetParam(), numbers);
   for (std::size_t c = 0; c < count; ++c) {
     for (std::size_t l = 0; l < pack_lanes; ++l) EXPECT_EQ(numbers[c][l], number(l, c));
   }
-  for (std::size_t l = 0; l < pack_lanes; ++l) EXPECT_EQ(numbers.back()[l], 0.5);
+  for (std::size_t l = 0; l < pack_lanes; ++l) EXPECT_EQ(numbers[count][l], 0.5);
 }
 
 TEST_P(Lanes, GoBackToTheirRowsAndNoFurther) {
@@ -42,7 +43,7 @@ TEST_P(Lanes, GoBackToTheirRowsAndNoFurther) {
     begins[l] = rows[l].data();
     for (std::size_t c = 0; c < count; ++c) numbers[c][l] = number(l, c);
   }
-  from_lanes(numbers.data(), GetParam(), begins);
+  from_lanes(numbers, GetParam(), begins);
   for (std::size_t l = 0; l < pack_lanes; ++l) {
     for (std::size_t c = 0; c < count; ++c) EXPECT_EQ(rows[l][c], number(l, c));
     EXPECT_EQ(rows[l][count], 0.5);
