@@ -129,6 +129,7 @@ def _add_statistics(page, history, parts, window):
     """Of all columns of all motions, over a window of time."""
     begin, end = window or (-math.inf, math.inf)
     tables = []
+    skipped = set()
     for name, kind, rows in parts:
         kept = [row for row in range(*rows.indices(len(history.levels))) if begin <= history.levels[row] <= end]
         if kind != "Dynamic" or len(kept) < 2:
@@ -140,12 +141,15 @@ def _add_statistics(page, history, parts, window):
             # an acceleration begins with the first step
             first = 1 if history.steps[kept[0]] == 0 and not math.isfinite(values[0]) else 0
             if len(values) - first < 2 or not all(math.isfinite(value) for value in values[first:]):
-                continue  # what does not exist all the time
+                skipped.add(column)  # what does not exist all the time
+                continue
             found = statistics.of_column(times[first:], values[first:])
             numbers = [found.mean, found.least, found.largest, found.deviation, *found.equivalents.values()]
             table.append([column, *(f"{number:.6g}" for number in numbers)])
         if table:
             tables.append((f"{name}, from {times[0]:.6g} to {times[-1]:.6g} s:", table))
+    if window and not tables:
+        raise CulmError(f"--window {begin:g} {end:g}: holds less than two steps of a motion; {_motions(history, parts)}")
     if not tables:
         return
     page.heading("Statistics")
@@ -156,10 +160,22 @@ def _add_statistics(page, history, parts, window):
         page.table(columns, table[:MOST_ROWS])
         if len(table) > MOST_ROWS:
             page.paragraph(f"{len(table) - MOST_ROWS} more columns are in history.csv.")
+    if skipped:
+        page.paragraph("Not there all the time, so without a line: " + ", ".join(name for name in history.names if name in skipped) + ".")
     page.paragraph(
         "Equivalent range: repeated once a second it does the damage of all ranges, counted as rainflow (ASTM E1049), that the "
         "rule of Palmgren and Miner adds up for a material whose life falls by this power of the range."
     )
+
+
+def _motions(history, parts):
+    """Where motions begin and end, in words."""
+    spans = []
+    for name, kind, rows in parts:
+        levels = history.levels[rows]
+        if kind == "Dynamic":
+            spans.append(f"'{name}' goes from {levels[0]:g} to {levels[-1]:g} s")
+    return ", ".join(spans) or "the run has none"
 
 
 def _parts(results, history):
