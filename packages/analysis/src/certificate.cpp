@@ -48,6 +48,12 @@ void Certificate::add_work(const model::State& state, const Stencil& stencil,
   impulse_ += stencil.step * step.force;
   angular_impulse_ += stencil.step * step.moment;
   constraint_violation_ = larger(constraint_violation_, constraint_violation);
+  // what came and went again between two comparisons is the measure of what they find
+  largest_work_ = std::max(largest_work_, std::abs(work_.external) + std::abs(work_.drives));
+  if (!is_free()) return;
+  largest_linear_ = std::max(largest_linear_, (first_momentum_.linear + impulse_).norm());
+  largest_angular_ =
+      std::max(largest_angular_, (first_momentum_.angular + angular_impulse_).norm());
 }
 
 void Certificate::compare(const model::State& state, bool is_last) {
@@ -59,7 +65,6 @@ void Certificate::measure(const model::State& state) {
   last_ = system_.energies(state.next, momentum_);
   largest_kinetic_ = std::max(largest_kinetic_, last_.kinetic);
   largest_strain_ = std::max(largest_strain_, last_.strain);
-  largest_work_ = std::max(largest_work_, std::abs(work_.external) + std::abs(work_.drives));
   largest_linear_ = std::max(largest_linear_, momentum_.linear.norm());
   largest_angular_ = std::max(largest_angular_, momentum_.angular.norm());
   const double balance =

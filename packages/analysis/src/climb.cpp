@@ -2,6 +2,8 @@
 
 #include <culm/base/error.hpp>
 
+#include "turns.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,7 +18,8 @@ void climb(Context& context, model::State& state, solver::NewtonSolver& newton, 
     const bool is_last = std::abs(level - state.time_prev) <= std::abs(increment) * (1.0 + 1e-9);
     state.time = is_last ? level : state.time_prev + increment;
     context.system.prepare(state, stencil);
-    const solver::StepOutcome outcome = newton.solve(state, stencil);
+    solver::StepOutcome outcome = newton.solve(state, stencil);
+    refuse_missed_turns(context, state, stencil, outcome);
     if (outcome.converged()) {
       context.system.accept(state);
       continue;

@@ -5,6 +5,7 @@
 #include <culm/base/error.hpp>
 
 #include "mirrored_faces.hpp"
+#include "turns.hpp"
 
 #include <fmt/format.h>
 
@@ -248,6 +249,7 @@ StepReport Dynamics::do_attempt(double end) {
   report.outcome = newton().solve(state, stencil_);
   if (report.outcome.converged()) report.outcome.end = control_.judge(state, stencil_);
   refuse_mirrored(context(), state, report.outcome);
+  refuse_missed_turns(context(), state, stencil_, report.outcome);
   return report;
 }
 

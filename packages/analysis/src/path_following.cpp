@@ -5,6 +5,7 @@
 #include "mirrored_faces.hpp"
 #include "path_end.hpp"
 #include "shear_range.hpp"
+#include "turns.hpp"
 
 #include <fmt/format.h>
 
@@ -103,6 +104,7 @@ void PathFollowing::balance_start() {
   report.final_time = final_time();
   report.outcome = newton().solve(state, Stencil::statics());
   refuse_mirrored(context(), state, report.outcome);
+  refuse_missed_turns(context(), state, Stencil::statics(), report.outcome);
   report.accepted = report.outcome.converged();
   post_mortem().record(report);
   if (report.accepted) {
@@ -244,6 +246,7 @@ solver::StepOutcome PathFollowing::go_on(double size) {
   land(outcome);
   keep_to_path();
   refuse_mirrored(context(), state(), outcome);
+  refuse_missed_turns(context(), state(), stencil, outcome);
   return outcome;
 }
 
@@ -372,6 +375,7 @@ std::optional<solver::StepOutcome> PathFollowing::branch_off() {
     system().move(state, motion, factor);
     solver::StepOutcome outcome = newton().solve(state, stencil, &condition_);
     refuse_mirrored(context(), state, outcome);
+    refuse_missed_turns(context(), state, stencil, outcome);
     if (outcome.converged() && may_cross_at(state.time)) return outcome;
     system().discard(state);
   }

@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 
 #include "softest_direction.hpp"
+#include "turns.hpp"
 #include "weak_direction.hpp"
 
 #include <fmt/format.h>
@@ -174,8 +175,24 @@ std::string PostMortem::worst_rows() const {
   return text;
 }
 
+// Of statics and paths, where the steps cannot be made small enough.
+std::string PostMortem::turn_cause(model::State& state) const {
+  const double accepted = state.time;
+  state.time = attempts_.back().time;
+  const model::Constraint* turn = find_too_far(context_.system, state, Stencil::statics());
+  state.time = accepted;
+  return fmt::format(
+      "Likely cause: {} leads by more than a quarter of a turn at once, or too fast\n"
+      "to be followed: the equations hold half a turn away as well.\n"
+      "Try: an angle that grows with the level, more steps.",
+      turn == nullptr
+          ? "a prescribed rotation"
+          : fmt::format("the rotation that {} '{}' prescribes", turn->type, turn->name));
+}
+
 std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
   if (level_step_ == 0.0) return dynamic_cause();
+  if (attempts_.back().outcome.end == solver::StepEnd::turned_too_far) return turn_cause(state);
   if (!std::isfinite(attempts_.back().final_time)) return path_cause(state, stencil);
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;

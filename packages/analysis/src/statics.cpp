@@ -4,6 +4,7 @@
 #include "mirrored_faces.hpp"
 #include "shear_range.hpp"
 #include "softest_direction.hpp"
+#include "turns.hpp"
 
 #include <fmt/format.h>
 
@@ -104,6 +105,11 @@ void Statics::do_begin() {
   system().prepare(state(), stencil);
   system().choose_multiplier_scale(state(), stencil);
   make_post_mortem(state(), stencil, proposal());
+  // of the state without the first load: under stresses that come by themselves, as those of heat
+  // do, the first iteration may lie beyond a bifurcation already
+  if (system().layout().rows().total() > 0) {
+    determinant_sign_ = context().linear.determinant().sign;
+  }
   make_newton(settings_.newton);
 }
 
@@ -116,6 +122,7 @@ StepReport Statics::do_attempt(double level) {
   report.increment = level - state().time_prev;
   report.outcome = newton().solve(state(), stencil);
   refuse_mirrored(context(), state(), report.outcome);
+  refuse_missed_turns(context(), state(), stencil, report.outcome);
   return report;
 }
 
@@ -155,12 +162,22 @@ bool Statics::is_singular() {
          resistance(*system().matrix(), motion) < least_resistance;
 }
 
+// Stresses may grow where nothing moves, as those of a heated bar between two walls: then no
+// iteration has factored anything.
+int Statics::find_determinant_sign(const StepReport& report) {
+  if (report.outcome.iterations > 0 || determinant_sign_ == 0) {
+    return report.outcome.last_determinant.sign;
+  }
+  system().evaluate(state(), Stencil::statics(), Want::residual_and_tangent);
+  return context().linear.factor() ? context().linear.determinant().sign : 0;
+}
+
 void Statics::watch_stability(const StepReport& report) {
-  const auto& outcome = report.outcome;
-  if (outcome.last_determinant.sign == 0) return;
-  if (determinant_sign_ == 0) determinant_sign_ = outcome.first_determinant.sign;
-  if (outcome.last_determinant.sign == determinant_sign_ || is_singular()) return;
-  determinant_sign_ = outcome.last_determinant.sign;
+  const int sign = find_determinant_sign(report);
+  if (sign == 0) return;
+  if (determinant_sign_ == 0) determinant_sign_ = report.outcome.first_determinant.sign;
+  if (sign == determinant_sign_ || is_singular()) return;
+  determinant_sign_ = sign;
   crossings_.push_back(report.time);
   context().findings.warn(
       "stability",

@@ -11,8 +11,7 @@ namespace {
 
 // With adaptive steps a node turns by at most 2 atan(1/2), 53 degrees; see formulation 4.8.
 constexpr double largest_adaptive_turn = 1.0;
-// Mean directors vanish and rotations become ambiguous at pi; nothing turns beyond 160 degrees.
-const double hard_turn = 2.0 * std::tan(80.0 * std::numbers::pi / 180.0);
+const double hard_turn = 2.0 * std::tan(0.5 * StepControl::most_turn);
 
 constexpr double safety = 0.9;
 // The first steps have no estimate; this makes their error 4096 times smaller.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -75,8 +76,29 @@ TEST(MissedPulses, JumpsAndRipplesAreNoPulses) {
   EXPECT_EQ(warnings(table(times, values), 0.1), 0);
 }
 
-TEST(MissedPulses, FunctionsWithoutCornersAreNotLookedAt) {
-  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return std::sin(100.0 * t); }), 0.1), 0);
+// Functions without corners: sines of some periods, by steps of 0.1.
+Amplitude sine(double period) {
+  return Amplitude::of_time(
+      [=](double t) { return std::sin(2.0 * std::numbers::pi * t / period); });
+}
+
+TEST(MissedPulses, SinesThatStepsDoNotResolveAreTold) {
+  for (const double period : {0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.25}) {
+    EXPECT_EQ(warnings(sine(period), 0.1), 1) << period;
+  }
+}
+
+TEST(MissedPulses, SinesOfFourStepsAndFormulasThatJumpAreNot) {
+  for (const double period : {0.4, 0.5, 1.0, 7.0}) EXPECT_EQ(warnings(sine(period), 0.1), 0);
+  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return t < 1.02 ? 0.0 : 1.0; }), 0.1), 0);
+  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return t * t; }), 0.1), 0);
+  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return std::exp(-100.0 * t); }), 0.1), 0);
+  EXPECT_EQ(warnings(Amplitude::constant(), 0.1), 0);
+}
+
+TEST(MissedPulses, PulsesOfFormulasAreTold) {
+  const auto pulse = [](double t) { return t > 1.01 && t < 1.05 ? 1.0 : 0.0; };
+  EXPECT_EQ(warnings(Amplitude::of_time(pulse), 0.1), 1);
 }
 
 }  // namespace

@@ -32,7 +32,15 @@ struct Formula::Parser {
   mu::Parser parser;
 };
 
-Formula::Formula() : parser_(std::make_unique<Parser>()) { parser_->parser.ClearConst(); }
+Formula::Formula() : parser_(std::make_unique<Parser>()) {
+  mu::Parser& parser = parser_->parser;
+  parser.ClearConst();
+  // beside && and ||, which XML wants to be written in another way
+  parser.DefineOprt(
+      "and", [](double a, double b) { return a != 0.0 && b != 0.0 ? 1.0 : 0.0; }, mu::prLAND);
+  parser.DefineOprt(
+      "or", [](double a, double b) { return a != 0.0 || b != 0.0 ? 1.0 : 0.0; }, mu::prLOR);
+}
 Formula::Formula(Formula&&) noexcept = default;
 Formula& Formula::operator=(Formula&&) noexcept = default;
 Formula::~Formula() = default;
@@ -44,7 +52,7 @@ std::vector<std::string> Formula::functions() const {
 }
 
 bool Formula::has_function(const std::string& name) const {
-  return parser_->parser.GetFunDef().contains(name);
+  return parser_->parser.GetFunDef().contains(name) || name == "and" || name == "or";
 }
 
 void Formula::set_constants(const std::map<std::string, double>& constants) {

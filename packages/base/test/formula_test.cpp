@@ -37,6 +37,14 @@ TEST(Formula, ComparesAndNeverAssigns) {
   EXPECT_EQ(evaluate("a=2").mistake->position, 1);
 }
 
+TEST(Formula, KnowsAndAndOrAsWords) {
+  EXPECT_EQ(evaluate("a>1 and a<3 ? 5 : 6").value, 5.0);
+  EXPECT_EQ(evaluate("a>1 and a>3 or a==2").value, 1.0);
+  EXPECT_EQ(evaluate("a>3 or a<1").value, 0.0);
+  EXPECT_EQ(evaluate("a>1 and a<3").value, evaluate("a>1 && a<3").value);
+  EXPECT_TRUE(Formula().has_function("and"));
+}
+
 TEST(Formula, MistakesAreResults) {
   EXPECT_EQ(evaluate("2*b").mistake->token, "b");
   EXPECT_NE(reason("2*"), "");

@@ -65,6 +65,9 @@ void check_contact_fields(const Options& options, InputIssues& issues) {
     issues.add(options.where(), "'Node' and 'Area' need each other");
   } else if (options.has("Structure") && !options.has("Width") && options.number("Radius") == 0.0) {
     issues.add(options.where(), "needs 'Width', or a 'Radius', half of it");
+  } else if (options.has("Node") && options.has("Width")) {
+    issues.add(options.where("Width"),
+               "is that of a line, but the load acts on nodes: take 'Area'");
   }
 }
 

@@ -1,4 +1,5 @@
 #include <culm/joint/joint_angle.hpp>
+#include <culm/joint/turn.hpp>
 #include <culm/math/rotation.hpp>
 
 #include "supports.hpp"
@@ -33,6 +34,7 @@ model::Constraint joint_angle(const MarkerPair& pair, const Vec3& axis, const Pr
       rows.front().alpha = pair.vector(0, -std::sin(alpha) * n1 + std::cos(alpha) * n2);
     };
   }
+  if (motion.moves()) joint.turn = turn_between(pair, axis, motion);
   return joint;
 }
 

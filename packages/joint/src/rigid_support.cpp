@@ -1,4 +1,5 @@
 #include <culm/joint/rigid_support.hpp>
+#include <culm/joint/turn.hpp>
 #include <culm/math/rotation.hpp>
 
 #include "supports.hpp"
@@ -76,6 +77,7 @@ model::Constraint rigid_support(const Anchor& anchor, const SupportMotion& motio
   } else {
     hold_node(anchor, support);
   }
+  if (motion.angle.moves()) support.turn = turn_of_all(anchor, motion.axis, motion.angle);
   return support;
 }
 

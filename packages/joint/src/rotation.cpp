@@ -1,4 +1,5 @@
 #include <culm/joint/rotation.hpp>
+#include <culm/joint/turn.hpp>
 
 #include "supports.hpp"
 
@@ -50,6 +51,7 @@ model::Constraint rotation(const Anchor& anchor, const Vec3& axis, const Prescri
       const double alpha = motion.at(time);
       rows.front().direction = -std::sin(alpha) * c0 + std::cos(alpha) * across;
     };
+    support.turn = turn_about(anchor, axis, motion);
   }
   return support;
 }
@@ -64,6 +66,7 @@ model::Constraint rotation_local(const Anchor& anchor, const Vec3& axis, const P
       const double alpha = motion.at(time);
       rows.front().alpha = anchor.vector(std::sin(alpha) * c0 + std::cos(alpha) * across);
     };
+    support.turn = turn_about(anchor, axis, motion);
   }
   return support;
 }

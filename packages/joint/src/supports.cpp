@@ -149,6 +149,14 @@ void add_motion(const std::string& amount, const std::string& unit, const std::s
 
 namespace {
 
+// An amount that is left out is zero, and so is what a function makes of it.
+void refuse_idle(const Options& options, const std::string& function, const std::string& amount,
+                 InputIssues& issues) {
+  if (!options.given(function) || options.given(amount)) return;
+  issues.add(options.where(function),
+             "moves nothing: it is a factor on '" + amount + "', which is missing");
+}
+
 std::optional<model::Amplitude> read_function(const Options& options, const std::string& parameter,
                                               model::BuildContext& context,
                                               model::Follows follows = model::Follows::functions) {
@@ -169,6 +177,7 @@ std::optional<Prescribed> read_motion(const Options& options, const std::string&
                                       model::Follows follows) {
   auto found = read_function(options, function, context, follows);
   if (!found) return {};
+  if (found->signal() == nullptr) refuse_idle(options, function, amount, context.issues);
   if (found->signal() != nullptr && options.number(amount) == 0.0) {
     context.issues.add(options.where(), "follows a signal by no amount; '" + amount +
                                             "' is what the signal is times");
@@ -187,6 +196,7 @@ void add_translation(Schema& schema) {
 std::optional<Translation> read_translation(const Options& options, model::BuildContext& context) {
   auto function = read_function(options, "Function", context);
   if (!function) return {};
+  refuse_idle(options, "Function", "Translation", context.issues);
   return Translation{model::vector(options, "Translation"), *std::move(function)};
 }
 

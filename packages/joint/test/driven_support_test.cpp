@@ -8,6 +8,9 @@
 #include <culm_kit/dense_assembly.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace culm::joint {
 namespace {
 
@@ -126,6 +129,43 @@ TEST_F(DrivenSupport, OnlyTheLocalDirectionTurnsWithTheNode) {
               round_off_of_a_row);
   EXPECT_NEAR(row(simple_support_local({nodes, 0}, oblique), 0.0, q),
               (exp_rotation(turn) * oblique).dot(away), round_off_of_a_row);
+}
+
+// The rows hold half a turn away; what tells the turns apart does not.
+TEST_F(DrivenSupport, TurnsAreToldFromThoseThatMeetTheSameRows) {
+  const Vec3 across = any_normal(oblique);
+  for (const double angle : {0.0, 1.0, 3.0, -2.0, 9.0}) {
+    for (const double missing : {0.0, 0.4, -1.2, std::numbers::pi}) {
+      const Eigen::Matrix3Xd q = turned((angle - missing) * oblique);
+      const double expected = std::abs(std::remainder(missing, 2.0 * std::numbers::pi));
+      for (const model::Constraint& support :
+           {rotation({nodes, 0}, oblique, proportional(1.0)),
+            rotation_local({nodes, 0}, oblique, proportional(1.0)),
+            rigid_support({nodes, 0}, {{}, oblique, proportional(1.0), {}})}) {
+        EXPECT_NEAR(support.turn->off(angle, q), expected, 1e-7) << angle << ' ' << missing;
+      }
+    }
+  }
+  const model::Constraint free = rotation({nodes, 0}, oblique, proportional(1.0));
+  // rotations across leave the angle about the axis, as long as the axis does not turn round
+  for (const double tilt : {0.5, 1.5}) {
+    model::NodeSlots q = turned(0.7 * oblique);
+    q.rightCols<3>() = (exp_rotation(tilt * across) * q.rightCols<3>()).eval();
+    EXPECT_NEAR(free.turn->off(0.7, q), 0.0, 1e-12);
+    EXPECT_NEAR(free.turn->off(0.2, q), 0.5, 1e-12);
+  }
+  EXPECT_EQ(free.turn->off(3.0, turned(3.0 * across)), 0.0);
+}
+
+TEST_F(DrivenSupport, OnlyWhatTurnsHasATurn) {
+  EXPECT_FALSE(rotation({nodes, 0}, oblique, {}).turn);
+  EXPECT_FALSE(rigid_support({nodes, 0}, {{Vec3(1, 0, 0)}, oblique, {}, {}}).turn);
+  model::State state;
+  state.time_prev = 0.5;
+  state.time = 2.0;
+  const model::Constraint support = rotation({nodes, 0}, oblique, proportional(3.0));
+  EXPECT_EQ(support.turn->prescribed(state, 0.0), 1.5);
+  EXPECT_EQ(support.turn->prescribed(state, 1.0), 6.0);
 }
 
 }  // namespace

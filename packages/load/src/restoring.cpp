@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 namespace culm::load {
@@ -133,7 +134,13 @@ Mat6 read_matrix(const Options& options, const std::string& name) {
 }
 
 void check(const Options& options, InputIssues& issues) {
-  for (const char* name : {"Stiffness", "Damping", "Quadratic Damping"}) {
+  constexpr std::array matrices = {"Stiffness", "Damping", "Quadratic Damping"};
+  if (!options.given("Preload") &&
+      std::ranges::none_of(matrices, [&](const char* name) { return options.has(name); })) {
+    issues.add(options.where(),
+               "resists nothing: give 'Stiffness', 'Damping', 'Quadratic Damping' or 'Preload'");
+  }
+  for (const char* name : matrices) {
     if (!options.has(name)) continue;
     const std::size_t count = options.numbers(name).size();
     if (count != 36 && count != 21) {

@@ -69,6 +69,8 @@ ConstraintRow sum_row(const std::vector<SlotProduct>& products, const Eigen::Mat
   return row;
 }
 
+Vec3 vector_of(const SlotSum& factors, const Eigen::Matrix3Xd& q) { return sum(factors, q); }
+
 int number_of_products(const ConstraintRow& row, int nodes) {
   return static_cast<int>(row.alpha.size()) / (4 * nodes);
 }

@@ -4,6 +4,13 @@
 namespace culm::model {
 namespace {
 
+// Amounts that are left out are zero.
+void refuse_rest(const std::string& one, const std::string& other, const Options& options,
+                 InputIssues& issues) {
+  if (options.given(one) || options.given(other)) return;
+  issues.add(options.where(), "moves nothing: give '" + one + "' or '" + other + "'");
+}
+
 // Parameter "About", or the first of the nodes.
 Vec3 centre_of(const Options& options, const std::vector<int>& nodes, const Model& model) {
   if (options.has("About")) return vector(options, "About");
@@ -42,7 +49,10 @@ void register_initial_motions(BuilderRegistry& registry) {
           .add(vector_field("Angular Velocity", "rad/s", "Rotation.").optional({0.0, 0.0, 0.0}))
           .add(vector_field("About", "m",
                             "Point that only translates; the first of the nodes if absent.")
-                   .optional()),
+                   .optional())
+          .check([](const Options& options, InputIssues& issues) {
+            refuse_rest("Velocity", "Angular Velocity", options, issues);
+          }),
       build_velocity);
   registry.add(
       "Displacement",
@@ -63,6 +73,7 @@ void register_initial_motions(BuilderRegistry& registry) {
             if (vector(options, "Axis").isZero(0.0)) {
               issues.add(options.where("Axis"), "must not be zero");
             }
+            refuse_rest("Translation", "Angle", options, issues);
           }),
       build_displacement);
 }

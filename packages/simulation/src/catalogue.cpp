@@ -25,6 +25,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -113,6 +114,14 @@ Schema element_sets_schema() {
       .check([](const Options& options, InputIssues& issues) {
         if (options.has("Elements") == options.has("Range")) {
           issues.add(options.where(), "needs either 'Elements' or 'Range'");
+        }
+        if (!options.has("Elements")) return;
+        std::vector<int> elements = options.integers("Elements");
+        std::ranges::sort(elements);
+        const auto twice = std::ranges::adjacent_find(elements);
+        if (twice != elements.end()) {
+          issues.add(options.where("Elements"),
+                     fmt::format("names element {} more than once", *twice));
         }
       });
   return Schema("Element Sets",

@@ -2,6 +2,8 @@
 
 #include "place.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -117,6 +119,11 @@ void register_distance_quantity(QuantityRegistry& registry) {
       .check([](const Options& options, InputIssues& issues) {
         if (options.has("To") == options.has("Structure")) {
           issues.add(options.where(), "needs either 'To' or 'Structure'");
+          return;
+        }
+        for (const auto& [name, needed] : {std::pair{"Radii", "Structure"}, {"To Offset", "To"}}) {
+          if (!options.given(name) || options.has(needed)) continue;
+          issues.add(options.where(name), fmt::format("belongs to '{}', which is missing", needed));
         }
       });
   registry.add("Distance", std::move(schema), make_distance);

@@ -66,7 +66,7 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   auto stepper =
       known.steppers.make(entries[number].text("Type"), entries[number], *p.context, p.state);
   if (p.results != nullptr) {
-    p.results->files.use(*phase.system, phase.watched);
+    p.let_watch(p.results->files, entries[number], true);
     p.results->observer.begin(entries[number], number, false, *p.context, phase.linear);
     p.results->observer.follow(stepper.get(), nullptr, nullptr);
     stepper->tell(&p.results->observer);
@@ -87,7 +87,8 @@ void Simulation::end_analysis() {
   if (p.stepper == nullptr) return;
   p.stepper->finish();
   p.stepper.reset();
-  keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state);
+  keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state,
+             p.results == nullptr ? nullptr : &p.results->files);
 }
 
 void Simulation::write_results(const std::filesystem::path& folder) {

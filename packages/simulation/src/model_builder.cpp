@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -138,13 +139,16 @@ bool is_free(const Options& entry, const model::BuildContext& context) {
   return false;
 }
 
+// Entries may overlap, as edges do at their corner: each node is there once, where it comes first.
 void add_node_sets(const Options& list, model::BuildContext& context) {
   for (const Options& entry : list.entries()) {
     if (!is_free(entry, context)) continue;
     std::vector<int> nodes;
+    std::unordered_set<int> known;
     for (const std::string& name : entry.texts("Nodes")) {
-      const std::vector<int> some = model::find_nodes(name, entry.where("Nodes"), context);
-      nodes.insert(nodes.end(), some.begin(), some.end());
+      for (const int node : model::find_nodes(name, entry.where("Nodes"), context)) {
+        if (known.insert(node).second) nodes.push_back(node);
+      }
     }
     context.model.add_node_set(entry.name(), std::move(nodes));
   }

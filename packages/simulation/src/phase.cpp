@@ -101,11 +101,16 @@ Ranges<model::Effect> memories_of(const model::Model& model) {
 }
 
 template <class Name>
-std::vector<double> move_ranges(std::span<const double> values, const Ranges<Name>& from,
-                                const Ranges<Name>& to) {
+std::size_t size_of(const Ranges<Name>& ranges) {
   std::size_t size = 0;
-  for (const auto& [name, range] : to) size += range.size;
-  std::vector<double> moved(size, 0.0);
+  for (const auto& [name, range] : ranges) size += range.size;
+  return size;
+}
+
+// `moved` has what is new at its beginning.
+template <class Name>
+std::vector<double> move_ranges(std::span<const double> values, const Ranges<Name>& from,
+                                const Ranges<Name>& to, std::vector<double> moved) {
   for (const auto& [name, range] : to) {
     const auto found = from.find(name);
     if (found == from.end() || found->second.size != range.size) continue;
@@ -251,7 +256,7 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
     phase.need.factors = factors_by_graph(phase, comm);
     model::refuse_above(memory_, phase.need, "the model", deck_.list("Structures").where());
   }
-  if (EarlierStates::wants_reference(deck_.list("Analyses"))) {
+  if (phases_.size() > 1 || EarlierStates::wants_reference(deck_.list("Analyses"))) {
     model::State state = phase.model->initial_state();
     phase.system->save(state, phase.reference);
   }
@@ -266,13 +271,17 @@ void hand_over_loads(const Phase& from, Phase& to) {
 
 Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to) {
   Snapshot moved = saved;
-  moved.set("state/multipliers",
-            move_ranges(saved.numbers("state/multipliers"), multipliers_of(*from.model),
-                        multipliers_of(*to.model)));
-  moved.set("state/own",
-            move_ranges(saved.numbers("state/own"), own_of(*from.model), own_of(*to.model)));
-  moved.set("system/batches", move_ranges(saved.numbers("system/batches"), memories_of(*from.model),
-                                          memories_of(*to.model)));
+  if (&from != &to) {
+    const Ranges<std::string> multipliers = multipliers_of(*to.model);
+    moved.set("state/multipliers",
+              move_ranges(saved.numbers("state/multipliers"), multipliers_of(*from.model),
+                          multipliers, std::vector<double>(size_of(multipliers), 0.0)));
+    moved.set("state/own", move_ranges(saved.numbers("state/own"), own_of(*from.model),
+                                       own_of(*to.model), to.reference.copy("state/own")));
+    moved.set("system/batches",
+              move_ranges(saved.numbers("system/batches"), memories_of(*from.model),
+                          memories_of(*to.model), to.reference.copy("system/batches")));
+  }
   moved.set("system/carried", std::vector<double>{});
   return moved;
 }

@@ -42,7 +42,7 @@ struct Phase {
   std::unique_ptr<assembly::System> system;  ///< made when it is first needed
   solver::ChosenSolver linear;
   model::MemoryNeed need;  ///< predicted from the deck
-  Snapshot reference;      ///< its state at the beginning, if an analysis starts from there
+  Snapshot reference;      ///< its state at the beginning, if anything starts from there
 };
 
 /// What the factors need of memory by the graph, not by the sides of meshes [B]. Collective.
@@ -89,7 +89,8 @@ class Phases {
 void hand_over_loads(const Phase& from, Phase& to);
 
 /// A state of one phase as another one understands it: nodes as they are, multipliers by the names
-/// of their constraints, memories of batches by their effects; what is new begins at zero.
+/// of their constraints, memories of batches by their effects; what is new begins as in the
+/// reference, so that a torsion spring counts its angle from there.
 /// @param saved by System::save in phase `from`
 Snapshot hand_over(const Snapshot& saved, const Phase& from, const Phase& to);
 

@@ -87,7 +87,8 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
       drawn_(&drawn),
       settings_(std::move(settings)),
       watched_(&watched),
-      read_nodes_(nodes_of(watched)) {
+      read_nodes_(nodes_of(watched)),
+      first_memories_(memories()) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
     const auto meshes = meshes_in(drawn);
@@ -98,13 +99,31 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
 void ResultFiles::restore_counts(const Snapshot& saved) {
   frames_ = static_cast<std::size_t>(saved.integer("output/states"));
   rows_ = static_cast<std::size_t>(saved.integer("output/rows"));
-  std::size_t count = 0;
-  for (const WatchedQuantity& watched : *watched_) count += watched.quantity->memory().size();
-  std::span<const double> memories = saved.numbers("output/memories", count);
+  restore_memories(&saved);
+}
+
+std::vector<double> ResultFiles::memories() const {
+  std::vector<double> all;
+  for (const WatchedQuantity& watched : *watched_) {
+    const std::vector<double> memory = watched.quantity->memory();
+    all.insert(all.end(), memory.begin(), memory.end());
+  }
+  return all;
+}
+
+void ResultFiles::save_memories(Snapshot& snapshot) const {
+  snapshot.set("output/memories", memories());
+}
+
+void ResultFiles::restore_memories(const Snapshot* saved) {
+  std::span<const double> rest = first_memories_;
+  if (saved != nullptr && saved->has("output/memories")) {
+    rest = saved->numbers("output/memories", first_memories_.size());
+  }
   for (const WatchedQuantity& watched : *watched_) {
     const std::size_t size = watched.quantity->memory().size();
-    watched.quantity->restore(memories.first(size));
-    memories = memories.subspan(size);
+    watched.quantity->restore(rest.first(size));
+    rest = rest.subspan(size);
   }
 }
 
@@ -140,12 +159,7 @@ void ResultFiles::save(Snapshot& snapshot) const {
     save_mark(files_->recorder.commit(), snapshot);
     if (files_->pictures) files_->pictures->secure();
   }
-  std::vector<double> memories;
-  for (const WatchedQuantity& watched : *watched_) {
-    const std::vector<double> memory = watched.quantity->memory();
-    memories.insert(memories.end(), memory.begin(), memory.end());
-  }
-  snapshot.set("output/memories", std::move(memories));
+  save_memories(snapshot);
 }
 
 void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantity>& watched) {

@@ -13,6 +13,7 @@
 
 #include "contact_findings.hpp"
 #include "gravity_and_sea.hpp"
+#include "late_supports.hpp"
 #include "lost_moments.hpp"
 #include "model_picture.hpp"
 #include "model_report.hpp"
@@ -69,6 +70,27 @@ output::RunInfo describe_run(const Options& deck, const model::Model& model,
         "or another file that it reads has changed");
   }
   return info;
+}
+
+bool has_entry_of(const Options& list, const std::string& type) {
+  return std::ranges::any_of(list.entries(),
+                             [&](const Options& entry) { return entry.text("Type") == type; });
+}
+
+bool has_lost_velocities(const Options& deck) {
+  return has_entry_of(deck.list("Initial Conditions"), "Velocity") &&
+         !has_entry_of(deck.list("Analyses"), "Dynamic");
+}
+
+// Initial displacements are made to fit.
+void warn_of_open_joints(Findings& findings, const Options& analysis, const model::Model& model,
+                         const model::State& state, const model::Coordinates& q) {
+  if (analysis.text("Type") != "Dynamic") return;
+  if (state.at_rest && model.has_initial_displacements()) return;
+  const double start = analysis.has("Start Time") ? analysis.number("Start Time") : state.time;
+  for (const std::string& sentence : open_joints(model, q, start, analysis.name())) {
+    findings.warn("open joint", sentence, start);
+  }
 }
 
 std::vector<std::string> names_of(const std::vector<Options>& entries) {
@@ -175,6 +197,12 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                     "load '" + name + "' is zero: only a program that makes the steps can set it",
                     0.0);
   }
+  if (has_lost_velocities(p.deck)) {
+    p.findings.warn("initial velocities",
+                    "the initial velocities of the deck are lost: they act in analyses of type "
+                    "'Dynamic' only, and there is none",
+                    0.0);
+  }
   for (const auto& port : phase.ports) {
     if (coupled != nullptr && coupled->serves(port->name())) continue;
     if (served != nullptr && served->serves(port->name())) continue;
@@ -260,7 +288,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     Phase& phase = p.phases.enter(i, p.comm, p.ledger);
     if (!resumes) start_analysis(i, state);
     phase.system->synchronise(state);
-    files.use(*phase.system, phase.watched);
+    p.let_watch(files, entries[i], !resumes);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
     if (!resumes) phase.system->forget_reactions();
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
@@ -286,7 +314,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     }
     warn_of_kinks(state.next);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
-    keep_state(entries[i].name(), state);
+    keep_state(entries[i].name(), state, &files);
   }
 }
 
@@ -352,8 +380,29 @@ bool Simulation::inspection_follows() const {
                      [&](const Options& one) { return inspections.contains(one.text("Type")); });
 }
 
+// What is watched goes on from where the state comes from.
+void Simulation::Parts::let_watch(ResultFiles& files, const Options& analysis, bool begins) {
+  const Phase& phase = phases.of(present);
+  files.use(*phase.system, phase.watched);
+  if (!begins || !analysis.has("Start From")) return;
+  const std::string& name = analysis.text("Start From");
+  files.restore_memories(earlier.wants(name) ? &earlier.find(name).state : nullptr);
+}
+
 // Brings the state to where an analysis starts, in its phase.
 void Simulation::start_analysis(std::size_t number, model::State& state) {
+  Parts& p = *parts_;
+  const Options& entry = p.deck.list("Analyses").entries()[number];
+  p.findings.begin(entry.name());
+  move_state(number, state);
+  const Phase& phase = p.phases.of(number);
+  model::Coordinates q = state.next;
+  phase.system->complete(q);
+  refuse_left_supports(*phase.model, q, entry.name());
+  warn_of_open_joints(p.findings, entry, *phase.model, state, q);
+}
+
+void Simulation::move_state(std::size_t number, model::State& state) {
   Parts& p = *parts_;
   const Options& entry = p.deck.list("Analyses").entries()[number];
   const Phase& before = p.phases.of(p.present);
@@ -399,11 +448,13 @@ Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::St
   return snapshot;
 }
 
-void Simulation::keep_state(const std::string& name, model::State& state) {
+void Simulation::keep_state(const std::string& name, model::State& state,
+                            const ResultFiles* files) {
   Parts& p = *parts_;
   if (!p.earlier.wants(name)) return;
   Snapshot snapshot;
   p.phases.of(p.present).system->save(state, snapshot);
+  if (files != nullptr) files->save_memories(snapshot);
   p.earlier.keep(name, p.present, std::move(snapshot));
 }
 

@@ -55,6 +55,8 @@ struct Simulation::Parts {
 
   void warn_of_reference();
   void tell_of(const port::Port& port);
+  /// Hands what is watched over to the phase of the present analysis. @param begins  or goes on
+  void let_watch(ResultFiles& files, const Options& analysis, bool begins);
   /// After a load was set that is not zero: says once if supports take all of it.
   void hear(const model::Effect& effect);
   /// With its partners; null if the deck has none. @param files  for a run

@@ -12,8 +12,9 @@
 namespace culm::analysis {
 
 /// Warns once of each function that rises and falls within one step, so that a scheme that sees it
-/// at one time of the step takes a part of it or nothing. Functions without known corners are not
-/// looked at.
+/// at one time of the step takes a part of it or nothing. Functions without known corners, such as
+/// sines and formulas, are looked at in some points of each step: a sine is told where a period has
+/// two and a half steps or less.
 class MissedPulses {
  public:
   explicit MissedPulses(const std::map<std::string, model::Amplitude>& functions);
@@ -29,7 +30,7 @@ class MissedPulses {
   struct Candidate {
     std::string name;
     model::Amplitude function;
-    double size;  // of the values at the corners
+    double size;  // of the values at the corners, or of those seen so far
     bool is_told = false;
   };
   std::vector<Candidate> candidates_;

@@ -49,6 +49,7 @@ class PostMortem {
   std::string worst_rows() const;
   std::string cause(model::State& state, const Stencil& stencil);
   std::string path_cause(model::State& state, const Stencil& stencil);
+  std::string turn_cause(model::State& state) const;
   std::string dynamic_cause() const;
 
   Context& context_;

@@ -53,6 +53,8 @@ class Statics final : public Stepper {
   double next_level(double level, double increment) const;
   /// Whether the last stiffness resists some motion by no more than rounding.
   bool is_singular();
+  /// Of the stiffness at the end of a step; 0 if unknown.
+  int find_determinant_sign(const StepReport& report);
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
 

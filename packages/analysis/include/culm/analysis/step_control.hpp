@@ -6,6 +6,7 @@
 #include <culm/solver/newton_solver.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct StepMemory {
 /// which changes its sign in every step and does not fall with it. @source formulation 4.8
 class StepControl {
  public:
+  /// No node turns further in a step [rad], 160 degrees: mean directors vanish and rotations become
+  /// ambiguous at pi.
+  static constexpr double most_turn = 160.0 / 180.0 * std::numbers::pi;
+
   /// @param error_constant c of a scheme whose local error is c h^3 q'''
   StepControl(const assembly::System& system, const StepSettings& settings, double error_constant);
 

@@ -15,11 +15,11 @@ struct Prescribed {
   bool moves() const { return amount != 0.0; }
   /// @pre no signal is followed
   double at(double time) const { return amount * function.at(time); }
-  /// The value that acts in the middle of a step.
-  double at_middle(const model::State& state) const {
+  /// The value at (1 - theta) prev + theta next of a step.
+  double in_step(const model::State& state, double theta) const {
     if (const model::Signal* signal = function.signal())
-      return amount * signal->in_step(state, 0.5);
-    return at(0.5 * (state.time_prev + state.time));
+      return amount * signal->in_step(state, theta);
+    return at((1.0 - theta) * state.time_prev + theta * state.time);
   }
 };
 

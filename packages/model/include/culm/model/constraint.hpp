@@ -79,6 +79,16 @@ struct Constraint {
     std::function<void(double value, std::vector<ConstraintRow>& rows)> derivative;
   };
   std::optional<Follow> follow;
+  /// A turn that is prescribed. The rows hold half a turn away as well, and no state counts turns,
+  /// so steps look at it: turns.hpp of package analysis.
+  struct Turn {
+    /// From the reference, at (1 - theta) prev + theta next of a step [rad].
+    std::function<double(const State& state, double theta)> prescribed;
+    /// How far the slots of the nodes, side by side, are from a turn by an angle: up to full turns,
+    /// in [0, pi], and zero where they do not tell; empty where the rows hold nowhere else.
+    std::function<double(double angle, const Eigen::Matrix3Xd& q)> off;
+  };
+  std::optional<Turn> turn;
   /// Whether the rows move.
   bool is_driven() const { return drive || follow; }
 };
@@ -87,6 +97,9 @@ struct Constraint {
 double row_value(const ConstraintRow& row, const Eigen::Matrix3Xd& q);
 /// The slots of the nodes of a constraint side by side, shape (3, 4 n).
 Eigen::Matrix3Xd slots_of(const Constraint& constraint, const Coordinates& q);
+
+/// sum_s factor_s q_s.
+Vec3 vector_of(const SlotSum& sum, const Eigen::Matrix3Xd& q);
 
 /// d_i . d_j = delta_ij of one node: six product rows. @source formulation 2.2 "internal"
 Constraint internal_constraint(const NodeTable& nodes, int node);

@@ -43,7 +43,8 @@ class LocalItems {
 
   /// Takes all but those away that a rank evaluates; rising.
   void keep(const std::vector<int>& items) {
-    if (items.size() == static_cast<std::size_t>(size_) || items == numbers_) return;
+    if (items.size() == static_cast<std::size_t>(size_)) return;
+    if (!numbers_.empty() && items == numbers_) return;
     std::vector<Item> kept;
     kept.reserve(items.size());
     for (const int item : items) kept.push_back(std::move((*this)[item]));

@@ -60,6 +60,13 @@ class ResultFiles {
   /// How much there is, under "output/" with checksums, and whose it is, under "run/".
   void save(Snapshot& snapshot) const;
 
+  /// What the watched quantities remember of states before, such as turns that were counted; a part
+  /// of save().
+  void save_memories(Snapshot& snapshot) const;
+  /// Goes back to them where an analysis starts from a state that was kept; to the beginning where
+  /// nothing was saved with it, or without it.
+  void restore_memories(const Snapshot* saved);
+
   /// Whether a snapshot is one of save(), by this object or one that it goes on from.
   bool has_saved(const Snapshot& snapshot) const;
 
@@ -100,6 +107,7 @@ class ResultFiles {
 
   std::vector<output::StructureMesh> meshes_in(const model::Model& model) const;
   void restore_counts(const Snapshot& saved);
+  std::vector<double> memories() const;
   output::Pictures open_pictures(const std::vector<output::StructureMesh>& meshes) const;
   std::optional<output::Pictures> open_fluid() const;
   void add_fluid(int index, double time, const model::State& state);
@@ -111,6 +119,7 @@ class ResultFiles {
   ResultSettings settings_;
   const std::vector<WatchedQuantity>* watched_;
   std::optional<std::vector<int>> read_nodes_;  ///< by what is watched; none: everything
+  std::vector<double> first_memories_;          ///< of what is watched, before any state
   std::unique_ptr<Files> files_;
   std::vector<std::filesystem::path> analysis_files_;  ///< for listing()
   std::size_t frames_ = 0;
