@@ -154,7 +154,7 @@ struct Saved {
 };
 
 // A copy of coordinates, x and the three directors of each node.
-py::array copy(const std::vector<double>& coordinates) {
+py::array copy(std::span<const double> coordinates) {
   const auto nodes = static_cast<py::ssize_t>(coordinates.size() / 12);
   return py::array_t<double>({nodes, py::ssize_t{4}, py::ssize_t{3}}, coordinates.data());
 }

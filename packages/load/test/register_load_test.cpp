@@ -70,7 +70,7 @@ class Loads : public testing::Test {
   }
 
   static model::LinePoint point(int a, int b, double xi, double length) {
-    return {{{a, b}, {1.0 - xi, xi}, Vec3(0.1, 0.0, -0.2)}, length};
+    return {{{a, b}, {1.0 - xi, xi}}, length};
   }
 
   Schema schema(const std::string& type) const { return registry.variants().at(type); }

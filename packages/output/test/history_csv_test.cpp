@@ -58,7 +58,7 @@ TEST(HistoryCsv, AnEarlierHistoryGoesOn) {
   { HistoryCsv(folder / "h.csv", {{"x", "m"}}).add({7.0, std::array{7.0}}); }
   HistoryCsv history(folder / "h.csv", {{"x", "m"}},
                      std::array{0.0, 0.1, 0.0, 0.0, 1.0, -0.0, 0.0, 1.0});
-  const std::string earlier = "time,x [m],analysis,step\n0,0.10000000000000001,0,0\n1,-0,0,1\n";
+  const std::string earlier = "time,x [m],analysis,step\n0,0.1,0,0\n1,-0,0,1\n";
   EXPECT_EQ(read_text_file(folder / "h.csv"), earlier);
   history.add({2.0, std::array{3.0}, 1, 12});
   EXPECT_EQ(read_text_file(folder / "h.csv"), earlier + "2,3,1,12\n");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -132,10 +133,10 @@ TEST(LiveSimulation, RefusesSnapshotsOfOtherAnalysesAndModels) {
   Snapshot bent(Snapshot::Use::memory);
   bending.save(bent);
   analysis::Stepper& motion = live.simulation.begin("motion");
-  const std::vector<double> before = motion.state().next;
+  const model::Coordinates before = motion.state().next;
   EXPECT_THROW(motion.restore(bent), UsageError);
   EXPECT_THROW(motion.restore(Snapshot(Snapshot::Use::memory)), UsageError);
-  EXPECT_EQ(motion.state().next, before);
+  EXPECT_TRUE(std::ranges::equal(motion.state().next, before));
   Snapshot moved(Snapshot::Use::memory);
   motion.save(moved);
   std::string text = cantilever(external);
