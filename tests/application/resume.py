@@ -388,7 +388,8 @@ def flip_bit(path, chance):
 
 def start_from_another_run(program, folder, options):
     """'Start From' takes the newest state of a run with the same structures, whole, or nothing."""
-    start = settings("Analyses/motion/Start From=other", "Analyses/motion/Start Time=0")
+    # where the angle that is led has stopped
+    start = settings("Analyses/motion/Start From=other", "Analyses/motion/Start Time=2", "Analyses/motion/End Time=4")
 
     def refuse_start(complaint, *more, expect=6):
         _, _, err = program("run", *TORSION, *start, *more, "--output", "out", expect=(expect,))

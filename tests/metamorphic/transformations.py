@@ -169,8 +169,11 @@ class Scale:
         ramp = ElementTree.SubElement(find(root, "Functions"), "ParameterList", name=self.RAMP)
         for name, text in (("Type", "Linear Then Constant"), ("Duration", "1")):
             ElementTree.SubElement(ramp, "Parameter", name=name, value=text)
-        for _, _, element, name in parameters(root):
-            if name.endswith("Function") and element.get("value") == "Ramp":
+        # supports that move nothing have no function to name
+        amounts = [(path, element) for path, _, element, name in parameters(root) if name in ("Translation", "Angle")]
+        still = {path for path, _ in amounts} - {path for path, element in amounts if element.get("isDefault") != "true"}
+        for path, _, element, name in parameters(root):
+            if name.endswith("Function") and element.get("value") == "Ramp" and path not in still:
                 element.set("value", self.RAMP)
 
     def _exponents(self, root, path, kind, name, words, count):
