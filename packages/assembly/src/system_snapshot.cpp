@@ -40,6 +40,7 @@ model::State System::gather(const model::State& state) {
     return comm_.is_root() ? model::Coordinates(found) : values;
   };
   whole.next = all(state.next);
+  whole.prev = whole.next;  // what is asked of it at its end reads the start, too, by no weight
   whole.velocity = all(state.velocity);
   whole.multipliers = state.multipliers;
   whole.own = state.own;
