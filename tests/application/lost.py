@@ -62,21 +62,21 @@ def twisted(kind, angle, steps, **more):
         (LOADS, ""),
         (STATIC, entry("bend", Type="Static", Steps=steps)),
         (HISTORY, HISTORY + TWIST),
-        ('name="Elements" value="4"', 'name="Elements" value="20"'),
+        ('name="Elements" value="4"', 'name="Elements" value="40"'),
     ]
 
 
 def is_twisted(angle):
     moment = TWIST_STIFFNESS * angle
-    # 20 elements of order 1: two thirds of the square of a turn, see doc/theory/beam.md
-    return ends_with("twist M3 [N m]", moment, (angle / 20) ** 2 * moment)
+    # 40 elements of order 1: two thirds of the square of a turn, see doc/theory/beam.md
+    return ends_with("twist M3 [N m]", moment, (angle / 40) ** 2 * moment)
 
 
 TURNS = [
     Case(f"{kind}, {angle:g} rad in {steps} steps", 0, change=twisted(kind, angle, steps),
-         args=RUN, results="out", last_level=1.0, check=is_twisted(angle), ranks=True)
+         args=RUN, leaves=["out"], check=is_twisted(angle), ranks=True)
     for kind, angle, steps in (("Rotation", 2.0, 1), ("Rotation Local", math.pi, 1), ("Rigid Support", 2 * math.pi, 1),
-                               ("Rotation", 3 * math.pi, 2))
+                               ("Rotation", 2 * math.pi, 2))
 ]
 
 # Two bodies on a hinge, of which the second is turned or spins against the first.
@@ -117,7 +117,7 @@ def turning(node, speed):
 
 
 MOTIONS = [
-    Case(f"{name} by {speed} rad in each step", 0, args=RUN, results="out",
+    Case(f"{name} by {speed} rad in each step", 0, args=RUN, leaves=["out"],
          deck=spinning((GROUND, HINGE, drive), turning("arm", speed)),
          says=["attempts at a step failed and were cut back, "],
          check=ends_with("angle [rad]", 4.0 * speed, 1e-9))
@@ -207,7 +207,7 @@ def propped(prop, *more):
 
 LATE = "deck.xml:{line}: Constraints / prop: 'propped' begins where beam/..."
 PROP = entry("prop", Type="Simple Support", Node="beam/last", Direction="{0, 0, 1}")
-IDLE = ["warning: Force 'tip force' moves nothing: ..."]
+IDLE = ["warning: Force 'tip force' moves nothing: "]
 
 # --- heat in a bar between two walls
 
@@ -235,7 +235,7 @@ CASES = [
                 (SOLVER, listed("Functions", entry("jump", Type="Heaviside", Start="0.5")) + SOLVER)],
         args=RUN,
         says=["Likely cause: the rotation that Rotation 'turn' prescribes leads by "],
-        results="out",
+        leaves=["out"],
     ),
     *MOTIONS,
     Case(
@@ -249,7 +249,7 @@ CASES = [
             ANGLE + entry("spring", Type="Link", Load="spring"),
         ),
         says=["attempts at a step failed and were cut back, "],
-        results="out",
+        leaves=["out"],
         check=counts_all_turns,
         ranks=True,
     ),
@@ -260,7 +260,7 @@ CASES = [
         deck=led(10, entry("there", **THERE), entry("again", **THERE, Start_From="Reference"),
                  entry("on", **THERE, Start_From="there", Start_Level="1", Final_Level="2")),
         says=["the initial velocities of the deck are lost"],
-        results="out",
+        leaves=["out"],
         check=begins_and_ends("angle [rad]", (0, 10), (0, 10), (10, 20)),
         ranks=True,
     ),
@@ -270,11 +270,11 @@ CASES = [
         args=RUN,
         deck=led(2, entry("free", **THERE, Inactive="{spring}"), entry("sprung", **THERE, Start_Level="1", Final_Level="2")),
         says=["the initial velocities of the deck are lost"],
-        results="out",
+        leaves=["out"],
         check=begins_and_ends("spring angle [rad]", None, (2, 4)),
         ranks=True,
     ),
-    Case("a node that a set names twice", 0, change=WEIGHED, args=RUN, results="out", last_level=1.0,
+    Case("a node that a set names twice", 0, change=WEIGHED, args=RUN, leaves=["out"],
          check=ends_with("root Fz [N]", -100.0, 1e-6)),
     Case(
         "an element that a set names twice",
@@ -284,7 +284,7 @@ CASES = [
     ),
     *(
         Case(
-            f"a function of a {kind} without its amount",
+            f"a {function} of a {kind} without its amount",
             3,
             change=[(CLAMP, CLAMP + "@@" + entry("turn", Type=kind, Node="beam/last", **more))],
             errors=[f"deck.xml:{{line}}: Constraints / turn / {function}: moves nothing: it is a factor on '{amount}', "
@@ -312,8 +312,8 @@ CASES = [
         args=RUN,
         change=[(SOLVER, listed("Initial Conditions", entry("pushed", Type="Velocity", Node="beam/last",
                                                             Velocity="{0, 0, 1}")) + SOLVER)],
-        errors=["warning: the initial velocities of the deck are lost: they act in analyses of type 'Dynamic' only, and "
-                "there is none"],
+        says=["warning: the initial velocities of the deck are lost: they act in analyses of type 'Dynamic' only, and "
+              "there is none\n"],
         results="out",
         last_level=1.0,
     ),
@@ -332,10 +332,10 @@ CASES = [
     ),
     *(
         Case(f"a sine of period {period}", 0, args=RUN, deck=pushed("Sinusoidal", Period=period),
-             errors=seen_by_chance(period), results="out")
+             says=seen_by_chance(period), never=["BROKEN", "promises"], leaves=["out"])
         for period in (0.1, 0.2, 0.4)
     ),
-    Case("words in formulas", 0, args=RUN, results="out",
+    Case("words in formulas", 0, args=RUN, leaves=["out"],
          deck=pushed("Expression", step="0.01", Expression="t&gt;0.25 and t&lt;0.5 or t&gt;0.95 ? 2 : 0"),
          check=ends_with("hub vx [m/s]", 0.6, 1e-9)),
     Case("a support that comes in where the structure is not", 3, args=RUN, change=propped(PROP),
@@ -344,16 +344,16 @@ CASES = [
          change=propped(entry("prop", Type="Rigid Connection", Node="beam/last", Master="beam/middle")),
          errors=[LATE], results="out"),
     Case("one that is an equation leads it back", 0, args=RUN,
-         change=propped(PROP, ('value="Null Space"', 'value="Multipliers"')), errors=IDLE, results="out",
+         change=propped(PROP, ('value="Null Space"', 'value="Multipliers"')), says=IDLE, results="out",
          last_level=2.0, check=ends_with("tip z [m]", 0.0, 1e-9)),
     *(
         Case(f"a bar that buckles between walls as it gets warm, {steps} steps", 0, args=RUN,
              change=heated(steps, 1700), says=[CROSSING % levels], results="out", last_level=1.0)
         for steps, levels in ((1, ("0", "1")), (10, ("0.8", "0.9")))
     ),
-    Case("a bar between walls that does not buckle", 0, args=RUN, change=heated(1, 1300), errors=[], results="out",
+    Case("a bar between walls that does not buckle", 0, args=RUN, change=heated(1, 1300), never=["determinant"], results="out",
          last_level=1.0),
     Case("a bar that bends freely as it gets warm", 0, args=RUN,
          change=[HELD[1], (FORCE, entry("heat", Type="Temperature", Structure="beam", Value="3000", Gradient="{0, 50}"))],
-         errors=[], results="out", last_level=1.0),
+         never=["determinant"], results="out", last_level=1.0),
 ]

@@ -17,6 +17,14 @@ bool is_equation(const model::Constraint& c, const model::Model& model) {
   });
 }
 
+// Links do not know where in the deck they stand.
+Where where_of(const model::Constraint& c, const Options& constraints) {
+  for (const Options& entry : constraints.entries()) {
+    if (entry.name() == c.name) return entry.where();
+  }
+  return c.where;
+}
+
 // Whether a row is about places, hence a length.
 bool is_about_places(const model::ConstraintRow& row) {
   for (std::size_t slot = 0; slot < row.alpha.size(); slot += 4) {
@@ -53,18 +61,19 @@ Gap gap_of(const model::Constraint& c, const std::vector<model::ConstraintRow>& 
 }  // namespace
 
 void refuse_left_supports(const model::Model& model, const model::Coordinates& q,
-                          const std::string& analysis) {
+                          const Options& constraints, const std::string& analysis) {
   InputIssues issues;
   for (const model::Constraint& c : model.constraints()) {
     if (!c.fix && !c.link) continue;
     const Gap gap = gap_of(c, c.rows, q, model.length());
     if (gap.value == 0.0 || is_equation(c, model)) continue;
     issues.add(
-        c.where,
+        where_of(c, constraints),
         fmt::format("'{}' begins where {} is off '{}' by {}: it takes unknowns away and leads "
                     "nothing back. Let it act in the analyses before, or prescribe the way back; "
                     "with 'Solver' / 'Form' = 'Multipliers' it is an equation, which does",
-                    analysis, model.node_name(c.nodes.front()), c.name, describe(gap)));
+                    analysis, model.node_name(c.link ? c.link->slave : c.nodes.front()), c.name,
+                    describe(gap)));
   }
   issues.throw_if_any();
 }

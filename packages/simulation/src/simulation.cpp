@@ -398,7 +398,7 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
   const Phase& phase = p.phases.of(number);
   model::Coordinates q = state.next;
   phase.system->complete(q);
-  refuse_left_supports(*phase.model, q, entry.name());
+  refuse_left_supports(*phase.model, q, p.deck.list("Constraints"), entry.name());
   warn_of_open_joints(p.findings, entry, *phase.model, state, q);
 }
 

@@ -140,7 +140,7 @@ class Planner {
         BlockPlan::Copy* last_copy = plan_.copies.size() > first ? &plan_.copies.back() : nullptr;
         if (last_copy != nullptr && last_copy->source + index(last_copy->columns) == source &&
             last_copy->target + index(last_copy->columns) == at &&
-            last_copy->target_stride == target.stride) {
+            panel_of(last_copy->target) == panel_of(at)) {
           last_copy->columns += run;
         } else {
           plan_.copies.push_back(
@@ -208,8 +208,12 @@ class Planner {
     std::size_t k = 0;
     for (std::size_t g = 0; g < plan_.panels.size(); ++g) {
       for (; k < plan_.panels[g].updates; ++k) {
-        std::size_t& first = needed_by[panel_of(plan_.updates[k].target)];
-        first = std::min(first, g);
+        const BlockPlan::Update& u = plan_.updates[k];
+        // columns that go on in the next panel do so in single rows
+        for (const std::size_t value : {u.target, u.target + index(u.columns - 1)}) {
+          std::size_t& first = needed_by[panel_of(value)];
+          first = std::min(first, g);
+        }
       }
     }
     sort_by_need(needed_by, plan_.copies, &BlockPlan::Panel::copies);
