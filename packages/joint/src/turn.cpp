@@ -36,22 +36,15 @@ model::Constraint::Turn turn_by(const Prescribed& motion) {
 
 }  // namespace
 
-// The rotation is one about the axis by phi, then one that turns the axis: of the quaternion of
-// the whole, tan(phi / 2) is the component along the axis over the scalar. Close to half a turn the
-// scalar vanishes, and the component is found from the symmetric part of the rotation.
+// The rotation is one about the axis by phi, then one that turns the axis: of the quaternion of the
+// whole, tan(phi / 2) is the component along the axis over the scalar. Of a matrix R that makes
+// sin(phi) : cos(phi) = n . axial(R) : tr R - n . R n, which is sharp at half a turn, too.
 double off_about(const Vec3& axis, double angle, const Mat3& rotation) {
-  const double kept = axis.dot(rotation * axis);
-  if (kept <= 0.0) return 0.0;
+  const double along = axis.dot(rotation * axis);
+  if (along <= 0.0) return 0.0;
   const Vec3 axial(rotation(2, 1) - rotation(1, 2), rotation(0, 2) - rotation(2, 0),
                    rotation(1, 0) - rotation(0, 1));
-  const double along = axis.dot(axial);  // four times the product of both
-  const double scalar_square = 0.25 * (1.0 + rotation.trace());
-  double phi = 2.0 * std::atan2(along, 4.0 * scalar_square);
-  if (scalar_square < 0.1) {
-    const double along_square = 0.5 * (1.0 + kept) - scalar_square;
-    phi = std::copysign(
-        2.0 * std::atan2(std::sqrt(along_square), std::sqrt(std::max(0.0, scalar_square))), along);
-  }
+  const double phi = std::atan2(axis.dot(axial), rotation.trace() - along);
   return std::abs(std::remainder(angle - phi, 2.0 * std::numbers::pi));
 }
 
