@@ -99,8 +99,9 @@ class System {
                    double factor);
   /// Brings coordinates, multipliers and reactions of all nodes up to date on all ranks.
   void synchronise(model::State& state);
-  /// The end of the step, with all nodes on rank 0 for output, and with all multipliers and
-  /// reactions; arrays that only steps need are empty. Collective.
+  /// The end of the step, with all nodes on rank 0 for output and those of its own on the others,
+  /// and with all multipliers and reactions; its start is its end, and what only steps need is
+  /// empty. Collective.
   model::State gather(const model::State& state);
   /// Takes the nodes from a state that no row of this rank needs, and their memory: they are zero
   /// until they are synchronised again.
