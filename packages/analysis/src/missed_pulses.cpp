@@ -88,28 +88,28 @@ void MissedPulses::check(double start, double end, Findings& findings) {
   for (Candidate& candidate : candidates_) {
     if (candidate.is_told) continue;
     const model::Amplitude& function = candidate.function;
-    if (function.corners().empty()) {
-      if (!is_unresolved(function, candidate.size, start, end)) continue;
+    const auto tell = [&](const char* what, const char* fate) {
       candidate.is_told = true;
-      findings.warn("missed pulse",
-                    fmt::format("function '{}' goes up and down within the time step from {:.6g} s "
-                                "to {:.6g} s: what it does there is lost or taken for something "
-                                "slower; take shorter steps",
-                                candidate.name, start, end),
-                    end);
+      findings.warn(
+          "missed pulse",
+          fmt::format("function '{}' {} within the time step from {:.6g} s to {:.6g} s: {}",
+                      candidate.name, what, start, end, fate),
+          end);
+    };
+    if (function.corners().empty()) {
+      if (is_unresolved(function, candidate.size, start, end)) {
+        tell("goes up and down",
+             "what it does there is lost or taken for something slower; take shorter steps");
+      }
       continue;
     }
     // what begins with the motion, as a square does, has not acted before
     const bool begins = is_first_ && start == function.corners().front();
     const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -HUGE_VAL));
-    if (!is_missed(function, candidate.size, at_start, start, end)) continue;
-    candidate.is_told = true;
-    findings.warn("missed pulse",
-                  fmt::format("function '{}' has a pulse that begins and ends within the time step "
-                              "from {:.6g} s to {:.6g} s: it acts in part or not at all; take "
-                              "steps that are shorter than the pulse",
-                              candidate.name, start, end),
-                  end);
+    if (is_missed(function, candidate.size, at_start, start, end)) {
+      tell("has a pulse that begins and ends",
+           "it acts in part or not at all; take steps that are shorter than the pulse");
+    }
   }
   is_first_ = false;
 }

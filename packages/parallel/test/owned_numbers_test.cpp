@@ -34,5 +34,14 @@ TEST(OwnedNumbers, AreSharedByAllRanks) {
   EXPECT_EQ(all, expected());
 }
 
+TEST(OwnedNumbers, AreZeroWhereNobodyOwnsAnItem) {
+  const Comm comm;
+  const auto all = share_owned(
+      comm, count, 2, [&](int item) { return item != 3 && owns(comm, item); }, append);
+  std::vector<double> wanted = expected();
+  wanted[6] = wanted[7] = 0.0;
+  EXPECT_EQ(all, wanted);
+}
+
 }  // namespace
 }  // namespace culm::parallel

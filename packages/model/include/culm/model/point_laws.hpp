@@ -55,7 +55,6 @@ class PointLaws {
     return stencil.step != 0.0 || has_internals;  // in statics the old strain has no weight
   }
   Strain& prev(std::size_t point) { return prev_[point]; }
-  const std::vector<Strain>& prev() const { return prev_; }
   const Strain& prev(std::size_t point) const { return prev_[point]; }
   /// Whether points carry something from step to step.
   bool remembers() const { return has_internals || !branches_.empty(); }

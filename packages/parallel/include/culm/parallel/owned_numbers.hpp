@@ -12,7 +12,7 @@ namespace culm::parallel {
 
 /// `width` numbers of each of `count` items, one after the other, on rank 0; empty elsewhere.
 /// Collective.
-/// @param owns(item)             true on one rank
+/// @param owns(item)             true on one rank; on none, and its numbers are zero
 /// @param append(item, numbers)  called there
 template <class Owns, class Append>
 std::vector<double> gather_owned(const parallel::Comm& comm, std::size_t count, std::size_t width,
@@ -25,7 +25,7 @@ std::vector<double> gather_owned(const parallel::Comm& comm, std::size_t count, 
     items.push_back(item);
     append(item, numbers);
   }
-  if (comm.size() == 1) return numbers;
+  if (comm.size() == 1 && items.size() == count) return numbers;
   items = comm.gather(std::span<const int>(items));
   numbers = comm.gather(std::span<const double>(numbers));
   if (!comm.is_root()) return {};
