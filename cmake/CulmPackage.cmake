@@ -20,7 +20,6 @@
 # has a name that no other source, or no other test, of the package gives to something else.
 
 include(CMakePackageConfigHelpers)
-include(GoogleTest)
 
 find_program(CULM_CCACHE ccache)
 if(CULM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
@@ -33,22 +32,6 @@ if(CULM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
       CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CULM_CCACHE}
   )
 endif()
-
-# Open MPI: start as root (containers), allow more ranks than cores, do not pin ranks, because tests
-# that run side by side would all be pinned to the same cores, and let ranks that wait yield to those
-# that work: on a busy machine short runs are many times slower without. Do not look for fast networks
-# and do not wait a second for processes that have ended: short runs are many.
-set(CULM_TEST_ENVIRONMENT
-    OMPI_ALLOW_RUN_AS_ROOT=1
-    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    OMPI_MCA_rmaps_base_oversubscribe=1
-    OMPI_MCA_hwloc_base_binding_policy=none
-    OMPI_MCA_mpi_yield_when_idle=1
-    OMPI_MCA_pml=ob1
-    OMPI_MCA_odls_base_sigkill_timeout=0
-    OMPI_MCA_btl_vader_single_copy_mechanism=none
-    OPENBLAS_NUM_THREADS=1
-)
 
 function(culm_add_package name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "DEPENDS;EXTERNAL;PRIVATE;PRECOMPILE;RANKS")
@@ -197,57 +180,6 @@ function(culm_finish_target target)
   elseif(layer)
     culm_precompile(${target} ${layer} SOURCES)
   endif()
-endfunction()
-
-# A package without MPI shows each of its cases in ctest. With MPI each start costs a third of a
-# second, so there one ctest test runs the whole program.
-macro(culm_add_package_tests name)
-  set(program culm_${name}_test)
-  add_executable(${program} ${tests})
-  target_link_libraries(${program} PRIVATE ${target} ${arg_PRIVATE} GTest::gmock GTest::gtest)
-  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit)
-  culm_finish_target(${program} SOURCES ${tests} LAYER ${name} TESTS)
-  culm_compile_together(${program})
-  # What takes time is compiled into the packages; more optimisation takes a fifth longer to compile.
-  target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(EXISTS ${folder}/test/main.cpp)
-    target_sources(${program} PRIVATE ${folder}/test/main.cpp)
-  elseif(uses_mpi)
-    target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit/mpi_main.cpp)
-  else()
-    target_link_libraries(${program} PRIVATE GTest::gtest_main)
-  endif()
-  if(uses_mpi)
-    add_test(NAME unit.${name} COMMAND ${program})
-    set_tests_properties(
-      unit.${name} PROPERTIES LABELS unit ENVIRONMENT "${CULM_TEST_ENVIRONMENT}"
-                              WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-    )
-  else()
-    gtest_discover_tests(
-      ${program}
-      DISCOVERY_MODE PRE_TEST
-      TEST_PREFIX ${name}.
-      WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-      PROPERTIES LABELS unit
-    )
-  endif()
-  foreach(ranks IN LISTS arg_RANKS)
-    culm_add_parallel_test(unit.${name}.ranks${ranks} ${ranks} ${program})
-    set_tests_properties(unit.${name}.ranks${ranks} PROPERTIES LABELS "unit;parallel")
-  endforeach()
-endmacro()
-
-# Runs a program on a number of processes: culm_add_parallel_test(name ranks program [arguments...])
-function(culm_add_parallel_test test ranks program)
-  add_test(
-    NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
-                         $<TARGET_FILE:${program}> ${ARGN}
-  )
-  set_tests_properties(
-    ${test} PROPERTIES LABELS parallel PROCESSORS ${ranks} ENVIRONMENT "${CULM_TEST_ENVIRONMENT}"
-                       WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-  )
 endfunction()
 
 # A header that compiles alone includes all it needs. Its own lines follow all that it includes, so
