@@ -106,8 +106,8 @@ HINGE = entry("hinge", Type="Revolute Joint", First="hub", Second="arm", Axis=AX
 ANGLE = entry("angle", Type="Joint Angle", First="hub", Second="arm", Axis=AXIS)
 
 
-def spinning(constraints, start, loads="", history=ANGLE):
-    functions = entry("time", Type="Linear", Duration="1") + entry("always", Type="Constant")
+def spinning(constraints, start, loads="", history=ANGLE,
+             functions=entry("time", Type="Linear", Duration="1") + entry("always", Type="Constant")):
     return SPINNING % dict(bodies=HUB + ARM, functions=functions, constraints="".join(constraints), loads=loads,
                            start=start, history=history)
 
@@ -238,6 +238,17 @@ CASES = [
         leaves=["out"],
     ),
     *MOTIONS,
+    Case(
+        "a jump by more than a step of a motion may turn",
+        4,
+        args=RUN,
+        deck=spinning((GROUND, HINGE, entry("drive", Type="Joint Angle", First="hub", Second="arm", Axis=AXIS, Angle="3",
+                                            Function="jump")),
+                      turning("arm", 0), functions=entry("jump", Type="Heaviside", Start="1.5")),
+        says=["Likely cause: the rotation that Joint Angle 'drive' prescribes leads "],
+        leaves=["out"],
+        ranks=True,
+    ),
     Case(
         "bodies that spin against each other",
         0,

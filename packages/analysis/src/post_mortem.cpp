@@ -175,24 +175,29 @@ std::string PostMortem::worst_rows() const {
   return text;
 }
 
-// Of statics and paths, where the steps cannot be made small enough.
-std::string PostMortem::turn_cause(model::State& state) const {
+const model::Constraint* PostMortem::turn_too_far(model::State& state,
+                                                  const Stencil& stencil) const {
   const double accepted = state.time;
   state.time = attempts_.back().time;
-  const model::Constraint* turn = find_too_far(context_.system, state, Stencil::statics());
+  const model::Constraint* turn = find_too_far(context_.system, state, stencil);
   state.time = accepted;
+  return turn;
+}
+
+std::string PostMortem::turn_cause(const model::Constraint* turn) const {
   return fmt::format(
-      "Likely cause: {} leads by more than a quarter of a turn at once, or too fast\n"
+      "Likely cause: {} leads further at once than a step may turn, or too fast\n"
       "to be followed: the equations hold half a turn away as well.\n"
-      "Try: an angle that grows with the level, more steps.",
-      turn == nullptr
-          ? "a prescribed rotation"
-          : fmt::format("the rotation that {} '{}' prescribes", turn->type, turn->name));
+      "Try: an angle that grows with the {}, more steps.",
+      turn == nullptr ? "a prescribed rotation"
+                      : fmt::format("the rotation that {} '{}' prescribes", turn->type, turn->name),
+      time_word());
 }
 
 std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
-  if (level_step_ == 0.0) return dynamic_cause();
-  if (attempts_.back().outcome.end == solver::StepEnd::turned_too_far) return turn_cause(state);
+  const model::Constraint* turn = turn_too_far(state, stencil);
+  if (level_step_ == 0.0) return turn != nullptr ? turn_cause(turn) : dynamic_cause();
+  if (attempts_.back().outcome.end == solver::StepEnd::turned_too_far) return turn_cause(turn);
   if (!std::isfinite(attempts_.back().final_time)) return path_cause(state, stencil);
   const double now = load_flexibility(state, stencil, level_step_);
   const double remaining = std::isfinite(now) && now != 0.0 ? first_flexibility_ / now : 0.0;

@@ -32,6 +32,8 @@ struct Subject {
   int inputs = 1;
 };
 
+void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.name; }
+
 const Limits wide{-10.0, 10.0};
 const Limits narrow{-0.01, 0.02};
 const Limits wider{-20.0, 20.0};

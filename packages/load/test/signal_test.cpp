@@ -19,6 +19,8 @@ struct Follower {
   NodeKind kind = NodeKind::node12;
 };
 
+void PrintTo(const Follower& follower, std::ostream* out) { *out << follower.name; }
+
 std::unique_ptr<model::Batch> drive_between(const model::NodeTable& nodes,
                                             const model::Amplitude& amplitude) {
   auto load = std::make_unique<LinkLoad>(effect, nodes, std::make_unique<DriveLaw>(1.7, amplitude));

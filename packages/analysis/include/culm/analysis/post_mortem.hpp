@@ -49,7 +49,9 @@ class PostMortem {
   std::string worst_rows() const;
   std::string cause(model::State& state, const Stencil& stencil);
   std::string path_cause(model::State& state, const Stencil& stencil);
-  std::string turn_cause(model::State& state) const;
+  /// The prescribed rotation that the last attempt would have turned too far, or null. Collective.
+  const model::Constraint* turn_too_far(model::State& state, const Stencil& stencil) const;
+  std::string turn_cause(const model::Constraint* turn) const;
   std::string dynamic_cause() const;
 
   Context& context_;
