@@ -151,6 +151,7 @@ def check_what_is_refused(check, folder, run):
         file["x"] = 1
     check.refused("is not the result file of a run", folder / "other.h5")
     check.refused("cannot write", run, "--output", folder / "no folder" / "view.html")
+    check.refused("is a deck, no run; 'culm check ", INPUTS / "beam/pendulum.xml")
     check.refused("argument --states: needs a whole number from 1 on, got '0'", run, "--states", 0, code=2)
     check.refused("there is no", run, folder / "nowhere")
     check.expect(list(damaged.iterdir()) == [damaged / "run.h5"], f"left over: {list(damaged.iterdir())}")

@@ -459,6 +459,12 @@ def wrong_steps(name, attributes, error):
 
 
 VALUES = [
+    wrong(
+        "spectral radius of a scheme that has none",
+        list_of("bend"),
+        parameters("bend", ("Type", "Dynamic"), ("End Time", 1), ("Step", 0.5), ("@@Spectral Radius", 0.5)),
+        "Analyses / bend / Spectral Radius: 'Scheme' = Conserving has none; only Generalised Alpha damps by it",
+    ),
     wrong_number("text for a number", "stiff", "must be a number, got 'stiff'"),
     wrong_number(
         "number with a unit in it",

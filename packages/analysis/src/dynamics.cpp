@@ -73,6 +73,12 @@ Schema Dynamics::schema() {
                   "Of Generalised Alpha at infinite frequency: 1 damps nothing, 0 most.")
                .between(0.0, 1.0)
                .optional(0.8))
+      .check([](const Options& options, InputIssues& issues) {
+        const std::string& scheme = options.text("Scheme");
+        if (!options.given("Spectral Radius") || scheme == "Generalised Alpha") return;
+        issues.add(options.where("Spectral Radius"),
+                   "'Scheme' = " + scheme + " has none; only Generalised Alpha damps by it");
+      })
       .list("Adaptive", adaptive_schema(), Presence::optional)
       .list("Newton", newton_schema(), Presence::defaulted);
 }

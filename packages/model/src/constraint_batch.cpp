@@ -172,37 +172,6 @@ Scalars curvature(const std::vector<ConstraintRow>& rows, const double* lambda, 
   return A;
 }
 
-// Whether rows hold a point in several directions, w_k . P - c_k with the same P = sum_s alpha_s
-// q_s.
-bool hold_one_point(const std::vector<ConstraintRow>& rows) {
-  return std::ranges::all_of(rows, [&](const ConstraintRow& row) {
-    return row.linear() && row.alpha == rows.front().alpha;
-  });
-}
-
-// The share of a node that turns in a point that rows hold.
-struct PointShare {
-  double of_position;  // by which its position counts
-  Vec3 arm_mid;        // what its rotation turns of the point
-  Vec3 arm_next;
-};
-
-PointShare share_in_point(const NodeTable& table, int node, const Eigen::Map<const Vec<4>>& alpha,
-                          const State& state, double theta) {
-  const auto arm = [&](const Coordinates& q) {
-    const auto slots = NodeTable::slots(q, node);
-    Vec3 turned = slots.rightCols<3>().lazyProduct(alpha.tail<3>());
-    if (table.is_slave(node)) {
-      turned += alpha[0] * (slots.col(0) - NodeTable::slots(q, table.master(node)).col(0));
-    }
-    return turned;
-  };
-  PointShare share{alpha[0], {}, arm(state.next)};
-  share.arm_mid = theta == 1.0 ? share.arm_next
-                               : Vec3((1.0 - theta) * arm(state.prev) + theta * share.arm_next);
-  return share;
-}
-
 bool holds_positions(const ConstraintRow& row) {
   for (std::size_t s = 0; s < row.alpha.size(); s += 4) {
     if (row.alpha[s] != 0.0 || (!row.beta.empty() && row.beta[s] != 0.0)) return true;
@@ -222,9 +191,7 @@ void ConstraintBatch::add(Constraint constraint, int number) {
     item.measure.push_back(holds_positions(row) ? length_ : 1.0);
   }
   if (constraint.follow) item.slopes_mid = item.slopes_next = constraint.rows;
-  item.holds_point = !constraint.is_driven() && !constraint.rows.empty() &&
-                     hold_one_point(constraint.rows) &&
-                     std::ranges::all_of(constraint.nodes, [&](int n) { return nodes_.turns(n); });
+  if (constraint.drive) driven_.push_back(items_.size());
   item.constraint = std::move(constraint);
   items_.push_back(std::move(item));
 }
@@ -249,21 +216,31 @@ void ConstraintBatch::number(const UnknownTable& unknowns) {
 void ConstraintBatch::place(Placement placement, Form form) {
   placement_ = std::move(placement);
   form_ = form;
+  followers_.clear();
+  points_.clear();
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const std::size_t at = index(placement_.items[i]);
+    const Item& item = items_[at];
+    if (item.constraint.follow) followers_.push_back(at);
+    if (form == Form::null_space && HeldPoint::describes(item.constraint, nodes_)) {
+      points_.emplace_back(i,
+                           HeldPoint(item.constraint, item.first_multiplier, item.measure.front()));
+    }
+  }
 }
 
 void ConstraintBatch::prepare(const State& state, const Stencil& stencil) {
   const double time_mid = (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
-  for (Item& item : items_) {
-    if (!item.constraint.drive) continue;
+  for (const std::size_t at : driven_) {
+    Item& item = items_[at];
     item.constraint.drive(time_mid, item.rows_mid);
     item.constraint.drive(state.time, item.rows_next);
   }
 }
 
 void ConstraintBatch::follow_signals(const State& state, const Stencil& stencil) {
-  for (const int i : placement_.items) {
-    Item& item = items_[static_cast<std::size_t>(i)];
-    if (!item.constraint.follow) continue;
+  for (const std::size_t at : followers_) {
+    Item& item = items_[at];
     const Constraint::Follow& follow = *item.constraint.follow;
     const double mid = follow.signal.in_step(state, stencil.theta);
     const double next = follow.signal.in_step(state, 1.0);
@@ -278,7 +255,10 @@ Verdict ConstraintBatch::assemble(const State& state, const Stencil& stencil, Wa
                                   Target& target) {
   follow_signals(state, stencil);
   Verdict verdict = Verdict::ok;
+  auto point = points_.begin();
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    const bool is_point = point != points_.end() && point->first == i;
+    const HeldPoint* held = is_point ? &(point++)->second : nullptr;
     if (want == Want::mass) {
       if (form_ == Form::null_space) assemble_jacobian<NullSpace>(i, state, target);
       if (form_ == Form::multipliers) assemble_jacobian<FullSpace>(i, state, target);
@@ -287,74 +267,14 @@ Verdict ConstraintBatch::assemble(const State& state, const Stencil& stencil, Wa
     Verdict one;
     if (form_ == Form::multipliers) {
       one = assemble_item<FullSpace>(i, state, stencil, want, target);
-    } else if (items_[index(placement_.items[i])].holds_point) {
-      one = assemble_point(i, state, stencil, want, target);
+    } else if (held != nullptr) {
+      one = held->assemble(i, nodes_, placement_, state, stencil, want, target);
     } else {
       one = assemble_item<NullSpace>(i, state, stencil, want, target);
     }
     verdict = worse(verdict, one);
   }
   return verdict;
-}
-
-// Rows of one point, as those of ball joints: what assemble_item does, with sums once for all rows.
-Verdict ConstraintBatch::assemble_point(std::size_t i, const State& state, const Stencil& stencil,
-                                        Want want, Target& target) const {
-  const Item& item = items_[index(placement_.items[i])];
-  const std::vector<int>& nodes = item.constraint.nodes;
-  const int n = static_cast<int>(nodes.size());
-  const auto m = static_cast<int>(item.rows_mid.size());
-  const SlotSum& alpha = item.rows_mid.front().alpha;
-  const double* lambda = state.multipliers.data() + item.first_multiplier;
-  Vec3 force = Vec3::Zero();
-  for (int k = 0; k < m; ++k) force += lambda[k] * item.rows_mid[index(k)].direction;
-
-  std::array<PointShare, max_nodes> shares;
-  Vec3 point = Vec3::Zero();
-  for (int a = 0; a < n; ++a) {
-    const int node = nodes[index(a)];
-    PointShare& share = shares[index(a)];
-    share = share_in_point(nodes_, node, of_node(alpha, a), state, stencil.theta);
-    point += NodeTable::slots(state.next, node).lazyProduct(of_node(alpha, a));
-    Vec6 on_node;
-    on_node << share.of_position * force, share.arm_mid.cross(force);
-    if (!std::isfinite(on_node.sum())) return Verdict::not_finite;
-    target.force_scale = std::max(target.force_scale, on_node.lpNorm<Eigen::Infinity>());
-    placement_.scatter.add_residual(i, a, on_node.data(), target);
-  }
-  std::array<double, max_rows> h{};
-  for (int k = 0; k < m; ++k) {
-    const ConstraintRow& row = item.rows_next[index(k)];
-    const double value = row.direction.dot(point) - row.constant;
-    if (!std::isfinite(value)) return Verdict::not_finite;
-    target.constraint_violation =
-        std::max(target.constraint_violation, std::abs(value) / item.measure[index(k)]);
-    h[index(k)] = target.multiplier_scale * value;
-  }
-  placement_.scatter.add_residual(i, n, h.data(), target);
-  if (want == Want::residual) return Verdict::ok;
-
-  using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, max_rows>;
-  Columns columns(6, m);
-  Columns rows(6, m);
-  RowMat<6, 6> turning = RowMat<6, 6>::Zero();
-  for (int a = 0; a < n; ++a) {
-    const PointShare& share = shares[index(a)];
-    for (int k = 0; k < m; ++k) {
-      const Vec3 w_mid = target.multiplier_scale * item.rows_mid[index(k)].direction;
-      const Vec3 w_next = target.multiplier_scale * item.rows_next[index(k)].direction;
-      columns.col(k) << share.of_position * w_mid, share.arm_mid.cross(w_mid);
-      rows.col(k) << share.of_position * w_next, share.arm_next.cross(w_next);
-    }
-    placement_.scatter.add_tangent(i, a, n, columns, target);
-    placement_.scatter.add_tangent(i, n, a, rows.transpose(), target);
-    // [F][arm] = arm F^T - (F . arm) 1, see NullSpace::add_turning
-    turning.bottomRightCorner<3, 3>() = stencil.theta * share.arm_next * force.transpose();
-    turning.bottomRightCorner<3, 3>().diagonal().array() -=
-        stencil.theta * share.arm_next.dot(force);
-    placement_.scatter.add_tangent(i, a, a, turning, target);
-  }
-  return Verdict::ok;
 }
 
 template <class Space>

@@ -1,6 +1,7 @@
 #include "shell_frame.hpp"
 
 #include <culm/model/constraint_batch.hpp>
+#include <culm/model/product_sum.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -24,13 +25,17 @@ Points positions(const std::vector<int>& nodes, const model::NodeTable& table) {
 }
 
 // Columns of points that are far from each other: first the one farthest from the mean, then
-// always the one farthest from all before.
+// always the one farthest from all before; of those that are as far to rounding the first, so that
+// a shell that lies elsewhere in space has the same.
 std::vector<Eigen::Index> spread_out(const Points& x, int most) {
   Eigen::RowVectorXd distance = (x.colwise() - x.rowwise().mean()).colwise().norm();
   const double size = distance.maxCoeff();
   std::vector<Eigen::Index> chosen;
-  Eigen::Index farthest = 0;
-  while (static_cast<int>(chosen.size()) < most && distance.maxCoeff(&farthest) > 1e-6 * size) {
+  while (static_cast<int>(chosen.size()) < most && distance.maxCoeff() > 1e-6 * size) {
+    const double least = (1.0 - 1e-9) * distance.maxCoeff();
+    const Eigen::Index farthest =
+        std::find_if(distance.begin(), distance.end(), [least](double d) { return d >= least; }) -
+        distance.begin();
     if (chosen.empty()) distance.setConstant(std::numeric_limits<double>::infinity());
     chosen.push_back(farthest);
     distance = distance.cwiseMin((x.colwise() - x.col(farthest)).colwise().norm());
@@ -82,11 +87,18 @@ int add_frame(const std::string& shell, const std::vector<int>& nodes, model::Mo
   model::SlotSum from_frame = sum(Eigen::RowVectorXd::Constant(x.cols(), 1.0 / (count - 1)));
   from_frame[0] = -1.0;
   for (int i = 0; i < 3; ++i) c.rows.push_back(model::product_row(from_frame, director(i), q));
-  const model::SlotSum first_axis = sum(largest.transpose() * x / inertia.eigenvalues()[2]);
-  const model::SlotSum second_axis = sum(second.transpose() * x / inertia.eigenvalues()[1]);
-  c.rows.push_back(model::product_row(first_axis, director(2), q));
-  c.rows.push_back(model::product_row(second_axis, director(2), q));
-  c.rows.push_back(model::product_row(first_axis, director(1), q));
+  // the moment of the points about the frame vanishes, which does not depend on the axes taken in
+  // it
+  const auto moment = [&](const Vec3& axis, double size) {
+    return sum(axis.transpose() * x / size);
+  };
+  const double in_first = inertia.eigenvalues()[2];
+  const double in_second = inertia.eigenvalues()[1];
+  c.rows.push_back(model::product_row(moment(largest, in_first), director(2), q));
+  c.rows.push_back(model::product_row(moment(second, in_second), director(2), q));
+  const double in_both = in_first + in_second;
+  c.rows.push_back(model::sum_row(
+      {{moment(largest, in_both), director(1)}, {moment(-second, in_both), director(0)}}, q));
   model.add_constraint(std::move(c));
   return frame;
 }

@@ -90,6 +90,8 @@ class Recording:
         if not path.exists():
             what = f"there is no run.h5 in '{run}'" if run.is_dir() else f"there is no '{run}'"
             raise CulmError(f"{what}; 'culm view' wants the folder of a run", 6)
+        if path.suffix == ".xml":
+            raise CulmError(f"'{path}' is a deck, no run; 'culm check {path} --view model.html' shows its model", 6)
         self.path = path
         self.folder = path.parent
 

@@ -3,6 +3,7 @@
 
 #include <culm/model/batch.hpp>
 #include <culm/model/constraint.hpp>
+#include <culm/model/held_point.hpp>
 #include <culm/model/projection.hpp>
 
 namespace culm::model {
@@ -49,13 +50,10 @@ class ConstraintBatch final : public Batch {
     std::vector<ConstraintRow> rows_mid;   ///< as they act on forces
     std::vector<ConstraintRow> rows_next;  ///< as they must hold at the end of the step
     std::vector<double> measure;           ///< what |h| is judged against, per row
-    bool holds_point = false;              ///< rows of one point of nodes that turn, at rest
     /// Derivatives of both by the signal that is followed; empty without one.
     std::vector<ConstraintRow> slopes_mid, slopes_next;
   };
 
-  Verdict assemble_point(std::size_t i, const State& state, const Stencil& stencil, Want want,
-                         Target& target) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) const;
@@ -76,7 +74,11 @@ class ConstraintBatch final : public Batch {
   const NodeTable& nodes_;
   double length_;
   std::vector<Item> items_;
+  std::vector<std::size_t> driven_;  ///< items whose rows move with time
   Placement placement_;
+  std::vector<std::size_t> followers_;  ///< items that are placed here and follow a signal
+  /// Items that are placed here and hold a point, by their places, which rise.
+  std::vector<std::pair<std::size_t, HeldPoint>> points_;
   Form form_ = Form::null_space;
 };
 
