@@ -39,7 +39,7 @@ DECKS = (
     "buckling/column", "contact/pressed_rod", "control/variable_speed", "flight/spaghetti_3d",
     "heat/bimetal_plate", "hybrid/tube_transition", "joint/four_bar_2", "joint/initial_displacements",
     "joint/moving_supports", "joint/points_along_beams", "joint/spring_statics", "joint/torsion", "modes/damped_frame",
-    "modes/overhung_disk", "plasticity/bent_bar", "sequence/release", "shell/angle_ply", "shell/hypar",
+    "modes/overhung_disk", "plasticity/bent_bar", "sequence/release", "shell/angle_ply", "shell/hypar", "shell/linear_strips",
 )  # fmt: skip
 # In models of tenths of a millimetre moments weigh so little beside forces that steps end before they are balanced as well as
 # at full size: a path takes other steps, an energy balance misses its promise and says so.
