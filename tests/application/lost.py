@@ -223,6 +223,99 @@ def heated(steps, value):
     return [*HELD, (STATIC, entry("bend", Type="Static", Steps=steps)), (FORCE, heat)]
 
 
+# --- reactions
+
+PUT_BETWEEN = entry("prop", Type="Simple Support", Node="beam@0.4", Direction="{0, 0, 1}", Translation="1e-3")
+
+# A strip of 2 x 0.2 m in the plane z = 1, clamped along x = 0 and lifted by 0.1 N along x = 2.
+STRIP = """<ParameterList name="culm">
+  <ParameterList name="Materials">
+    <ParameterList name="soft">
+      <Parameter name="Type" value="Isotropic"/>
+      <Parameter name="Young Modulus" value="2e9"/>
+      <Parameter name="Poisson Ratio" value="0"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Structures">
+    <ParameterList name="strip">
+      <Parameter name="Type" value="Shell"/>
+      <Parameter name="Material" value="soft"/>
+      <Parameter name="Thickness" value="0.02"/>
+      <ParameterList name="Mesh">
+        <Parameter name="Type" value="Plane"/>
+        <Parameter name="Side 1" value="{2, 0, 0}"/>
+        <Parameter name="Side 2" value="{0, 0.2, 0}"/>
+        <Parameter name="Elements" value="{4, 1}"/>
+        <Parameter name="Origin" value="{0, 0, 1}"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Constraints">%s</ParameterList>
+  <ParameterList name="Loads">
+    <ParameterList name="lift">
+      <Parameter name="Type" value="Line Force"/>
+      <Parameter name="Structure" value="strip/u1"/>
+      <Parameter name="Force" value="{0, 0, 0.5}"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Solver"><Parameter name="Form" value="%s"/></ParameterList>
+  <ParameterList name="Analyses">
+    <ParameterList name="bend"><Parameter name="Type" value="Static"/><Parameter name="Steps" value="1"/></ParameterList>
+  </ParameterList>
+  <ParameterList name="Output">
+    <ParameterList name="History">
+      <ParameterList name="corner">
+        <Parameter name="Type" value="Reaction"/><Parameter name="Node" value="strip/u0 v0"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>
+"""
+CLAMPED = entry("clamp", Type="Rigid Support", Node="strip/u0")
+
+
+def bends(folder, _):
+    """At each of two corners half of the force, and of its moment about the edge."""
+    row = last_row(folder)
+    found = [row[f"corner {name}"] for name in ("Fx [N]", "Fy [N]", "Fz [N]", "Mx [N m]", "My [N m]")]
+    expected = [0.0, 0.0, -0.05, 0.0, 0.1]
+    return "" if max(abs(a - b) for a, b in zip(found, expected)) < 1e-6 else f"the reaction is {found}"
+
+
+# --- levels
+
+COMPRESSED = FORCE.replace("{0, 0, 100}", "{-100, 0, 0}")
+SPUN = entry("spin", Type="Rotating Frame", Axis="{1, 0, 0}", Speed="1")
+HEAVY = ('<Parameter name="GIp" value="2e3"/>', '<Parameter name="GIp" value="2e3"/><Parameter name="rhoA" value="5"/>'
+         '<Parameter name="rhoI1" value="0.01"/><Parameter name="rhoI2" value="0.01"/>')
+BUCKLED = (STATIC, entry("buckling", Type="Buckling", Modes="2"))
+GROWN = listed("Functions", entry("grown", Type="Expression", Expression="%s")) + SOLVER
+
+
+def critical_levels(expected):
+    """Whether the first factor has a critical level."""
+
+    def check(folder, _):
+        with open(folder / "out/analyses/buckling/buckling.csv", newline="") as file:
+            first = next(csv.DictReader(file))
+        return "" if bool(first["critical level"]) == expected else f"the first row is {first}"
+
+    return check
+
+
+UNEVEN = ["warning: loads do not grow evenly from level 0 to level 1, "]
+ON_THE_WAY = entry("there", Type="Path", First_Increment="0.5", Final_Level="2")
+ENDED = "but 'on' holds 'Ramp', which Force 'tip force' follows, between 0 and 1, where it jumps to: "
+LINEAR = listed("Functions", entry("grown", Type="Linear", Duration="1")) + SOLVER
+
+
+def led_on(**then):
+    return (STATIC, ON_THE_WAY + entry("on", **then))
+
+
+FOLLOWS = (FORCE, FORCE.replace("</ParameterList>", '<Parameter name="Function" value="grown"/></ParameterList>'))
+STRETCHED = entry("pull", Type="Simple Support", Node="beam/last", Direction="{1, 0, 0}", Translation="1e-6", Function="grown")
+
 # 4 pi^2 EI / L^2 over EA times the expansion, less what shear takes: 1437 K about d1, 1895 K about d2
 CROSSING = "between the levels %s and %s the determinant of the stiffness changes its sign"
 
@@ -367,4 +460,55 @@ CASES = [
     Case("a bar that bends freely as it gets warm", 0, args=RUN,
          change=[HELD[1], (FORCE, entry("heat", Type="Temperature", Structure="beam", Value="3000", Gradient="{0, 50}"))],
          never=["determinant"], results="out", last_level=1.0),
+    Case(
+        "a reaction of a support between nodes",
+        3,
+        change=[(CLAMP, CLAMP + PUT_BETWEEN), (HISTORY, HISTORY + "@@" + entry("prop", Type="Reaction", Constraint="prop"))],
+        errors=["deck.xml:{line}: Output / History / prop / Constraint: 'prop' acts on 2 nodes, with a share of its "
+                "force at each; name one of them as 'Node'"],
+    ),
+    *(
+        Case(f"the moment by which a shell is clamped, {form}", 0, args=RUN, deck=STRIP % (CLAMPED, form), leaves=["out"],
+             check=bends, ranks=True)
+        for form in ("Null Space", "Multipliers")
+    ),
+    *(
+        Case(f"a critical level under {what}", 0, args=RUN, change=[HEAVY, BUCKLED, *change], says=[] if even else UNEVEN,
+             leaves=["out"], check=critical_levels(even), ranks=True)
+        for what, even, change in (
+            ("a force that grows with the level", True, [(FORCE, COMPRESSED)]),
+            ("a force that grows with its square", False,
+             [(FORCE, COMPRESSED.replace("</ParameterList>", '<Parameter name="Function" value="grown"/></ParameterList>')),
+              (SOLVER, GROWN % "t^2")]),
+            ("a speed that grows with the level", False, [(FORCE, SPUN)]),
+        )
+    ),
+    *(
+        Case(f"a load that a path has led to level 2, {what}", 0, args=RUN, change=[HEAVY, led_on(**then), *change], says=says,
+             never=[] if says else ["Ramp"], leaves=["out"])
+        for what, then, change, says in (
+            ("in a motion", dict(Type="Dynamic", End_Time="2.01", Step="0.01"), [], [ENDED]),
+            ("at rest", dict(Type="Static", Start_Level="2", Final_Level="3", Steps="1"), [], [ENDED]),
+            ("at rest from the beginning", dict(Type="Static", Steps="1"), [], []),
+            ("by a function of its own", dict(Type="Dynamic", End_Time="2.01", Step="0.01"), [FOLLOWS, (SOLVER, LINEAR)], []),
+        )
+    ),
+    *(
+        Case(f"a ramp up to level {level}", 0, args=RUN,
+             change=[(STATIC, entry("bend", Type="Static", Final_Level=level)), *change], says=says,
+             never=[] if says else ["Ramp"], leaves=["out"])
+        for level, change, says in (
+            (5, [], ["warning: nothing grows beyond level 1, where 'Ramp' ends, which Force 'tip force' follows: "]),
+            (1, [], []),
+            (4, [FOLLOWS, (SOLVER, LINEAR)], []),
+        )
+    ),
+    Case("stresses of what relaxes", 0, args=RUN,
+         change=[HEAVY, (STATIC, entry("pulled", Type="Dynamic", End_Time="0.1", Step="0.01")), (LOADS, ""),
+                 (SOLVER, LINEAR), (CLAMP, CLAMP + STRETCHED),
+                 ('<Parameter name="Section" value="bar"/>', '<Parameter name="Section" value="bar"/>'
+                  + listed("Relaxation", entry("slow", Time="1", Ratios="{0.5}"))),
+                 (HISTORY, HISTORY + entry("inner", Type="Stress Resultants", Structure="beam", Element="0"))],
+         says=["warning: Stress Resultants 'inner' is that of the lasting stiffness of 'beam': what its branches of "],
+         leaves=["out"]),
 ]

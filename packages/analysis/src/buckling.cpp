@@ -1,7 +1,9 @@
 #include <culm/analysis/buckling.hpp>
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
+#include "even_growth.hpp"
 #include "softest_direction.hpp"
 #include "wall_limits.hpp"
 #include "weak_direction.hpp"
@@ -217,6 +219,17 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   const Ledger::Scope scope(context.ledger, context.ledger.add("Eigenproblem"));
   assembly::System& system = context.system;
   const double level = reference_level(state);
+  const bool has_levels = grow_evenly(context, state, level);
+  if (!has_levels) {
+    context.findings.warn(
+        "levels",
+        fmt::format(
+            "loads do not grow evenly from level {:g} to level {:g}, as those of a rotating "
+            "frame or of functions that are no straight line: factors are on the reference "
+            "load, and which level has so much of it is not known",
+            state.time, level),
+        state.time);
+  }
   const Linearisation linear = linearise(context, state, Stencil::statics());
   model::Coordinates motion = system.linear_motion(state, *step_, 1.0);
   system.complete(motion);
@@ -247,10 +260,12 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
       state.time, "mode", "factor", "critical level");
   for (std::size_t i = 0; i < pairs.values.size(); ++i) {
     const double factor = pairs.values[i];
-    const double critical = state.time + factor * (level - state.time);
+    const double critical = has_levels ? state.time + factor * (level - state.time) : absent;
     const auto number = static_cast<double>(i + 1);
     table.rows.push_back({number, factor, critical});
-    report.text += fmt::format("{:>5} {:>14.8g} {:>15.8g}\n", i + 1, factor, critical);
+    report.text +=
+        fmt::format("{:>5} {:>14.8g} ", i + 1, factor) +
+        (has_levels ? fmt::format("{:>15.8g}\n", critical) : fmt::format("{:>15}\n", "-"));
     Shape shape{fmt::format("mode {}, factor {:.5g}", i + 1, factor),
                 node_motions(system, state, pairs.vectors.col(static_cast<Eigen::Index>(i))),
                 {}};

@@ -3,7 +3,23 @@
 
 #include "block_values.hpp"
 
+#include <Eigen/Geometry>
+
 namespace culm::assembly {
+namespace {
+
+// What acts on the unknowns of a node as force and moment; of a shell the last three act on its
+// director, and do so by its arm.
+Vec6 with_moment(const model::NodeTable& nodes, int node, const model::State& state,
+                 const Vec6& unknowns) {
+  if (nodes.turns(node)) return unknowns;
+  Vec6 r = unknowns;
+  const Vec3 director = model::NodeTable::slots(state.next, node).col(1);
+  r.tail<3>() = director.cross(Vec3(unknowns.tail<3>()));
+  return r;
+}
+
+}  // namespace
 
 Vec6 System::reaction(int node, const model::State& state) const {
   const model::UnknownTable& unknowns = model_.unknowns();
@@ -15,11 +31,11 @@ Vec6 System::reaction(int node, const model::State& state) const {
       if (at < 0) reaction[i] = gathered_reactions_[index(shape.first_reaction - 1 - at)];
     }
   }
-  return reaction + equation_reaction("", node, state);
+  return with_moment(model_.nodes(), node, state, reaction + equation_reaction("", node, state));
 }
 
 Vec6 System::reaction_of(const std::string& constraint, int node, const model::State& state) const {
-  return equation_reaction(constraint, node, state);
+  return with_moment(model_.nodes(), node, state, equation_reaction(constraint, node, state));
 }
 
 Vec6 System::equation_reaction(const std::string& constraint, int node,

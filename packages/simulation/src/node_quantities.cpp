@@ -156,7 +156,8 @@ bool read_constraint(const Options& options, model::BuildContext& context, Watch
   return false;
 }
 
-// The node of a constraint that names one or two, the second of a joint; or none, and an issue.
+// The node of a constraint that names one, the second of a joint of two; or none, and an issue. A
+// support of two nodes, or of a point between them, has a share of its force at each.
 std::optional<int> node_of_constraint(const Options& options, model::BuildContext& context) {
   if (!options.has("Constraint")) {
     context.issues.add(options.where(), "needs a 'Node', the name of a 'Constraint', or both");
@@ -166,18 +167,21 @@ std::optional<int> node_of_constraint(const Options& options, model::BuildContex
   std::set<int> nodes;
   std::vector<std::string> names;
   int last = -1;
+  bool is_joint = true;
   for (const model::Constraint& c : context.model.constraints()) {
     if (c.is_structural) continue;
     names.push_back(c.name);
     if (c.name != wanted || c.nodes.empty()) continue;
     nodes.insert(c.nodes.begin(), c.nodes.end());
     last = c.nodes.back();
+    is_joint = is_joint && c.is_internal;
   }
-  if (nodes.size() == 1 || nodes.size() == 2) return last;
+  if (nodes.size() == 1 || (nodes.size() == 2 && is_joint)) return last;
   context.issues.add(options.where("Constraint"),
                      nodes.empty() ? "no constraint '" + wanted + "'" + did_you_mean(wanted, names)
                                    : "'" + wanted + "' acts on " + std::to_string(nodes.size()) +
-                                         " nodes; name one of them as 'Node'");
+                                         " nodes, with a share of its force at each; name "
+                                         "one of them as 'Node'");
   return {};
 }
 

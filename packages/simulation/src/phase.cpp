@@ -153,6 +153,11 @@ Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfecti
   complete_columns();
 }
 
+bool Phases::leaves_path(std::size_t analysis) const {
+  const std::optional<std::size_t> origin = origin_of(deck_.list("Analyses").entries(), analysis);
+  return origin && of(*origin).setting.is_path && !of(analysis).setting.is_path;
+}
+
 Phase& Phases::find_or_build(const Setting& setting) {
   for (Phase& phase : phases_) {
     if (phase.setting == setting) return phase;

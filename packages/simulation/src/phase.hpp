@@ -64,6 +64,8 @@ class Phases {
   /// found.
   Phase& enter(std::size_t analysis, const parallel::Comm& comm, Ledger& ledger);
   const Phase& of(std::size_t analysis) const { return *by_analysis_[analysis]; }
+  /// Whether an analysis goes on from a path and is none.
+  bool leaves_path(std::size_t analysis) const;
   /// Adds a port to all models, beside those of the deck; before any analysis begins. Throws
   /// UsageError where a point has no place.
   void add_port(const std::string& name, port::Cloud cloud);

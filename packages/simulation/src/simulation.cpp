@@ -12,6 +12,7 @@
 #include <culm/solver/fill.hpp>
 
 #include "contact_findings.hpp"
+#include "ended_ramps.hpp"
 #include "gravity_and_sea.hpp"
 #include "late_supports.hpp"
 #include "lost_moments.hpp"
@@ -20,6 +21,7 @@
 #include "on_root.hpp"
 #include "other_run.hpp"
 #include "port_picture.hpp"
+#include "relaxing_stresses.hpp"
 #include "run_observer.hpp"
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
@@ -298,6 +300,8 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     };
     warn("gravity", weights_that_miss_seas(p.deck, entries[i]));
     warn("width", widths_that_differ(p.deck, entries[i], *phase.model));
+    warn("ended ramp", levels_beyond_ramp(p.deck, entries[i]));
+    warn("relaxation", stresses_without_branches(p.deck, entries[i]));
     warn("overlap", deep_contacts(*phase.model, state.next));
     if (entries[i].text("Type") != "Dynamic") warn("friction", contacts_at_rest(*phase.model));
     warn("lost moment", moments_that_are_not_carried(*phase.model));
@@ -400,6 +404,11 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
   phase.system->complete(q);
   refuse_left_supports(*phase.model, q, p.deck.list("Constraints"), entry.name());
   warn_of_open_joints(p.findings, entry, *phase.model, state, q);
+  if (p.phases.leaves_path(number)) {
+    for (const std::string& sentence : ramps_cut_off(p.deck, entry, state.time)) {
+      p.findings.warn("ended ramp", sentence, state.time);
+    }
+  }
 }
 
 void Simulation::move_state(std::size_t number, model::State& state) {
