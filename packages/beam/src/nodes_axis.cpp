@@ -54,6 +54,31 @@ void check_nodes(const Options& options, InputIssues& issues) {
   }
 }
 
+// The axis between the nodes of an element goes forward everywhere, which it does not where inner
+// nodes are far from their places.
+template <int Order>
+bool goes_forward(const AxisNode* element) {
+  constexpr int samples = 20;
+  for (int i = 0; i <= samples; ++i) {
+    const double xi = -1.0 + 2.0 * i / samples;
+    const Vec<Order + 1> N = Lagrange<Order>::values(xi);
+    const Vec<Order + 1> dN = Lagrange<Order>::derivatives(xi);
+    Vec3 tangent = Vec3::Zero();
+    Vec3 ahead = Vec3::Zero();
+    for (int a = 0; a <= Order; ++a) {
+      tangent += dN[a] * element[a].position;
+      ahead += N[a] * element[a].triad.col(2);
+    }
+    if (tangent.dot(ahead) <= 0.0) return false;
+  }
+  return true;
+}
+
+bool goes_forward(int order, const AxisNode* element) {
+  if (order == 1) return true;
+  return order == 2 ? goes_forward<2>(element) : goes_forward<3>(element);
+}
+
 // A node between those of an element: interpolated as the element does, its triad made orthonormal.
 template <int Order>
 AxisNode between(const AxisNode* element, double xi) {
@@ -126,6 +151,15 @@ Axis make_nodes(const Options& options, const Density& density) {
     if (i > 0) {
       chain[i].span = chain[i - 1].span + (chain[i].position - chain[i - 1].position).norm();
     }
+  }
+  for (std::size_t first = 0; first + 1 < count; first += static_cast<std::size_t>(order)) {
+    if (goes_forward(order, &chain[first])) continue;
+    throw InputError(
+        options.where("Positions"),
+        fmt::format(
+            "between nodes {} and {}, those of one element of order {}, the axis folds back: "
+            "space them more evenly, or take 'Order' = 1",
+            first, first + static_cast<std::size_t>(order), order));
   }
   const double length = chain.back().span;
   for (AxisNode& node : chain) node.span /= length;

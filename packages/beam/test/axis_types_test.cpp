@@ -211,6 +211,18 @@ TEST_F(AxisTypes, NodesMustHaveSoundDirectors) {
             "elements of order 2 need 1 more than a multiple of 2 nodes, got 2");
 }
 
+TEST_F(AxisTypes, NodesOfAnElementMustNotFoldIt) {
+  Numbers directors = triads(1.0);
+  directors.insert(directors.end(), directors.begin(), directors.begin() + 9);
+  const auto with_middle = [&](double x) {
+    return GivenValues{{"Positions", Numbers{0, 0, 0, x, 0, 0, 2, 0, 0}}, {"Directors", directors}};
+  };
+  EXPECT_EQ(failure("Nodes", with_middle(1.6), 2),
+            "between nodes 0 and 2, those of one element of order 2, the axis folds back: space "
+            "them more evenly, or take 'Order' = 1");
+  EXPECT_EQ(make("Nodes", with_middle(1.4), 2).chains[0].size(), 3u);
+}
+
 TEST_F(AxisTypes, RefinedCurveHasTheNodesOfManyElements) {
   GivenValues given = two_metres;
   const Axis axis = make("Line", given, 2, 3);

@@ -1,5 +1,6 @@
 #include "line_table.hpp"
 
+#include <culm/math/arc_length.hpp>
 #include <culm/math/quadrature.hpp>
 
 #include <algorithm>
@@ -24,21 +25,31 @@ struct Interval {
   double length() const { return end - begin; }
 };
 
+// An element of the line, from `begin` on.
+struct Part {
+  double begin;
+  ArcLength along;
+  std::span<const double> shares;  // of its points
+};
+
 // Adds what the table between positions i and i + 1 gives to the points of an element.
-void add_segment(const LineTable& table, std::size_t i, const Interval& element,
+void add_segment(const LineTable& table, std::size_t i, const Part& element,
                  std::span<Vec6> intensities) {
   const Interval segment{table.positions[i], table.positions[i + 1]};
-  const Interval piece{std::max(segment.begin, element.begin), std::min(segment.end, element.end)};
+  const Interval piece{std::max(segment.begin, element.begin),
+                       std::min(segment.end, element.begin + element.along.length())};
   if (piece.length() <= 0.0) return;
   const auto rule = gauss_legendre(static_cast<int>(intensities.size()));
+  const double first = element.along.xi_at(piece.begin - element.begin);
+  const double last = element.along.xi_at(piece.end - element.begin);
   for (const auto& [eta, weight] : rule) {
-    const double s = piece.begin + 0.5 * (1.0 + eta) * piece.length();
+    const double xi = first + 0.5 * (1.0 + eta) * (last - first);
+    const double s = element.begin + element.along.at(xi);
     const double t = (s - segment.begin) / segment.length();
     const Vec6 f = (1.0 - t) * table.values[i] + t * table.values[i + 1];
-    const double xi = 2.0 * (s - element.begin) / element.length() - 1.0;
-    const double share = weight * piece.length() / element.length();
+    const double share = 0.5 * weight * (last - first) * element.along.rate(xi);
     for (std::size_t k = 0; k < rule.size(); ++k) {
-      intensities[k] += share / rule[k].weight * lagrange(rule, k, xi) * f;
+      intensities[k] += share / element.shares[k] * lagrange(rule, k, xi) * f;
     }
   }
 }
@@ -60,15 +71,16 @@ std::vector<Vec6> intensities(const LineTable& table, const std::vector<model::L
   double begin = 0.0;
   for (std::size_t first = 0; first < line.size();) {
     std::size_t last = first;
-    double end = begin;
+    std::vector<double> shares;
     do {
-      end += line[last++].length;
+      shares.push_back(line[last++].length);
     } while (last < line.size() && is_same_element(line[first].marker, line[last].marker));
+    const Part element{begin, ArcLength(shares), shares};
     for (std::size_t i = 0; i + 1 < table.positions.size(); ++i) {
-      add_segment(table, i, {begin, end}, std::span(result).subspan(first, last - first));
+      add_segment(table, i, element, std::span(result).subspan(first, last - first));
     }
     first = last;
-    begin = end;
+    begin += element.along.length();
   }
   return result;
 }

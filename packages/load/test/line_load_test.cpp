@@ -104,6 +104,30 @@ TEST(LineTable, WorksOnShapeFunctionsExactlyWhereverItKinks) {
   }
 }
 
+// The middle node of an element of 1 m stands at 0.35 m.
+TEST(LineTable, SumsToItsIntegralsWhereNodesAreUneven) {
+  const double nodes[] = {0.0, 0.35, 1.0};
+  const auto place = [&](const auto& N) {
+    return N[0] * nodes[0] + N[1] * nodes[1] + N[2] * nodes[2];
+  };
+  std::vector<model::LinePoint> line = element<2>(0, 1.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& [xi, weight] = gauss_legendre(3)[k];
+    line[k].length = weight * place(Lagrange<2>::derivatives(xi));
+  }
+  const LineTable table{{0.1, 0.7, 0.7, 1.0},
+                        {Vec6::Ones(), 3.0 * Vec6::Ones(), Vec6::Zero(), 2.0 * Vec6::Ones()}};
+  const std::vector<Vec6> f = intensities(table, line);
+  Vec6 force = Vec6::Zero();
+  Vec6 moment = Vec6::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    force += line[k].length * f[k];
+    moment += place(line[k].marker.weights) * line[k].length * f[k];
+  }
+  EXPECT_LT((force - integral(table, 0.0, 1.0, [](double) { return 1.0; })).norm(), 1e-13);
+  EXPECT_LT((moment - integral(table, 0.0, 1.0, [](double s) { return s; })).norm(), 1e-13);
+}
+
 TEST(LineTable, IsTakenAtThePointsWhereItIsLinear) {
   const auto line = line_of_three();
   const Vec6 slope = kit::Random(5).matrix<6, 1>();

@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/math/arc_length.hpp>
 #include <culm/math/lagrange.hpp>
 #include <culm/model/structure.hpp>
 
@@ -66,7 +67,11 @@ std::optional<Marker> marker_at_fraction(const Structure& structure, double frac
   const auto cell =
       static_cast<std::size_t>(std::lower_bound(end.begin(), last, wanted) - end.begin());
   const double begin = cell == 0 ? 0.0 : end[cell - 1];
-  const double xi = 2.0 * (wanted - begin) / (end[cell] - begin) - 1.0;
+  std::vector<double> shares(per_element);
+  for (std::size_t k = 0; k < per_element; ++k) {
+    shares[k] = structure.line_points.length(cell * per_element + k);
+  }
+  const double xi = ArcLength(shares).xi_at(wanted - begin);
   const CellNodes& nodes = structure.cells[cell].nodes;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     const double at = -1.0 + 2.0 * static_cast<double>(a) / static_cast<double>(nodes.size() - 1);

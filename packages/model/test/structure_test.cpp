@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace culm::model {
@@ -36,6 +37,21 @@ TEST(MarkerAtFraction, InterpolatesBetweenNodes) {
   // quadratic functions are met: xi = -0.4
   EXPECT_NEAR(N[2] - N[0], -0.4, 1e-15);
   EXPECT_NEAR(N[2] + N[0], 0.16, 1e-15);
+}
+
+// The inner node stands at 0.6 m of 2 m: s = 0.6 (1 - xi^2) + xi (1 + xi), and shares are those of
+// its rate 1 + 0.8 xi.
+TEST(MarkerAtFraction, IsAtItsLengthWhereNodesAreUneven) {
+  Structure structure;
+  structure.nodes = {0, 1, 2};
+  structure.cells = {{{0, 1, 2}, nullptr, 0}};
+  for (const double xi : {-std::sqrt(1.0 / 3.0), std::sqrt(1.0 / 3.0)}) {
+    structure.line_points.push_back({{}, 1.0 + 0.8 * xi});
+  }
+  const auto marker = marker_at_fraction(structure, 0.5);
+  ASSERT_TRUE(marker);
+  EXPECT_NEAR(0.6 * marker->weights[1] + 2.0 * marker->weights[2], 1.0, 1e-14);
+  EXPECT_EQ(marker_at_fraction(structure, 0.3)->nodes, std::vector{1});
 }
 
 TEST(MarkerAtFraction, ABodyHasNone) {
