@@ -8,10 +8,10 @@ namespace culm::analysis {
 namespace {
 
 // Of the way; kinks are seldom there, and curves that are symmetric about its middle are off.
-constexpr double share = 0.3;
+constexpr double share_of_way = 0.3;
 
 // Of the change; what prescribed turns of some degrees are off is less.
-constexpr double noticeable = 1e-2;
+constexpr double noticeable_bend = 1e-2;
 
 // Forces, and tangents, which see loads that stress the structure without moving it, as heat does.
 struct Loaded {
@@ -39,12 +39,12 @@ bool lie_between(const std::vector<double>& begin, const std::vector<double>& va
   for (std::size_t k = 0; k < values.size(); ++k) {
     size = std::max({size, std::abs(begin[k]), std::abs(end[k])});
     change = std::max(change, std::abs(end[k] - begin[k]));
-    off = std::max(off, std::abs(values[k] - begin[k] - share * (end[k] - begin[k])));
+    off = std::max(off, std::abs(values[k] - begin[k] - share_of_way * (end[k] - begin[k])));
   }
   size = comm.max(size);
   change = comm.max(change);
   off = comm.max(off);
-  return off <= std::max(noticeable * change, 1e-12 * size);
+  return off <= std::max(noticeable_bend * change, 1e-12 * size);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ bool grow_evenly(Context& context, model::State at, double level) {
   const double present = at.time;
   at.prev = at.next;
   const Loaded begin = loaded(system, at, present);
-  const Loaded between = loaded(system, at, present + share * (level - present));
+  const Loaded between = loaded(system, at, present + share_of_way * (level - present));
   const Loaded end = loaded(system, at, level);
   return lie_between(begin.forces, between.forces, end.forces, std::max(begin.size, end.size),
                      system.comm()) &&

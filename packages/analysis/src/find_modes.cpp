@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
+#include "hidden_asymmetry.hpp"
 #include "whole_matrix.hpp"
 
 #include <Eigen/QR>
@@ -24,6 +25,9 @@ using Complex = std::complex<double>;
 constexpr double zero_bound = 4.0;
 // The same for lambda^2 of the quadratic problem, where a double zero is not exact to rounding.
 constexpr double quadratic_zero_bound = 1e3;
+
+// Of a tangent, above rounding.
+constexpr double least_asymmetry = 1e-12;
 
 // Where hidden frequencies reach this share of the lowest one, that is off by 1e-3 and more.
 constexpr double notable_share = 0.3;
@@ -180,6 +184,11 @@ class Finder {
         settings_.near ? std::pow(2.0 * std::numbers::pi * *settings_.near, 2) : lowest_shift();
     const auto pairs = solver::solve_eigenproblem({linear_.stiffness, linear_.mass}, solver_,
                                                   context_.system.comm());
+    if (is_hidden_asymmetry(pairs)) {
+      set_.is_complex = true;
+      find_complex();
+      return;
+    }
     for (std::size_t i = 0; i < pairs.values.size(); ++i) {
       const double square = pairs.values[i];
       Mode mode;
@@ -194,6 +203,18 @@ class Finder {
     tell(pairs);
     set_.solver = pairs.solver;
     set_.worst_residual = pairs.worst_residual;
+  }
+
+  // What is so little of the tangent may be all that its modes feel.
+  bool is_hidden_asymmetry(const solver::EigenPairs& pairs) const {
+    if (linear_.asymmetry <= least_asymmetry) return false;
+    std::vector<double> squares = pairs.values;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      if (std::abs(squares[i]) <= zero_bound * pairs.rounding[i]) squares[i] = 0.0;
+    }
+    const parallel::Comm& comm = context_.system.comm();
+    return hides_asymmetry(whole(*linear_.stiffness, comm), whole(*linear_.mass, comm), squares,
+                           pairs.vectors);
   }
 
   void find_complex() {
