@@ -1,8 +1,32 @@
 #include <culm/beam/linear_beam.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace culm::beam {
+namespace {
+
+// Strains see directors by the turn of their triad, theta = 1/2 sum_i D_i x d_i, alone: what
+// directors of unit length lose along themselves as they turn is of second order, and would act on
+// normal forces as a geometric stiffness of the wrong sign.
+template <class Rows, class Triad>
+void see_turns_only(const Triad& triad, Rows&& directors) {
+  for (Eigen::Index strain = 0; strain < directors.cols(); ++strain) {
+    Vec3 moment = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 D = triad.col(i);
+      const Vec3 B = directors.col(strain).template segment<3>(3 * i);
+      moment += D.cross(B);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 D = triad.col(i);
+      directors.col(strain).template segment<3>(3 * i) = 0.5 * moment.cross(D);
+    }
+  }
+}
+
+}  // namespace
 
 template <int Order>
 LinearBeam<Order>::LinearBeam(const Base& base, const Nodes& reference)
@@ -15,6 +39,9 @@ LinearBeam<Order>::LinearBeam(const Base& base, const Nodes& reference)
     for (int s = 0; s < beam_slots; ++s) {
       B.template middleRows<3>(3 * s) =
           (frame.transpose() * B.template middleRows<3>(3 * s)).eval();
+    }
+    for (int s = 0; s < beam_slots; s += 4) {
+      see_turns_only(reference_.template middleCols<3>(s + 1), B.template middleRows<9>(3 * s + 3));
     }
   }
 }

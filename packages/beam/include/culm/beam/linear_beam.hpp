@@ -7,10 +7,11 @@ namespace culm::beam {
 
 /// DirectorBeam whose strains are linear in the displacements seen from a frame node: with its
 /// directors R and its place x0, a slot of the beam has the components
-///   s = R^T (x - x0) or R^T d,     y = B0^T (s - s_ref),     B0 = ∂(Γ, K)/∂q in the reference.
-/// The forms are quadratic, and blind to rigid motions of beam and frame together; so the step
-/// keeps energy and momenta as it does for the full beam. Good for small rotations against the
-/// frame.
+///   s = R^T (x - x0) or R^T d,     y = B0^T (s - s_ref),     B0 = ∂(Γ, K)/∂q in the reference,
+/// of directors by their turn alone, ½ Σ D_i x d_i, so that normal forces neither stiffen nor
+/// soften the beam. The forms are quadratic, and blind to rigid motions of beam and frame together;
+/// so the step keeps energy and momenta as it does for the full beam. Good for small rotations
+/// against the frame.
 ///
 /// Node 0 is the frame, the others those of the beam, one of which may be the same node.
 template <int Order>
