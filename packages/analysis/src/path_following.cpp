@@ -75,6 +75,7 @@ void PathFollowing::do_begin() {
   model::State& state = this->state();
   make_newton(settings_.newton);
   state.time = state.time_prev = settings_.start_level;
+  state.velocity.release(0, state.velocity.size());  // as in statics
   system().prepare(state, stencil);
   system().choose_multiplier_scale(state, stencil);
   make_post_mortem(state, stencil, state.time + 1e3 * condition_.level_difference());

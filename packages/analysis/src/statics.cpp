@@ -101,6 +101,8 @@ void Statics::do_begin() {
         fmt::format("{} '{}' acts in dynamics only; statics knows no velocity", c.type, c.name));
   }
   state().time = state().time_prev = settings_.start_level;
+  // what is brought into equilibrium is at rest, also for a motion that comes after
+  state().velocity.release(0, state().velocity.size());
   increment_ = settings_.increment;
   system().prepare(state(), stencil);
   system().choose_multiplier_scale(state(), stencil);
