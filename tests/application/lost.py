@@ -282,6 +282,27 @@ def bends(folder, _):
     return "" if max(abs(a - b) for a, b in zip(found, expected)) < 1e-6 else f"the reaction is {found}"
 
 
+# Nodes of a beam of 2 m, unevenly spaced; it is propped at 1.4 m.
+PLACES = (0, 0.28, 0.62, 1, 1.3, 1.62, 2)
+UNEVEN_NODES = entry("Curve", Type="Nodes", Positions="{" + ", ".join(f"{x}, 0, 0" for x in PLACES) + "}",
+                     Directors="{" + ", ".join(["0, 0, 1, 0, -1, 0, 1, 0, 0"] * len(PLACES)) + "}")
+CURVE = cut(BASE, '<ParameterList name="Curve">', "</ParameterList>")
+PUT_AT = entry("prop", Type="Simple Support", Node="beam@0.7", Direction="{0, 0, 1}", Translation="1e-3")
+ROOT = entry("root", Type="Reaction", Node="beam/first")
+
+
+def has_arm(arm, force=None):
+    """The reaction at the root is that of a force at a distance."""
+
+    def check(folder, _):
+        row = last_row(folder)
+        found = row["root Fz [N]"], -row["root My [N m]"] / row["root Fz [N]"]
+        is_right = abs(found[1] - arm) < 1e-4 and (force is None or abs(found[0] - force) < 1e-6)
+        return "" if is_right else f"the force at the root is {found[0]}, at {found[1]} m"
+
+    return check
+
+
 # --- levels
 
 COMPRESSED = FORCE.replace("{0, 0, 100}", "{-100, 0, 0}")
@@ -316,8 +337,68 @@ def led_on(**then):
 FOLLOWS = (FORCE, FORCE.replace("</ParameterList>", '<Parameter name="Function" value="grown"/></ParameterList>'))
 STRETCHED = entry("pull", Type="Simple Support", Node="beam/last", Direction="{1, 0, 0}", Translation="1e-6", Function="grown")
 
+# --- loads in sections
+
+SECTIONS = "".join(entry(f"at {station}", Type="Section Loads", Structure="beam", Station=station, Axes="Space")
+                   for station in ("0.1", "0.5", "0.9"))
+# An L of two legs of 2 m, along x and up, lifted and pulled at its end.
+LEGS = entry("Curve", Type="Polyline", Points="{0, 0, 0, 2, 0, 0, 2, 0, 2}", Elements="{%s}", Up="{0, 1, 0}")
+BY_STATICS = ((0.4, 0.0), (2.0, 0.0), (2.0, 1.6))
+
+
+def carries_end_force(x, z, force):
+    """Moments about y of a force (Fx, Fz) at (x, z), within what the beam bends."""
+
+    def check(folder, _):
+        row = last_row(folder)
+        found = [row[f"at {station} My [N m]"] for station in ("0.1", "0.5", "0.9")]
+        expected = [(z - at[1]) * force[0] - (x - at[0]) * force[1] for at in BY_STATICS]
+        return "" if max(abs(a - b) for a, b in zip(found, expected)) < 1e-3 else f"moments are {found}, not {expected}"
+
+    return check
+
+
+# --- motions after statics
+
+MOVED = entry("moved", Type="Dynamic", End_Time="0.05", Step="0.01")
+
+
+def stands_still(folder, _):
+    """In the last of three analyses, where the second ended."""
+    with open(folder / "out/history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    places = [float(row["tip z [m]"]) for row in rows if row["analysis"] == "2"]
+    end = [float(row["tip z [m]"]) for row in rows if row["analysis"] == "1"][-1]
+    return "" if max(abs(place - end) for place in places) <= 1e-9 else f"the tip goes from {end} by {places}"
+
+
 # 4 pi^2 EI / L^2 over EA times the expansion, less what shear takes: 1437 K about d1, 1895 K about d2
 CROSSING = "between the levels %s and %s the determinant of the stiffness changes its sign"
+
+# Beck's column: it flutters at 20.05 EI / L^2, here about d1, and does not buckle
+STIFF = [
+    ('<Parameter name="EA" value="2e3" unit="kN"/>', '<Parameter name="EA" value="1e13"/>'),
+    ('<Parameter name="GA1" value="1e6"/>', '<Parameter name="GA1" value="1e12"/>'),
+    ('<Parameter name="GA2" value="1e6"/>', '<Parameter name="GA2" value="1e12"/>'),
+    ('name="Order" value="1"', 'name="Order" value="2"'),
+    ('name="Elements" value="4"', 'name="Elements" value="8"'),
+]
+PUSHED = [
+    (FORCE, entry("thrust", Type="Follower Force", Node="beam/last", Force="{0, 0, -1}", Function="grown")),
+    (SOLVER, LINEAR),
+    (STATIC, entry("flutter", Type="Flutter", Modes="2", Levels="{0, 1e4, 1.4e4, 1.6e4}")),
+]
+
+
+def flutters(level):
+    def check(folder, _):
+        with open(folder / "out/analyses/flutter/onset.csv", newline="") as file:
+            first = next(csv.DictReader(file))
+        found = float(first["level"] or "nan")
+        return "" if abs(found - level) <= 1e-2 * level else f"the first row is {first}"
+
+    return check
+
 
 CASES = [
     *TURNS,
@@ -473,6 +554,19 @@ CASES = [
         for form in ("Null Space", "Multipliers")
     ),
     *(
+        Case(f"a place on a beam of order {order} whose nodes are not evenly spaced", 0, args=RUN, leaves=["out"],
+             change=[(LOADS, ""), (CLAMP, CLAMP + PUT_AT), (HISTORY, HISTORY + ROOT), (CURVE, UNEVEN_NODES),
+                     ('name="Order" value="1"', f'name="Order" value="{order}"')], check=has_arm(1.4))
+        for order in (1, 2, 3)
+    ),
+    *(
+        Case(f"a table along a beam of order {order} whose nodes are not evenly spaced", 0, args=RUN, leaves=["out"],
+             change=[(FORCE, entry("line", Type="Line Load", Structure="beam", Positions="{0, 1}", Forces="{0, 0, 0, 0, 0, 3}")),
+                     (HISTORY, HISTORY + ROOT), (CURVE, UNEVEN_NODES),
+                     ('name="Order" value="1"', f'name="Order" value="{order}"')], check=has_arm(4.0 / 3.0, -3.0))
+        for order in (1, 2, 3)
+    ),
+    *(
         Case(f"a critical level under {what}", 0, args=RUN, change=[HEAVY, BUCKLED, *change], says=[] if even else UNEVEN,
              leaves=["out"], check=critical_levels(even), ranks=True)
         for what, even, change in (
@@ -511,4 +605,30 @@ CASES = [
                  (HISTORY, HISTORY + entry("inner", Type="Stress Resultants", Structure="beam", Element="0"))],
          says=["warning: Stress Resultants 'inner' is that of the lasting stiffness of 'beam': what its branches of "],
          leaves=["out"]),
+    Case("a follower force that is little beside stiffnesses that hardly act", 0, args=RUN, change=[HEAVY, *STIFF, *PUSHED],
+         leaves=["out"], check=flutters(20.0509 * 3e3 / 4.0), ranks=True),
+    *(
+        Case(f"a linear beam under {what}", 0, args=RUN, leaves=["out"],
+             change=[('name="Order" value="1"/>', 'name="Order" value="2"/><Parameter name="Fidelity" value="Linear"/>'),
+                     (FORCE, FORCE.replace("{0, 0, 100}", f"{{{force}, 0, 1}}"))],
+             check=ends_with("tip z [m]", 8.0 / (3.0 * 4e3) + 2.0 / 1e6, 1e-9))
+        for what, force in (("compression", -500), ("tension", 500))
+    ),
+    *(
+        Case(f"a motion after {what} after a motion", 0, args=RUN, leaves=["out"],
+             change=[HEAVY,
+                     (STATIC, MOVED + between + entry("on", Type="Dynamic", End_Time="1.05", Step="0.01"))],
+             check=stands_still, ranks=True)
+        for what, between in (
+            ("statics", entry("rest", Type="Static", Steps="1")),
+            ("a path", entry("rest", Type="Path", First_Increment="0.5", Final_Level="1")),
+        )
+    ),
+    *(
+        Case(f"loads in sections of an L of {elements} elements, order {order}", 0, args=RUN, leaves=["out"],
+             change=[(CURVE, LEGS % elements), (FORCE, FORCE.replace("{0, 0, 100}", "{0.1, 0, 0.1}")),
+                     ('name="Order" value="1"', f'name="Order" value="{order}"'), (HISTORY, HISTORY + SECTIONS)],
+             check=carries_end_force(2.0, 2.0, (0.1, 0.1)), ranks=True)
+        for elements, order in (("1, 1", 2), ("1, 3", 1), ("3, 2", 2), ("4, 4", 3))
+    ),
 ]

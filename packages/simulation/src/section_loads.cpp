@@ -3,6 +3,8 @@
 
 #include "place.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -20,7 +22,8 @@ Eigen::Matrix<double, 3, 4> slots_at(const model::Marker& marker, const model::C
 }
 
 // Force and moment in a section of a beam. The mean resultants of elements are those of their
-// centres to second order; between them, and on to the ends, the vectors in space are linear.
+// centres to second order; between them, and on to kinks and ends, the vectors in space are linear.
+// Of an element between two kinks the force is that everywhere, and the moment has its arm.
 class SectionLoads final : public Quantity {
  public:
   enum class Axes { section, space, frame };
@@ -70,6 +73,11 @@ class SectionLoads final : public Quantity {
       force += source.weight * directors * Vec3(resultants.data() + 6 * i);
       moment += source.weight * directors * Vec3(resultants.data() + 6 * i + 3);
     }
+    if (sources_.size() == 1) {
+      const Vec3 arm =
+          (slots_at(sources_.front().centre, state.next) - slots_at(station_, state.next)).col(0);
+      moment += arm.cross(force);
+    }
     const Mat3 axes = axes_in(state.next);
     for (const Vec3& vector : {force, moment}) {
       const Vec3 shown = axes.transpose() * vector;
@@ -90,31 +98,40 @@ class SectionLoads final : public Quantity {
   int frame_;
 };
 
-// Places of the centres of elements as fractions of the length.
-std::vector<double> centres_of(const model::Structure& beam) {
+// Where elements end, as fractions of the length.
+std::vector<double> ends_of(const model::Structure& beam) {
   const std::size_t per_element = beam.line_points.size() / beam.cells.size();
-  std::vector<double> centres;
+  std::vector<double> ends(beam.cells.size(), 0.0);
   double length = 0.0;
-  for (std::size_t first = 0; first < beam.line_points.size(); first += per_element) {
-    double own = 0.0;
-    for (std::size_t k = 0; k < per_element; ++k) own += beam.line_points.length(first + k);
-    centres.push_back(length + 0.5 * own);
-    length += own;
+  for (std::size_t k = 0; k < beam.line_points.size(); ++k) {
+    length += beam.line_points.length(k);
+    ends[k / per_element] = length;
   }
-  for (double& centre : centres) centre /= length;
-  return centres;
+  for (double& end : ends) end /= length;
+  return ends;
 }
 
-// The two elements whose centres lie about the station, or nearest to it, and their weights.
+// At a kink the next element has a node of its own.
+bool go_on(const model::Cell& cell, const model::Cell& next) {
+  return cell.nodes[cell.nodes.size() - 1] == next.nodes.front();
+}
+
+// The two elements whose centres lie about the station, or nearest to it, and their weights; none
+// is beyond a kink.
 std::vector<SectionLoads::Source> find_sources(const model::Structure& beam, double station) {
-  const std::vector<double> centres = centres_of(beam);
+  const std::vector<double> ends = ends_of(beam);
+  const auto centre = [&](std::size_t i) { return 0.5 * ((i == 0 ? 0.0 : ends[i - 1]) + ends[i]); };
   const auto source = [&](std::size_t i, double weight) {
-    return SectionLoads::Source{beam.cells[i], *marker_at_fraction(beam, centres[i]), weight};
+    return SectionLoads::Source{beam.cells[i], *marker_at_fraction(beam, centre(i)), weight};
   };
-  if (centres.size() == 1) return {source(0, 1.0)};
-  const auto above = std::lower_bound(centres.begin() + 1, centres.end() - 1, station);
-  const auto i = static_cast<std::size_t>(above - centres.begin());
-  const double weight = (station - centres[i - 1]) / (centres[i] - centres[i - 1]);
+  const auto here = static_cast<std::size_t>(
+      std::lower_bound(ends.begin(), ends.end() - 1, station - 1e-12) - ends.begin());
+  const bool has_before = here > 0 && go_on(beam.cells[here - 1], beam.cells[here]);
+  const bool has_next = here + 1 < ends.size() && go_on(beam.cells[here], beam.cells[here + 1]);
+  if (!has_before && !has_next) return {source(here, 1.0)};
+  const bool is_behind = has_before && (!has_next || station <= centre(here));
+  const std::size_t i = is_behind ? here : here + 1;
+  const double weight = (station - centre(i - 1)) / (centre(i) - centre(i - 1));
   return {source(i - 1, 1.0 - weight), source(i, weight)};
 }
 
@@ -148,7 +165,8 @@ std::unique_ptr<Quantity> make_section_loads(const Options& options, model::Buil
 void register_section_loads(QuantityRegistry& registry) {
   Schema schema("Section Loads",
                 "Force and moment in a section of a beam, by which the part beyond it, towards the "
-                "last node, acts on the part before; linear between the centres of elements.");
+                "last node, acts on the part before; linear between the centres of elements, not "
+                "beyond kinks.");
   schema.add(model::structure_field())
       .add(number("Station", "",
                   "Place of the section as a fraction of the length: 0 at the first node, 1 at the "
