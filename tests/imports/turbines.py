@@ -16,6 +16,7 @@ import turbine_samples as samples
 import yaml
 from reading import made_of_text
 from culm.errors import CulmError
+from culm.importing import windio
 from culm.program import Program
 
 
@@ -125,6 +126,32 @@ def tower_weighs(program, complaints):
         complaints.append(f"the tower weighs {total}, not {expected}")
 
 
+def windio_keeps_steps(complaints):
+    """Walls and masses that jump at a place, where a table names it twice."""
+    root = yaml.safe_load(samples.windio())
+    tower = root["components"]["tower"]
+    tower["internal_structure_2d_fem"]["layers"][0]["thickness"] = {"grid": [0.0, 0.5, 0.5, 1.0], "values": [0.1, 0.1, 0.02, 0.02]}
+    tower["outer_shape_bem"]["outer_diameter"]["values"] = [6.0, 6.0]
+    six = root["components"]["blade"]["elastic_properties_mb"]["six_x_six"]
+    first, *_, last = six["inertia_matrix"]["values"]
+    six["inertia_matrix"] = {"grid": [0.0, 0.25, 0.25, 1.0], "values": [first, first, last, last]}
+    text = yaml.safe_dump(root, sort_keys=False)
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "turbine.yaml"
+        path.write_text(text)
+        made = windio.read(path, argparse.Namespace(component="tower"))
+    walls = [float(entry["Wall Thickness"]) for name, entry in entries(made, "Sections").items() if name.startswith("tower")]
+    if walls != [0.1, 0.1, 0.02, 0.02]:
+        complaints.append(f"walls of windIO that step are {walls}")
+    made = made_of_text("windio", text, "turbine.yaml")
+    axis = numpy.stack([six["reference_axis"][k]["values"] for k in "xyz"], axis=1)
+    lengths = numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(axis, axis=0), axis=1))])
+    jump = numpy.interp(0.25, samples.GRID, lengths)
+    expected = jump * first[0] + (lengths[-1] - jump) * last[0]
+    if abs(made.mass / expected - 1.0) > 1e-9:
+        complaints.append(f"a blade of windIO whose mass steps weighs {made.mass}, not {expected}")
+
+
 def hawc2_has_its_centres(complaints):
     """Forces through the elastic centre do not bend, forces through the shear centre do not twist, a moment about
     a principal axis curves about it alone; radii of gyration are those of masses about the elastic centre."""
@@ -182,6 +209,7 @@ def main():
     program = Program(parser.parse_args().culm)
     complaints = []
     windio_is_whole(complaints)
+    windio_keeps_steps(complaints)
     both_forms_of_windio_are_alike(complaints)
     windio_tells_its_masses(complaints)
     hawc2_finds_its_files(complaints)

@@ -102,6 +102,29 @@ def _axis(parent, path, *before):
     return grid, numpy.stack([numpy.interp(grid, *table) for table in tables], axis=1)
 
 
+def _beside(places, grid, values):
+    """Values of a table below and above places: they differ where it has two of one place, a step."""
+    both = []
+    for side, rest in (("left", 0), ("right", -1)):
+        found = numpy.stack([numpy.interp(places, grid, column) for column in values.reshape(len(grid), -1).T], axis=1)
+        at = numpy.searchsorted(grid, places, side) + rest
+        is_met = (at >= 0) & (at < len(grid)) & (grid[numpy.clip(at, 0, len(grid) - 1)] == places)
+        found[is_met] = values.reshape(len(grid), -1)[at[is_met]]
+        both.append(found)
+    return both
+
+
+def _stepped(*tables):
+    """Places of several tables together, twice where one of them steps, and the values of each there."""
+    places = numpy.unique(numpy.concatenate([grid for grid, _ in tables]))
+    below, above = (numpy.hstack(side) for side in zip(*(_beside(places, *table) for table in tables)))
+    steps = (below != above).any(axis=1)
+    order = numpy.argsort(numpy.concatenate([numpy.arange(len(places)), numpy.flatnonzero(steps)]), kind="stable")
+    rows = numpy.concatenate([below, above[steps]])[order]
+    widths = numpy.cumsum([values.reshape(len(values), -1).shape[1] for _, values in tables])[:-1]
+    return numpy.concatenate([places, places[steps]])[order], numpy.split(rows, widths, axis=1)
+
+
 def _arc(points):
     """Share of the length up to each point."""
     lengths = numpy.concatenate([[0.0], numpy.cumsum(numpy.linalg.norm(numpy.diff(points, axis=0), axis=1))])
@@ -158,8 +181,8 @@ def _blade(root, parts, path, findings):
         if values.ndim != 2 or values.shape[1] != SYMMETRY:
             refuse(place, f"{name} must have {SYMMETRY} values at each place: the upper triangle of 6x6 by rows")
     if len(stiff_grid) != len(mass_grid) or abs(stiff_grid - mass_grid).max() > 1e-9:
-        mass = numpy.stack([numpy.interp(stiff_grid, mass_grid, column) for column in mass.T], axis=1)
-        findings.assume("the inertia is interpolated to the places of the stiffness")
+        stiff_grid, (stiffness, mass) = _stepped((stiff_grid, stiffness), (mass_grid, mass))
+        findings.assume("stiffness and inertia have places of their own and are interpolated to those of both")
     # places of the grid are fractions of the arc length of the axis in the ontology
     stations = [
         (at, "Stiffness Matrix", {"Stiffness": k, "Mass": m}, m[0])
@@ -251,10 +274,10 @@ def _tube(root, parts, name, path, deck, findings):
         refuse(Place(str(path), 1), f"{name} / outfitting_factor must be a number > 0, got {factor!r}")
     diameters = _table(shape, "outer_diameter", path, *where)
     walls = _table(layers[0], "thickness", path, *where, "layers")
-    places = numpy.unique(numpy.concatenate([diameters[0], walls[0]]))
+    places, values = _stepped(diameters, walls)
     stations = []
-    for at in places:
-        radius, wall = numpy.interp(at, *diameters) / 2, numpy.interp(at, *walls)
+    for at, diameter, wall in zip(places, *(column.ravel() for column in values)):
+        radius = diameter / 2
         if not 0.0 < wall < radius:
             refuse(Place(str(path), 1), f"{name}: at {at:g} of its length the wall is {wall:g} m, the radius {radius:g} m")
         solid = {"Young Modulus": E, "Shear Modulus": G, "Density": rho * factor}
