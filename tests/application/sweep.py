@@ -98,6 +98,16 @@ class Sweeps(SweepTest):
         self.assertEqual(bad["outcome"], "did not converge")
         self.assertIn("iteration limit", bad["reason"])
 
+    def test_a_parameter_that_varies_twice_is_refused(self):
+        cases = self.cases(f"{STIFFNESS},{STIFFNESS}", "400,500")
+        output = self.sweep("--cases", cases, *SHORT, exit_code=2)
+        self.assertIn(f"both '{STIFFNESS}' and '{STIFFNESS}' set {STIFFNESS}: only the last one would count", output)
+
+    def test_cases_of_a_spreadsheet_begin_with_a_mark(self):
+        cases = self.cases(f"\ufeff{STIFFNESS}", "400")
+        self.sweep("--cases", cases, *SHORT)
+        self.assertEqual([row[STIFFNESS] for row in self.rows()], ["400"])
+
     def test_frequencies_are_collected(self):
         self.sweep("--vary", "Refinement=1,2", deck=INPUTS / "modes/free_beam.xml")
         columns = [name for name in self.rows()[0] if name.endswith("frequency [Hz]")]

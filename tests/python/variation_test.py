@@ -111,6 +111,20 @@ class Pairs(unittest.TestCase):
             variation.pair([parse("step=4,2"), parse("mesh=1,2,4")], ["step", "mesh"])
 
 
+class Overlaps(unittest.TestCase):
+    def says(self, *texts, paired=()):
+        with self.assertRaisesRegex(CulmError, "both '.*' and '.*' set .*: only the last one would count"):
+            variation.pair([parse(text) for text in texts], paired)
+
+    def test_are_refused(self):
+        self.says("step=4,2", "Analyses/stop/Step=2,1")
+        self.says("Analyses/*/Step=4,2", "Analyses/stop/Step=2,1", paired=["Analyses/*/Step", "Analyses/stop/Step"])
+        self.says("element=Director-1,Director-2", "order=1,2")
+
+    def test_are_none_where_other_parts_of_a_name_are_set(self):
+        self.assertEqual(len(variation.pair([parse("element=Director,Helical"), parse("order=1,2")], [])), 2)
+
+
 class Errors(unittest.TestCase):
     def says(self, text, pattern):
         with self.assertRaisesRegex(CulmError, pattern):

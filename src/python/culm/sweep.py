@@ -88,7 +88,7 @@ def _cases(arguments, deck):
 
 def _listed(path, deck):
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(path, newline="", encoding="utf-8-sig") as file:  # spreadsheets begin with a mark
             rows = list(csv.reader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CulmError(f"--cases {path}: {error}", 6) from error
@@ -96,6 +96,7 @@ def _listed(path, deck):
         raise CulmError(f"--cases {path}: needs a line of names and a line for each run", 6)
     names = [name.strip() for name in rows[0]]
     places = [variation.places(name, deck) for name in names]
+    variation.refuse_overlaps(f"--cases {path}", list(zip(names, places)))
     cases = []
     for number, row in enumerate(rows[1:], 2):
         if not row:

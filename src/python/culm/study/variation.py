@@ -118,6 +118,10 @@ class Axis:
             ]
         return [f"{place}={value}" for place in self.places]
 
+    def paths(self):
+        """What is set by any of its values."""
+        return {setting.partition("=")[0] for i in range(len(self.values)) for setting in self.settings(i)}
+
     def between(self, coarse, fine, share):
         """A value between two, share 0 to 1 on a logarithmic scale, never coarser than that; None
         if none is left. Two digits for fractions."""
@@ -216,6 +220,7 @@ def parse(text, deck):
 
 def pair(axes, names):
     """The axes, with those named put together; order as of the first one."""
+    refuse_overlaps("--vary", [(axis.name, axis.paths()) for axis in axes])
     chosen = []
     for name in names:
         found = [axis for axis in axes if axis.name == name]
@@ -231,6 +236,19 @@ def pair(axes, names):
         raise CulmError("--paired: one of the variations is refined, another one is not")
     others = [axis for axis in axes if axis not in chosen]
     return [PairedAxis(chosen), *others]
+
+
+def refuse_overlaps(option, named):
+    """An error where two variations set the same: only the last one would count.
+
+    @param named  names of what varies, each with the paths that it sets
+    """
+    owners = {}
+    for number, (name, paths) in enumerate(named):
+        for path in paths:
+            first = owners.setdefault(path, number)
+            if first != number:
+                raise CulmError(f"{option}: both '{named[first][0]}' and '{name}' set {path}: only the last one would count", 2)
 
 
 def places(name, deck):
