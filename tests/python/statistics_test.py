@@ -10,6 +10,7 @@ import numpy as np
 from culm import report, statistics
 from culm.history import History
 from culm.page import Page
+from culm.resolved_deck import ResolvedDeck
 
 
 class Rainflow(unittest.TestCase):
@@ -60,7 +61,8 @@ class PageOfARun(unittest.TestCase):
             path = pathlib.Path(folder) / "history.csv"
             path.write_text("time,tip uz [m],load [N],analysis,step\n0,0,,0,1\n1,4,1,0,2\n2,0,1,0,3\n3,4,1,0,4\n4,8,1,0,5\n")
             page = Page("title")
-            report._add_statistics(page, History(path), [("weight", "Static", slice(0, 1)), ("motion", "Dynamic", slice(0, 5))], window)
+            parts = [("weight", "Static", slice(0, 1)), ("motion", "Dynamic", slice(0, 5))]
+            report._add_statistics(page, History(path), parts, window, ResolvedDeck("<ParameterList/>"))
             return "".join(page.parts[1:])
 
     def test_it_has_a_row_for_each_column_that_is_there_all_the_time(self):

@@ -12,6 +12,7 @@ import difflib
 import numpy
 
 from .errors import CulmError
+from .history import quantity_of
 
 NORMS = ("rms", "max", "end")
 DRIFTS = {
@@ -181,6 +182,24 @@ def _at(levels, values, wanted):
                 factor *= (wanted[missed] - other) / (levels[nodes[:, i]] - other)
         result[missed] += factor[:, None] * values[nodes[:, i]]
     return result
+
+
+# Signals that have a value in each state; the others have one in each step.
+OF_STATES = ("Lag", "Actuator", "Integral", "External")
+
+
+def begins_unsolved(column, deck):
+    """Whether a column of the history belongs to steps, and stands as 0 in the row where an analysis begins, step 0."""
+    entry, component = quantity_of(column, deck.names_in("Output/History"))
+
+    def named(key, place):
+        name = deck.parameters.get(f"Output/History/{entry}/{key}")
+        return deck.parameters.get(f"{place}/{name}/Type", "")
+
+    kind = deck.parameters.get(f"Output/History/{entry}/Type")
+    if kind == "Link":
+        return component in ("F", "M") and named("Load", "Loads").endswith(("Damper", "Damper Local", "Drive"))
+    return kind == "Reaction" or kind == "Signal" and named("Signal", "Signals") not in OF_STATES
 
 
 def _hint(name, known):

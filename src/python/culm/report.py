@@ -10,6 +10,8 @@ from .history import History, quantity_of
 from .mode_names import name_modes
 from .option_types import finite
 from .page import Page
+from .quantities import begins_unsolved
+from .resolved_deck import ResolvedDeck
 from .results import Results
 
 
@@ -63,7 +65,7 @@ def write_page(results, folder, output, window=None):
     if history is not None and history.names and len(history.levels) > 1:
         parts = _parts(results, history)
         _add_histories(page, results, history, parts, drawing)
-        _add_statistics(page, history, parts, window)
+        _add_statistics(page, history, parts, window, ResolvedDeck(results.deck()))
     _add_steps(page, results, drawing)
     _add_tables(page, results, drawing)
     _add_effects(page, results, drawing)
@@ -125,7 +127,7 @@ def _add_histories(page, results, history, parts, drawing):
         _add_figure(page, drawing, figure, f"histories of the quantities of the deck, {name}")
 
 
-def _add_statistics(page, history, parts, window):
+def _add_statistics(page, history, parts, window, deck):
     """Of all columns of all motions, over a window of time."""
     begin, end = window or (-math.inf, math.inf)
     tables = []
@@ -138,8 +140,9 @@ def _add_statistics(page, history, parts, window):
         table = []
         for column in history.names:
             values = [history.columns[column][row] for row in kept]
-            # an acceleration begins with the first step
-            first = 1 if history.steps[kept[0]] == 0 and not math.isfinite(values[0]) else 0
+            # accelerations and reactions begin with the first step
+            is_unsolved = not math.isfinite(values[0]) or begins_unsolved(column, deck)
+            first = 1 if history.steps[kept[0]] == 0 and is_unsolved else 0
             if len(values) - first < 2 or not all(math.isfinite(value) for value in values[first:]):
                 skipped.add(column)  # what does not exist all the time
                 continue

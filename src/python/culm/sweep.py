@@ -59,7 +59,7 @@ def main(arguments, program):
             pass
     if arguments.part:
         return 0  # the last job of an array does not know that it is the last: --collect
-    return _collect(runs, arguments, names, cases, watched, folder / TABLE)
+    return _collect(runs, arguments, names, cases, watched, deck, folder / TABLE)
 
 
 class Case:
@@ -109,13 +109,13 @@ def _listed(path, deck):
     return names, cases
 
 
-def _collect(runs, arguments, names, cases, watched, path):
+def _collect(runs, arguments, names, cases, watched, deck, path):
     """Writes the table; the exit code."""
     columns, lines = {}, []
     failed, broken, lost = [], 0, 0
     for case in cases:
         record = runs.find([*arguments.set, *case.settings])
-        values = _results(record, watched) if record and record.succeeded else {}
+        values = _results(record, watched, deck) if record and record.succeeded else {}
         columns.update(dict.fromkeys(values))
         lines.append((case, record, values))
         if record is None:
@@ -139,7 +139,7 @@ def _collect(runs, arguments, names, cases, watched, path):
     return 4 if failed or lost else 8 if broken else 0
 
 
-def _results(record, watched):
+def _results(record, watched, deck):
     """Numbers of a run by column: last, least and largest of what is watched, and those of tables."""
     found = {}
     if (record.folder / "history.csv").exists():
@@ -150,7 +150,9 @@ def _results(record, watched):
                 continue
             for names in one.columns(history).values():
                 for name in names:
-                    values = [value for value in history.columns[name] if value == value]
+                    least_step = 1 if quantities.begins_unsolved(name, deck) else 0
+                    rows = zip(history.columns[name], history.steps)
+                    values = [value for value, step in rows if value == value and step >= least_step]
                     if values:
                         found[f"{name} last"] = values[-1]
                         found[f"{name} least"] = min(values)
