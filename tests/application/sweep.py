@@ -108,6 +108,20 @@ class Sweeps(SweepTest):
         self.sweep("--cases", cases, *SHORT)
         self.assertEqual([row[STIFFNESS] for row in self.rows()], ["400"])
 
+    def test_files_that_cases_name_belong_to_them(self):
+        shutil.copytree(INPUTS / "beam", self.folder / "decks")
+        table = self.folder / "decks/mine.csv"
+        cases = self.cases("Functions/file/File Name", str(table), str(self.folder / "decks/include/load.csv"))
+        results = []
+        for last in (1, 1, 2):
+            table.write_text(f"0,0\n2,{last}\n")
+            self.sweep("--cases", cases, deck=self.folder / "decks/load_functions.xml")
+            results.append([row for row in self.rows()])
+        self.assertEqual(results[0], results[1])
+        self.assertNotEqual(results[0][0], results[2][0])
+        self.assertEqual(results[0][1], results[2][1])
+        self.assertEqual(len(self.ended()), 3)
+
     def test_frequencies_are_collected(self):
         self.sweep("--vary", "Refinement=1,2", deck=INPUTS / "modes/free_beam.xml")
         columns = [name for name in self.rows()[0] if name.endswith("frequency [Hz]")]

@@ -64,7 +64,40 @@ class Files(unittest.TestCase):
             resolved = ResolvedDeck(
                 '<ParameterList><ParameterList name="a"><Parameter name="File Name" value="tables/x.csv"/></ParameterList>'
                 '<ParameterList name="b"><Parameter name="File Name" value="y.csv"/></ParameterList></ParameterList>')
-            self.assertEqual(resolved.files(deck), {"tables/x.csv": folder / "include/tables/x.csv", "y.csv": folder / "y.csv"})
+            self.assertEqual(resolved.files(deck), [("tables/x.csv", folder / "include/tables/x.csv"), ("y.csv", folder / "y.csv")])
+            (folder / "include/y.csv").write_text("3")
+            self.assertEqual([path.read_text() for _, path in resolved.files(deck)], ["1", "2", "3"])
+            with self.assertRaisesRegex(CulmError, "of the name 'y.csv' stand in"):
+                resolved.only_files(deck)
+
+    def test_states_of_other_runs_are_found(self):
+        with tempfile.TemporaryDirectory() as name:
+            run = pathlib.Path(name) / "half"
+            run.mkdir()
+            (run / "run.checkpoint").write_text("1")
+            resolved = ResolvedDeck(
+                '<ParameterList><ParameterList name="Analyses"><ParameterList name="weight"/><ParameterList name="motion">'
+                f'<Parameter name="Start From" value="{run}"/></ParameterList><ParameterList name="modes">'
+                '<Parameter name="Start From" value="weight"/></ParameterList></ParameterList></ParameterList>')
+            self.assertEqual(resolved.states(), [run / "run.checkpoint"])
+
+    def test_lists_of_files_and_files_beside_others_are_found(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            deck = folder / "deck.xml"
+            names = ["hull.1", "hull.3", "hull.hst", "controller.in", "u.bin", "v.bin"]
+            for file in names:
+                (folder / file).write_text(file)
+            deck.write_text(
+                '<ParameterList><ParameterList name="a"><Parameter name="File Name" value="hull.1"/>'
+                '<Parameter name="File Names" value="{u.bin, v.bin}"/><Parameter name="Input File" value="controller.in"/>'
+                '</ParameterList></ParameterList>')
+            resolved = ResolvedDeck(deck.read_text())
+            self.assertEqual(resolved.only_files(deck), {file: folder / file for file in names})
+            moved = resolved.with_files(resolved.text, {file: f"x/{file}" for file in names})
+            self.assertEqual(resolved.files(deck)[0][0], "controller.in")
+            for text in ('"x/hull.1"', '"{x/u.bin, x/v.bin}"', '"x/controller.in"'):
+                self.assertIn(text, moved)
 
 
 if __name__ == "__main__":

@@ -58,11 +58,13 @@ def main(arguments, program):
 
 def _write_resources(folder, deck, source):
     """The deck with all defaults, and beside it the files that it reads."""
-    text = deck.text
-    for number, (name, path) in enumerate(deck.files(source).items()):
-        beside = f"{number}_{path.name}"
-        (folder / beside).write_bytes(path.read_bytes())
-        text = text.replace(f'"{name}"', f'"{beside}"')
+    files = deck.only_files(source)
+    # those that differ in their endings stay beside each other
+    stems = sorted({path.with_suffix("") for path in files.values()})
+    copies = {name: f"{stems.index(path.with_suffix(''))}_{path.name}" for name, path in files.items()}
+    for name, copy in copies.items():
+        (folder / copy).write_bytes(files[name].read_bytes())
+    text = deck.with_files(deck.text, copies)
     (folder / "deck.xml").write_text(text, encoding="utf-8")
     return folder
 

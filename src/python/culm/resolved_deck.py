@@ -4,7 +4,11 @@ import pathlib
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
+from .errors import CulmError
+
 INCLUDE = "{http://www.w3.org/2001/XInclude}include"
+
+OF_FILE, OF_FILES = ("/File Name", "/Input File"), "/File Names"  # ends of paths
 
 
 class ResolvedDeck:
@@ -30,11 +34,32 @@ class ResolvedDeck:
         return [path for path in self.parameters if _matches(path.split("/"), words)]
 
     def files(self, deck):
-        """Paths of the files that it reads, by their names, which are relative to the deck file or to the include that has
-        them."""
-        names = {value for path, value in self.parameters.items() if path.endswith("/File Name")}
-        folders = sorted(_folders(deck))
-        return {name: folder / name for name in sorted(names) for folder in folders if (folder / name).is_file()}
+        """Names and paths of the files that it reads. Names are relative to the deck file or to the include that has them:
+        where files of one name stand beside several of these, all are there."""
+        return find_files(self.parameters, sorted(_folders(deck)))
+
+    def states(self):
+        """Paths of what it takes from other runs."""
+        return find_states(self.parameters)
+
+    def only_files(self, deck):
+        """The same as paths by names; an error where several files have one name, which the resolved deck cannot tell apart."""
+        files = self.files(deck)
+        paths = dict(files)
+        for name, path in files:
+            if not path.samefile(paths[name]):
+                raise CulmError(f"files of the name '{name}' stand in '{path.parent}' and in '{paths[name].parent}'; rename one", 3)
+        return paths
+
+    def with_files(self, text, places):
+        """The text of the deck with other places of its files, by their names."""
+        for path, value in self.parameters.items():
+            if path.endswith(OF_FILE) and value in places:
+                text = text.replace(f'value="{value}"', f'value="{places[value]}"')
+            elif path.endswith(OF_FILES):
+                inside = ", ".join(places.get(name, name) for name in texts(value))
+                text = text.replace(f'value="{value}"', f'value="{{{inside}}}"')
+        return text
 
     def names_in(self, path):
         """The lists in a list: names_in('Output/History') are the quantities of the deck."""
@@ -53,6 +78,36 @@ class ResolvedDeck:
                 self._walk(child, path)
             else:
                 self.parameters["/".join(path)] = child.get("value")
+
+
+def find_files(parameters, folders):
+    """Names and paths of the files in some folders that parameters of a deck, by their paths, name."""
+    names = set()
+    for path, value in parameters.items():
+        if path.endswith(OF_FILE):
+            names.add(value)
+        elif path.endswith(OF_FILES):
+            names.update(texts(value))
+    # potential flow reads these beside it
+    names |= {name[:-2] + end for name in names if name.endswith(".1") for end in (".3", ".hst")}
+    found = [(name, folder / name) for name in sorted(names) for folder in folders if (folder / name).is_file()]
+    return list(dict.fromkeys(found))
+
+
+def find_states(parameters):
+    """Paths of states and shapes of other runs, which are named from where the program runs."""
+    patterns = (["Analyses", "*", "Start From"], ["Imperfections", "*", "Run"])
+    runs = [
+        pathlib.Path(value) for path, value in parameters.items()
+        if any(_matches(path.split("/"), pattern) for pattern in patterns)
+    ]
+    files = [file for run in runs for file in (run, run / "run.checkpoint", run / "run.h5")]
+    return [file for file in dict.fromkeys(files) if file.is_file()]
+
+
+def texts(value):
+    """The items of a list as a deck has it."""
+    return [item.strip() for item in value.strip().removeprefix("{").removesuffix("}").split(",")]
 
 
 def _folders(deck):

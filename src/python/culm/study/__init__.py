@@ -168,9 +168,8 @@ def _write_target(judgement, program, arguments, folder):
 def _write_deck(program, deck, settings, path, comment):
     resolved = ResolvedDeck.of(program, deck, settings)
     head, _, body = resolved.text.partition("?>\n")
-    for name, file in resolved.files(deck).items():
-        place = os.path.relpath(file, path.parent)
-        body = body.replace(f'value="{name}"', f'value="{place}"')
+    places = {name: os.path.relpath(file, path.parent) for name, file in resolved.only_files(deck).items()}
+    body = resolved.with_files(body, places)
     path.write_text(f"{head}?>\n<!-- {comment.replace('--', '- -')} -->\n{body}", encoding="utf-8")
 
 

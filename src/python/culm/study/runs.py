@@ -1,6 +1,7 @@
 """The runs of a study: one folder per settings, kept, so that a study that was stopped goes on."""
 
 import dataclasses
+import functools
 import hashlib
 import json
 import os
@@ -12,6 +13,7 @@ from ..at_once import at_once
 from ..errors import CulmError
 from ..history import History
 from ..program import DONE
+from ..resolved_deck import find_files, find_states
 from ..results import Results
 
 
@@ -51,7 +53,7 @@ class StudyRuns:
         program are not taken for its own"""
         self.program = program
         self.deck = deck
-        read = [pathlib.Path(program.path), *resolved.files(deck).values()]
+        read = [pathlib.Path(program.path), *(path for _, path in resolved.files(deck)), *resolved.states()]
         self.identity = "\n".join([resolved.text, *map(_digest, read)])
         self.folder = folder / "runs"
         self.time_limit = time_limit
@@ -119,11 +121,22 @@ class StudyRuns:
         return self.program.run(self.deck, folder, settings, self.time_limit)
 
     def _key(self, settings):
-        text = "\n".join([self.identity, *sorted(settings)])
+        """Of settings, and of what stands in the files that they name, from where the program runs."""
+        named = {path: value for path, _, value in (setting.partition("=") for setting in settings)}
+        read = [*(path for _, path in find_files(named, [pathlib.Path()])), *find_states(named)]
+        text = "\n".join([self.identity, *sorted(settings), *map(_digest, read)])
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _digest(path):
+    found = path.stat()
+    return _digest_of(path, found.st_mtime_ns, found.st_size)
+
+
+@functools.lru_cache(maxsize=None)
+def _digest_of(path, time, size):
+    """Of a file as it was then; it is read once."""
+    del time, size
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
