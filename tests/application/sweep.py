@@ -103,6 +103,11 @@ class Sweeps(SweepTest):
         output = self.sweep("--cases", cases, *SHORT, exit_code=2)
         self.assertIn(f"both '{STIFFNESS}' and '{STIFFNESS}' set {STIFFNESS}: only the last one would count", output)
 
+    def test_a_case_that_is_listed_twice_is_run_once(self):
+        self.sweep("--cases", self.cases(STIFFNESS, "400", "500", "400", "400"), *SHORT, "--jobs", "4")
+        self.assertEqual([row["outcome"] for row in self.rows()], ["done"] * 4)
+        self.assertEqual(len(self.ended()), 2)
+
     def test_cases_of_a_spreadsheet_begin_with_a_mark(self):
         cases = self.cases(f"\ufeff{STIFFNESS}", "400")
         self.sweep("--cases", cases, *SHORT)

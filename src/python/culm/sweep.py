@@ -54,7 +54,8 @@ def main(arguments, program):
         program, arguments.deck, deck, folder, arguments.time_limit, _say, needs_history=False
     )
     if not arguments.collect:
-        wanted = [([*arguments.set, *case.settings], case.label) for case in share(cases, arguments.part)]
+        distinct = list({tuple(case.settings): case for case in reversed(cases)}.values())[::-1]  # a case may be listed twice
+        wanted = [([*arguments.set, *case.settings], case.label) for case in share(distinct, arguments.part)]
         for _ in runs.each(wanted, arguments.jobs):
             pass
     if arguments.part:
