@@ -9,6 +9,8 @@ import numpy
 
 from ..errors import CulmError
 from .deck_text import List, unique_name
+from .desio_analyses import ANALYSES
+from .desio_constraints import CONSTRAINTS, DAMPERS, SPRINGS, has_two
 from .desio_files import (
     read_beams,
     read_bodies,
@@ -19,17 +21,13 @@ from .desio_files import (
     read_springs,
     read_table,
 )
+from .desio_sections import section_steps, value_section, voigt_section
 from .desio_shells import FILES, Shells
 from .findings import FILE_ERROR, Findings, did_you_mean, refuse
 from .ready_deck import ReadyDeck
 
 FILE = "folder of the model, or its simulationinput file"
 
-# Entries of the 6x6 stiffness in the order of the 21 values.
-VOIGT = "11 22 33 44 55 66 56 46 36 26 16 15 14 13 12 23 34 45 35 25 24".split()
-VALUES = ("EA", "GA1", "GA2", "EI1", "EI2", "GIp", "ES1", "ES2", "GS1", "GS2", "EI12")
-MASSES = ("rhoA", "rhoI1", "rhoI2", "rhoS1", "rhoS2", "rhoI12")
-VOIGT_MASSES = ("rhoA", "rhoI2", "rhoI1", "rhoI12", "rhoS1", "rhoS2")
 # sort of a load -> type of a function, and what its duration is called
 FUNCTIONS = {
     "constant": ("Constant", None),
@@ -43,7 +41,6 @@ FUNCTIONS = {
     "delta": ("Delta", "Time"),
     "random": ("Random", None),
 }
-ARC_CONTROLS = {1: "Linearised Sphere", 2: "Normal Plane", 3: "Sphere"}
 
 
 def declare(parser):
@@ -141,7 +138,7 @@ class Reader:
         for index in used:
             stiffness, mass, _, place, title = table[index]
             entry = self.lists["Sections"].list(f"section {index + 1}", f"{place}: {title}")
-            (_voigt_section if voigt else _value_section)(entry, stiffness, mass, place)
+            (voigt_section if voigt else value_section)(entry, stiffness, mass)
         for beam in beams:
             self._beam(beam, table)
 
@@ -157,7 +154,7 @@ class Reader:
         self.mass += float(sum(table[index][1][0] * length for index, length in zip(properties, lengths)))
         entry = self.lists["Structures"].list(name, f"{beam.place}", "Beam")
         entry.add("Order", 1, comment="the element of the original; 2 needs fewer nodes for the same accuracy")
-        names, places = _section_steps(properties, lengths)
+        names, places = section_steps(properties, lengths)
         if len(set(names)) == 1:
             entry.add("Section", names[0])
         else:
@@ -183,7 +180,7 @@ class Reader:
         rows = self.if_there("constraint12input.txt", lambda path: read_table(path, 2, 9, 0)) or []
         first = self.first_node
         if first is None:
-            named = [row for row in rows if row.numbers[0] == 0 or _has_two(row) and row.numbers[1] == 0]
+            named = [row for row in rows if row.numbers[0] == 0 or has_two(row) and row.numbers[1] == 0]
             first = 0 if named else 1
             if named:
                 self.findings.assume("constraints count nodes from 0, because one names a node 0", named[0].place)
@@ -200,7 +197,7 @@ class Reader:
         if make is None and kind != "internal":
             refuse(row.place, f"unknown constraint '{row.kind}'{did_you_mean(kind, [*CONSTRAINTS, 'internal'])}")
         nodes = [self._node(row.numbers[0], row.place, first)]
-        if _has_two(row):
+        if has_two(row):
             nodes.append(self._node(row.numbers[1], row.place, first))
         if kind == "internal":
             return
@@ -323,190 +320,7 @@ def mass_properties(values, place):
     return m, centre, tensor[[0, 1, 2, 1, 0, 0], [0, 1, 2, 2, 2, 1]]
 
 
-def _voigt_section(entry, stiffness, mass, place):
-    del place
-    matrix = numpy.zeros((6, 6))
-    for key, value in zip(VOIGT, stiffness):
-        i, j = int(key[0]) - 1, int(key[1]) - 1
-        matrix[i, j] = matrix[j, i] = value
-    entry.add("Type", "Stiffness Matrix").add("Stiffness", matrix[numpy.triu_indices(6)])
-    for key, value in zip(VOIGT_MASSES, mass):
-        entry.add(key, value)
-
-
-def _value_section(entry, stiffness, mass, place):
-    del place
-    entry.add("Type", "Stiffness Values")
-    for key, value in (*zip(VALUES, stiffness), *zip(MASSES, mass)):
-        entry.add(key, value)
-
-
-def _section_steps(properties, lengths):
-    """Names and positions of sections that are constant within elements."""
-    ends = numpy.concatenate([[0.0], numpy.cumsum(lengths)]) / lengths.sum()
-    names, places = [], []
-    start = 0
-    for i in range(1, len(properties) + 1):
-        if i == len(properties) or properties[i] != properties[start]:
-            names += [f"section {properties[start] + 1}"] * 2
-            places += [ends[start], ends[i]]
-            start = i
-    places[-1] = 1.0
-    return names, places
-
-
 def _runs_backwards(nodes):
     """Whether d3 points against the axis everywhere."""
     steps = zip(nodes, nodes[1:])
     return all((b.position - a.position) @ (a.directors[2] + b.directors[2]) < 0.0 for a, b in steps)
-
-
-def _has_two(row):
-    return row.kind.lower() in ("rigidconnection", "sphericaljoint", "revolutejoint")
-
-
-def _point(node, offset):
-    return node.position + offset @ node.directors
-
-
-def _simple(kind):
-    def make(nodes, vectors, place, findings):
-        direction = vectors[2]
-        if kind.endswith("Local"):
-            direction = direction @ nodes[0].directors
-        _require(direction, place)
-        return kind, {"Node": nodes[0].name, "Direction": direction}, "Translation"
-
-    return make
-
-
-def _turning(kind, amount):
-    def make(nodes, vectors, place, findings):
-        axis = vectors[2] @ nodes[0].directors if kind.endswith("Local") else vectors[2]
-        _require(axis, place)
-        return kind, {"Node": nodes[0].name, "Axis": axis}, amount
-
-    return make
-
-
-def _require(direction, place):
-    if not direction.any():
-        refuse(place, "this constraint needs a direction")
-
-
-def _rigid_support(nodes, vectors, place, findings):
-    return "Rigid Support", {"Node": nodes[0].name}, None
-
-
-def _spherical_support(nodes, vectors, place, findings):
-    values = {"Node": nodes[0].name}
-    if vectors[0].any():
-        values["Offset"] = vectors[0]
-    return "Spherical Support", values, None
-
-
-def _rigid_connection(nodes, vectors, place, findings):
-    """Some versions of DeSiO turn the arms that the file gives, so that without them the second node only moves along."""
-    gap = _point(nodes[1], vectors[1]) - _point(nodes[0], vectors[0])
-    if numpy.linalg.norm(gap) > max(1e-6, 1e-3 * numpy.linalg.norm(nodes[1].position - nodes[0].position)):
-        findings.assume("a rigid connection turns the arm between its nodes, which is not that of its offsets", place)
-    return "Rigid Connection", {"Node": nodes[1].name, "Master": nodes[0].name}, None
-
-
-def _spherical_joint(nodes, vectors, place, findings):
-    values = {"First": nodes[0].name, "Second": nodes[1].name, "Position": _point(nodes[1], vectors[1])}
-    return "Spherical Joint", values, None
-
-
-def _revolute_joint(nodes, vectors, place, findings):
-    """Without a direction the axis is the line between the two points, and the joint at the second."""
-    first, second = _point(nodes[0], vectors[0]), _point(nodes[1], vectors[1])
-    axis = vectors[2] @ nodes[0].directors
-    line = second - first
-    if numpy.linalg.norm(numpy.cross(axis, line)) > 1e-6 * numpy.linalg.norm(axis) * numpy.linalg.norm(line) > 0.0:
-        findings.assume("a revolute joint with a direction turns about that, not about the line between its points", place)
-    if not axis.any():
-        axis = line
-        if not axis.any():
-            findings.assume("a revolute joint without an axis, its points at one place, is a spherical one, as its equations are", place)
-            return "Spherical Joint", {"First": nodes[0].name, "Second": nodes[1].name, "Position": second}, None
-        axis = axis / numpy.linalg.norm(axis)
-        findings.assume("the axis of a revolute joint without a direction is the line between its points", place)
-    values = {"First": nodes[0].name, "Second": nodes[1].name, "Position": second, "Axis": axis}
-    return "Revolute Joint", values, None
-
-
-CONSTRAINTS = {
-    "rigidsupport": _rigid_support,
-    "sphericalsupport": _spherical_support,
-    "simplesupport_global": _simple("Simple Support"),
-    "simplesupport_local": _simple("Simple Support Local"),
-    "rotation_global": _turning("Rotation", "Angle"),
-    "rotation_local": _turning("Rotation Local", "Angle"),
-    "angularvelocity_global": _turning("Angular Velocity", "Angular Velocity"),
-    "angularvelocity_local": _turning("Angular Velocity Local", "Angular Velocity"),
-    "rigidconnection": _rigid_connection,
-    "sphericaljoint": _spherical_joint,
-    "revolutejoint": _revolute_joint,
-}
-SPRINGS = {
-    "translatory_global": ("Directed Ground Spring", "Direction", "Space"),
-    "translatory_local": ("Directed Ground Spring", "Direction", "Node"),
-    "translatory_inplane": ("Plane Ground Spring", "Normal", "Space"),
-    "translatory_corotational": ("Ground Spring", None, None),
-}
-DAMPERS = {
-    "angularvelocity_global": ("Rotation Damper", "Axis", "Space"),
-    "angularvelocity_local": ("Rotation Damper Local", "Axis", "Node"),
-}
-
-
-def _static(entry, row, findings):
-    final, step = row.values[:2]
-    _check_step(step, final, row)
-    entry.add("Type", "Static").add("Final Level", final).add("Steps", max(1, round(final / step)))
-
-
-def _dynamic(entry, row, findings):
-    end, step = row.values[:2]
-    _check_step(step, end, row)
-    entry.add("Type", "Dynamic").add("Start Time", 0).add("End Time", end).add("Step", step)
-
-
-def _path(entry, row, findings):
-    final, step = row.values[:2]
-    _check_step(step, final, row)
-    entry.add("Type", "Path").add("Final Level", final).add("First Increment", step)
-    if len(row.values) > 4:
-        control = ARC_CONTROLS.get(int(row.values[4]))
-        if control is None:
-            refuse(row.place, f"the arc-length method must be 1, 2 or 3, got {row.values[4]:g}")
-        entry.add("Control", control)
-    if len(row.values) > 5 and row.values[5] > 0:
-        entry.add("Desired Iterations", int(row.values[5]))
-
-
-def _modes(type):
-    def make(entry, row, findings):
-        if not 1 <= row.values[0] <= 1e5:
-            refuse(row.place, f"the number of modes must be between 1 and 100000, got {row.values[0]:g}")
-        entry.add("Type", type).add("Modes", int(row.values[0]))
-        if len(row.values) > 2 and row.values[2] > 0.0:
-            findings.assume("of modes the lowest ones are found, whatever the least value of the file is", row.place)
-
-    return make
-
-
-def _check_step(step, end, row):
-    if not 0.0 < step or not 0.0 < end or end / step > 1e7:
-        refuse(row.place, f"end and step must be > 0 and at most 1e7 steps apart, got {end:g} and {step:g}")
-
-
-ANALYSES = {
-    "static": _static,
-    "dynamic": _dynamic,
-    "static_arc": _path,
-    "modal": _modes("Modal"),
-    "buckling": _modes("Buckling"),
-}
-
