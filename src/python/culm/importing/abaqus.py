@@ -1,6 +1,7 @@
 """Models of Abaqus and CalculiX: flat files, and parts with instances."""
 
-from .abaqus_mesh import hold_in_plane, read_mesh_block
+from .abaqus_elements import hold_in_plane
+from .abaqus_mesh import read_mesh_block
 from .abaqus_properties import read_property_block, resolve_sections
 from .abaqus_steps import finish_steps, read_step_block
 from .findings import did_you_mean, refuse

@@ -4,7 +4,8 @@ import collections
 
 import numpy
 
-from .abaqus_mesh import BEAMS, SHELLS, refuse_directions
+from .abaqus_elements import BEAMS, SHELLS
+from .abaqus_nodes import refuse_directions
 from .findings import refuse
 from .model import ElementLoad, NodeLoad
 

@@ -2,7 +2,7 @@
 
 import numpy
 
-from .abaqus_mesh import placed, triad
+from .abaqus_nodes import placed, triad
 from .findings import refuse
 from .keyword_file import number, numbers_of
 from .model import cylinder_axes

@@ -7,7 +7,8 @@ import numpy
 from .findings import did_you_mean, refuse
 from .keyword_file import NUMBER, number, numbers_of
 from .model import Layer, Material, Section, Wall
-from .abaqus_mesh import BEAMS, POINTS, SHELLS, element_of, is_turned, point_mass, turned
+from .abaqus_elements import BEAMS, POINTS, SHELLS, element_of, point_mass
+from .abaqus_nodes import is_turned, turned
 from .abaqus_orientations import Orientation, read_orientation
 from .profiles import i_section
 

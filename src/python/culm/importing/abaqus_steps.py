@@ -9,7 +9,7 @@ import collections
 import dataclasses
 
 from .abaqus_loads import ON_SURFACE, collect_element_loads, collect_node_loads, make_element_load
-from .abaqus_mesh import refuse_directions
+from .abaqus_nodes import refuse_directions
 from .findings import did_you_mean, refuse
 from .keyword_file import integer, is_integer, number, numbers_of
 from .model import Step, Support, supports_along
