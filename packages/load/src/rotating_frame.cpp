@@ -17,14 +17,21 @@ namespace {
 
 using FrameMotion = model::ItemMotion<RotatingFrame::max_nodes>;
 
+// How the frame turns in a step.
+struct Turning {
+  Mat3 turn;  // omega x
+  Mat3 rate;  // by its change over the step
+  Mat3 by_place() const { return turn * turn + rate; }
+};
+
 // Acceleration of the slots of an item in the frame at rest.
 FrameMotion::Slots accelerations(const FrameMotion& motion, const std::vector<int>& nodes,
                                  const model::State& state, const Stencil& stencil,
-                                 const Vec3& omega, const Vec3& point) {
+                                 const Turning& turning, const Vec3& point) {
   FrameMotion::Slots a = motion.mid;
   for (int s = 0; s < a.cols(); s += 4) a.col(s) -= point;
-  const Mat3 turn = skew(omega);
-  a = (turn * (turn * a)).eval();
+  const Mat3& turn = turning.turn;
+  a = (turning.by_place() * a).eval();
   if (stencil.step > 0.0) {
     for (int s = 0; s < a.cols(); ++s) {
       const auto prev = model::NodeTable::slots(state.prev, nodes[static_cast<std::size_t>(s / 4)]);
@@ -32,6 +39,21 @@ FrameMotion::Slots accelerations(const FrameMotion& motion, const std::vector<in
     }
   }
   return a;
+}
+
+// @param speed  of a state and a stencil
+template <class Speed>
+Turning turning_of(const model::State& state, const Stencil& stencil, const Vec3& axis,
+                   const Speed& speed) {
+  double rate = 0.0;
+  if (stencil.step > 0.0) {
+    Stencil begin = stencil;
+    Stencil end = stencil;
+    begin.theta = 0.0;
+    end.theta = 1.0;
+    rate = (speed(state, end) - speed(state, begin)) / stencil.step;
+  }
+  return {skew(speed(state, stencil) * axis), skew(rate * axis)};
 }
 
 // The nodes of the structures that a deck names; false, with an issue, if one does not exist.
@@ -123,16 +145,16 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
                                      const Stencil& stencil, bool tangent,
                                      model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-  const Vec3 omega = speed(state, stencil) * axis_;
+  const Turning turning =
+      turning_of(state, stencil, axis_, [this](const auto&... at) { return speed(at...); });
   const FrameMotion motion(nodes_, item.nodes, state, stencil.theta);
   const FrameMotion::Slots r =
-      accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
+      accelerations(motion, item.nodes, state, stencil, turning, point_).lazyProduct(item.mass);
   const Verdict verdict = add_slot_residual<Space>(placement(), i, r, motion.arms_mid, target);
   if (!tangent || verdict != Verdict::ok) return verdict;
 
-  const Mat3 turn = skew(omega);
-  Mat3 derivative = stencil.theta * turn * turn;
-  if (stencil.step > 0.0) derivative += 2.0 / stencil.step * turn;
+  Mat3 derivative = stencil.theta * turning.by_place();
+  if (stencil.step > 0.0) derivative += 2.0 / stencil.step * turning.turn;
   const auto by_slots = [&](int a, int b) {
     Mat<12, 12> K;
     for (int s = 0; s < 4; ++s) {
@@ -148,13 +170,14 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
 
 model::StepWork RotatingFrame::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
-  const Vec3 omega = speed(state, stencil) * axis_;
+  const Turning turning =
+      turning_of(state, stencil, axis_, [this](const auto&... at) { return speed(at...); });
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
     const FrameMotion motion(nodes_, item.nodes, state, stencil.theta);
     const FrameMotion::Slots f =
-        -accelerations(motion, item.nodes, state, stencil, omega, point_).lazyProduct(item.mass);
+        -accelerations(motion, item.nodes, state, stencil, turning, point_).lazyProduct(item.mass);
     add_item_work(f, motion, item.nodes, state, true, work);
   }
   return work;
@@ -163,8 +186,8 @@ model::StepWork RotatingFrame::step_work(const model::State& state, const Stenci
 void register_rotating_frame(model::BuilderRegistry& registry) {
   Schema schema(
       "Rotating Frame",
-      "Centrifugal and Coriolis forces on all masses, or on those of some structures: they "
-      "are described in a frame that turns steadily.");
+      "Centrifugal and Coriolis forces on all masses, or on those of some structures, and in "
+      "motions that of a speed that changes: they are described in a frame that turns.");
   schema
       .add(model::vector_field("Axis", "1",
                                "Direction of the axis; the frame turns about it by "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace culm::simulation {
 namespace {
@@ -40,6 +41,22 @@ std::string first_on_ramp(const Options& deck, const Options& analysis) {
   return {};
 }
 
+struct Levels {
+  double first, last;
+};
+
+// Those of an analysis that looks for equilibrium at levels of its own.
+std::optional<Levels> levels_of(const Options& analysis) {
+  const std::string& type = analysis.text("Type");
+  if (type == "Static") {
+    return Levels{analysis.number("Start Level"), analysis.number("Final Level")};
+  }
+  if (type != "Campbell" && type != "Flutter") return {};
+  const std::vector<double>& levels = analysis.numbers("Levels");
+  if (levels.empty()) return {};
+  return Levels{*std::ranges::min_element(levels), *std::ranges::max_element(levels)};
+}
+
 bool grows_by_more_than_ramp(const Options& deck) {
   return std::ranges::any_of(std::vector{"Functions", "Signals", "Fields", "Flows"},
                              [&](const char* list) { return !deck.list(list).entries().empty(); });
@@ -48,8 +65,9 @@ bool grows_by_more_than_ramp(const Options& deck) {
 }  // namespace
 
 std::vector<std::string> levels_beyond_ramp(const Options& deck, const Options& analysis) {
-  if (analysis.text("Type") != "Static" || grows_by_more_than_ramp(deck)) return {};
-  if (analysis.number("Start Level") >= 1.0 || analysis.number("Final Level") <= 1.0) return {};
+  const std::optional<Levels> levels = levels_of(analysis);
+  if (!levels || levels->first >= 1.0 || levels->last <= 1.0) return {};
+  if (grows_by_more_than_ramp(deck)) return {};
   const std::string what = first_on_ramp(deck, analysis);
   if (what.empty()) return {};
   return {fmt::format("nothing grows beyond level 1, where 'Ramp' ends, which {} follows: {}", what,
