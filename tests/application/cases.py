@@ -238,12 +238,13 @@ def strip(name, **values):
     return entry(name, **{key: value for key, value in (known | values).items() if value != ""})
 
 
-def in_wind(*strips):
+def in_wind(*strips, **flow):
     """The change of the deck that puts it into a wind."""
+    flow = flow or {"Type": "Uniform", "Velocity": "{0, 0, 1}"}
     return (
         '<ParameterList name="Loads">',
         f'<ParameterList name="Airfoils">{entry("thin", Type="Thin")}</ParameterList>'
-        f'<ParameterList name="Flows">{entry("wind", Type="Uniform", Density="1", Velocity="{0, 0, 1}")}</ParameterList>'
+        f'<ParameterList name="Flows">{entry("wind", Density="1", **flow)}</ParameterList>'
         '<ParameterList name="Loads">' + "".join(strips),
     )
 
@@ -411,6 +412,22 @@ CASES = [
         results="out",
     ),
     Case(
+        "what starts beyond its limits",
+        3,
+        args=RUN,
+        change=[
+            (
+                '<ParameterList name="Loads">',
+                '<ParameterList name="Signals">'
+                + entry("pitch", Type="Lag", Signal="Ramp", Time_Constant="1", Upper="2", Initial="3")
+                + entry("angle", Type="Integral", Signal="Ramp", Lower="0", Initial="-1")
+                + '</ParameterList><ParameterList name="Loads">',
+            ),
+        ],
+        says=["pitch / Initial: must not be beyond 'Lower' or 'Upper', got 3",
+              "angle / Initial: must not be beyond 'Lower' or 'Upper', got -1"],
+    ),
+    Case(
         "weight and a sea of another world",
         0,
         args=RUN,
@@ -480,6 +497,33 @@ CASES = [
         results="out",
         last_level=1.0,
         check=has_findings("air twice", grade=False),
+        ranks=True,
+    ),
+    Case(
+        "a current that goes upwards",
+        3,
+        args=RUN,
+        change=[(
+            '<ParameterList name="Loads">',
+            '<ParameterList name="Flows"><ParameterList name="sea"><Parameter name="Type" value="Still Water"/>'
+            '<Parameter name="Depth" value="20"/>'
+            + entry("Current", Type="Uniform", Speed="1", Direction="{0, 0, 1}")
+            + '</ParameterList></ParameterList><ParameterList name="Loads">',
+        )],
+        says=["Flows / sea / Current / Direction: 'Direction' and 'Up' must not be parallel or zero"],
+    ),
+    Case(
+        "air on what stands at the ground of its wind",
+        0,
+        args=RUN,
+        change=[
+            in_wind(strip("air"), Type="Power Law", Speed="10", Height="10", Exponent="0", Up="{0, 0, -1}"),
+        ],
+        says=["warning: Strip 'air' meets no wind: all of it stands at the ground of its flow or below, where the "
+              "height along 'Up' above the origin is 0; put the structure higher, or take a 'Uniform' flow\n"],
+        results="out",
+        last_level=1.0,
+        check=has_findings("below ground", grade=False),
         ranks=True,
     ),
     Case(

@@ -5,6 +5,8 @@
 #include <culm/base/schema.hpp>
 #include <culm/control/block.hpp>
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -76,11 +78,21 @@ inline Limits read_limits(const Options& options) {
   return limits;
 }
 
+/// Of an output that its limits hold: it starts between them.
+inline void check_start(const Options& options, InputIssues& issues) {
+  if (!options.has("Initial")) return;
+  const double start = options.number("Initial");
+  if (read_limits(options).hold(start) == start) return;
+  issues.add(options.where("Initial"),
+             fmt::format("must not be beyond 'Lower' or 'Upper', got {:g}", start));
+}
+
 /// Limits of command and rate, and the start.
 inline void add_actuator_fields(Schema& schema) {
   add_limits(schema);
   schema.add(number("Rate Limit", "1/s", "Largest rate of change.").positive().optional());
   add_start(schema);
+  schema.check(check_start);
 }
 
 inline Limits read_rate(const Options& options) {

@@ -94,6 +94,8 @@ class Gust final : public Flow {
     return axes_.turned(change.turn) * shear.transpose();
   }
 
+  bool is_above_ground(const Vec3& place) const override { return axes_.height(place) > 0.0; }
+
  private:
   Change change_at(double time) const {
     if (time <= 0.0) return {};

@@ -31,6 +31,10 @@ class LogLaw final : public Flow {
     return amplitude_.at(time) * friction_ / height * axes_.along * axes_.up.transpose();
   }
 
+  bool is_above_ground(const Vec3& place) const override {
+    return axes_.height(place) > roughness_;
+  }
+
  private:
   WindAxes axes_;
   double roughness_;

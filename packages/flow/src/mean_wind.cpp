@@ -34,6 +34,10 @@ class TurbulentWind final : public Flow {
     return fluctuations_->gradient(place, time) + slope * axes_.along * axes_.up.transpose();
   }
 
+  bool is_above_ground(const Vec3& place) const override {
+    return axes_.height(place) > roughness_;
+  }
+
  private:
   double profile(double height) const {
     if (roughness_ == 0.0) return power_law(height, height_, exponent_);

@@ -29,6 +29,8 @@ class PowerLaw final : public Flow {
     return amplitude_.at(time) * speed_ * slope * axes_.along * axes_.up.transpose();
   }
 
+  bool is_above_ground(const Vec3& place) const override { return axes_.height(place) > 0.0; }
+
  private:
   WindAxes axes_;
   double speed_, height_, exponent_;

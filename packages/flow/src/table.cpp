@@ -24,9 +24,39 @@ namespace culm::flow {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
+constexpr double half_turn = 180.0 + 1e-9;  // [degrees], with rounding
 
 enum Column { at, speed, direction, vertical, across_shear, exponent, up_shear, gust, columns };
 using Row = std::array<double, columns>;
+
+// Linear between rows, held before the first and after the last; the later of equal times.
+Row row_at(const std::vector<Row>& rows, double time) {
+  const auto after =
+      std::upper_bound(rows.begin(), rows.end(), time,
+                       [](double moment, const Row& row) { return moment < row[at]; });
+  if (after == rows.begin()) return rows.front();
+  if (after == rows.end()) return rows.back();
+  const Row& low = *(after - 1);
+  const double share = (time - low[at]) / ((*after)[at] - low[at]);
+  Row row;
+  for (std::size_t c = 0; c < columns; ++c) row[c] = low[c] + share * ((*after)[c] - low[c]);
+  return row;
+}
+
+// So that a motion tells what its steps do not see of the speed and of the direction.
+void add_functions(const std::string& name, const std::vector<Row>& rows, model::Model& model) {
+  std::vector<double> times;
+  for (const Row& row : rows) {
+    if (times.empty() || row[at] > times.back()) times.push_back(row[at]);
+  }
+  const auto add = [&](const char* what, auto value) {
+    model.add_function(name + ", " + what, model::Amplitude::of_time([rows, value](double time) {
+                                             return value(row_at(rows, time));
+                                           }).with_corners(times));
+  };
+  add("speed", [](const Row& row) { return row[speed] + row[gust]; });
+  add("direction", [](const Row& row) { return row[direction]; });
+}
 
 class Table final : public Flow {
  public:
@@ -39,7 +69,7 @@ class Table final : public Flow {
 
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override {
-    const Row now = row_at(time);
+    const Row now = row_at(rows_, time);
     const Vec3 along = axes_.turned(now[direction]);
     const Vec3 across = axes_.up.cross(along).normalized();
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -51,7 +81,7 @@ class Table final : public Flow {
     }
   }
   Mat3 gradient(const Vec3& place, double time) const override {
-    const Row now = row_at(time);
+    const Row now = row_at(rows_, time);
     const Vec3 along = axes_.turned(now[direction]);
     const double slope = power_law_slope(axes_.height(place), height_, now[exponent]);
     const Vec3 ratio = (slope + now[up_shear] / length_) * axes_.up +
@@ -59,21 +89,9 @@ class Table final : public Flow {
     return now[speed] * along * ratio.transpose();
   }
 
- private:
-  // Linear between rows, held before the first and after the last; the later of equal times.
-  Row row_at(double time) const {
-    const auto after =
-        std::upper_bound(rows_.begin(), rows_.end(), time,
-                         [](double moment, const Row& row) { return moment < row[at]; });
-    if (after == rows_.begin()) return rows_.front();
-    if (after == rows_.end()) return rows_.back();
-    const Row& low = *(after - 1);
-    const double share = (time - low[at]) / ((*after)[at] - low[at]);
-    Row row;
-    for (std::size_t c = 0; c < columns; ++c) row[c] = low[c] + share * ((*after)[c] - low[c]);
-    return row;
-  }
+  bool is_above_ground(const Vec3& place) const override { return axes_.height(place) > 0.0; }
 
+ private:
   WindAxes axes_;
   double height_, length_;
   std::vector<Row> rows_;
@@ -89,6 +107,7 @@ class Rows {
     if (!rows_.empty() && row[at] < rows_.back()[at])
       issues_.add(where, fmt::format("times must not fall, got {:g} s after {:g} s", row[at],
                                      rows_.back()[at]));
+    check_turn(where, row);
     rows_.push_back(row);
   }
   void refuse(const Where& where, const std::string& expected, std::string_view line) {
@@ -101,6 +120,17 @@ class Rows {
   }
 
  private:
+  // Linear in between, from 359 to 1 degrees a wind would go all the way round.
+  void check_turn(const Where& where, const Row& row) {
+    if (rows_.empty() || row[at] <= rows_.back()[at]) return;
+    const double before = rows_.back()[direction] / degree, after = row[direction] / degree;
+    if (std::abs(after - before) <= half_turn) return;
+    issues_.add(
+        where, fmt::format("from {:g} to {:g} degrees the wind would turn by more than half a turn "
+                           "within a line: write {:g}, or a line in between where it does so",
+                           before, after, before + std::remainder(after - before, 360.0)));
+  }
+
   std::vector<Row> rows_;
   InputIssues issues_;
 };
@@ -180,10 +210,11 @@ void register_table(FlowRegistry& registry) {
                       "diameter of the rotor.")
                    .positive())
           .add_all(wind_axes_schema()),
-      [](const Options& options, model::BuildContext&) -> SharedFlow {
-        return std::make_shared<Table>(options, options.text("File Format") == "CSV"
-                                                    ? read_csv(options)
-                                                    : read_openfast(options));
+      [](const Options& options, model::BuildContext& context) -> SharedFlow {
+        std::vector<Row> rows =
+            options.text("File Format") == "CSV" ? read_csv(options) : read_openfast(options);
+        add_functions(options.name(), rows, context.model);
+        return std::make_shared<Table>(options, std::move(rows));
       });
 }
 

@@ -48,6 +48,7 @@ class WindAroundTower final : public Flow {
     }
     return result;
   }
+  bool is_above_ground(const Vec3& place) const override { return wind_->is_above_ground(place); }
   std::string stands_about() const override { return name_; }
   SharedFlow without_structure() const override { return wind_; }
 

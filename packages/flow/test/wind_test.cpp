@@ -49,6 +49,21 @@ TEST_F(Winds, PowerLawGrowsWithHeightAndStopsAtTheGround) {
   expect_same(wind->velocity(Vec3(0.0, 0.0, -1.0), 0.0), Vec3::Zero());
 }
 
+TEST_F(Winds, KnowWhereTheGroundIs) {
+  const Vec3 above(3.0, -7.0, 0.1), at(3.0, -7.0, 0.0), below(0.0, 0.0, -2.0);
+  const kit::GivenValues values = {{"Density", 1.2}, {"Speed", 8.0}, {"Height", 90.0}};
+  kit::GivenValues power = values, log = values;
+  power.emplace_back("Exponent", 0.0);
+  log.emplace_back("Roughness", 0.05);
+  for (const SharedFlow& wind : {make("Power Law", power), make("Log Law", log), gust("EOG"),
+                                 table("0, 10, 0, 0, 0, 0, 0, 0\n")}) {
+    EXPECT_TRUE(wind->is_above_ground(above));
+    EXPECT_FALSE(wind->is_above_ground(at));
+    EXPECT_FALSE(wind->is_above_ground(below));
+    EXPECT_EQ(wind->velocity(below, 0.0), Vec3::Zero());
+  }
+}
+
 TEST_F(Winds, DirectionsNeedNotBeUnitVectors) {
   const SharedFlow wind = make("Power Law", {{"Density", 1.2},
                                              {"Speed", 10.0},
@@ -121,6 +136,16 @@ TEST_F(Winds, TablesAreLinearInTimeHeldOutsideAndJumpAtEqualTimes) {
   EXPECT_EQ(wind->velocity(hub, 99.0), Vec3(13.0, 0.0, 2.0));
 }
 
+// By these a motion tells of gusts that its steps pass over.
+TEST_F(Winds, TablesNoteTheirSpeedAndDirection) {
+  table("0, 6, 0, 0, 0, 0, 0, 1\n4, 8, 0, 0, 0, 0, 0, 1\n4, 12, 90, 0, 0, 0, 0, 1\n");
+  const model::Amplitude& speed = model_.functions().at("wind, speed");
+  EXPECT_THAT(speed.corners(), ElementsAre(0.0, 4.0));
+  EXPECT_EQ(speed.at(2.0), 8.0);
+  EXPECT_EQ(speed.at(4.0), 13.0);
+  EXPECT_EQ(model_.functions().at("wind, direction").at(4.0), 0.5 * pi);
+}
+
 TEST_F(Winds, DirectionsOfTablesTurnClockwiseFromAbove) {
   const SharedFlow wind = table("0, 10, 90, 0, 0.5, 0, 0, 0\n");
   // blows to -y; across it, to the left, is +x, where the shear adds
@@ -150,6 +175,10 @@ TEST_F(Winds, BadTablesNameFileAndLine) {
   };
   EXPECT_THAT(objection("0, 6, 0\n"), HasSubstr("wind.csv:1: must be 8 numbers"));
   EXPECT_THAT(objection("1,6,0,0,0,0,0,0\n0,6,0,0,0,0,0,0\n"), HasSubstr("wind.csv:2: times must"));
+  EXPECT_THAT(objection("0,6,359,0,0,0,0,0\n1,6,1,0,0,0,0,0\n"),
+              HasSubstr("wind.csv:2: from 359 to 1 degrees the wind would turn by more than half a "
+                        "turn within a line: write 361, or a line in between where it does so"));
+  EXPECT_EQ(objection("0,6,0,0,0,0,0,0\n1,6,180,0,0,0,0,0\n1,6,-179,0,0,0,0,0\n"), "");
   EXPECT_THAT(objection("# nothing\n"), HasSubstr("at least one line"));
   EXPECT_THAT(objection("0 6 0\n", "OpenFAST"), HasSubstr("wind.csv:1: must be 8 numbers"));
   EXPECT_THAT(objection("0 6 0 0 0 0 0 0 5\n", "OpenFAST"), HasSubstr("an upward angle"));

@@ -2,11 +2,32 @@
 
 #include <culm/strip/shared_chord.hpp>
 
+#include <algorithm>
+
 namespace culm::simulation {
+namespace {
+
+Vec3 place_of(const model::Marker& point, const model::Coordinates& q) {
+  Vec3 place = Vec3::Zero();
+  for (std::size_t i = 0; i < point.nodes.size(); ++i) {
+    place += point.weights[i] * model::NodeTable::slots(q, point.nodes[i]).col(0);
+  }
+  return place;
+}
+
+// In the reference.
+bool is_below_ground(const strip::StripLoad& load, const model::Model& model) {
+  return std::ranges::none_of(load.stations(), [&](const strip::Station& station) {
+    return load.flow().is_above_ground(place_of(station.point, model.nodes().reference()));
+  });
+}
+
+}  // namespace
 
 void StripWatch::begin(const model::Model& model) {
   std::vector<const strip::StripLoad*> strips;
   pairs_.clear();
+  below_ground_.clear();
   for (const auto& load : model.loads()) {
     const auto* strip = dynamic_cast<const strip::StripLoad*>(load.get());
     if (strip == nullptr) continue;
@@ -14,6 +35,7 @@ void StripWatch::begin(const model::Model& model) {
       if (strip::share_chord(*other, *strip, model)) pairs_.emplace_back(other, strip);
     }
     strips.push_back(strip);
+    if (is_below_ground(*strip, model)) below_ground_.push_back(strip);
   }
 }
 
@@ -24,6 +46,14 @@ void StripWatch::step(const model::State& state, Findings& findings) const {
                   one->effect().quoted() + " and " + other->effect().quoted() +
                       " lie in the same place and act at the same time, by their functions with "
                       "more than the whole air together: it acts on the structure twice",
+                  state.time);
+  }
+  for (const strip::StripLoad* load : below_ground_) {
+    findings.warn("below ground",
+                  load->effect().quoted() +
+                      " meets no wind: all of it stands at the ground of its flow or below, where "
+                      "the height along 'Up' above the origin is 0; put the structure higher, or "
+                      "take a 'Uniform' flow",
                   state.time);
   }
 }

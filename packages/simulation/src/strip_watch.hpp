@@ -1,4 +1,4 @@
-/// Finds strips that count the air twice.
+/// Finds strips that count the air twice, or that no wind reaches.
 #pragma once
 
 #include <culm/base/findings.hpp>
@@ -11,17 +11,18 @@
 namespace culm::simulation {
 
 /// Looks at pairs of strips on the same chord, of which a deck refuses those that always act.
-/// Others have functions of time and may take turns: whether they do is seen step by step.
+/// Others have functions of time and may take turns: whether they do is seen step by step. And at
+/// strips of which all stations stand below the ground of a wind that grows with the height.
 class StripWatch {
  public:
   /// Starts anew with the loads of a model, which must outlive this.
   void begin(const model::Model& model);
-  /// After an accepted step, or where an analysis looks at a state. Costs nothing without such
-  /// pairs.
+  /// After an accepted step, or where an analysis looks at a state. Costs nothing without any.
   void step(const model::State& state, Findings& findings) const;
 
  private:
   std::vector<std::pair<const strip::StripLoad*, const strip::StripLoad*>> pairs_;
+  std::vector<const strip::StripLoad*> below_ground_;
 };
 
 }  // namespace culm::simulation

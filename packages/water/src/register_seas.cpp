@@ -35,10 +35,16 @@ Schema still_schema(const std::string& name, const std::string& doc) {
                .optional())
       .list_by_type("Current", current_types(), Presence::optional)
       .check([](const Options& options, InputIssues& issues) {
-        const Vec3 direction = model::vector(options, "Direction");
         const Vec3 up = model::vector(options, "Up");
-        if (direction.cross(up).norm() > 1e-6 * direction.norm() * up.norm()) return;
-        issues.add(options.where("Direction"), "'Direction' and 'Up' must not be parallel or zero");
+        const auto check_direction = [&](const Options& entry) {
+          const Vec3 direction = model::vector(entry, "Direction");
+          if (direction.cross(up).norm() > 1e-6 * direction.norm() * up.norm()) return;
+          issues.add(entry.where("Direction"), "'Direction' and 'Up' must not be parallel or zero");
+        };
+        check_direction(options);
+        if (!options.has_list("Current")) return;
+        const Options& current = options.list("Current");
+        if (current.has("Direction")) check_direction(current);
       });
 }
 

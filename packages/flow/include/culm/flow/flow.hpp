@@ -29,6 +29,9 @@ class Flow {
   /// Derivative of the velocity by the place [1/s]; of one side where it has a kink. It only serves
   /// the tangent: zero of a flow that does not know it.
   virtual Mat3 gradient(const Vec3& /*place*/, double /*time*/) const { return Mat3::Zero(); }
+  /// Whether a place is where the flow is: not below the ground, where winds by their height
+  /// vanish.
+  virtual bool is_above_ground(const Vec3& /*place*/) const { return true; }
   /// The structure that the flow stands about; empty: none.
   virtual std::string stands_about() const { return {}; }
   /// The flow as it is without that structure; null where there is none.
