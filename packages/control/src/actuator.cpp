@@ -2,6 +2,8 @@
 
 #include "fields.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -18,6 +20,12 @@ void Actuator::evaluate(const Unknowns& x, const Inputs& u, Values& values) cons
   values.by_unknown(1, 0) = -slope;
   values.by_unknown(1, 1) = -inverse_lag;
   values.by_input(1, 0) = slope * command_.slope(u[0]);
+}
+
+// Poles are omega (-zeta +- sqrt(zeta^2 - 1)).
+double Actuator::fastest() const {
+  const double beyond = std::sqrt(std::max(zeta_ * zeta_ - 1.0, 0.0));
+  return omega_ * (std::max(zeta_, 1.0) + beyond);
 }
 
 void register_actuator(SignalRegistry& registry) {

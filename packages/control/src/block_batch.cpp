@@ -49,25 +49,33 @@ void BlockBatch::connect(const model::Signal& output, std::vector<model::Amplitu
 }
 
 void BlockBatch::settle() {
-  std::vector<double> starts(items_.size(), 0.0);
+  std::vector<Block::Unknowns> starts(items_.size());
   for (std::size_t pass = 0; pass < items_.size(); ++pass) {
     const model::State state = model_.initial_state();
     bool is_settled = true;
     for (std::size_t i = 0; i < items_.size(); ++i) {
-      const Item& item = items_[i];
-      double start =
-          item.initial ? *item.initial : item.block->start(values_of(item.inputs, state, 1.0));
-      // of inputs that are not known before the first state has been found
-      if (!std::isfinite(start)) start = 0.0;
+      Block::Unknowns start = start_of(items_[i], state);
       is_settled = is_settled && pass > 0 && start == starts[i];
-      starts[i] = start;
+      starts[i] = std::move(start);
     }
     if (is_settled) return;
     for (std::size_t i = 0; i < items_.size(); ++i) {
-      const Item& item = items_[i];
-      model_.set_initial(item.unknowns[static_cast<std::size_t>(item.block->state())], starts[i]);
+      for (Eigen::Index k = 0; k < starts[i].size(); ++k) {
+        model_.set_initial(items_[i].unknowns[static_cast<std::size_t>(k)], starts[i][k]);
+      }
     }
   }
+}
+
+// The state as it is told or at rest with the inputs. An output that is no state starts as the
+// state does, that of a controller without an error: what it measures is not known yet.
+Block::Unknowns BlockBatch::start_of(const Item& item, const model::State& state) {
+  const double start =
+      item.initial ? *item.initial : item.block->start(values_of(item.inputs, state, 1.0));
+  Block::Unknowns x = Block::Unknowns::Zero(static_cast<Eigen::Index>(item.unknowns.size()));
+  // of inputs that are not known before the first state has been found
+  x[0] = x[item.block->state()] = std::isfinite(start) ? start : 0.0;
+  return x;
 }
 
 std::vector<int> BlockBatch::blocks(int item, const model::UnknownTable& unknowns) const {
@@ -92,6 +100,32 @@ void BlockBatch::evaluate(const Item& item, const model::State& state, const Ste
   values.by_unknown.setZero(count, count);
   values.by_input.setZero(count, u.size());
   item.block->evaluate(x, u, values);
+}
+
+void BlockBatch::prepare(const model::State&, const Stencil& stencil) {
+  trial_step_ = stencil.step;
+}
+
+void BlockBatch::accept(model::State&) { step_ = trial_step_; }
+
+double BlockBatch::range_used() const {
+  double fastest = 0.0;
+  for (const Item& item : items_) fastest = std::max(fastest, item.block->fastest());
+  constexpr double rounding = 1e-9;  // of steps
+  return 0.5 * (1.0 - rounding) * step_ * fastest;
+}
+
+std::string BlockBatch::range_warning(double used) const {
+  const auto fastest =
+      std::ranges::max_element(items_, {}, [](const Item& item) { return item.block->fastest(); });
+  const double longest = 2.0 / fastest->block->fastest();
+  const auto number = static_cast<std::size_t>(fastest->unknowns.front().block);
+  return fmt::format(
+      "{} follows within {:.3g} s, and steps have up to {:.3g} s: where its input jumps it does "
+      "not "
+      "settle but swings about it from step to step; take steps of at most {:.3g} s, or its input "
+      "in its place",
+      model_.own_blocks()[number].name, 0.5 * longest, used * longest, longest);
 }
 
 Verdict BlockBatch::assemble(const model::State& state, const Stencil& stencil, Want want,

@@ -162,6 +162,21 @@ TEST(BlockStarts, FollowTheirInputsInAnyOrder) {
   for (const model::Signal& lag : lags) EXPECT_EQ(lag.in_step(state, 1.0), 0.7);
 }
 
+// What follows a controller starts with its integral, and not with 0; errors are not known yet.
+TEST(BlockStarts, FollowTheOutputOfAController) {
+  model::Model model;
+  BlockBatch batch(effect, model);
+  const model::Signal lag = batch.add("lag", std::make_unique<Lag>(0.3, wide, wide, 1.0));
+  const model::Signal controller =
+      batch.add("controller", std::make_unique<PiController>(3.0, 2.0, 0.8, 1.0, wide, 1.0));
+  batch.connect(lag, {model::Amplitude::of_signal(controller)}, {});
+  batch.connect(controller, {model::Amplitude::constant(), model::Amplitude::constant()}, 0.2);
+  batch.settle();
+  const model::State state = model.initial_state();
+  EXPECT_EQ(controller.in_step(state, 1.0), 0.2);
+  EXPECT_EQ(lag.in_step(state, 1.0), 0.2);
+}
+
 // The response of a block to an input of 1, step by step, as Newton's method finds it.
 class Response {
  public:
@@ -197,6 +212,32 @@ class Response {
   kit::DenseAssembly system_;
   model::State state_;
 };
+
+// The mid-point rule swings about a command with steps beyond two time constants; of an actuator
+// with zeta = 1.25 and omega = 4 the fastest one is 1/8 s.
+TEST(BlockRange, EndsAtTwoTimeConstants) {
+  model::Model model;
+  BlockBatch batch(effect, model);
+  model::State state;
+  const auto used = [&](double h) {
+    batch.prepare(state, Stencil::midpoint(h));
+    batch.accept(state);
+    return batch.range_used();
+  };
+  batch.add("Sum 'all'", std::make_unique<WeightedSum>(0.3, Eigen::Vector2d(1.1, -0.6), wide, 1.0));
+  EXPECT_EQ(used(0.1), 0.0);
+  batch.add("Lag 'slow'", std::make_unique<Lag>(0.5, wide, wide, 1.0));
+  EXPECT_NEAR(used(0.1), 0.1, 1e-8);
+  batch.add("Actuator 'fast'", std::make_unique<Actuator>(4.0, 1.25, wide, wide, 1.0));
+  EXPECT_NEAR(used(0.5), 2.0, 1e-8);
+  EXPECT_EQ(batch.range_warning(2.0),
+            "Actuator 'fast' follows within 0.125 s, and steps have up to 0.5 s: where its input "
+            "jumps it does not settle but swings about it from step to step; take steps of at most "
+            "0.25 s, or its input in its place");
+  Response lag(std::make_unique<Lag>(0.01, Limits(), Limits(), 1.0));
+  lag.step(0.1);
+  EXPECT_GT(lag.output(), 1.6) << "of a command of 1";
+}
 
 // Factor of a step of the mid-point rule (1 - h / 2T) / (1 + h / 2T).
 TEST(Lag, GoesToItsCommandByTheMidPointRule) {

@@ -22,6 +22,7 @@ class Actuator final : public Block {
   }
   void evaluate(const Unknowns& x, const Inputs& u, Values& values) const override;
   double start(const Inputs& u) const override { return command_.hold(u[0]); }
+  double fastest() const override;
 
  private:
   double omega_, zeta_;

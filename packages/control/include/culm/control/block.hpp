@@ -38,6 +38,8 @@ class Block {
   /// start.
   virtual int state() const { return 0; }
   virtual double start(const Inputs& u) const = 0;
+  /// Size of its fastest rate of decay or oscillation that always acts [1/s]; 0 without one.
+  virtual double fastest() const { return 0.0; }
 };
 
 /// What a value is held between.

@@ -4,6 +4,7 @@
 #include <culm/control/block.hpp>
 #include <culm/model/amplitude.hpp>
 #include <culm/model/memoryless_batch.hpp>
+#include <culm/model/method_limits.hpp>
 #include <culm/model/model.hpp>
 
 #include <memory>
@@ -16,7 +17,7 @@ namespace culm::control {
 ///   (x_next - x_prev) / h = f(x_mid, u_mid)     x_mid = (x_prev + x_next) / 2,
 /// algebraic unknowns x = f(x_mid, u_mid), one value per step. In statics unknowns with a rate
 /// stand still and the others follow them at the end of the step.
-class BlockBatch final : public model::MemorylessBatch {
+class BlockBatch final : public model::MemorylessBatch, public model::LimitedRange {
  public:
   /// @param model  gets the unknowns
   BlockBatch(model::Effect effect, model::Model& model)
@@ -36,9 +37,17 @@ class BlockBatch final : public model::MemorylessBatch {
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
+  void prepare(const model::State& state, const Stencil& stencil) override;
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
+  void accept(model::State& state) override;
   model::StepWork step_work(const model::State&, const Stencil&) const override { return {}; }
+
+  /// Steps over the longest one in which no block swings about what it follows: the mid-point rule
+  /// takes a decay by r within a step h by the factor (2 - r h) / (2 + r h), which is negative with
+  /// r h above 2.
+  double range_used() const override;
+  std::string range_warning(double used) const override;
 
  private:
   struct Item {
@@ -49,6 +58,7 @@ class BlockBatch final : public model::MemorylessBatch {
   };
   /// Where in a step the equations of a block hold.
   static double place(const Stencil& stencil) { return stencil.step > 0.0 ? 0.5 : 1.0; }
+  static Block::Unknowns start_of(const Item& item, const model::State& state);
   static void evaluate(const Item& item, const model::State& state, const Stencil& stencil,
                        Block::Values& values);
   [[noreturn]] void refuse(const Item& item, const model::State& state, double theta,
@@ -60,6 +70,7 @@ class BlockBatch final : public model::MemorylessBatch {
 
   model::Model& model_;
   std::vector<Item> items_;
+  double trial_step_ = 0.0, step_ = 0.0;  // of the trial, and the last accepted one [s]
 };
 
 }  // namespace culm::control

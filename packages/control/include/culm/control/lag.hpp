@@ -18,6 +18,7 @@ class Lag final : public Block {
   }
   void evaluate(const Unknowns& x, const Inputs& u, Values& values) const override;
   double start(const Inputs& u) const override { return command_.hold(u[0]); }
+  double fastest() const override { return 1.0 / time_constant_; }
 
  private:
   double time_constant_;
