@@ -378,6 +378,15 @@ def changed_table(program, folder, options):
     refuse(program, folder / "out", "the checkpoint belongs to another model")
 
 
+def changed_neighbour(program, folder, options):
+    """So do files that potential flow reads beside the one that the deck names."""
+    shutil.copytree(INPUTS / "water", folder / "decks")
+    program("run", "decks/potential_cylinder.xml", *settings("end=0.2"), "--output", "out")
+    waves = folder / "decks/cylinder.3"
+    waves.write_text(waves.read_text().replace(" 1 5.386", " 1 6.386", 1))
+    refuse(program, folder / "out", "the checkpoint belongs to another model")
+
+
 def flip_bit(path, chance):
     raw = bytearray(path.read_bytes())
     bit = chance.randrange(8 * len(raw))
@@ -435,6 +444,27 @@ def start_from_another_run_remembers(program, folder, options):
         demand(last("rest") == last("whole"), f"{deck}: {last('rest')}, in one run {last('whole')}")
     _, _, err = program("run", path, *split, *settings("Sections/steel/Plasticity/Cells={10, 1}"), "--output", "rest")
     demand("'Start From' of 'bending' leaves out what Plasticity, bar remembers" in err, f"stderr is {err}")
+
+
+def start_from_another_run_keeps_signals(program, folder, options):
+    """Integrals, lags and controllers go on in another run; one that has no counterpart there is told."""
+    path, end = INPUTS / "control/speed_control.xml", "Analyses/motion/End Time"
+    times, later = settings(f"{end}=2"), settings("Analyses/motion/Start From=half", "Analyses/motion/Start Time=1")
+
+    def numbers(name):
+        return numpy.loadtxt(folder / name / "history.csv", delimiter=",", skiprows=1)[:, :-2]
+
+    program("run", path, *settings(f"{end}=1"), "--output", "half")
+    program("run", path, *times, *later, "--output", "rest")
+    program("run", path, *times, "--output", "whole")
+    rest = numbers("rest")
+    whole = numbers("whole")[-len(rest):]
+    # velocities begin anew from those of the state, which are right to second order in the step
+    demand(numpy.abs(rest - whole).max() < 1e-5 * numpy.abs(whole).max(), f"{rest[:3]}, in one run {whole[:3]}")
+    text = path.read_text().replace('"motor"', '"engine"')
+    (folder / "renamed.xml").write_text(text)
+    _, _, err = program("run", "renamed.xml", *times, *later, "--output", "rest")
+    demand("'Start From' of 'motion' leaves out what Lag 'motor' remembers" in err, f"stderr is {err}")
 
 
 def flipped_bits(program, folder, options):
@@ -639,8 +669,10 @@ ALWAYS = [
     damaged_checkpoints,
     foreign_checkpoints,
     changed_table,
+    changed_neighbour,
     start_from_another_run,
     start_from_another_run_remembers,
+    start_from_another_run_keeps_signals,
     flipped_bits,
     checkpoints_can_be_switched_off,
     other_number_of_processes,

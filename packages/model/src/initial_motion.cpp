@@ -48,7 +48,8 @@ void register_initial_motions(BuilderRegistry& registry) {
           .add(vector_field("Velocity", "m/s", "Translation.").optional({0.0, 0.0, 0.0}))
           .add(vector_field("Angular Velocity", "rad/s", "Rotation.").optional({0.0, 0.0, 0.0}))
           .add(vector_field("About", "m",
-                            "Point that only translates; the first of the nodes if absent.")
+                            "Point in space that only translates; where the first of the nodes "
+                            "is in the reference if absent.")
                    .optional())
           .check([](const Options& options, InputIssues& issues) {
             refuse_rest("Velocity", "Angular Velocity", options, issues);

@@ -13,11 +13,26 @@ namespace {
 
 using Path = std::filesystem::path;
 
+// What potential flow reads beside NAME.1.
+void add_beside(const Path& file, std::vector<Path>& files) {
+  if (file.extension() != ".1") return;
+  for (const char* ending : {".3", ".hst"}) {
+    Path other = file;
+    other.replace_extension(ending);
+    std::error_code failure;
+    if (std::filesystem::is_regular_file(other, failure)) files.push_back(std::move(other));
+  }
+}
+
 void add_named_files(const Options& list, std::vector<Path>& files) {
   for (const Options::Parameter& parameter : list.parameters()) {
     if (!parameter.value) continue;
     const Path folder = Path(parameter.where.file).parent_path();
-    if (parameter.name == "File Name") files.push_back(folder / list.text(parameter.name));
+    if (parameter.name == "File Name") {
+      const Path file = folder / list.text(parameter.name);
+      files.push_back(file);
+      add_beside(file, files);
+    }
     if (parameter.name != "File Names") continue;
     for (const std::string& name : list.texts(parameter.name)) files.push_back(folder / name);
   }

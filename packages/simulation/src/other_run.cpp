@@ -64,8 +64,81 @@ void check_results(const Path& run, const Snapshot& snapshot) {
   output::find_recorded(run, snapshot.text("run/id"), restore_mark(snapshot));
 }
 
-std::string memory_key(const char* what, std::size_t i) {
-  return fmt::format("run/memory {} {}", what, i);
+// Who keeps numbers of a list, in its order, and how many.
+struct Owner {
+  std::string name;
+  std::size_t size = 0;
+};
+using Owners = std::vector<Owner>;
+
+Owners owners_of_memories(const model::Model& model) {
+  Owners owners;
+  for (const model::Batch* batch : model.batches()) {
+    if (batch->memory_size() > 0) owners.push_back({batch->effect().title(), batch->memory_size()});
+  }
+  return owners;
+}
+
+Owners owners_of_signals(const model::Model& model) {
+  Owners owners;
+  for (const model::OwnBlock& block : model.own_blocks()) {
+    owners.push_back({block.name, block.unknowns.size()});
+  }
+  return owners;
+}
+
+std::string owner_key(const char* one, const char* what, std::size_t i) {
+  return fmt::format("run/{} {} {}", one, what, i);
+}
+
+void save_owners(const char* all, const char* one, const Owners& owners, Snapshot& snapshot) {
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    snapshot.set_text(owner_key(one, "of", i), owners[i].name);
+    snapshot.set(owner_key(one, "size", i), static_cast<double>(owners[i].size));
+  }
+  snapshot.set(fmt::format("run/{}", all), static_cast<double>(owners.size()));
+}
+
+// A list of numbers, and how a checkpoint names its owners.
+struct Kept {
+  const char *all, *one, *values;
+};
+
+// Moves numbers of another run to owners of the same name and size.
+// @return names of what keeps something there and has no place here
+std::vector<std::string> take(const Kept& kept, const Owners& owners, const Snapshot& other,
+                              Snapshot& snapshot) {
+  std::span<const double> rest = other.numbers(kept.values);
+  const auto is_empty = [](std::span<const double> numbers) {
+    return std::ranges::all_of(numbers, [](double one) { return one == 0.0; });
+  };
+  // checkpoints of before do not say whose they are
+  const std::string count = fmt::format("run/{}", kept.all);
+  if (!other.has(count)) {
+    return is_empty(rest) ? std::vector<std::string>{} : std::vector<std::string>{"the model"};
+  }
+  std::multimap<std::string, std::span<const double>> there;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(other.integer(count)); ++i) {
+    const auto size = static_cast<std::size_t>(other.integer(owner_key(kept.one, "size", i)));
+    there.emplace(other.text(owner_key(kept.one, "of", i)), rest.first(size));
+    rest = rest.subspan(size);
+  }
+  std::vector<double> values = snapshot.copy(kept.values);
+  auto to = values.begin();
+  for (const Owner& owner : owners) {
+    const auto found = there.find(owner.name);  // of equal ones the first
+    if (found != there.end() && found->second.size() == owner.size) {
+      std::ranges::copy(found->second, to);
+      there.erase(found);
+    }
+    to += static_cast<std::ptrdiff_t>(owner.size);
+  }
+  snapshot.set(kept.values, std::move(values));
+  std::vector<std::string> lost;
+  for (const auto& [name, numbers] : there) {
+    if (!is_empty(numbers)) lost.push_back(name);
+  }
+  return lost;
 }
 
 std::vector<std::string> structures_of(const Snapshot& snapshot) {
@@ -111,47 +184,17 @@ void save_structures(const model::Model& model, Snapshot& snapshot) {
 }
 
 void save_memory_owners(const model::Model& model, Snapshot& snapshot) {
-  std::size_t i = 0;
-  for (const model::Batch* batch : model.batches()) {
-    if (batch->memory_size() == 0) continue;
-    snapshot.set_text(memory_key("of", i), batch->effect().title());
-    snapshot.set(memory_key("size", i), static_cast<double>(batch->memory_size()));
-    ++i;
-  }
-  snapshot.set("run/memories", static_cast<double>(i));
+  save_owners("memories", "memory", owners_of_memories(model), snapshot);
+  save_owners("signals", "signal", owners_of_signals(model), snapshot);
 }
 
 std::vector<std::string> take_memories(const Snapshot& other, const model::Model& model,
                                        Snapshot& snapshot) {
-  std::span<const double> rest = other.numbers("system/batches");
-  const auto is_empty = [](std::span<const double> memory) {
-    return std::ranges::all_of(memory, [](double one) { return one == 0.0; });
-  };
-  // checkpoints of before do not say whose they are
-  if (!other.has("run/memories")) {
-    return is_empty(rest) ? std::vector<std::string>{} : std::vector<std::string>{"the model"};
-  }
-  std::multimap<std::string, std::span<const double>> there;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(other.integer("run/memories")); ++i) {
-    const auto size = static_cast<std::size_t>(other.integer(memory_key("size", i)));
-    there.emplace(other.text(memory_key("of", i)), rest.first(size));
-    rest = rest.subspan(size);
-  }
-  std::vector<double> memory = snapshot.copy("system/batches");
-  auto to = memory.begin();
-  for (const model::Batch* batch : model.batches()) {
-    const std::size_t size = batch->memory_size();
-    const auto found = there.find(batch->effect().title());  // of equal ones the first
-    if (size > 0 && found != there.end() && found->second.size() == size) {
-      std::ranges::copy(found->second, to);
-      there.erase(found);
-    }
-    to += static_cast<std::ptrdiff_t>(size);
-  }
-  snapshot.set("system/batches", std::move(memory));
-  std::vector<std::string> lost;
-  for (const auto& [title, numbers] : there) {
-    if (!is_empty(numbers)) lost.push_back(title);
+  std::vector<std::string> lost =
+      take({"memories", "memory", "system/batches"}, owners_of_memories(model), other, snapshot);
+  for (std::string& name :
+       take({"signals", "signal", "state/own"}, owners_of_signals(model), other, snapshot)) {
+    lost.push_back(std::move(name));
   }
   return lost;
 }

@@ -15,12 +15,13 @@ namespace culm::simulation {
 /// in the reference.
 void save_structures(const model::Model& model, Snapshot& snapshot);
 
-/// Says in a checkpoint whose memories "system/batches" holds: effects and how many numbers.
+/// Says in a checkpoint whose memories "system/batches" holds, effects and how many numbers, and
+/// whose unknowns "state/own", those of signals and drives.
 void save_memory_owners(const model::Model& model, Snapshot& snapshot);
 /// Moves what batches of another run remember to those of the same effect and size in a model: what
-/// flowed, slid, or was counted.
+/// flowed, slid, or was counted; likewise the values of signals, by their names.
 /// @param other     of find_state_of_run
-/// @param snapshot  of the model, with "system/batches" as it begins
+/// @param snapshot  of the model, with "system/batches" and "state/own" as it begins
 /// @return titles of what remembers something there and has no place here
 std::vector<std::string> take_memories(const Snapshot& other, const model::Model& model,
                                        Snapshot& snapshot);

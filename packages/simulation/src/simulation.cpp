@@ -437,8 +437,8 @@ void Simulation::move_state(std::size_t number, model::State& state) {
   }
 }
 
-// The nodes of a checkpoint of another run, and what batches of the same effect remember there;
-// multipliers begin anew.
+// The nodes of a checkpoint of another run, and what batches of the same effect and signals of the
+// same name remember there; multipliers begin anew.
 Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::State& state) {
   const Snapshot found = find_state_of_run(parts_->comm, analysis, *phase.model);
   Snapshot snapshot;
