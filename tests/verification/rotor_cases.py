@@ -362,6 +362,7 @@ def verify(culm, report):
     for name, kind, words in (("still air", {"wind": (0.0, 0.0, 0.0)}, "have no balance"),
                               ("wind across the axis", {"wind": (0.0, 5.0, 0.0)}, "have no balance"),
                               ("wrong axis", {"axis": (0, 1, 0)}, "do not turn with the node of 'Hub'"),
+                              ("oblique axis", {"axis": (1, 0.3, 0)}, "do not turn with the node of 'Hub'"),
                               ("wrong hub", {"hub": "nacelle"}, "do not turn with the node of 'Hub'"),
                               ("two of three blades", {"named": 2}, "are not evenly spaced")):
         output = Rotor(**kind).run(culm)

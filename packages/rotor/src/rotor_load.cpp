@@ -302,7 +302,8 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
   }
   rotor.wind = rotor.wind / area - hub_velocity;  // a rotor that moves meets another wind
   const bool induces = kind_.follow != Follow::none;
-  trial_.turns_otherwise = induces && turns_otherwise(rotor, hub_velocity);
+  trial_.turns_otherwise =
+      induces && (turns_otherwise(rotor, hub_velocity) || turns_across(rotor, state, stencil));
   trial_.unbalanced = 0;
   trial_.turning = induces ? share_of(rotor) : 0.0;
   for (std::size_t i = 0; i < elements_.size() && induces; ++i) {
@@ -359,6 +360,27 @@ bool RotorLoad::turns_otherwise(const RotorState& rotor, const Vec3& hub_velocit
     wind += elements_[i].area * flows_[i].wind.squaredNorm();
   }
   return all > wind && other > most * all;
+}
+
+// Where the rotor turns as fast as in operation; a machine that nods, yaws or floats turns the axis
+// by much less than the rotor turns.
+bool RotorLoad::turns_across(const RotorState& rotor, const model::State& state,
+                             const Stencil& stencil) const {
+  constexpr double most = 0.2;  // of what is about the axis
+  if (share_of(rotor) < 1.0) return false;
+  Vec3 turn = Vec3::Zero();
+  if (const model::SteadyRotation* frame = blades_.front()->frame()) {
+    turn = frame->speed(state, stencil) * frame->axis();
+  }
+  if (stencil.step > 0.0) {
+    const model::NodeSlots prev = model::NodeTable::slots(state.prev, hub_.node);
+    const model::NodeSlots next = model::NodeTable::slots(state.next, hub_.node);
+    for (int k = 1; k < 4; ++k) {
+      const Vec3 middle = 0.5 * (prev.col(k) + next.col(k)), way = next.col(k) - prev.col(k);
+      turn += 0.5 / stencil.step * middle.cross(way);
+    }
+  }
+  return across(turn, rotor.axis).norm() > most * std::abs(turn.dot(rotor.axis));
 }
 
 double RotorLoad::range_used() const {

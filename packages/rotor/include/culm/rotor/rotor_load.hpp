@@ -155,6 +155,8 @@ class RotorLoad final : public model::MemorylessBatch,
               const Stencil& stencil);
   double share_of(const RotorState& rotor) const;
   bool turns_otherwise(const RotorState& rotor, const Vec3& hub_velocity) const;
+  bool turns_across(const RotorState& rotor, const model::State& state,
+                    const Stencil& stencil) const;
   double skew(const RotorState& rotor, const Element& element, const Vec3& outwards) const;
 
   const model::NodeTable& nodes_;
