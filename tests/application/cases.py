@@ -420,7 +420,7 @@ CASES = [
                 '<ParameterList name="Loads">',
                 '<ParameterList name="Signals">'
                 + entry("pitch", Type="Lag", Signal="Ramp", Time_Constant="1", Upper="2", Initial="3")
-                + entry("angle", Type="Integral", Signal="Ramp", Lower="0", Initial="-1")
+                + entry("angle", Type="Actuator", Signal="Ramp", Frequency="1", Lower="0", Initial="-1")
                 + '</ParameterList><ParameterList name="Loads">',
             ),
         ],

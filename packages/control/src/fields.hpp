@@ -78,7 +78,7 @@ inline Limits read_limits(const Options& options) {
   return limits;
 }
 
-/// Of an output that its limits hold: it starts between them.
+/// Of an output whose limits hold its command: it starts between them.
 inline void check_start(const Options& options, InputIssues& issues) {
   if (!options.has("Initial")) return;
   const double start = options.number("Initial");

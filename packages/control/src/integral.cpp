@@ -15,7 +15,6 @@ void register_integral(SignalRegistry& registry) {
                .optional(0.1));
   add_limits(schema);
   add_start(schema);
-  schema.check(check_start);
   registry.add("Integral", schema, [](const Options& options, ControlContext& context) {
     context.add(options,
                 std::make_unique<Integral>(options.number("Gain"), options.number("Scale"),

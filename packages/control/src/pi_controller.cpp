@@ -67,7 +67,6 @@ void register_pi_controller(SignalRegistry& registry) {
   });
   add_limits(schema);
   add_start(schema);
-  schema.check(check_start);
   registry.add("PI Controller", schema, [](const Options& options, ControlContext& context) {
     const double P = options.number("Proportional Gain");
     const double I = options.number("Integral Gain");
