@@ -258,7 +258,7 @@ def verify_impact_of_beams(culm, report):
         for what in ("energy balance", "linear momentum", "angular momentum"):
             report.holds(f"{settings[0].split('/')[-1]}: {what}", run.drift(what), 1e-10)
         report.note(f"largest force {max(run.history.column('impact F [N]')):.0f} N; iterations per step "
-                    f"{run.iterations() / (len(run.history.column('time')) - 1):.1f}, at most {run.most_iterations()}; "
+                    f"{run.iterations() / (len(run.history.column('impact F [N]')) - 1):.1f}, at most {run.most_iterations()}; "
                     f"{run.cut_back()} steps cut back")
     rough = culm.run("contact/falling_rod.xml", ["Loads/impact/Friction=0.3", "Loads/impact/Slip Speed=0.01", "Loads/impact/Damping=0.3"],
                      quiet=False)
