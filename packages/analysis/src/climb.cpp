@@ -13,6 +13,7 @@ namespace culm::analysis {
 void climb(Context& context, model::State& state, solver::NewtonSolver& newton, double level) {
   const Stencil stencil = Stencil::statics();
   const double way = level - state.time_prev;
+  state.velocity.release(0, state.velocity.size());  // as in statics
   double increment = way;
   do {
     const bool is_last = std::abs(level - state.time_prev) <= std::abs(increment) * (1.0 + 1e-9);

@@ -175,10 +175,14 @@ int Statics::find_determinant_sign(const StepReport& report) {
 }
 
 void Statics::watch_stability(const StepReport& report) {
-  const int sign = find_determinant_sign(report);
+  int sign = find_determinant_sign(report);
   if (sign == 0) return;
   if (determinant_sign_ == 0) determinant_sign_ = report.outcome.first_determinant.sign;
-  if (sign == determinant_sign_ || is_singular()) return;
+  if (sign == determinant_sign_) return;
+  // the last iteration began before the equilibrium, where a blade that turns may not be stretched
+  system().evaluate(state(), Stencil::statics(), Want::residual_and_tangent);
+  sign = context().linear.factor() ? context().linear.determinant().sign : 0;
+  if (sign == 0 || sign == determinant_sign_ || is_singular()) return;
   determinant_sign_ = sign;
   crossings_.push_back(report.time);
   context().findings.warn(
