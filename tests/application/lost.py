@@ -358,6 +358,10 @@ def carries_end_force(x, z, force):
     return check
 
 
+# --- weight
+
+CARRIED = entry("carried", Type="Rigid Connection", Node="hub", Master="beam/last")
+
 # --- motions after statics
 
 MOVED = entry("moved", Type="Dynamic", End_Time="0.05", Step="0.01")
@@ -606,7 +610,7 @@ CASES = [
          says=["warning: Stress Resultants 'inner' is that of the lasting stiffness of 'beam': what its branches of "],
          leaves=["out"]),
     Case("a follower force that is little beside stiffnesses that hardly act", 0, args=RUN, change=[HEAVY, *STIFF, *PUSHED],
-         leaves=["out"], check=flutters(20.0509 * 3e3 / 4.0), ranks=True),
+         leaves=["out"], check=flutters(20.0509 * 3e3 / 4.0)),
     *(
         Case(f"a linear beam under {what}", 0, args=RUN, leaves=["out"],
              change=[('name="Order" value="1"/>', 'name="Order" value="2"/><Parameter name="Fidelity" value="Linear"/>'),
@@ -630,5 +634,26 @@ CASES = [
                      ('name="Order" value="1"', f'name="Order" value="{order}"'), (HISTORY, HISTORY + SECTIONS)],
              check=carries_end_force(2.0, 2.0, (0.1, 0.1)), ranks=True)
         for elements, order in (("1, 1", 2), ("1, 3", 1), ("3, 2", 2), ("4, 4", 3))
+    ),
+    Case("a body at rest, seen from a frame that begins to turn", 0, args=RUN, leaves=["out"],
+         deck=FALLING % (
+             listed("Loads", entry("spin", Type="Rotating Frame", Axis="{0, 0, 1}", Point="{-1, 0, 0}", Speed="3"))
+             + listed("Analyses", entry("turn", Type="Dynamic", End_Time="0.5", Step="1e-3"))
+             + listed("Output", listed("History", entry("hub", Type="Position", Node="hub")))),
+         check=ends_with("hub y [m]", -math.sin(0.5 * 3.0 * 0.5**2), 1e-6), ranks=True),
+    Case("modes at levels beyond the ramp", 0, args=RUN, leaves=["out"],
+         change=[HEAVY, (FORCE, SPUN), (STATIC, entry("modes", Type="Campbell", Modes="2", Levels="{0, 1, 1.5}"))],
+         says=["warning: nothing grows beyond level 1, where 'Ramp' ends, which Rotating Frame 'spin' follows: "]),
+    Case("a blade that is soft before it is stretched", 0, args=RUN, never=["determinant"], leaves=["out"],
+         change=[HEAVY, (FORCE, entry("spin", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="25")),
+                 (STATIC, entry("bend", Type="Static", Steps="1")),
+                 ('name="Order" value="1"', 'name="Order" value="2"'), ('name="Elements" value="4"', 'name="Elements" value="8"')]),
+    *(
+        Case(f"weight of a beam {what} density", 0, args="run deck.xml --output out", leaves=["out"],
+             change=[(LOADS, listed("Loads", entry("weight", Type="Gravity"))),
+                     ('<ParameterList name="Structures">', f'<ParameterList name="Structures">{HUB}'), *change],
+             prints=[] if HEAVY in change else ["note: Gravity 'weight' does not pull 'beam': there is no density or mass\n"],
+             never=["does not pull"] if HEAVY in change else [], silent=False)
+        for what, change in (("without", [(CLAMP, CLAMP + CARRIED)]), ("with", [(CLAMP, CLAMP + CARRIED), HEAVY]))
     ),
 ]

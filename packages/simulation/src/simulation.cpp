@@ -26,6 +26,7 @@
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
 #include "taut_beams.hpp"
+#include "weightless.hpp"
 #include "widths_in_media.hpp"
 
 #include <fmt/format.h>
@@ -198,6 +199,9 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     p.findings.warn("external load",
                     "load '" + name + "' is zero: only a program that makes the steps can set it",
                     0.0);
+  }
+  for (const std::string& sentence : weightless_structures(p.deck)) {
+    p.log.info("note: " + sentence);
   }
   if (has_lost_velocities(p.deck)) {
     p.findings.warn("initial velocities",
