@@ -25,7 +25,7 @@ set(CULM_TEST_ENVIRONMENT
 #
 # A test on several processes counts as one of those that run at once: one that had to wait for as many
 # free places would wait until all others are done, and such tests would run one after the other at
-# the end. Instead there is never more than one of them at a time.
+# the end. Instead there is never more than one of them at a time, from the begin on.
 function(culm_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;RANKS" "COMMAND;ENVIRONMENT")
   set(environment ${CULM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
@@ -34,7 +34,9 @@ function(culm_add_test name)
     ${name} PROPERTIES LABELS ${arg_LABEL} ENVIRONMENT "${environment}" SKIP_RETURN_CODE 77
   )
   if(arg_RANKS GREATER 1)
-    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABEL};parallel" RESOURCE_LOCK ranks)
+    set_tests_properties(
+      ${name} PROPERTIES LABELS "${arg_LABEL};parallel" RESOURCE_LOCK ranks COST 1e4
+    )
   endif()
 endfunction()
 

@@ -412,7 +412,7 @@ CASES = [
         change=[*twisted("Rotation", 2.0, 4, Function="jump"),
                 (SOLVER, listed("Functions", entry("jump", Type="Heaviside", Start="0.5")) + SOLVER)],
         args=RUN,
-        says=["Likely cause: the rotation that Rotation 'turn' prescribes leads by "],
+        says=["Likely cause: the rotation that Rotation 'turn' prescribes leads further at once "],
         leaves=["out"],
     ),
     *MOTIONS,

@@ -122,8 +122,8 @@ std::string BlockBatch::range_warning(double used) const {
   const auto number = static_cast<std::size_t>(fastest->unknowns.front().block);
   return fmt::format(
       "{} follows within {:.3g} s, and steps have up to {:.3g} s: where its input jumps it does "
-      "not "
-      "settle but swings about it from step to step; take steps of at most {:.3g} s, or its input "
+      "not settle but swings about it from step to step; take steps of at most {:.3g} s, or its "
+      "input "
       "in its place",
       model_.own_blocks()[number].name, 0.5 * longest, used * longest, longest);
 }
