@@ -23,9 +23,9 @@ set(CULM_TEST_ENVIRONMENT
 #   ENVIRONMENT  further settings, NAME=VALUE)
 # Exit code 77 says that something it needs is not there.
 #
-# A test on several processes counts as one of those that run at once: one that had to wait for as many
-# free places would wait until all others are done, and such tests would run one after the other at
-# the end. Instead there is never more than one of them at a time, from the begin on.
+# A test on several processes takes two of the places of tests that run at once, and begins before those on
+# one: else it would wait until all others are done, since two places are hardly ever free together, and such
+# tests would run one after the other at the end.
 function(culm_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;RANKS" "COMMAND;ENVIRONMENT")
   set(environment ${CULM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
@@ -35,7 +35,7 @@ function(culm_add_test name)
   )
   if(arg_RANKS GREATER 1)
     set_tests_properties(
-      ${name} PROPERTIES LABELS "${arg_LABEL};parallel" RESOURCE_LOCK ranks COST 1e4
+      ${name} PROPERTIES LABELS "${arg_LABEL};parallel" PROCESSORS 2 COST 1e4
     )
   endif()
 endfunction()
