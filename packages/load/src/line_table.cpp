@@ -1,7 +1,7 @@
 #include "line_table.hpp"
 
 #include <culm/math/arc_length.hpp>
-#include <culm/math/quadrature.hpp>
+#include <culm/math/interpolation.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -9,15 +9,6 @@
 
 namespace culm::load {
 namespace {
-
-// l_k(xi) on the points of a rule
-double lagrange(std::span<const QuadraturePoint> rule, std::size_t k, double xi) {
-  double value = 1.0;
-  for (std::size_t j = 0; j < rule.size(); ++j) {
-    if (j != k) value *= (xi - rule[j].xi) / (rule[k].xi - rule[j].xi);
-  }
-  return value;
-}
 
 // A piece of the line, from `begin` to `end` [m].
 struct Interval {

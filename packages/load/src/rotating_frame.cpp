@@ -17,17 +17,10 @@ namespace {
 
 using FrameMotion = model::ItemMotion<RotatingFrame::max_nodes>;
 
-// How the frame turns in a step.
-struct Turning {
-  Mat3 turn;  // omega x
-  Mat3 rate;  // by its change over the step
-  Mat3 by_place() const { return turn * turn + rate; }
-};
-
 // Acceleration of the slots of an item in the frame at rest.
 FrameMotion::Slots accelerations(const FrameMotion& motion, const std::vector<int>& nodes,
                                  const model::State& state, const Stencil& stencil,
-                                 const Turning& turning, const Vec3& point) {
+                                 const RotatingFrame::Turning& turning, const Vec3& point) {
   FrameMotion::Slots a = motion.mid;
   for (int s = 0; s < a.cols(); s += 4) a.col(s) -= point;
   const Mat3& turn = turning.turn;
@@ -39,21 +32,6 @@ FrameMotion::Slots accelerations(const FrameMotion& motion, const std::vector<in
     }
   }
   return a;
-}
-
-// @param speed  of a state and a stencil
-template <class Speed>
-Turning turning_of(const model::State& state, const Stencil& stencil, const Vec3& axis,
-                   const Speed& speed) {
-  double rate = 0.0;
-  if (stencil.step > 0.0) {
-    Stencil begin = stencil;
-    Stencil end = stencil;
-    begin.theta = 0.0;
-    end.theta = 1.0;
-    rate = (speed(state, end) - speed(state, begin)) / stencil.step;
-  }
-  return {skew(speed(state, stencil) * axis), skew(rate * axis)};
 }
 
 // The nodes of the structures that a deck names; false, with an issue, if one does not exist.
@@ -122,6 +100,19 @@ double RotatingFrame::speed(const model::State& state, const Stencil& stencil) c
   return amplitude_.in_step(state, stencil) * speed_;
 }
 
+RotatingFrame::Turning RotatingFrame::turning_in(const model::State& state,
+                                                 const Stencil& stencil) const {
+  double rate = 0.0;
+  if (stencil.step > 0.0) {
+    Stencil begin = stencil;
+    Stencil end = stencil;
+    begin.theta = 0.0;
+    end.theta = 1.0;
+    rate = (speed(state, end) - speed(state, begin)) / stencil.step;
+  }
+  return {skew(speed(state, stencil) * axis_), skew(rate * axis_)};
+}
+
 void RotatingFrame::add(std::span<const int> nodes, const Eigen::MatrixXd& mass) {
   internal_check(nodes.size() <= max_nodes, "a mass couples more nodes than RotatingFrame allows");
   items_.push_back({{nodes.begin(), nodes.end()}, mass});
@@ -135,18 +126,17 @@ Verdict RotatingFrame::assemble(const model::State& state, const Stencil& stenci
                                 model::Target& target) {
   if (want == Want::mass) return Verdict::ok;
   const bool tangent = want == Want::residual_and_tangent;
+  const Turning turning = turning_in(state, stencil);
   return assemble_items([&](auto space, std::size_t i) {
-    return assemble_item<decltype(space)>(i, state, stencil, tangent, target);
+    return assemble_item<decltype(space)>(i, state, stencil, turning, tangent, target);
   });
 }
 
 template <class Space>
 Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
-                                     const Stencil& stencil, bool tangent,
+                                     const Stencil& stencil, const Turning& turning, bool tangent,
                                      model::Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
-  const Turning turning =
-      turning_of(state, stencil, axis_, [this](const auto&... at) { return speed(at...); });
   const FrameMotion motion(nodes_, item.nodes, state, stencil.theta);
   const FrameMotion::Slots r =
       accelerations(motion, item.nodes, state, stencil, turning, point_).lazyProduct(item.mass);
@@ -170,8 +160,7 @@ Verdict RotatingFrame::assemble_item(std::size_t i, const model::State& state,
 
 model::StepWork RotatingFrame::step_work(const model::State& state, const Stencil& stencil) const {
   model::StepWork work;
-  const Turning turning =
-      turning_of(state, stencil, axis_, [this](const auto&... at) { return speed(at...); });
+  const Turning turning = turning_in(state, stencil);
   for (std::size_t i = 0; i < placement().items.size(); ++i) {
     if (!placement().owned[i]) continue;
     const Item& item = items_[static_cast<std::size_t>(placement().items[i])];

@@ -1,5 +1,5 @@
 #include <culm/math/arc_length.hpp>
-#include <culm/math/quadrature.hpp>
+#include <culm/math/interpolation.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +31,7 @@ double ArcLength::rate(double xi) const {
   const auto rule = gauss_legendre(static_cast<int>(shares_.size()));
   double sum = 0.0;
   for (std::size_t k = 0; k < rule.size(); ++k) {
-    double l = rate_at_point(shares_, k);
-    for (std::size_t j = 0; j < rule.size(); ++j) {
-      if (j != k) l *= (xi - rule[j].xi) / (rule[k].xi - rule[j].xi);
-    }
-    sum += l;
+    sum += rate_at_point(shares_, k) * lagrange(rule, k, xi);
   }
   return sum;
 }

@@ -5,6 +5,7 @@
 #include <culm/simulation/input_files.hpp>
 #include <culm/simulation/simulation.hpp>
 
+#include "doubts.hpp"
 #include "load_watch.hpp"
 #include "port_picture.hpp"
 #include "simulation_parts.hpp"
@@ -49,7 +50,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     throw UsageError("no analysis '" + analysis + "' of the deck makes steps" +
                      did_you_mean(analysis, names));
   }
-  if (p.state.next.empty()) p.state = p.phases.of(p.present).model->initial_state();
+  if (p.state.next.empty()) {
+    p.state = p.phases.of(p.present).model->initial_state();
+    tell_of_deck(p.deck, p.findings, p.log);
+  }
   end_analysis();
   if (p.deck.has_list("Coupling")) {
     p.findings.warn("coupling", "the partners of the deck do not act: a program makes the steps",
@@ -63,6 +67,8 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   p.findings.begin(entries[number].name());
   p.context.emplace(
       analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});
+  phase.system->synchronise(p.state);
+  warn_before(p.deck, entries[number], *phase.model, p.state, p.findings);
   auto stepper =
       known.steppers.make(entries[number].text("Type"), entries[number], *p.context, p.state);
   if (p.results != nullptr) {
@@ -87,6 +93,8 @@ void Simulation::end_analysis() {
   if (p.stepper == nullptr) return;
   p.stepper->finish();
   p.stepper.reset();
+  p.context->system.synchronise(p.state);
+  p.warn_of_taut_beams(p.state.next, p.state.time);
   keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state,
              p.results == nullptr ? nullptr : &p.results->files);
 }

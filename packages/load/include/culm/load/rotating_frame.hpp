@@ -1,4 +1,4 @@
-/// Inertia forces in a frame that turns steadily.
+/// Inertia forces in a frame that turns.
 #pragma once
 
 #include <culm/model/amplitude.hpp>
@@ -13,16 +13,24 @@
 namespace culm::load {
 
 /// What masses feel in a frame that turns with a(t) omega about an axis. The acceleration of every
-/// slot, a position relative to a point of the axis, is omega x (omega x q) + 2 omega x v, so with
-/// the constant mass M between slots
-///   f_s = -sum_t M_st (omega x (omega x q_t) + 2 omega x v_t),
-/// exactly for any shape and rotation. Velocities are (q_next - q_prev) / step: zero in statics.
-/// The speed is taken as steady: there is no term with its rate. @source formulation 1.2
+/// slot, a position relative to a point of the axis, is
+///   a = omega x (omega x q) + 2 omega x v + omega' x q,
+/// so with the constant mass M between slots f_s = -sum_t M_st a_t, exactly for any shape and
+/// rotation. Velocities v and the rate omega' are differences over a step: zero in statics.
+/// @source formulation 1.2
 class RotatingFrame final : public model::MemorylessBatch,
                             public model::SteadyRotation,
                             public model::Booked {
  public:
   static constexpr int max_nodes = 4;
+
+  /// How the frame turns in a step: of vectors the matrices of their cross products with omega, and
+  /// with its rate.
+  struct Turning {
+    Mat3 turn;
+    Mat3 rate;
+    Mat3 by_place() const { return turn * turn + rate; }
+  };
 
   /// @param axis unit vector @param speed at amplitude 1 [rad/s] @param point of the axis [m]
   RotatingFrame(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
@@ -62,7 +70,8 @@ class RotatingFrame final : public model::MemorylessBatch,
 
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
-                        bool tangent, model::Target& target) const;
+                        const Turning& turning, bool tangent, model::Target& target) const;
+  Turning turning_in(const model::State& state, const Stencil& stencil) const;
 
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;

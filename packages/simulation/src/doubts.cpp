@@ -1,0 +1,52 @@
+#include "doubts.hpp"
+
+#include "contact_findings.hpp"
+#include "ended_ramps.hpp"
+#include "gravity_and_sea.hpp"
+#include "lost_moments.hpp"
+#include "relaxing_stresses.hpp"
+#include "weightless.hpp"
+#include "widths_in_media.hpp"
+
+#include <algorithm>
+
+namespace culm::simulation {
+namespace {
+
+bool has_entry_of(const Options& list, const std::string& type) {
+  return std::ranges::any_of(list.entries(),
+                             [&](const Options& entry) { return entry.text("Type") == type; });
+}
+
+bool has_lost_velocities(const Options& deck) {
+  return has_entry_of(deck.list("Initial Conditions"), "Velocity") &&
+         !has_entry_of(deck.list("Analyses"), "Dynamic");
+}
+
+}  // namespace
+
+void tell_of_deck(const Options& deck, Findings& findings, const Log& log) {
+  for (const std::string& sentence : weightless_structures(deck)) log.info("note: " + sentence);
+  if (has_lost_velocities(deck)) {
+    findings.warn("initial velocities",
+                  "the initial velocities of the deck are lost: they act in analyses of type "
+                  "'Dynamic' only, and there is none",
+                  0.0);
+  }
+}
+
+void warn_before(const Options& deck, const Options& analysis, const model::Model& model,
+                 const model::State& state, Findings& findings) {
+  const auto warn = [&](const char* kind, const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences) findings.warn(kind, sentence, state.time);
+  };
+  warn("gravity", weights_that_miss_seas(deck, analysis));
+  warn("width", widths_that_differ(deck, analysis, model));
+  warn("ended ramp", levels_beyond_ramp(deck, analysis));
+  warn("relaxation", stresses_without_branches(deck, analysis));
+  warn("overlap", deep_contacts(model, state.next));
+  if (analysis.text("Type") != "Dynamic") warn("friction", contacts_at_rest(model));
+  warn("lost moment", moments_that_are_not_carried(model));
+}
+
+}  // namespace culm::simulation

@@ -1,0 +1,113 @@
+// How the state of a simulation comes from one analysis to the next.
+
+#include <culm/simulation/simulation.hpp>
+
+#include "ended_ramps.hpp"
+#include "late_supports.hpp"
+#include "other_run.hpp"
+#include "simulation_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace culm::simulation {
+namespace {
+
+// Initial displacements are made to fit.
+void warn_of_open_joints(Findings& findings, const Options& analysis, const model::Model& model,
+                         const model::State& state, const model::Coordinates& q) {
+  if (analysis.text("Type") != "Dynamic") return;
+  if (state.at_rest && model.has_initial_displacements()) return;
+  const double start = analysis.has("Start Time") ? analysis.number("Start Time") : state.time;
+  for (const std::string& sentence : open_joints(model, q, start, analysis.name())) {
+    findings.warn("open joint", sentence, start);
+  }
+}
+
+}  // namespace
+
+// What is watched goes on from where the state comes from.
+void Simulation::Parts::let_watch(ResultFiles& files, const Options& analysis, bool begins) {
+  const Phase& phase = phases.of(present);
+  files.use(*phase.system, phase.watched);
+  if (!begins || !analysis.has("Start From")) return;
+  const std::string& name = analysis.text("Start From");
+  files.restore_memories(earlier.wants(name) ? &earlier.find(name).state : nullptr);
+}
+
+// Brings the state to where an analysis starts, in its phase.
+void Simulation::start_analysis(std::size_t number, model::State& state) {
+  Parts& p = *parts_;
+  const Options& entry = p.deck.list("Analyses").entries()[number];
+  p.findings.begin(entry.name());
+  move_state(number, state);
+  const Phase& phase = p.phases.of(number);
+  model::Coordinates q = state.next;
+  phase.system->complete(q);
+  refuse_left_supports(*phase.model, q, p.deck.list("Constraints"), entry.name());
+  warn_of_open_joints(p.findings, entry, *phase.model, state, q);
+  if (p.phases.leaves_path(number)) {
+    for (const std::string& sentence : ramps_cut_off(p.deck, entry, state.time)) {
+      p.findings.warn("ended ramp", sentence, state.time);
+    }
+  }
+}
+
+void Simulation::move_state(std::size_t number, model::State& state) {
+  Parts& p = *parts_;
+  const Options& entry = p.deck.list("Analyses").entries()[number];
+  const Phase& before = p.phases.of(p.present);
+  Phase& phase = p.phases.enter(number, p.comm, p.ledger);
+  p.present = number;
+  if (!entry.has("Start From")) {
+    if (&phase == &before) return;
+    Snapshot saved;
+    before.system->save(state, saved);
+    state = phase.model->initial_state();
+    phase.system->restore(hand_over(saved, before, phase), state);
+    return;
+  }
+  const std::string& name = entry.text("Start From");
+  state = phase.model->initial_state();
+  if (name == EarlierStates::reference) {
+    phase.system->restore(phase.reference, state);
+  } else if (p.earlier.wants(name)) {
+    const EarlierStates::Kept& kept = p.earlier.find(name);
+    phase.system->restore(hand_over(kept.state, p.phases.of(kept.analysis), phase), state);
+  } else {
+    phase.system->restore(read_state(entry, phase, state), state);
+  }
+}
+
+// The nodes of a checkpoint of another run, and what batches of the same effect and signals of the
+// same name remember there; multipliers begin anew.
+Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::State& state) {
+  const Snapshot found = find_state_of_run(parts_->comm, analysis, *phase.model);
+  Snapshot snapshot;
+  phase.system->save(state, snapshot);
+  for (const char* name : {"state/position", "state/velocity", "state/time", "state/at rest"}) {
+    snapshot.set(name, found.numbers(name));
+  }
+  for (const std::string& title : take_memories(found, *phase.model, snapshot)) {
+    parts_->findings.warn("memory",
+                          fmt::format("'Start From' of '{}' leaves out what {} remembers in that "
+                                      "run, such as what flowed or slid: here is none of its kind "
+                                      "and size",
+                                      analysis.name(), title),
+                          state.time);
+  }
+  return snapshot;
+}
+
+void Simulation::keep_state(const std::string& name, model::State& state,
+                            const ResultFiles* files) {
+  Parts& p = *parts_;
+  if (!p.earlier.wants(name)) return;
+  Snapshot snapshot;
+  p.phases.of(p.present).system->save(state, snapshot);
+  if (files != nullptr) files->save_memories(snapshot);
+  p.earlier.keep(name, p.present, std::move(snapshot));
+}
+
+}  // namespace culm::simulation
