@@ -1,5 +1,6 @@
 #include "strip_watch.hpp"
 
+#include <culm/lattice/lattice_load.hpp>
 #include <culm/strip/shared_chord.hpp>
 
 #include <algorithm>
@@ -16,6 +17,13 @@ Vec3 place_of(const model::Marker& point, const model::Coordinates& q) {
 }
 
 // In the reference.
+bool is_below_ground(const lattice::LatticeLoad& load, const model::Model& model) {
+  const lattice::Points points = load.grid(model.nodes().reference());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (load.lattice().flow().is_above_ground(points.at(i))) return false;
+  }
+  return true;
+}
 bool is_below_ground(const strip::StripLoad& load, const model::Model& model) {
   return std::ranges::none_of(load.stations(), [&](const strip::Station& station) {
     return load.flow().is_above_ground(place_of(station.point, model.nodes().reference()));
@@ -29,6 +37,8 @@ void StripWatch::begin(const model::Model& model) {
   pairs_.clear();
   below_ground_.clear();
   for (const auto& load : model.loads()) {
+    const auto* lattice = dynamic_cast<const lattice::LatticeLoad*>(load.get());
+    if (lattice != nullptr && is_below_ground(*lattice, model)) below_ground_.push_back(lattice);
     const auto* strip = dynamic_cast<const strip::StripLoad*>(load.get());
     if (strip == nullptr) continue;
     for (const strip::StripLoad* other : strips) {
@@ -48,7 +58,7 @@ void StripWatch::step(const model::State& state, Findings& findings) const {
                       "more than the whole air together: it acts on the structure twice",
                   state.time);
   }
-  for (const strip::StripLoad* load : below_ground_) {
+  for (const model::Batch* load : below_ground_) {
     findings.warn("below ground",
                   load->effect().quoted() +
                       " meets no wind: all of it stands at the ground of its flow or below, where "

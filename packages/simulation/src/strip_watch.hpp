@@ -1,4 +1,4 @@
-/// Finds strips that count the air twice, or that no wind reaches.
+/// Finds loads of air that count it twice, or that no wind reaches.
 #pragma once
 
 #include <culm/base/findings.hpp>
@@ -12,7 +12,8 @@ namespace culm::simulation {
 
 /// Looks at pairs of strips on the same chord, of which a deck refuses those that always act.
 /// Others have functions of time and may take turns: whether they do is seen step by step. And at
-/// strips of which all stations stand below the ground of a wind that grows with the height.
+/// strips and lattices that stand below the ground of a wind that grows with the height, with all
+/// of their stations or points.
 class StripWatch {
  public:
   /// Starts anew with the loads of a model, which must outlive this.
@@ -22,7 +23,7 @@ class StripWatch {
 
  private:
   std::vector<std::pair<const strip::StripLoad*, const strip::StripLoad*>> pairs_;
-  std::vector<const strip::StripLoad*> below_ground_;
+  std::vector<const model::Batch*> below_ground_;
 };
 
 }  // namespace culm::simulation
