@@ -238,6 +238,14 @@ def strip(name, **values):
     return entry(name, **{key: value for key, value in (known | values).items() if value != ""})
 
 
+# A surface in the air on the beam.
+RINGS = entry("rings", Type="Vortex Lattice", Flow="wind").replace(
+    "</ParameterList>",
+    '<ParameterList name="Surfaces"><ParameterList name="one"><Parameter name="Structure" value="beam"/>'
+    '<Parameter name="Chord" value="0.1"/><Parameter name="Panels" value="{2, 4}"/></ParameterList></ParameterList>'
+    "</ParameterList>")
+
+
 def in_wind(*strips, **flow):
     """The change of the deck that puts it into a wind."""
     flow = flow or {"Type": "Uniform", "Velocity": "{0, 0, 1}"}
@@ -512,19 +520,22 @@ CASES = [
         )],
         says=["Flows / sea / Current / Direction: 'Direction' and 'Up' must not be parallel or zero"],
     ),
-    Case(
-        "air on what stands at the ground of its wind",
-        0,
-        args=RUN,
-        change=[
-            in_wind(strip("air"), Type="Power Law", Speed="10", Height="10", Exponent="0", Up="{0, 0, -1}"),
-        ],
-        says=["warning: Strip 'air' meets no wind: all of it stands at the ground of its flow or below, where the "
-              "height along 'Up' above the origin is 0; put the structure higher, or take a 'Uniform' flow\n"],
-        results="out",
-        last_level=1.0,
-        check=has_findings("below ground", grade=False),
-        ranks=True,
+    *(
+        Case(
+            f"air on what stands at the ground of its wind, {name}",
+            0,
+            args=RUN,
+            change=[
+                in_wind(load, Type="Power Law", Speed="10", Height="10", Exponent="0", Up="{0, 0, -1}"),
+            ],
+            says=[f"warning: {name} meets no wind: all of it stands at the ground of its flow or below, where the "
+                  "height along 'Up' above the origin is 0; put the structure higher, or take a 'Uniform' flow\n"],
+            results="out",
+            last_level=1.0,
+            check=has_findings("below ground", grade=False),
+            ranks=True,
+        )
+        for name, load in (("Strip 'air'", strip("air")), ("Vortex Lattice 'rings'", RINGS))
     ),
     Case(
         "functions by which loads of the air take turns",
@@ -570,11 +581,7 @@ CASES = [
                     '<Parameter name="Diameters" value="{0.1, 0.1}"/></ParameterList></ParameterList>')
                 + '</ParameterList><ParameterList name="Loads">'
                 + entry("air", Type="Strip", Structure="beam", Flow="about", Chord="0.1", Airfoil="thin")
-                + entry("rings", Type="Vortex Lattice", Flow="wind").replace(
-                    "</ParameterList>",
-                    '<ParameterList name="Surfaces"><ParameterList name="one"><Parameter name="Structure" value="beam"/>'
-                    '<Parameter name="Chord" value="0.1"/><Parameter name="Panels" value="{2, 4}"/></ParameterList></ParameterList>'
-                    "</ParameterList>")
+                + RINGS
                 + entry("turning", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="0.1"),
             ),
         ],
