@@ -157,7 +157,9 @@ void System::save(const Motions& motions, std::string_view name, Snapshot& snaps
     ++i;
   });
   add_still(owned_nodes_.end());
-  snapshot.set(name, gather_nodes(own, 6));
+  std::vector<double> all(comm_.is_root() ? 6 * index(model_.nodes().size()) : 0);
+  gather_nodes(own, 6, all);
+  snapshot.set(name, std::move(all));
 }
 
 System::Motions System::restore_motions(const Snapshot& snapshot, std::string_view name) const {

@@ -34,50 +34,54 @@ model::State System::gather(const model::State& state) {
   whole.time_prev = state.time_prev;
   whole.time = state.time;
   whole.at_rest = state.at_rest;
-  const auto all = [&](const model::Coordinates& values) {
-    if (comm_.size() == 1 || values.empty()) return values;
-    const std::vector<double> found = gather_slots(values);
-    return comm_.is_root() ? model::Coordinates(found) : values;
-  };
-  whole.next = all(state.next);
+  whole.next = gather(state.next);
   whole.prev = whole.next;  // what is asked of it at its end reads the start, too, by no weight
-  whole.velocity = all(state.velocity);
+  whole.velocity = gather(state.velocity);
   whole.multipliers = state.multipliers;
   whole.own = state.own;
   gather_forces(whole);
   return whole;
 }
 
-// Numbers of all nodes, `of_node` each, on rank 0 and empty elsewhere; given those of the nodes of
-// this rank.
-std::vector<double> System::gather_nodes(std::span<const double> own, std::size_t of_node) const {
-  const std::vector<double> pieces = comm_.gather(own);
-  if (!comm_.is_root()) return {};
-  const model::UnknownTable& unknowns = model_.unknowns();
-  const auto owner_of = [&](int node) {
-    return layout_.owners()[index(unknowns.node_block(node))];
-  };
-  std::vector<std::size_t> next(index(comm_.size() + 1), 0);  // of each rank in the pieces
-  const int count = model_.nodes().size();
-  for (int node = 0; node < count; ++node) next[index(owner_of(node) + 1)] += of_node;
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<double> all(of_node * index(count));
-  for (int node = 0; node < count; ++node) {
-    std::size_t& from = next[index(owner_of(node))];
-    std::copy_n(pieces.data() + from, of_node, all.data() + of_node * index(node));
-    from += of_node;
+model::Coordinates System::gather(const model::Coordinates& values) const {
+  if (comm_.size() == 1 || values.empty()) return values;
+  if (!comm_.is_root()) {
+    gather_slots(values, {});
+    return values;
   }
+  model::Coordinates all(values.size());
+  gather_slots(values, all);
   return all;
 }
 
-std::vector<double> System::gather_slots(const model::Coordinates& values) const {
+// Numbers of all nodes, `of_node` each, into `all` on rank 0; given those of the nodes of this
+// rank.
+void System::gather_nodes(std::span<const double> own, std::size_t of_node,
+                          std::span<double> all) const {
+  std::vector<std::vector<int>> nodes_of(comm_.is_root() ? index(comm_.size()) : 0);
+  if (comm_.is_root()) {
+    const model::UnknownTable& unknowns = model_.unknowns();
+    for (int node = 0; node < model_.nodes().size(); ++node) {
+      nodes_of[index(layout_.owners()[index(unknowns.node_block(node))])].push_back(node);
+    }
+  }
+  comm_.gather(own, [&](int rank, std::span<const double> piece) {
+    const double* from = piece.data();
+    for (const int node : nodes_of[index(rank)]) {
+      std::copy_n(from, of_node, all.data() + of_node * index(node));
+      from += of_node;
+    }
+  });
+}
+
+void System::gather_slots(const model::Coordinates& values, std::span<double> all) const {
   std::vector<double> own;
   own.reserve(12 * owned_nodes_.size());
   for (const int node : owned_nodes_) {
     const double* slots = values.data() + model::NodeTable::offset(node);
     own.insert(own.end(), slots, slots + 12);
   }
-  return gather_nodes(own, 12);
+  gather_nodes(own, 12, all);
 }
 
 // Multipliers, unknowns of batches and reactions of all ranks on all.
@@ -123,7 +127,9 @@ void System::save(const model::Coordinates& values, std::string_view name,
   if (snapshot.is_for_memory() || comm_.size() == 1 || values.empty()) {
     snapshot.set(name, values);
   } else {
-    snapshot.set(name, gather_slots(values));
+    std::vector<double> all(comm_.is_root() ? values.size() : 0);
+    gather_slots(values, all);
+    snapshot.set(name, std::move(all));
   }
 }
 

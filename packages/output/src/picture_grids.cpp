@@ -21,13 +21,15 @@ std::string vector_name(const std::vector<std::string>& names, std::size_t first
 }
 
 // Columns `first` to `first + columns` of the resultants; one row per entry of `cells`.
-std::vector<double> pick(const StructureState& state, const std::vector<int>& cells,
-                         std::size_t first, std::size_t columns) {
+std::vector<double> pick(const StructureMesh& mesh, const StructureState& state,
+                         const std::vector<int>& cells, std::size_t first, std::size_t columns) {
   std::vector<double> values;
   values.reserve(cells.size() * columns);
   for (const int cell : cells) {
-    const std::vector<double>& row = state.resultants[static_cast<std::size_t>(cell)];
-    for (std::size_t c = first; c < first + columns; ++c) values.push_back(row[c]);
+    const std::size_t row = mesh.resultant_names.size() * static_cast<std::size_t>(cell);
+    for (std::size_t c = first; c < first + columns; ++c) {
+      values.push_back(state.resultants[row + c]);
+    }
   }
   return values;
 }
@@ -37,10 +39,11 @@ std::vector<VtuArray> resultant_arrays(const StructureMesh& mesh, const Structur
   std::vector<VtuArray> arrays;
   const std::vector<std::string>& names = mesh.resultant_names;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    arrays.push_back({names[i], 1, pick(state, cells, i, 1)});
+    arrays.push_back({names[i], 1, pick(mesh, state, cells, i, 1)});
     const std::string vector = vector_name(names, i);
     if (vector.empty()) continue;
-    arrays.push_back({vector, 3, pick(state, cells, i, 3), {names[i], names[i + 1], names[i + 2]}});
+    arrays.push_back(
+        {vector, 3, pick(mesh, state, cells, i, 3), {names[i], names[i + 1], names[i + 2]}});
   }
   return arrays;
 }

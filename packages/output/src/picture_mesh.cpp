@@ -69,12 +69,8 @@ void check_picture(const std::vector<StructureMesh>& meshes, const Picture& pict
     const std::size_t nodes = mesh.positions.size();
     demand(state.positions.size() == nodes, "one position per node");
     demand(mesh.directors == Directors::none || state.triads.size() == nodes, "one triad per node");
-    const bool plain = mesh.resultant_names.empty() && state.resultants.empty();
-    demand(plain || state.resultants.size() == mesh.cells.size(),
-           "one list of resultants per cell");
-    for (const std::vector<double>& row : state.resultants) {
-      demand(row.size() == mesh.resultant_names.size(), "one number per resultant name");
-    }
+    demand(state.resultants.size() == mesh.cells.size() * mesh.resultant_names.size(),
+           "one number per cell and resultant name");
     demand(state.node_values.size() == mesh.node_arrays.size(), "values for each node array");
     for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
       const auto columns = static_cast<std::size_t>(mesh.node_arrays[a].columns);

@@ -185,13 +185,13 @@ class Cleanup {
 /// The open file, its meshes and the place where the history ends.
 class Recorder::File {
  public:
-  File(const std::filesystem::path& path, const RunInfo& info, std::vector<StructureMesh> meshes,
+  File(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
        const std::vector<HistoryColumn>& history)
       : File(temporary_name(path), info, std::move(meshes), history, Unnamed{}) {
     give_name(path);
   }
 
-  File(const std::filesystem::path& path, const RunInfo& info, std::vector<StructureMesh> meshes,
+  File(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
        const std::vector<HistoryColumn>& history, const RecordMark& mark, const Recorded& recorded)
       : File(temporary_name(path), info, std::move(meshes), history, Unnamed{}) {
     if (mark_.head_sum != mark.head_sum) {
@@ -203,17 +203,17 @@ class Recorder::File {
   }
 
   void record(const Picture& picture) {
-    check_picture(meshes_, picture);
+    check_picture(*meshes_, picture);
     file_.take_sum();
     const Handle step = file_.make_group(steps_.id(), step_name(picture.index));
     file_.set_attribute(step.id(), "time", picture.time);
     file_.set_attribute(step.id(), "index", picture.index);
     file_.set_attribute(step.id(), "analysis", picture.analysis);
     file_.set_attribute(step.id(), "step", picture.step);
-    const auto values = tables_.values(meshes_, picture.structures);
-    for (std::size_t t = 0; t < values.size(); ++t) {
+    for (std::size_t t = 0; t < tables_.tables().size(); ++t) {
       const StateTable& table = tables_.tables()[t];
-      file_.write(step.id(), table.name, values[t], table_shape(values[t].size(), table.columns));
+      const std::vector<double> values = tables_.values(t, *meshes_, picture.structures);
+      file_.write(step.id(), table.name, values, table_shape(values.size(), table.columns));
     }
     if (!picture.arrays.empty()) write_arrays(step.id(), picture.arrays);
     ++mark_.steps;
@@ -301,10 +301,10 @@ class Recorder::File {
   bool is_due() const { return Clock::now() - committed_at_ > std::chrono::milliseconds(100); }
 
   // A file that is not in its place yet, and goes if it does not come there.
-  File(const std::filesystem::path& temporary, const RunInfo& info,
-       std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history, Unnamed)
+  File(const std::filesystem::path& temporary, const RunInfo& info, SharedMeshes meshes,
+       const std::vector<HistoryColumn>& history, Unnamed)
       : meshes_(std::move(meshes)),
-        tables_(fields_of(meshes_)),
+        tables_(fields_of(*meshes_)),
         columns_(history.size()),
         cleanup_(temporary),
         file_(Hdf5File::create(temporary)) {
@@ -317,13 +317,13 @@ class Recorder::File {
     file_.take_sum();
     const Handle mesh_group = file_.make_group(file_.id(), "mesh");
     int number = 0;
-    for (const StructureMesh& mesh : meshes_) {
+    for (const StructureMesh& mesh : *meshes_) {
       write_mesh(file_, mesh_group.id(), mesh, number++, tables_);
     }
     const Handle topologies = file_.make_group(file_.id(), "topologies");
     number = 0;
     for (const StateGroup& group : tables_.groups()) {
-      file_.write(topologies.id(), step_name(number++), StateTables::topology(group, meshes_));
+      file_.write(topologies.id(), step_name(number++), StateTables::topology(group, *meshes_));
     }
     steps_ = file_.make_group(file_.id(), "steps");
     history_ = make_history(file_, history);
@@ -400,7 +400,7 @@ class Recorder::File {
     }
   }
 
-  std::vector<StructureMesh> meshes_;
+  SharedMeshes meshes_;
   StateTables tables_;
   std::size_t columns_;
   Cleanup cleanup_;
@@ -412,17 +412,17 @@ class Recorder::File {
   RecordMark mark_;
 };
 
-Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
-                   std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history) {
-  check_meshes(meshes);
+Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
+                   const std::vector<HistoryColumn>& history) {
+  check_meshes(*meshes);
   const QuietHdf5 quiet;
   file_ = std::make_unique<File>(path, info, std::move(meshes), history);
 }
 
-Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
-                   std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history,
-                   const RecordMark& mark, const Recorded& recorded) {
-  check_meshes(meshes);
+Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
+                   const std::vector<HistoryColumn>& history, const RecordMark& mark,
+                   const Recorded& recorded) {
+  check_meshes(*meshes);
   const QuietHdf5 quiet;
   file_ = std::make_unique<File>(path, info, std::move(meshes), history, mark, recorded);
 }

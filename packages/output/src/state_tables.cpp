@@ -22,6 +22,21 @@ bool have_same_fields(const StructureFields& a, const StructureFields& b) {
          std::ranges::equal(a.cell_arrays, b.cell_arrays, same_cells);
 }
 
+// Those of the fields of a structure, in their order.
+std::vector<double> field_values(std::size_t field, const StructureMesh& mesh,
+                                 const StructureState& state) {
+  if (field == 0) return flatten(state.positions);
+  if (field == 1) return flatten_difference(state.positions, mesh.positions);
+  field -= 2;
+  const std::vector<int> directors = director_numbers(mesh.directors);
+  if (field < directors.size()) return flatten_director(state.triads, directors[field]);
+  field -= directors.size();
+  if (field < state.node_values.size()) return state.node_values[field];
+  field -= state.node_values.size();
+  if (!mesh.resultant_names.empty() && field-- == 0) return state.resultants;
+  return state.cell_values[field];
+}
+
 }  // namespace
 
 StateTables::StateTables(const std::vector<StructureFields>& structures)
@@ -92,28 +107,17 @@ void StateTables::add(std::vector<FieldRows>& fields, const std::string& field, 
   tables_[table].rows += rows;
 }
 
-std::vector<std::vector<double>> StateTables::values(
-    const std::vector<StructureMesh>& reference, const std::vector<StructureState>& states) const {
-  std::vector<std::vector<double>> values(tables_.size());
-  for (std::size_t t = 0; t < tables_.size(); ++t) {
-    values[t].reserve(tables_[t].rows * static_cast<std::size_t>(tables_[t].columns));
-  }
+std::vector<double> StateTables::values(std::size_t table,
+                                        const std::vector<StructureMesh>& reference,
+                                        const std::vector<StructureState>& states) const {
+  std::vector<double> values;
+  values.reserve(tables_[table].rows * static_cast<std::size_t>(tables_[table].columns));
   const auto add_structure = [&](std::size_t s) {
-    const StructureMesh& mesh = reference[s];
-    const StructureState& state = states[s];
-    auto field = fields_[s].begin();
-    const auto append = [&](const std::vector<double>& numbers) {
-      std::vector<double>& table = values[(field++)->table];
-      table.insert(table.end(), numbers.begin(), numbers.end());
-    };
-    append(flatten(state.positions));
-    append(flatten_difference(state.positions, mesh.positions));
-    for (const int number : director_numbers(mesh.directors)) {
-      append(flatten_director(state.triads, number));
+    for (std::size_t f = 0; f < fields_[s].size(); ++f) {
+      if (fields_[s][f].table != table) continue;
+      const std::vector<double> numbers = field_values(f, reference[s], states[s]);
+      values.insert(values.end(), numbers.begin(), numbers.end());
     }
-    for (const auto& array : state.node_values) append(array);
-    if (!mesh.resultant_names.empty()) append(flatten_rows(state.resultants));
-    for (const auto& array : state.cell_values) append(array);
   };
   for (const StateGroup& group : groups_) std::ranges::for_each(group.structures, add_structure);
   return values;

@@ -43,9 +43,9 @@ class StateTables {
   /// Fields of a structure: position, displacement, directors, arrays of nodes, resultants if it
   /// has some, arrays of cells.
   const std::vector<FieldRows>& fields(std::size_t structure) const { return fields_[structure]; }
-  /// All numbers of a state, by table. @param reference  of the displacements
-  std::vector<std::vector<double>> values(const std::vector<StructureMesh>& reference,
-                                          const std::vector<StructureState>& states) const;
+  /// All numbers of a state in a table. @param reference  of the displacements
+  std::vector<double> values(std::size_t table, const std::vector<StructureMesh>& reference,
+                             const std::vector<StructureState>& states) const;
   /// The cells of a group in XDMF, with the nodes numbered through its structures.
   static std::vector<int> topology(const StateGroup& group,
                                    const std::vector<StructureMesh>& meshes);

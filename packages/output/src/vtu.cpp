@@ -36,8 +36,7 @@ std::vector<std::string> collection_entries(
 }  // namespace
 
 Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
-                   std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses,
-                   std::size_t most)
+                   SharedMeshes meshes, const std::vector<std::string>& analyses, std::size_t most)
     : folder_(folder),
       vtu_folder_(stem + "_vtu"),
       meshes_(std::move(meshes)),
@@ -46,9 +45,9 @@ Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
   if (analyses.size() > 1) {
     for (const std::string& name : analyses) analyses_.push_back(file_part(name));
   }
-  check_meshes(meshes_);
+  check_meshes(*meshes_);
   make_folder(folder_ / vtu_folder_);
-  for (const StructureMesh& mesh : meshes_) names_.push_back(mesh.name);
+  for (const StructureMesh& mesh : *meshes_) names_.push_back(mesh.name);
   make_skins();
   make_groups();
   const bool skinned =
@@ -90,7 +89,7 @@ void Pictures::list_anew(Collections& collections, Files Step::*files) {
 }
 
 void Pictures::make_skins() {
-  for (const StructureMesh& mesh : meshes_) {
+  for (const StructureMesh& mesh : *meshes_) {
     const Skin& skin = skins_.emplace_back(mesh);
     reference_skins_.push_back(skin.points(mesh.positions, mesh.triads));
   }
@@ -99,7 +98,7 @@ void Pictures::make_skins() {
 void Pictures::make_groups() {
   std::vector<std::string> types;
   std::set<std::string> parts;
-  for (std::size_t s = 0; s < meshes_.size(); ++s) {
+  for (std::size_t s = 0; s < names_.size(); ++s) {
     const auto found = std::find(types.begin(), types.end(), meshes_[s].type);
     const auto g = static_cast<std::size_t>(found - types.begin());
     if (found == types.end()) {
@@ -115,7 +114,7 @@ void Pictures::make_groups() {
 }
 
 void Pictures::add(const Picture& picture) {
-  check_picture(meshes_, picture);
+  check_picture(*meshes_, picture);
   Step step;
   step.time = picture.time;
   add(picture.analysis, std::move(step), &picture);

@@ -105,8 +105,7 @@ inline StructureState tube_state(const StructureMesh& mesh, double angle) {
     state.node_values[1].push_back(300.0 + i);
   }
   for (int c = 0; c < elements; ++c) {
-    std::vector<double>& row = state.resultants.emplace_back();
-    for (int k = 0; k < 6; ++k) row.push_back(10.0 * c + k);
+    for (int k = 0; k < 6; ++k) state.resultants.push_back(10.0 * c + k);
   }
   return state;
 }
@@ -115,7 +114,7 @@ inline StructureState tube_state(const StructureMesh& mesh, double angle) {
 inline Picture sample_picture(const std::vector<StructureMesh>& meshes, int index) {
   Picture picture{.index = index, .time = 0.1 * index, .structures = {}, .arrays = {}};
   picture.structures.push_back(tube_state(meshes[0], 2.5 * picture.time));
-  StructureState patch{meshes[1].positions, meshes[1].triads, {{7.5}}, {}, {{1.5, 2.5}}};
+  StructureState patch{meshes[1].positions, meshes[1].triads, {7.5}, {}, {{1.5, 2.5}}};
   for (Vec3& x : patch.positions) x.y() += picture.time;
   picture.structures.push_back(patch);
   StructureState body{meshes[2].positions, meshes[2].triads, {}, {}};

@@ -80,6 +80,24 @@ std::vector<double> Comm::gather(std::span<const double> piece) const {
   return gather_pieces(comm_, size_, piece, MPI_DOUBLE);
 }
 
+void Comm::gather(std::span<const double> piece,
+                  const std::function<void(int, std::span<const double>)>& take) const {
+  const int mine = static_cast<int>(piece.size());
+  const std::vector<int> counts = gather(std::span<const int>(&mine, 1));
+  if (!is_root()) {
+    MPI_Send(piece.data(), mine, MPI_DOUBLE, 0, 0, comm_);
+    return;
+  }
+  take(0, piece);
+  std::vector<double> received;
+  for (int rank = 1; rank < size_; ++rank) {
+    received.resize(static_cast<std::size_t>(counts[static_cast<std::size_t>(rank)]));
+    MPI_Recv(received.data(), static_cast<int>(received.size()), MPI_DOUBLE, rank, 0, comm_,
+             MPI_STATUS_IGNORE);
+    take(rank, received);
+  }
+}
+
 Funnel::Funnel(const Comm& comm, int count) : comm_(comm.handle()), count_(count) {
   counts_ = comm.gather(std::span<const int>(&count, 1));
   starts_.resize(counts_.size());

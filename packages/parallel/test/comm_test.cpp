@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace culm::parallel {
 namespace {
 
@@ -15,6 +17,20 @@ TEST(Comm, BroadcastBringsTheTextOfTheRoot) {
   const Comm comm;
   const std::string mine = comm.is_root() ? "deck of the root" : "other";
   EXPECT_EQ(comm.broadcast(mine), "deck of the root");
+}
+
+TEST(Comm, GathersPieceByPiece) {
+  const Comm comm;
+  const std::vector<double> piece(static_cast<std::size_t>(2 * comm.rank()), 0.5 * comm.rank());
+  std::vector<int> ranks;
+  comm.gather(piece, [&](int rank, std::span<const double> taken) {
+    ranks.push_back(rank);
+    EXPECT_EQ(std::vector<double>(taken.begin(), taken.end()),
+              std::vector<double>(static_cast<std::size_t>(2 * rank), 0.5 * rank));
+  });
+  std::vector<int> all(comm.is_root() ? static_cast<std::size_t>(comm.size()) : 0);
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(ranks, all);
 }
 
 TEST(Funnel, ScatterUndoesGather) {

@@ -43,7 +43,8 @@ bool is_finite(const output::Picture& picture) {
         for (std::size_t node = 0; node < s.positions.size(); ++node) {
           if (!is_finite_node(s, node)) return false;
         }
-        return std::all_of(s.resultants.begin(), s.resultants.end(), is_sound) &&
+        return is_finite(s.resultants) &&
+               std::all_of(s.node_values.begin(), s.node_values.end(), is_sound) &&
                std::all_of(s.cell_values.begin(), s.cell_values.end(), is_sound);
       });
 }
@@ -67,11 +68,19 @@ void refuse_infinite(const std::vector<output::StructureMesh>& meshes,
       refuse(fmt::format("The position of node {} of '{}'", node, mesh.name),
              state.positions[node].sum(), when);
     }
-    for (std::size_t cell = 0; cell < state.resultants.size(); ++cell) {
-      const double* found = find_infinite(state.resultants[cell]);
+    if (const double* found = find_infinite(state.resultants)) {
+      const auto at = static_cast<std::size_t>(found - state.resultants.data());
+      const std::size_t width = mesh.resultant_names.size();
+      refuse(fmt::format("{} of element {} of '{}'", mesh.resultant_names[at % width], at / width,
+                         mesh.name),
+             *found, when);
+    }
+    for (std::size_t a = 0; a < state.node_values.size(); ++a) {
+      const double* found = find_infinite(state.node_values[a]);
       if (found == nullptr) continue;
-      const auto at = static_cast<std::size_t>(found - state.resultants[cell].data());
-      refuse(fmt::format("{} of element {} of '{}'", mesh.resultant_names[at], cell, mesh.name),
+      const auto at = static_cast<std::size_t>(found - state.node_values[a].data());
+      refuse(fmt::format("The {} of node {} of '{}'", mesh.node_arrays[a].name,
+                         at / static_cast<std::size_t>(mesh.node_arrays[a].columns), mesh.name),
              *found, when);
     }
     for (std::size_t a = 0; a < state.cell_values.size(); ++a) {

@@ -138,10 +138,9 @@ std::vector<std::vector<double>> layer_values(const parallel::Comm& comm,
   return values;
 }
 
-// Stress resultants by cell; empty where there are none. Collective; on rank 0 only.
-std::vector<std::vector<double>> resultants_of(const parallel::Comm& comm,
-                                               const model::Structure& structure,
-                                               const model::Coordinates& q) {
+// Stress resultants, cell after cell; empty where there are none. Collective; on rank 0 only.
+std::vector<double> resultants_of(const parallel::Comm& comm, const model::Structure& structure,
+                                  const model::Coordinates& q) {
   const std::vector<model::Cell>& cells = structure.cells;
   const auto cell_of = [&](int item) -> const model::Cell& {
     return cells[static_cast<std::size_t>(item)];
@@ -151,7 +150,7 @@ std::vector<std::vector<double>> resultants_of(const parallel::Comm& comm,
     if (cell.source != nullptr) width = cell.source->resultant_names().size();
     if (width > 0) break;
   }
-  const std::vector<double> all = parallel::gather_owned(
+  return parallel::gather_owned(
       comm, cells.size(), width,
       [&](int item) {
         const model::Cell& cell = cell_of(item);
@@ -160,12 +159,6 @@ std::vector<std::vector<double>> resultants_of(const parallel::Comm& comm,
       [&](int item, std::vector<double>& numbers) {
         cell_of(item).source->resultants(cell_of(item).item, q, numbers);
       });
-  std::vector<std::vector<double>> rows(comm.is_root() ? cells.size() : 0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (width == 0 || cells[i].source == nullptr) continue;
-    rows[i].assign(all.data() + width * i, all.data() + width * (i + 1));
-  }
-  return rows;
 }
 
 }  // namespace

@@ -88,10 +88,11 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
       settings_(std::move(settings)),
       watched_(&watched),
       read_nodes_(nodes_of(watched)),
+      shows_fluid_(settings_.pictures && !fluid_meshes(system.model()).empty()),
       first_memories_(memories()) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
-    const auto meshes = meshes_in(drawn);
+    const output::SharedMeshes meshes = meshes_in(drawn);
     from == nullptr ? open(meshes) : reopen(meshes, restore_mark(*from));
   });
 }
@@ -133,7 +134,7 @@ bool ResultFiles::has_saved(const Snapshot& snapshot) const {
 
 void ResultFiles::go_back(const Snapshot& saved) {
   on_root(system_->comm(), [&] {
-    const auto meshes = meshes_of(*drawn_, settings_.layers);
+    const output::SharedMeshes meshes = meshes_in(*drawn_);
     const output::RecordMark present = files_->recorder.commit();
     files_.reset();
     try {
@@ -173,13 +174,11 @@ void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantit
 }
 
 std::optional<output::Pictures> ResultFiles::open_fluid() const {
-  auto meshes = fluid_meshes(system_->model());
-  if (!settings_.pictures || meshes.empty()) return {};
-  return output::Pictures(settings_.folder, "run_fluid", std::move(meshes));
+  if (!shows_fluid_) return {};
+  return output::Pictures(settings_.folder, "run_fluid", fluid_meshes(system_->model()));
 }
 
-output::Pictures ResultFiles::open_pictures(
-    const std::vector<output::StructureMesh>& meshes) const {
+output::Pictures ResultFiles::open_pictures(const output::SharedMeshes& meshes) const {
   return {settings_.folder, "run", meshes, settings_.analyses, settings_.most_pictures};
 }
 
@@ -189,7 +188,7 @@ std::vector<output::StructureMesh> ResultFiles::meshes_in(const model::Model& mo
   return meshes;
 }
 
-void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
+void ResultFiles::open(const output::SharedMeshes& meshes) {
   const std::filesystem::path& folder = settings_.folder;
   std::error_code failure;
   // those of an earlier run do not belong to the files to come
@@ -197,7 +196,7 @@ void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
   std::filesystem::remove(checkpoint, failure);
   std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
-  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
+  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", *meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
   std::optional<output::Pictures> pictures;
   if (settings_.pictures) pictures = open_pictures(meshes);
@@ -206,12 +205,11 @@ void ResultFiles::open(const std::vector<output::StructureMesh>& meshes) {
 }
 
 // The result file is cut to the time of the checkpoint; the others are made again from it.
-void ResultFiles::reopen(const std::vector<output::StructureMesh>& meshes,
-                         const output::RecordMark& mark) {
+void ResultFiles::reopen(const output::SharedMeshes& meshes, const output::RecordMark& mark) {
   const std::filesystem::path& folder = settings_.folder;
   const auto recorded = output::find_recorded(folder / "run.h5", settings_.info.run, mark);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), mark, recorded);
-  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
+  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", *meshes);
   output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
   std::optional<output::Pictures> pictures;
   if (settings_.pictures) pictures = open_pictures(meshes);
@@ -246,7 +244,12 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
 
 void ResultFiles::record(double time, int analysis, int step, model::State& state,
                          bool was_solved) {
-  model::State whole = system_->gather(state);
+  model::State whole;
+  if (settings_.velocities || settings_.constraint_forces || shows_fluid_) {
+    whole = system_->gather(state);
+  } else {
+    whole.next = system_->gather(state.next);
+  }
   output::Picture f = picture_of(*system_, settings_.layers, whole.next);
   on_root(system_->comm(), [&] {
     if (settings_.velocities) add_velocities(system_->model(), whole, f);

@@ -103,6 +103,9 @@ class System {
   /// and with all multipliers and reactions; its start is its end, and what only steps need is
   /// empty. Collective.
   model::State gather(const model::State& state);
+  /// An array over the slots of all nodes, with all of them on rank 0 and those of its own on the
+  /// others. Collective.
+  model::Coordinates gather(const model::Coordinates& values) const;
   /// Takes the nodes from a state that no row of this rank needs, and their memory: they are zero
   /// until they are synchronised again.
   void forget_others(model::State& state) const;
@@ -220,8 +223,8 @@ class System {
   void carry_residual(double time);
   void find_needed_nodes();
   void gather_forces(model::State& state);
-  std::vector<double> gather_nodes(std::span<const double> own, std::size_t of_node) const;
-  std::vector<double> gather_slots(const model::Coordinates& values) const;
+  void gather_nodes(std::span<const double> own, std::size_t of_node, std::span<double> all) const;
+  void gather_slots(const model::Coordinates& values, std::span<double> all) const;
   std::vector<double> gather_carried() const;
   void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);

@@ -5,9 +5,11 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace culm::output {
@@ -83,11 +85,24 @@ struct StructureMesh {
   int cell_count() const { return static_cast<int>(cells.size()); }
 };
 
+/// Meshes of a model, which all who write pictures of it hold together.
+class SharedMeshes {
+ public:
+  SharedMeshes(std::vector<StructureMesh> meshes)
+      : meshes_(std::make_shared<const std::vector<StructureMesh>>(std::move(meshes))) {}
+
+  const std::vector<StructureMesh>& operator*() const { return *meshes_; }
+  const StructureMesh& operator[](std::size_t structure) const { return (*meshes_)[structure]; }
+
+ private:
+  std::shared_ptr<const std::vector<StructureMesh>> meshes_;
+};
+
 /// One structure at one time; sizes as in its mesh.
 struct StructureState {
-  std::vector<Vec3> positions;                  ///< per node; m
-  std::vector<Mat3> triads;                     ///< per node, columns d1, d2, d3
-  std::vector<std::vector<double>> resultants;  ///< per cell, as resultant_names
+  std::vector<Vec3> positions;     ///< per node; m
+  std::vector<Mat3> triads;        ///< per node, columns d1, d2, d3
+  std::vector<double> resultants;  ///< cell after cell, each as resultant_names
   /// Per NodeArray all its numbers, node after node; shape (nodes * columns).
   std::vector<std::vector<double>> node_values;
   /// Per CellArray all its numbers, cell after cell; shape (cells * columns).

@@ -59,15 +59,15 @@ struct RunInfo {
 class Recorder {
  public:
   /// Replaces a file of this name, but only when deck, mesh and empty tables are complete.
-  Recorder(const std::filesystem::path& path, const RunInfo& info,
-           std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history);
+  Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
+           const std::vector<HistoryColumn>& history);
   /// Goes on with the file of an earlier run, of the same model and history: what is in it up to
   /// the mark is copied to a new file, which then takes its place. Throws FileError if the model is
   /// another one; then nothing has changed.
   /// @param recorded  from find_recorded()
-  Recorder(const std::filesystem::path& path, const RunInfo& info,
-           std::vector<StructureMesh> meshes, const std::vector<HistoryColumn>& history,
-           const RecordMark& mark, const Recorded& recorded);
+  Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
+           const std::vector<HistoryColumn>& history, const RecordMark& mark,
+           const Recorded& recorded);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Brings the file up to date and closes it; use close() to learn whether that worked.

@@ -37,9 +37,8 @@ class Pictures {
   /// Throws FileError; InternalError if a mesh contradicts itself.
   /// @param analyses  names of those of the deck; none where collections of each are not wanted
   /// @param most      of the steps of an analysis, beside its last one, at least 2; 0 for all
-  Pictures(const std::filesystem::path& folder, const std::string& stem,
-           std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses = {},
-           std::size_t most = 0);
+  Pictures(const std::filesystem::path& folder, const std::string& stem, SharedMeshes meshes,
+           const std::vector<std::string>& analyses = {}, std::size_t most = 0);
 
   /// Shows a step, if it is one of those that are shown. The collections may lag behind, see
   /// GrowingFile. Throws FileError.
@@ -113,7 +112,7 @@ class Pictures {
 
   std::filesystem::path folder_;
   std::string vtu_folder_;
-  std::vector<StructureMesh> meshes_;
+  SharedMeshes meshes_;
   std::vector<std::string> names_;
   std::vector<Skin> skins_;
   std::vector<std::vector<Vec3>> reference_skins_;

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,10 @@ class Comm {
   std::vector<int> gather(std::span<const int> piece) const;
   std::vector<long long> gather(std::span<const long long> piece) const;
   std::vector<double> gather(std::span<const double> piece) const;
+  /// The same without all of them in memory at once: take(rank, piece) is called on the root, rank
+  /// after rank.
+  void gather(std::span<const double> piece,
+              const std::function<void(int, std::span<const double>)>& take) const;
 
  private:
   MPI_Comm comm_;

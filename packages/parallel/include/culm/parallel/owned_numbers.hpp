@@ -27,13 +27,14 @@ std::vector<double> gather_owned(const parallel::Comm& comm, std::size_t count, 
   }
   if (comm.size() == 1 && items.size() == count) return numbers;
   items = comm.gather(std::span<const int>(items));
-  numbers = comm.gather(std::span<const double>(numbers));
-  if (!comm.is_root()) return {};
-  std::vector<double> all(count * width);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::size_t to = width * static_cast<std::size_t>(items[i]);
-    std::copy_n(numbers.data() + width * i, width, all.data() + to);
-  }
+  std::vector<double> all(comm.is_root() ? count * width : 0);
+  auto item = items.begin();
+  comm.gather(numbers, [&](int, std::span<const double> piece) {
+    for (std::size_t from = 0; from < piece.size(); from += width) {
+      const std::size_t to = width * static_cast<std::size_t>(*item++);
+      std::copy_n(piece.data() + from, width, all.data() + to);
+    }
+  });
   return all;
 }
 

@@ -108,17 +108,18 @@ class ResultFiles {
   std::vector<output::StructureMesh> meshes_in(const model::Model& model) const;
   void restore_counts(const Snapshot& saved);
   std::vector<double> memories() const;
-  output::Pictures open_pictures(const std::vector<output::StructureMesh>& meshes) const;
+  output::Pictures open_pictures(const output::SharedMeshes& meshes) const;
   std::optional<output::Pictures> open_fluid() const;
   void add_fluid(int index, double time, const model::State& state);
-  void open(const std::vector<output::StructureMesh>& meshes);
-  void reopen(const std::vector<output::StructureMesh>& meshes, const output::RecordMark& mark);
+  void open(const output::SharedMeshes& meshes);
+  void reopen(const output::SharedMeshes& meshes, const output::RecordMark& mark);
 
   assembly::System* system_;
   const model::Model* drawn_;
   ResultSettings settings_;
   const std::vector<WatchedQuantity>* watched_;
   std::optional<std::vector<int>> read_nodes_;  ///< by what is watched; none: everything
+  bool shows_fluid_ = false;                    ///< in pictures of their own
   std::vector<double> first_memories_;          ///< of what is watched, before any state
   std::unique_ptr<Files> files_;
   std::vector<std::filesystem::path> analysis_files_;  ///< for listing()
