@@ -5,6 +5,7 @@ import pathlib
 import re
 import sys
 
+from deck_text import entry
 from driver import BASE, Case
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/python"))
@@ -186,12 +187,6 @@ DYNAMIC = ('<Parameter name="Type" value="Dynamic"/>\n      <Parameter name="Ste
 HEAVY = ('<Parameter name="EI2" value="4e3"/>', '<Parameter name="EI2" value="4e3"/><Parameter name="rhoA" value="1"/>'
          '<Parameter name="rhoI1" value="1e-3"/><Parameter name="rhoI2" value="1e-3"/>')
 IDLE = "warning: %s moves nothing: all of it acts where supports hold the model and goes straight into them\n"
-
-
-def entry(name, **values):
-    """A list of parameters; underscores are blanks."""
-    lines = "".join(f'<Parameter name="{key.replace("_", " ")}" value="{value}"/>' for key, value in values.items())
-    return f'<ParameterList name="{name}">{lines}</ParameterList>'
 
 
 # A body on a base that stands, and one on that body, by joints.

@@ -3,24 +3,10 @@
 import csv
 import math
 
+from deck_text import cut, ends_with, entry, last_row, listed
 from driver import BASE, Case
 
 RUN = "run deck.xml --output out --quiet"
-
-
-def entry(name, **values):
-    parameters = "".join(f'<Parameter name="{key.replace("_", " ")}" value="{value}"/>' for key, value in values.items())
-    return f'<ParameterList name="{name}">{parameters}</ParameterList>'
-
-
-def listed(name, *entries):
-    return f'<ParameterList name="{name}">{"".join(entries)}</ParameterList>'
-
-
-def cut(text, first, last):
-    """The part of a text from one word to the end of another."""
-    start = text.index(first)
-    return text[start : text.index(last, start) + len(last)]
 
 
 STATIC = cut(BASE, '<ParameterList name="bend">', "</ParameterList>")
@@ -30,20 +16,6 @@ CLAMP = cut(BASE, '<ParameterList name="clamp">', "</ParameterList>")
 HISTORY = '<ParameterList name="History">'
 SOLVER = '<ParameterList name="Solver">'
 TWIST_STIFFNESS = 2e3 / 2.0  # GIp / L
-
-
-def last_row(folder):
-    with open(folder / "out/history.csv", newline="") as file:
-        names, *_, last = list(csv.reader(file))
-    return {name: float(value or "nan") for name, value in zip(names, last)}
-
-
-def ends_with(column, value, tolerance):
-    def check(folder, _):
-        found = last_row(folder)[column]
-        return "" if abs(found - value) <= tolerance else f"{column} is {found}, not {value}"
-
-    return check
 
 
 # --- turns that are prescribed

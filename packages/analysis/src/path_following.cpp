@@ -5,6 +5,7 @@
 #include "mirrored_faces.hpp"
 #include "path_end.hpp"
 #include "shear_range.hpp"
+#include "take_up.hpp"
 #include "turns.hpp"
 
 #include <fmt/format.h>
@@ -110,10 +111,11 @@ void PathFollowing::balance_start() {
   post_mortem().record(report);
   if (report.accepted) {
     system().accept(state);
-  } else {
-    system().discard(state);
-    post_mortem().give_up(state, Stencil::statics());
+    return;
   }
+  system().discard(state);
+  if (take_up(context(), newton(), state) == TakeUp::done) return;
+  post_mortem().give_up(state, Stencil::statics());
 }
 
 std::pair<PathTangent, solver::Determinant> PathFollowing::compute_tangent() {

@@ -4,6 +4,7 @@
 #include "mirrored_faces.hpp"
 #include "shear_range.hpp"
 #include "softest_direction.hpp"
+#include "take_up.hpp"
 #include "turns.hpp"
 
 #include <fmt/format.h>
@@ -137,6 +138,13 @@ void Statics::do_accept(const StepReport& report) {
 }
 
 bool Statics::do_fail(const StepReport& report) {
+  // smaller increments of the level do not make smaller what acts at the start
+  const bool is_first = state().time_prev == settings_.start_level;
+  if (is_first && may_take_up_ && !report.outcome.converged()) {
+    may_take_up_ = false;
+    const TakeUp taken = take_up(context(), newton(), state());
+    if (taken != TakeUp::nothing) return taken == TakeUp::stuck;
+  }
   increment_ = 0.5 * report.increment;
   trend_.add(state().time);
   return increment_ < settings_.smallest_increment || dead_end();
@@ -150,6 +158,7 @@ void Statics::do_save(Snapshot& snapshot) const {
 }
 
 void Statics::do_restore(const Snapshot& snapshot) {
+  may_take_up_ = true;
   increment_ = snapshot.number("statics/increment");
   determinant_sign_ = snapshot.integer("statics/determinant sign");
   crossings_ = snapshot.copy("statics/crossings");

@@ -155,6 +155,7 @@ void System::discard(model::State& state) const {
 void System::carry_residuals(bool wanted) {
   carries_residuals_ = wanted;
   if (!wanted) carried_.reset();
+  held_share_ = 0.0;
 }
 
 void System::change_level(const model::State& state, const Stencil& stencil) {
@@ -270,9 +271,10 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     }
   });
   scope.reset();
-  if (stencil.inertia != 0.0 && carried_) {
+  const double carried = stencil.inertia != 0.0 ? 1.0 / stencil.step : held_share_;
+  if (carried_ && carried != 0.0) {
     for (std::size_t row = 0; row < carried_->size(); ++row) {
-      target.residual[row] += (*carried_)[row] / stencil.step;
+      target.residual[row] += carried * (*carried_)[row];
     }
   }
   double largest = 0.0;
@@ -290,11 +292,19 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3]};
 }
 
-void System::carry_residual(double time) {
+Evaluation System::note_unbalance(const model::State& state, const Stencil& stencil) {
+  carried_.reset();
+  prepare(state, stencil);
+  const Evaluation found = evaluate(state, stencil, Want::residual);
+  carry_residual(-1.0);
+  return found;
+}
+
+void System::carry_residual(double factor) {
   const auto residual = std::as_const(residual_).values();
   carried_.emplace(residual.size(), 0.0);
   for (std::size_t row = 0; row < residual.size(); ++row) {
-    if (is_force_row_[row]) (*carried_)[row] = time * residual[row];
+    if (is_force_row_[row]) (*carried_)[row] = factor * residual[row];
   }
 }
 

@@ -89,7 +89,7 @@ TEST(Vtu, CurvesOfHigherOrderHaveBothEndsFirst) {
   mesh.cell_arrays.clear();
   Picture picture;
   picture.structures.push_back({mesh.positions, mesh.triads, {{}, {}}, {}, {}});
-  Pictures(folder.path(), "run", {mesh}).add(picture);
+  Pictures(folder.path(), "run", std::vector{mesh}).add(picture);
   const std::string text =
       run_python(std::string(decoder) +
                      "print(topology['connectivity'], topology['offsets'], topology['types'])\n",
@@ -207,7 +207,7 @@ TEST(Vtu, OfManyStepsSomeThatLieEvenlyAreShownAndTheLastOfEachAnalysis) {
                    .arrays = {}};
   };
   const auto open = [&] {
-    return Pictures(folder.path(), "run", {body_mesh()}, {"first", "second"}, 4);
+    return Pictures(folder.path(), "run", std::vector{body_mesh()}, {"first", "second"}, 4);
   };
   {
     Pictures pictures = open();
@@ -244,7 +244,7 @@ TEST(Vtu, OfManyStepsSomeThatLieEvenlyAreShownAndTheLastOfEachAnalysis) {
 
 TEST(Vtu, WithoutOutlinesThereIsNoSkinCollection) {
   const TemporaryFolder folder;
-  const Pictures pictures(folder.path(), "run", {body_mesh()});
+  const Pictures pictures(folder.path(), "run", std::vector{body_mesh()});
   EXPECT_TRUE(std::filesystem::exists(folder / "run.pvd"));
   EXPECT_FALSE(std::filesystem::exists(folder / "run_skin.pvd"));
 }
@@ -252,7 +252,7 @@ TEST(Vtu, WithoutOutlinesThereIsNoSkinCollection) {
 TEST(Vtu, CollectionIsCompleteWhenARunEndsByAnError) {
   const TemporaryFolder folder;
   {
-    Pictures pictures(folder.path(), "run", {body_mesh()});
+    Pictures pictures(folder.path(), "run", std::vector{body_mesh()});
     StructureState state{{Vec3::Zero()}, {Mat3::Identity()}, {}, {}};
     for (int i = 0; i < 12; ++i) {
       pictures.add({.index = i, .time = 1.0 * i, .structures = {state}, .arrays = {}});
@@ -263,18 +263,18 @@ TEST(Vtu, CollectionIsCompleteWhenARunEndsByAnError) {
 
 TEST(Vtu, UnwritablePlacesAreFileErrors) {
   const TemporaryFolder folder;
-  EXPECT_THROW(Pictures(folder / "missing", "run", {body_mesh()}), FileError);
+  EXPECT_THROW(Pictures(folder / "missing", "run", std::vector{body_mesh()}), FileError);
   std::ofstream(folder / "run_vtu") << "a file where the folder should be";
-  EXPECT_THROW(Pictures(folder.path(), "run", {body_mesh()}), FileError);
+  EXPECT_THROW(Pictures(folder.path(), "run", std::vector{body_mesh()}), FileError);
 }
 
 TEST(Vtu, InconsistentMeshesAreABug) {
   const TemporaryFolder folder;
   StructureMesh mesh = body_mesh();
   mesh.cells[0].nodes = {1};
-  EXPECT_THROW(Pictures(folder.path(), "run", {mesh}), InternalError);
+  EXPECT_THROW(Pictures(folder.path(), "run", std::vector{mesh}), InternalError);
   mesh.cells = {{CellType::line, {0}}};
-  EXPECT_THROW(Pictures(folder.path(), "run", {mesh}), InternalError);
+  EXPECT_THROW(Pictures(folder.path(), "run", std::vector{mesh}), InternalError);
 }
 
 }  // namespace

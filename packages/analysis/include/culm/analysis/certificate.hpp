@@ -74,7 +74,8 @@ class Certificate {
   std::vector<Line> lines() const;
   void measure(const model::State& state);
   double energy_scale() const;
-  std::string excuse() const;
+  double moved_by_rounding() const;
+  std::string excuse(bool is_rounding) const;
   double linear_scale() const;
   double angular_scale() const;
 
@@ -87,6 +88,7 @@ class Certificate {
   Vec3 impulse_ = Vec3::Zero();
   Vec3 angular_impulse_ = Vec3::Zero();
   double largest_kinetic_ = 0.0, largest_strain_ = 0.0;
+  double largest_amount_ = 0.0;  ///< sum of the sizes of all energies [J]
   double largest_work_ = 0.0;
   double largest_linear_ = 0.0, largest_angular_ = 0.0;
   double energy_drift_ = 0.0;   ///< largest defect of the balance [J]

@@ -137,6 +137,13 @@ class System {
   /// rounding leave then cancels from step to step instead of adding up, and momenta do not drift.
   /// Or no longer.
   void carry_residuals(bool wanted);
+  /// Notes what is out of balance at a state in statics, where loads act at once that nothing has
+  /// answered yet, to be taken up bit by bit.
+  Evaluation note_unbalance(const model::State& state, const Stencil& stencil);
+  /// How much of what was noted stays out of evaluations in statics from now on, from 1 to 0.
+  void hold_back(double share) { held_share_ = share; }
+  /// Whether anything was noted.
+  bool has_unbalance() const { return carried_.has_value(); }
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
@@ -220,7 +227,7 @@ class System {
   std::pair<double, int> find_largest(double value, int place) const;
   int largest_equation(std::span<const double> rows, double largest) const;
   double largest_diagonal() const;
-  void carry_residual(double time);
+  void carry_residual(double factor);
   void find_needed_nodes();
   void gather_forces(model::State& state);
   void gather_nodes(std::span<const double> own, std::size_t of_node, std::span<double> all) const;
@@ -255,7 +262,9 @@ class System {
   std::vector<bool> is_force_row_;
   Sampler sampler_;
   bool carries_residuals_ = false;
-  std::optional<std::vector<double>> carried_;  ///< impulses by owned row [N s, N m s]
+  /// By owned row: impulses [N s, N m s], or in statics forces that were noted [N, N m].
+  std::optional<std::vector<double>> carried_;
+  double held_share_ = 0.0;
   model::Coordinates linear_increment_;
   double multiplier_scale_ = 1.0;
   bool watches_tangents_ = false;
