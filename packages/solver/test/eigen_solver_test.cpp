@@ -162,6 +162,30 @@ TEST_P(EachEigenSolver, FindsTheValuesNextToAShift) {
   }
 }
 
+// Values of structures of micrometres are 1e16 and more, and factors on a small load are large,
+// too.
+TEST_P(EachEigenSolver, IsAsExactWhateverTheSizeOfValues) {
+  const Chains chains{2, 150, true};
+  const Pencil pencil(chains);
+  for (double factor : {1e12, 1e18, 1e-18}) {
+    const auto K = scaled(*pencil.matrices().A, factor);
+    const auto M = pencil.matrices().B;
+    const EigenPairs pairs = solve_eigenproblem({K, M}, settings(8, -1e-6 * factor), pencil.comm());
+    const auto D = scaled(*M, -1.0);
+    const EigenPairs factors = solve_buckling({K, D, true}, settings(8, 0.0), pencil.comm());
+    ASSERT_EQ(pairs.values.size(), 8U);
+    ASSERT_EQ(factors.values.size(), 8U);
+    for (int i = 0; i < 8; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double wanted = chains.value(i / 2);
+      EXPECT_NEAR(pairs.values[at] / factor / wanted, 1.0, 1e-9) << GetParam() << ", " << factor;
+      EXPECT_NEAR(factors.values[at] / factor / wanted, 1.0, 1e-9) << GetParam() << ", " << factor;
+    }
+    EXPECT_LT(pairs.worst_residual, 1e-11);
+    EXPECT_LT(factors.worst_residual, 1e-11);
+  }
+}
+
 // Three copies of each value, so that vectors are any basis of their spaces.
 TEST_P(EachEigenSolver, GivesTheSameVectorsAsAnyOther) {
   const Pencil pencil({3, 30, true});
