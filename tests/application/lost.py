@@ -376,8 +376,42 @@ def flutters(level):
     return check
 
 
+# --- nodes of shells
+
+SHEET = ('<ParameterList name="culm">'
+         + listed("Materials", entry("steel", Type="Isotropic", Young_Modulus="2e11", Poisson_Ratio="0.3", Density="8000"))
+         + """<ParameterList name="Structures"><ParameterList name="sheet">
+  <Parameter name="Type" value="Shell"/>
+  <Parameter name="Material" value="steel"/>
+  <Parameter name="Thickness" value="0.01"/>"""
+         + entry("Mesh", Type="Plane", Side_1="{1, 0, 0}", Side_2="{0, 0.2, 0}", Elements="{4, 1}")
+         + """</ParameterList></ParameterList>
+%s</ParameterList>""")
+SUPPORTED = listed("Constraints", entry("clamp", Type="Rigid Support", Node="sheet/u0"))
+SAGS = listed("Loads", entry("weight", Type="Gravity")) + listed("Analyses", entry("sag", Type="Static", Steps="1"))
+CORNER = "sheet/u1 v0"
+
+
+def beside_director(*entries):
+    """The deck of a sheet under its weight, and of what is fixed to nodes of it."""
+    return SHEET % (SUPPORTED + "".join(entries) + SAGS)
+
+
 CASES = [
     *TURNS,
+    Case("a mass beside the director of a shell", 3, args=RUN,
+         deck=beside_director(listed("Masses", entry("mass", Type="Point Mass", Node=CORNER, Mass="5", Offset="{0, 0.2, 0}"))),
+         says=["Masses / mass / Offset: node 'sheet/8' of a shell has one director: only the first component may differ"]),
+    Case("points that are watched beside the director of a shell", 3, args=RUN,
+         deck=beside_director(listed("Output", listed(
+             "History", *(entry(kind, Type=kind, Node=CORNER, Offset="{0, 0.3, 0}") for kind in ("Position", "Acceleration")),
+             entry("far", Type="Distance", Node=CORNER, To="sheet/u0 v0", To_Offset="{0, 0, 0.1}")))),
+         says=[f"Output / History / {place}: node 'sheet/{node}' of a shell has one director: only the first component may "
+               for place, node in (("Position / Offset", 8), ("Acceleration / Offset", 8), ("far / To Offset", 0))]),
+    Case("a point that is watched along the director of a shell", 0, args=RUN, leaves=["out"],
+         deck=beside_director(listed("Output", listed(
+             "History", entry("root", Type="Position", Node="sheet/u0 v0", Offset="{0.3, 0, 0}")))),
+         check=ends_with("root z [m]", 0.3, 1e-12)),
     Case(
         "a jump by more than a quarter of a turn",
         4,

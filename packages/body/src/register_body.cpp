@@ -1,9 +1,11 @@
 #include <culm/body/inertia.hpp>
 #include <culm/body/register_body.hpp>
 #include <culm/math/rotation.hpp>
+#include <culm/model/one_director.hpp>
 
 #include <functional>
 #include <utility>
+#include <vector>
 
 namespace culm::body {
 namespace {
@@ -64,7 +66,9 @@ Inertia read_inertia(const Options& options) {
 
 void build_point_mass(const Options& options, model::BuildContext& context) {
   const Vec3 offset = model::vector(options, "Offset");
-  for (int node : model::select_loaded_nodes(options, "Node", context)) {
+  const std::vector<int> nodes = model::select_loaded_nodes(options, "Node", context);
+  model::check_components("Offset", nodes, options, context);
+  for (int node : nodes) {
     const Inertia point{options.number("Mass"), offset, Mat3::Zero()};
     context.model.masses("Point masses").add(node, mass_matrix(point));
   }

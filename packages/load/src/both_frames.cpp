@@ -53,23 +53,6 @@ void register_both_frames(model::BuilderRegistry& registry, const LoadType& type
            Axes::directors, make);
 }
 
-void check_components(const std::string& parameter, const std::vector<int>& nodes,
-                      const Options& options, model::BuildContext& context) {
-  check_components(model::vector(options, parameter), options.where(parameter), nodes, context);
-}
-
-void check_components(const Vec3& vector, const Where& where, const std::vector<int>& nodes,
-                      model::BuildContext& context) {
-  if (vector.tail<2>().isZero(0.0)) return;
-  for (int node : nodes) {
-    if (context.model.nodes().kind(node) != NodeKind::node6) continue;
-    context.issues.add(where, "node '" + context.model.node_name(node) +
-                                  "' of a shell has one director: only the first component may "
-                                  "differ from zero");
-    return;
-  }
-}
-
 void refuse_following_moment(const LoadRequest& request, const std::vector<int>& nodes) {
   if (request.axes == Axes::space) return;
   for (int node : nodes) {

@@ -3,6 +3,7 @@
 
 #include <culm/load/axes.hpp>
 #include <culm/model/build_context.hpp>
+#include <culm/model/one_director.hpp>
 
 #include <memory>
 #include <string>
@@ -44,13 +45,7 @@ struct LoadType {
 void register_both_frames(model::BuilderRegistry& registry, const LoadType& type,
                           const Schema& fields, MakeLoad make);
 
-/// Adds an issue if a node is one of a shell, which has one director d, and a vector in directors
-/// has another component than the first. @param parameter  the vector
-void check_components(const std::string& parameter, const std::vector<int>& nodes,
-                      const Options& options, model::BuildContext& context);
-/// The same of a vector that stands at `where`.
-void check_components(const Vec3& vector, const Where& where, const std::vector<int>& nodes,
-                      model::BuildContext& context);
+using model::check_components;
 
 /// Adds an issue if a moment shall follow a node of a shell, whose one director does not tell the
 /// axes of the moment.

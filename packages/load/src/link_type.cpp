@@ -7,6 +7,7 @@
 #include "link_forms.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace culm::load {
@@ -183,8 +184,8 @@ Schema point_pair_schema() {
 std::vector<LinkPoint> select_points(const Options& options, model::BuildContext& context) {
   const auto nodes = joint::select_two_nodes(options, context);
   if (!nodes) return {};
-  check_components("First Offset", {(*nodes)[0]}, options, context);
-  check_components("Second Offset", {(*nodes)[1]}, options, context);
+  check_components("First Offset", std::span(nodes->data(), 1), options, context);
+  check_components("Second Offset", std::span(nodes->data() + 1, 1), options, context);
   check_picture({(*nodes)[0]}, "First", options, context);
   return {{(*nodes)[0], model::vector(options, "First Offset")},
           {(*nodes)[1], model::vector(options, "Second Offset")}};

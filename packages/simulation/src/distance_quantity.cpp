@@ -1,3 +1,4 @@
+#include <culm/model/one_director.hpp>
 #include <culm/simulation/quantity.hpp>
 
 #include "place.hpp"
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace culm::simulation {
@@ -82,6 +84,7 @@ std::unique_ptr<Quantity> make_distance(const Options& options, model::BuildCont
   if (options.has("To")) {
     const std::optional<int> to = read_node(options, "To", context);
     if (!to) return nullptr;
+    model::check_components("To Offset", std::span(&*to, 1), options, context);
     return std::make_unique<PointDistance>(
         *from, Place{.node = *to, .offset = model::vector(options, "To Offset")});
   }

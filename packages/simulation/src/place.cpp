@@ -1,6 +1,10 @@
 #include "place.hpp"
 
+#include <culm/model/one_director.hpp>
+
 #include <Eigen/Geometry>
+
+#include <span>
 
 namespace culm::simulation {
 
@@ -85,7 +89,10 @@ std::optional<Place> read_place(const Options& options, bool has_offset, bool ha
   const std::optional<int> node = read_node(options, "Node", context);
   if (!node) return {};
   Place place{*node, Vec3::Zero(), -1};
-  if (has_offset) place.offset = model::vector(options, "Offset");
+  if (has_offset) {
+    place.offset = model::vector(options, "Offset");
+    model::check_components("Offset", std::span(&*node, 1), options, context);
+  }
   if (!has_frame || !options.has("Frame")) return place;
   const std::optional<int> frame = read_node(options, "Frame", context);
   if (!frame || !has_triad(*frame, "Frame", options, context)) return {};
