@@ -10,13 +10,16 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -76,6 +79,25 @@ class Ear final : public std::stringbuf {
   std::size_t told_ = 0;
 };
 
+// Who solves. The interpreter is free then, and another thread that came in would find or change
+// what is half done.
+class Busy {
+ public:
+  explicit Busy(std::atomic<bool>& solves) : solves_(solves) {
+    if (solves_.exchange(true)) refuse();
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+  ~Busy() { solves_ = false; }
+
+  [[noreturn]] static void refuse() {
+    throw culm::UsageError("another thread is in this simulation: one at a time may be");
+  }
+
+ private:
+  std::atomic<bool>& solves_;
+};
+
 // A simulation and what it says.
 class Live {
  public:
@@ -85,10 +107,14 @@ class Live {
             Simulation::open(deck, std::move(overrides), culm::Log(said_, culm::LogLevel::info))) {}
 
   // What was said since the last call.
-  std::string messages() { return ear_.take(); }
+  std::string messages() {
+    refuse_if_busy();
+    return ear_.take();
+  }
 
   // Tries a step. Why it failed is known until the next one.
   bool attempt(Stepper& stepper, double target) {
+    const Busy busy(solves_);
     failure_.clear();
     const double from = stepper.time();
     const culm::analysis::StepReport& report = stepper.attempt(target);
@@ -101,14 +127,23 @@ class Live {
     return false;
   }
   const std::string& failure() const { return failure_; }
-  Simulation& simulation() { return simulation_; }
+  Simulation& simulation() {
+    refuse_if_busy();
+    return simulation_;
+  }
+  std::atomic<bool>& solves() { return solves_; }
+  void refuse_if_busy() const {
+    if (solves_) Busy::refuse();
+  }
 
   void begin(const std::string& analysis) {
+    const Busy busy(solves_);
     ++taken_up_;  // also where it fails: what was taken up before is gone
     stepper_ = nullptr;
     stepper_ = &simulation_.begin(analysis);
   }
   std::string close_results() {
+    refuse_if_busy();
     if (simulation_.writes_results()) stepper_ = nullptr;
     return simulation_.close_results();
   }
@@ -123,6 +158,7 @@ class Live {
   std::string failure_;
   Stepper* stepper_ = nullptr;
   long taken_up_ = 0;
+  std::atomic<bool> solves_ = false;
 };
 
 // The stepper of an analysis, as long as it is taken up.
@@ -137,6 +173,11 @@ class Handle {
     return *live_.stepper();
   }
   Stepper* operator->() const { return &get(); }
+  // For what changes the state.
+  Stepper& take() const {
+    live_.refuse_if_busy();
+    return get();
+  }
   Live& live() const { return live_; }
   bool is_of(const Handle& other) const {
     return &live_ == &other.live_ && number_ == other.number_;
@@ -161,7 +202,52 @@ py::array copy(std::span<const double> coordinates) {
 
 using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-void set_load(Live& live, const std::string& name, const Values& values) {
+// A shape as Python writes it.
+std::string shape_of(const py::array& values) {
+  return py::str(py::object(values.attr("shape"))).cast<std::string>();
+}
+
+// An array as it comes. What lies under a mask was hidden on purpose, and numpy would take it.
+py::array array_of(const py::object& given, const std::string& what) {
+  if (py::module_::import("numpy.ma").attr("is_masked")(given).cast<bool>()) {
+    throw culm::UsageError(what + " has masked values: say what stands there, as with filled(0.0)");
+  }
+  py::array array = py::array::ensure(given);
+  if (!array) throw culm::UsageError(what + " must be an array of numbers");
+  return array;
+}
+
+// Its numbers, of any stride, order and type that is real.
+Values numbers_of(const py::object& given, const std::string& what) {
+  const py::array array = array_of(given, what);
+  const std::string type = py::str(py::object(array.dtype())).cast<std::string>();
+  const bool is_real = std::string_view("biufO").find(array.dtype().kind()) != std::string::npos;
+  Values numbers = is_real ? Values::ensure(array) : Values();
+  if (!is_real || !numbers) {
+    throw culm::UsageError(what + " must be an array of real numbers, and is one of " + type);
+  }
+  return numbers;
+}
+
+// Whether values stand in the order of items: flat, or in a row for each item, which may be cut in
+// force and moment. Others, as those of a transposed array, are as many and mean something else.
+bool stand_in_order(const py::array& values, py::ssize_t items) {
+  const auto proper = [](std::vector<py::ssize_t> shape) {
+    std::erase(shape, 1);
+    return shape;
+  };
+  const auto shape = proper({values.shape(), values.shape() + values.ndim()});
+  return shape.size() < 2 || shape == proper({items, 6}) || shape == proper({items, 2, 3});
+}
+
+void set_load(Live& live, const std::string& name, const py::object& given) {
+  const Values values = numbers_of(given, "load '" + name + "'");
+  const py::ssize_t nodes = values.size() / 6;
+  if (values.size() == 6 * nodes && !stand_in_order(values, nodes)) {
+    throw culm::UsageError("load '" + name + "' takes values of the shape (" +
+                           std::to_string(nodes) + ", 6), force and moment of each node, got " +
+                           shape_of(values));
+  }
   live.simulation().set_load(name, {values.data(), values.data() + values.size()});
 }
 
@@ -173,6 +259,7 @@ class PortHandle {
   const culm::port::Port& get() const { return live_.simulation().port(name_); }
   Simulation& simulation() const { return live_.simulation(); }
   const std::string& name() const { return name_; }
+  Live& live() const { return live_; }
 
  private:
   Live& live_;
@@ -191,18 +278,15 @@ py::array rows_of(const std::vector<double>& values, int points) {
 py::array read(const PortHandle& port, Quantity quantity) {
   std::vector<double> values;
   {
+    Simulation& simulation = port.simulation();
     const py::gil_scoped_release free;  // other ranks and threads may have to come
-    values = port.simulation().read_port(port.name(), quantity);
+    const Busy busy(port.live().solves());
+    values = simulation.read_port(port.name(), quantity);
   }
   return rows_of(values, port.get().size());
 }
 
-// A shape as Python writes it.
-std::string shape_of(const py::array& values) {
-  return py::str(py::object(values.attr("shape"))).cast<std::string>();
-}
-
-// The numbers of an array with three columns: any stride, order and number type.
+// The numbers of an array with three columns.
 std::span<const double> three_columns(const Values& values, const std::string& what,
                                       std::optional<int> rows = {}) {
   const bool has_rows = values.ndim() == 2 && (!rows || values.shape(0) == *rows);
@@ -214,42 +298,64 @@ std::span<const double> three_columns(const Values& values, const std::string& w
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
-void set_port(const PortHandle& port, const Values& force, const std::optional<Values>& moment) {
+void set_port(const PortHandle& port, const py::object& force, const py::object& moment) {
   const int points = port.get().size();
+  const Values forces = numbers_of(force, "force");
+  const Values moments = moment.is_none() ? Values() : numbers_of(moment, "moment");
   port.simulation().set_port(
-      port.name(), three_columns(force, "force", points),
-      moment ? three_columns(*moment, "moment", points) : std::span<const double>());
+      port.name(), three_columns(forces, "force", points),
+      moment.is_none() ? std::span<const double>() : three_columns(moments, "moment", points));
 }
 
-// Faces of three or four points, an array of integers with as many columns.
-std::vector<culm::port::Face> faces_of(
-    const py::array_t<int, py::array::c_style | py::array::forcecast>& corners) {
-  if (corners.ndim() != 2 || (corners.shape(1) != 3 && corners.shape(1) != 4)) {
-    throw culm::UsageError("faces must have the shape (faces, 3) or (faces, 4)");
+using Whole = py::array_t<long long, py::array::c_style | py::array::forcecast>;
+
+// The numbers of points, which a fraction would be cut down to.
+Whole whole_numbers_of(const py::object& given, const std::string& what) {
+  const py::array array = array_of(given, what);
+  const Whole numbers = Whole::ensure(array);
+  const py::module_ numpy = py::module_::import("numpy");
+  if (!numbers || !numpy.attr("array_equal")(array, numbers).cast<bool>()) {
+    throw culm::UsageError(what + " must be whole numbers");
   }
+  return numbers;
+}
+
+// Faces of three or four points, an array with as many columns.
+std::vector<culm::port::Face> faces_of(const Whole& corners) {
+  if (corners.ndim() != 2 || (corners.shape(1) != 3 && corners.shape(1) != 4)) {
+    throw culm::UsageError("faces must have the shape (faces, 3) or (faces, 4), and has " +
+                           shape_of(corners));
+  }
+  constexpr long long most = std::numeric_limits<int>::max();
   std::vector<culm::port::Face> faces;
   for (py::ssize_t i = 0; i < corners.shape(0); ++i) {
     culm::port::Face& face = faces.emplace_back();
     face[3] = -1;
     for (py::ssize_t a = 0; a < corners.shape(1); ++a) {
-      face[static_cast<std::size_t>(a)] = corners.at(i, a);
+      face[static_cast<std::size_t>(a)] =
+          static_cast<int>(std::clamp(corners.at(i, a), -most, most));
     }
   }
   return faces;
 }
 
-void set_pressure(const PortHandle& port,
-                  const py::array_t<int, py::array::c_style | py::array::forcecast>& faces,
-                  const Values& pressure, const std::optional<Values>& traction) {
-  if (pressure.ndim() != 1) throw culm::UsageError("pressure must have the shape (faces,)");
+void set_pressure(const PortHandle& port, const py::object& faces, const py::object& pressure,
+                  const py::object& traction) {
+  const Values pressures = numbers_of(pressure, "pressure");
+  const Values tractions = traction.is_none() ? Values() : numbers_of(traction, "traction");
+  if (pressures.ndim() != 1) {
+    throw culm::UsageError("pressure must have the shape (faces,), and has " + shape_of(pressures));
+  }
   port.simulation().set_port_pressure(
-      port.name(), faces_of(faces), {pressure.data(), static_cast<std::size_t>(pressure.size())},
-      traction ? three_columns(*traction, "traction") : std::span<const double>());
+      port.name(), faces_of(whole_numbers_of(faces, "faces")),
+      {pressures.data(), static_cast<std::size_t>(pressures.size())},
+      traction.is_none() ? std::span<const double>() : three_columns(tractions, "traction"));
 }
 
-void add_port(Live& live, const std::string& name, const Values& points,
+void add_port(Live& live, const std::string& name, const py::object& points,
               const std::vector<std::string>& structures, double reach, bool smooth) {
-  const std::span<const double> numbers = three_columns(points, "points");
+  const Values given = numbers_of(points, "points");
+  const std::span<const double> numbers = three_columns(given, "points");
   const auto weights = smooth ? culm::port::Weights::smooth : culm::port::Weights::elements;
   live.simulation().add_port(name, {{numbers.begin(), numbers.end()}, structures, reach, weights});
 }
@@ -277,7 +383,7 @@ py::dict quantities(Live& live) {
 
 py::dict finish(const Handle& stepper) {
   py::dict numbers;
-  for (const auto& [name, value] : stepper->finish().numbers) numbers[py::str(name)] = value;
+  for (const auto& [name, value] : stepper.take().finish().numbers) numbers[py::str(name)] = value;
   return numbers;
 }
 
@@ -314,23 +420,33 @@ PYBIND11_MODULE(_culm, module) {
           "failure", [](const Handle& stepper) { return stepper.live().failure(); },
           "Why the last attempt did not converge, in words; empty if it did.")
       .def(
-          "accept", [](const Handle& stepper) { stepper->accept(); }, Free(),
-          "Makes the attempt the accepted state.")
+          "accept",
+          [](const Handle& stepper) {
+            Stepper& taken = stepper.get();
+            const Busy busy(stepper.live().solves());
+            taken.accept();
+          },
+          Free(), "Makes the attempt the accepted state.")
       .def(
-          "discard", [](const Handle& stepper) { stepper->discard(); },
+          "discard", [](const Handle& stepper) { stepper.take().discard(); },
           "Goes back as if the attempt had not been made.")
       .def(
-          "fail", [](const Handle& stepper) { stepper->fail(); },
+          "fail", [](const Handle& stepper) { stepper.take().fail(); },
           "Goes back; the next proposal is nearer.")
       .def(
-          "run", [](const Handle& stepper) { culm::analysis::run(stepper.get()); }, Free(),
-          "Makes all steps to the end.")
+          "run",
+          [](const Handle& stepper) {
+            Stepper& taken = stepper.get();
+            const Busy busy(stepper.live().solves());
+            culm::analysis::run(taken);
+          },
+          Free(), "Makes all steps to the end.")
       .def("finish", &finish, "Ends the analysis; returns the numbers of its report.")
       .def(
           "save",
           [](const Handle& stepper) {
             auto saved = std::make_unique<Saved>(Saved{stepper});
-            stepper->save(saved->snapshot);
+            stepper.take().save(saved->snapshot);
             return saved;
           },
           "The accepted state and all that the next step needs.")
@@ -340,7 +456,7 @@ PYBIND11_MODULE(_culm, module) {
             if (!saved.stepper.is_of(stepper)) {
               throw culm::UsageError("the snapshot belongs to another analysis or simulation");
             }
-            stepper->restore(saved.snapshot);
+            stepper.take().restore(saved.snapshot);
           },
           py::arg("snapshot"), "Goes back to what save returned.")
       .def_property_readonly(

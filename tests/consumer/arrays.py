@@ -57,6 +57,31 @@ refused(culm.UsageError, "force must have the shape (3, 3), and has (3, 2)", net
 refused(culm.UsageError, "force must have the shape (3, 3), and has (2, 3)", net.set, force[:2])
 refused(culm.UsageError, "force must have the shape (3, 3), and has (9,)", net.set, force.ravel())
 
+# what numpy would drop in silence: what a mask hides, imaginary parts, fractions of numbers of points
+hidden = np.ma.array(force, mask=np.zeros((3, 3), bool))
+net.set(hidden, hidden)
+assert stepper.attempt() and np.array_equal(net.motion, seen[0][4])
+hidden[1, 2] = np.ma.masked
+refused(culm.UsageError, "force has masked values", net.set, hidden)
+refused(culm.UsageError, "moment has masked values", net.set, force, hidden)
+refused(culm.UsageError, "points has masked values", mast.add_port, "other", hidden)
+refused(culm.UsageError, "real numbers, and is one of complex128", net.set, force * 1j)
+refused(culm.UsageError, "faces must be whole numbers", net.set_pressure, [[0.0, 1.0, 1.9]], [1.0])
+refused(culm.UsageError, "face 0 names point 2147483647", net.set_pressure, [[0, 1, 2 + 2**32]], [1.0])
+refused(culm.UsageError, "face 0 names point -7", net.set_pressure, [[0, 1, 2, -7]], [1.0])
+net.set_pressure(np.array([[0.0, 1.0, 2.0, -1.0]]), [1.0])
+
+# a load on all nodes, in rows and not in columns
+pushed = culm.Simulation(deck, ["Loads/push/Type=External", "Loads/push/Node=mast"])
+pushing, nodes = pushed.begin(), len(pushed.nodes("push"))
+rows = np.zeros((nodes, 6))
+rows[-1, 0] = 100.0
+for way in (rows, rows.ravel(), rows.reshape(nodes, 2, 3)):
+    pushed.set_load("push", way)
+    assert pushing.attempt() and 0.004 < pushed.port("skin").motion[-1, 0] < 0.006
+    pushing.discard()
+refused(culm.UsageError, f"shape ({nodes}, 6), force and moment of each node, got (6, {nodes})", pushed.set_load, "push", rows.T)
+
 # why an attempt failed, and what culm warns of
 assert stepper.failure == ""
 net.set(1e12 * force)
@@ -108,4 +133,23 @@ end = time.perf_counter()
 over.set()
 thread.join()
 assert sum(begin < now < end for now in times) > 5, (begin, end, times)
+
+# two threads in one simulation: the one that comes second is told, and changes nothing
+alone = culm.Simulation(deck, ["Analyses/gust/Step=0.0005"])
+alone.begin().run()
+shared = culm.Simulation(deck, ["Analyses/gust/Step=0.0005"])
+stepper = shared.begin()
+thread = threading.Thread(target=stepper.run)
+thread.start()
+solves = False
+while thread.is_alive() and not solves:
+    try:
+        shared.quantities()
+    except culm.UsageError:
+        solves = True
+busy = "another thread is in this simulation"
+for call in (stepper.attempt, stepper.discard, lambda: shared.coordinates, lambda: shared.begin("gust")):
+    refused(culm.UsageError, busy, call)
+thread.join()
+assert np.array_equal(shared.coordinates, alone.coordinates)
 print("Python: arrays of any layout")

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double gauss = 0.57735026918962576;  // 1 / sqrt(3)
 
-int corners_of(const Face& face) { return face[3] < 0 ? 3 : 4; }
+int corners_of(const Face& face) { return face[3] == -1 ? 3 : 4; }
 
 Eigen::Map<const Vec3> at(std::span<const double> positions, int point) {
   return Eigen::Map<const Vec3>(positions.data() + 3 * static_cast<std::ptrdiff_t>(point));

@@ -85,6 +85,8 @@ TEST_F(Box, FacesAreChecked) {
   EXPECT_EQ(objection_to(faces, 7), "face 1 names point 7; there are 7, from 0");
   faces[2] = {0, 1, 1, 4};
   EXPECT_EQ(objection_to(faces, 8), "face 2 names a point twice");
+  faces[2] = {0, 1, 2, -7};
+  EXPECT_EQ(objection_to(faces, 8), "face 2 names point -7; there are 8, from 0");
 }
 
 }  // namespace
