@@ -7,7 +7,7 @@ import unittest
 import culm
 from culm import quantities
 from culm.errors import CulmError
-from culm.history import History
+from culm.history import History, name_of, owners_of, unit_of
 from culm.resolved_deck import ResolvedDeck
 
 
@@ -49,6 +49,52 @@ class Histories(unittest.TestCase):
         self.assertTrue(history([(0, ""), (1, 10)]).is_finite)
         for bad in ("nan", "inf"):
             self.assertFalse(history([(0, ""), (1, bad)]).is_finite)
+
+
+class Owners(unittest.TestCase):
+    def owners(self, columns, *quantities):
+        found = owners_of(columns, quantities)
+        return [found[column] for column in columns]
+
+    def test_names_that_begin_alike(self):
+        columns = ["tip ux [m]", "tip uy [m]", "tip ux ux [m]", "tip ux uy [m]", "tip uz [1]", "tip root Fx [N]", "tip root Fy [N]"]
+        self.assertEqual(
+            self.owners(columns, "tip", "tip ux", "tip uz", "tip root"),
+            [("tip", "ux"), ("tip", "uy"), ("tip ux", "ux"), ("tip ux", "uy"), ("tip uz", ""), ("tip root", "Fx"), ("tip root", "Fy")])
+        columns = ["a [m]", "a b x [m]", "a b y [m]", "a c [m]"]
+        self.assertEqual(self.owners(columns, "a", "a b", "a c"), [("a", ""), ("a b", "x"), ("a b", "y"), ("a c", "")])
+
+    def test_components_of_two_words(self):
+        columns = ["strip alpha [rad]", "strip alpha E [rad]", "strip V [m/s]", "strip alpha ux [m]", "strip alpha uy [m]"]
+        self.assertEqual(
+            self.owners(columns, "strip", "strip alpha"),
+            [("strip", "alpha"), ("strip", "alpha E"), ("strip", "V"), ("strip alpha", "ux"), ("strip alpha", "uy")])
+
+    def test_brackets_in_names(self):
+        columns = ["tip [left] ux [m]", "tip [left] uy [m]"]
+        self.assertEqual(self.owners(columns, "tip [left]"), [("tip [left]", "ux"), ("tip [left]", "uy")])
+        self.assertEqual([name_of(columns[0]), unit_of(columns[0])], ["tip [left] ux", "m"])
+        self.assertEqual([name_of("step"), unit_of("step")], ["step", ""])
+
+    def test_of_another_deck(self):
+        self.assertEqual(self.owners(["tip ux [m]", "foot Fx [N]", "x [1]"], "foot", "tip"), [("tip", "ux"), ("foot", "Fx"), ("x", "")])
+
+    def test_all_that_an_entry_has_is_watched(self):
+        deck = ResolvedDeck(
+            '<ParameterList name="culm"><ParameterList name="Output"><ParameterList name="History">'
+            + "".join(f'<ParameterList name="{name}"><Parameter name="Type" value="{type}"/></ParameterList>'
+                      for name, type in (("strip", "Strip"), ("strip V", "Displacement")))
+            + "</ParameterList></ParameterList></ParameterList>")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "history.csv"
+            path.write_text("time,strip alpha [rad],strip alpha E [rad],strip V [m/s],strip V ux [m],strip V uy [m]\n0,1,2,3,4,5\n")
+            columns = {name: quantities.parse(name, deck).columns(History(path))
+                       for name in ("strip", "strip V", "strip/alpha E", "strip/V", "strip V/ux")}
+        self.assertEqual(columns["strip"], {"strip [rad]": ["strip alpha [rad]", "strip alpha E [rad]"], "strip [m/s]": ["strip V [m/s]"]})
+        self.assertEqual(columns["strip V"], {"strip V": ["strip V ux [m]", "strip V uy [m]"]})
+        self.assertEqual(columns["strip/alpha E"], {"strip/alpha E": ["strip alpha E [rad]"]})
+        self.assertEqual(columns["strip/V"], {"strip/V": ["strip V [m/s]"]})
+        self.assertEqual(columns["strip V/ux"], {"strip V/ux": ["strip V ux [m]"]})
 
 
 class Files(unittest.TestCase):

@@ -55,9 +55,9 @@ DECK = ResolvedDeck(
 
 class Starts(unittest.TestCase):
     def test_what_belongs_to_steps_has_none(self):
-        columns = ["foot Fx [N]", "speed [1]", "angle [1]", "oil elongation [m]", "oil F [N]", "coil F [N]", "tip ux [m]"]
-        unsolved = [column for column in columns if begins_unsolved(column, DECK)]
-        self.assertEqual(unsolved, ["foot Fx [N]", "speed [1]", "oil F [N]"])
+        columns = [("foot", "Fx"), ("speed", ""), ("angle", ""), ("oil", "elongation"), ("oil", "F"), ("coil", "F"), ("tip", "ux")]
+        unsolved = [column for column in columns if begins_unsolved(*column, DECK)]
+        self.assertEqual(unsolved, [("foot", "Fx"), ("speed", ""), ("oil", "F")])
 
 
 class Window(unittest.TestCase):

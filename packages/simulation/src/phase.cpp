@@ -9,6 +9,7 @@
 #include "silent_quantity.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -123,6 +124,24 @@ std::vector<double> move_ranges(std::span<const double> values, const Ranges<Nam
 // Of the memory, that a model takes by its elements where its factors may take all.
 constexpr double noticeable_share = 0.1;
 
+// Columns are told apart by name and unit alone.
+void refuse_equal_columns(const std::vector<Options>& entries,
+                          const std::vector<WatchedQuantity>& watched, InputIssues& issues) {
+  const std::vector<output::HistoryColumn> columns = columns_of(watched);
+  std::map<std::string, std::size_t> owners;
+  auto column = columns.begin();
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    for (std::size_t left = watched[i].quantity->columns().size(); left > 0; --left, ++column) {
+      const std::string heading = column->name + " [" + column->unit + "]";
+      const auto [first, is_new] = owners.emplace(heading, i);
+      if (is_new || first->second == i) continue;
+      issues.add(entries[i].where(), "its column '" + heading + "' is called as one of '" +
+                                         entries[first->second].name() +
+                                         "', which stands before it; rename one of the two");
+    }
+  }
+}
+
 }  // namespace
 
 double factors_by_graph(const Phase& phase, const parallel::Comm& comm) {
@@ -230,6 +249,8 @@ void Phases::complete_columns() {
       }
     }
   }
+  issues.throw_if_any();
+  if (!phases_.empty()) refuse_equal_columns(history.entries(), phases_.front().watched, issues);
   issues.throw_if_any();
   for (Phase& phase : phases_) {
     phase.samples =

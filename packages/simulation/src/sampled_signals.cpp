@@ -47,6 +47,10 @@ std::vector<SampledSignal> find_sampled_signals(const Options& signals, const mo
                                               "'" + did_you_mean(entry.text("Quantity"), names));
       continue;
     }
+    if (std::find(column + 1, names.end(), *column) != names.end()) {
+      issues.add(entry.where("Quantity"), "the history has several columns '" + *column +
+                                              "', in different units; rename one of them");
+    }
     sampled.push_back({model.signal(static_cast<int>(block - blocks.begin()), 0),
                        static_cast<std::size_t>(column - names.begin())});
   }

@@ -193,6 +193,36 @@ std::string joint(const std::string& name, const std::string& type, const std::s
                set("First", "nacelle") + set("Second", "hub") + set("Axis", "{2, 0, 0}") + more);
 }
 
+// Readers find columns by name and unit, sensors by name.
+TEST(Columns, OfOneNameAreRefused) {
+  const auto refusal = [](const std::string& history, const std::string& signals) {
+    try {
+      const Live live(list(
+          "culm",
+          list("Sections", bar) + list("Structures", beam("mast", "{0, 0, 0}", "{0, 0, 1}", 1)) +
+              list("Constraints", typed("foot", "Rigid Support", set("Node", "mast/first"))) +
+              list("Signals", signals) + list("Analyses", typed("rest", "Static", "")) +
+              list("Output",
+                   list("History",
+                        typed("tip", "Displacement", set("Node", "mast/last")) + history))));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string to = set("Node", "mast/last") + set("To", "mast/first");
+  const std::string steady = typed("steady", "External", "");
+  EXPECT_EQ(refusal(typed("tip uz.", "Distance", to), ""), "");
+  EXPECT_NE(refusal(typed("tip uz", "Distance", to), "")
+                .find("its column 'tip uz [m]' is called as one of 'tip'"),
+            std::string::npos);
+  const std::string number = typed("tip uz", "Signal", set("Signal", "steady"));
+  EXPECT_EQ(refusal(number, steady), "");
+  EXPECT_NE(refusal(number, steady + typed("felt", "History", set("Quantity", "tip uz")))
+                .find("several columns 'tip uz'"),
+            std::string::npos);
+}
+
 // The rotor turns freely with its first speed, but for what the blade takes by its vibration; steps
 // change rates by their relative square.
 TEST(MotionQuantities, SpeedAndAzimuthOfARotor) {

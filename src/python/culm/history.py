@@ -4,17 +4,58 @@ import csv
 import math
 
 
-def quantity_of(column, quantities):
-    """The quantity that a column shows, and its component.
+def name_of(column):
+    """A column without its unit, which stands in brackets at its end."""
+    return column.rpartition(" [")[0] if column.endswith("]") and " [" in column else column
+
+
+def unit_of(column):
+    return column.removeprefix(name_of(column)).strip(" []")
+
+
+def owners_of(columns, quantities):
+    """Of each column the quantity that it shows, and its component: {column: (quantity, component)}.
+
+    A name alone does not tell: 'tip ux' is a component of 'tip', or a quantity with one number. The order does: columns stand
+    in the order of the quantities, and each quantity has some.
 
     @param quantities  names of all entries of the history in the deck
     """
-    name = column.split(" [")[0]
-    fitting = [one for one in quantities if name == one or name.startswith(f"{one} ")]
-    if not fitting:
-        return name, ""
-    longest = max(fitting, key=len)
-    return longest, name[len(longest) :].strip()
+    names = [name_of(column) for column in columns]
+    fitting = [_fitting(name, quantities) for name in names]
+    chosen = _in_order(names, fitting, quantities)
+    if chosen is None:  # a history of another deck
+        chosen = [max(which, key=lambda k: len(quantities[k]), default=None) for which in fitting]
+    return {column: _named(name, k, quantities) for column, name, k in zip(columns, names, chosen)}
+
+
+def _fitting(name, quantities):
+    """Numbers of the quantities that a column may show by its name."""
+    return [k for k, one in enumerate(quantities) if name == one or name.startswith(f"{one} ")]
+
+
+def _in_order(names, fitting, quantities):
+    """The number of the quantity of each column, rising from the first one to the last; None where that cannot be."""
+    if not names or not quantities:
+        return None
+    # from the end: which quantities a column may show so that the columns behind it have theirs
+    possible = [set() for _ in names]
+    possible[-1] = {len(quantities) - 1} & set(fitting[-1])
+    for i in range(len(names) - 2, -1, -1):
+        possible[i] = {k for k in fitting[i] if possible[i + 1] & {k, k + 1}}
+    if 0 not in possible[0]:
+        return None
+    chosen = [0]
+    for i in range(1, len(names)):
+        k = chosen[-1]
+        stays, goes_on = k in possible[i], k + 1 in possible[i]
+        # 'tip root Fx' is of 'tip root' rather than of 'tip'
+        chosen.append(k + 1 if goes_on and (not stays or " " in _named(names[i], k, quantities)[1]) else k)
+    return chosen
+
+
+def _named(name, number, quantities):
+    return (name, "") if number is None else (quantities[number], name[len(quantities[number]) :].strip())
 
 
 class History:
@@ -51,8 +92,8 @@ class History:
         return self.columns[name]
 
     def names_of(self, quantity):
-        """The columns of a quantity, given by its name in the deck."""
-        return [name for name in self.names if name.split(" [")[0].rsplit(" ", 1)[0] == quantity]
+        """The columns of a quantity with several components, given by its name in the deck."""
+        return [name for name in self.names if name_of(name).rpartition(" ")[0] == quantity]
 
     def vector(self, quantity, level=None):
         """The values of all columns of a quantity at a level, at the last one if none is given."""

@@ -12,7 +12,7 @@ import difflib
 import numpy
 
 from .errors import CulmError
-from .history import quantity_of
+from .history import owners_of, unit_of
 
 NORMS = ("rms", "max", "end")
 DRIFTS = {
@@ -31,21 +31,21 @@ class Watched:
     entry: str | None = None
     component: str | None = None
     drift: str | None = None
+    entries: tuple = ()  # of the history, as the deck has them
 
     def columns(self, history):
         """Columns by unit: {title: [names]}."""
-        names = history.names_of(self.entry)
-        names = names or [n for n in history.names if n.split(" [")[0] == self.entry]
+        owners = owners_of(history.names, self.entries or (self.entry,))
+        names = [name for name in history.names if owners[name][0] == self.entry]
         if self.component:
-            found = [n for n in names if n.split(" [")[0] == f"{self.entry} {self.component}"]
+            found = [name for name in names if owners[name][1] == self.component]
             if not found:
-                known = [n.split(" [")[0][len(self.entry) + 1 :] for n in names]
-                hint = _hint(self.component, known)
+                hint = _hint(self.component, [owners[name][1] for name in names])
                 raise CulmError(f"--watch {self.name}: no component '{self.component}'{hint}")
             return {self.name: found}
         units = {}
         for name in names:
-            units.setdefault(name.partition(" [")[2].rstrip("]"), []).append(name)
+            units.setdefault(unit_of(name), []).append(name)
         if len(units) == 1:
             return {self.name: names}
         return {f"{self.name} [{unit}]": found for unit, found in units.items()}
@@ -59,7 +59,8 @@ def parse(name, deck):
         entry, component = name, ""
     if entry in entries:
         kind = deck.parameters[f"Output/History/{entry}/Type"]
-        return Watched(name, entry, None if component.lower() in ("", kind.lower()) else component)
+        component = None if component.lower() in ("", kind.lower()) else component
+        return Watched(name, entry, component, entries=tuple(entries))
     drift = SHORT_DRIFTS.get(name, name)
     if drift in DRIFTS:
         return Watched(name, drift=drift)
@@ -188,9 +189,9 @@ def _at(levels, values, wanted):
 OF_STATES = ("Lag", "Actuator", "Integral", "External")
 
 
-def begins_unsolved(column, deck):
-    """Whether a column of the history belongs to steps, and stands as 0 in the row where an analysis begins, step 0."""
-    entry, component = quantity_of(column, deck.names_in("Output/History"))
+def begins_unsolved(entry, component, deck):
+    """Whether a component of an entry of the history belongs to steps, and stands as 0 in the row where an analysis begins,
+    step 0."""
 
     def named(key, place):
         name = deck.parameters.get(f"Output/History/{entry}/{key}")

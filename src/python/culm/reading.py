@@ -8,7 +8,7 @@ import numpy
 import pandas
 
 from .errors import CulmError
-from .history import quantity_of
+from .history import owners_of
 from .results import Results, _text, _without_escapes
 from .state_tables import read_field
 
@@ -129,7 +129,8 @@ class Run:
         """The part of the history that shows one quantity of the deck, by the names of components."""
         if quantity not in self.quantities:
             raise KeyError(f"no quantity '{quantity}' among: {', '.join(self.quantities)}")
-        return self.history[[c for c in self.history.columns if quantity_of(c, self.quantities)[0] == quantity]]
+        owners = owners_of(list(self.history.columns), self.quantities)
+        return self.history[[column for column, (owner, _) in owners.items() if owner == quantity]]
 
     def plot(self, quantity, axes=None):
         """Draws a quantity over time or level, a line for each component and analysis. Returns the axes."""

@@ -6,7 +6,7 @@ import pathlib
 
 from . import effects_table, statistics, stresses
 from .errors import CulmError
-from .history import History, quantity_of
+from .history import History, owners_of, unit_of
 from .mode_names import name_modes
 from .option_types import finite
 from .page import Page
@@ -108,10 +108,10 @@ def _add_stresses(page, results, drawing):
 
 def _add_histories(page, results, history, parts, drawing):
     page.heading("Histories")
-    quantities = results.quantities()
+    owners = owners_of(history.names, results.quantities())
 
     def title_and_unit(column):
-        return quantity_of(column, quantities)[0], column.rstrip("]").split(" [")[1]
+        return owners[column][0], unit_of(column)
 
     for name, kind, rows in parts:
         if len(parts) > 1:
@@ -119,7 +119,7 @@ def _add_histories(page, results, history, parts, drawing):
         groups = []
         for (title, unit), columns in itertools.groupby(history.names, key=title_and_unit):
             curves = {
-                quantity_of(column, quantities)[1] or title: history.columns[column][rows] for column in columns
+                owners[column][1] or title: history.columns[column][rows] for column in columns
             }
             groups.append((title, unit, history.levels[rows], curves))
         label = "time [s]" if kind == "Dynamic" else "level" if kind else "time [s] or level"
@@ -130,6 +130,7 @@ def _add_histories(page, results, history, parts, drawing):
 def _add_statistics(page, history, parts, window, deck):
     """Of all columns of all motions, over a window of time."""
     begin, end = window or (-math.inf, math.inf)
+    owners = owners_of(history.names, deck.names_in("Output/History"))
     tables = []
     skipped = set()
     for name, kind, rows in parts:
@@ -141,7 +142,7 @@ def _add_statistics(page, history, parts, window, deck):
         for column in history.names:
             values = [history.columns[column][row] for row in kept]
             # accelerations and reactions begin with the first step
-            is_unsolved = not math.isfinite(values[0]) or begins_unsolved(column, deck)
+            is_unsolved = not math.isfinite(values[0]) or begins_unsolved(*owners[column], deck)
             first = 1 if history.steps[kept[0]] == 0 and is_unsolved else 0
             if len(values) - first < 2 or not all(math.isfinite(value) for value in values[first:]):
                 skipped.add(column)  # what does not exist all the time

@@ -7,6 +7,7 @@ import pathlib
 from . import quantities
 from .at_once import declare_jobs, declare_part, share
 from .errors import CulmError
+from .history import owners_of
 from .option_types import positive
 from .program import DONE
 from .resolved_deck import ResolvedDeck
@@ -145,13 +146,14 @@ def _results(record, watched, deck):
     found = {}
     if (record.folder / "history.csv").exists():
         history = record.history()
+        owners = owners_of(history.names, deck.names_in("Output/History"))
         for one in watched:
             if one.drift is not None:
                 found[one.name] = quantities.drift(record.scalars(), one.drift)
                 continue
             for names in one.columns(history).values():
                 for name in names:
-                    least_step = 1 if quantities.begins_unsolved(name, deck) else 0
+                    least_step = 1 if quantities.begins_unsolved(*owners[name], deck) else 0
                     rows = zip(history.columns[name], history.steps)
                     values = [value for value, step in rows if value == value and step >= least_step]
                     if values:
