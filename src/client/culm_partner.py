@@ -307,6 +307,8 @@ def _bits(wants):
 def _loads(loads, points):
     if loads is None:
         raise TypeError(f"loads returned nothing instead of an array of shape {(points, 6)}")
+    if numpy.ma.is_masked(loads):  # what lies under the mask would act
+        raise ValueError("loads have masked values: say what stands there, as with filled(0.0)")
     loads = numpy.ascontiguousarray(loads, "<f8")
     if loads.shape != (points, 6):
         raise ValueError(f"loads have the shape {loads.shape} instead of {(points, 6)}")
