@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,7 @@ from culm_runs import MPI_ENVIRONMENT  # noqa: E402
 
 import culm  # noqa: E402
 from culm.history import History  # noqa: E402
+from culm.view.recording import Recording  # noqa: E402
 
 
 AXIS = numpy.array([0.996194698092, 0.0, -0.0871557427477])  # of the shaft
@@ -111,6 +113,23 @@ def check_constraint_forces(program, folder):
                 raise AssertionError("nothing was raised")
 
 
+def check_names(program, folder):
+    """An analysis whose name is none of a file has its shapes in all readers, and its files where the report says."""
+    analysis = "Modes: hot, 20 %"
+    mode = ["--set", f"Analyses/{analysis}/Type=Modal", "--set", f"Analyses/{analysis}/Modes=3"]
+    deck = ROOT / "inputs/beam/tapered_tower.xml"
+    subprocess.run([program, "run", deck, "--quiet", "--report", "--output", folder, *mode], check=True)
+    run = culm.read(folder)
+    modes = run.modes(analysis)
+    assert len(modes.table) == 3 and all(len(shape) == 3 for shape in modes.shapes.values()) and modes.shapes, modes
+    page = (pathlib.Path(folder) / "report.html").read_text()
+    assert f"shapes of the modes of {analysis}" in page and f">{analysis}: modes<" in page
+    said = re.search(r"participations: (analyses/[^<]*?/modes.csv)", page)[1]
+    assert (pathlib.Path(folder) / said).exists(), said
+    with Recording(pathlib.Path(folder)) as recording:
+        assert analysis in [shapes.analysis for shapes in recording.shapes()]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True, type=pathlib.Path)
@@ -126,6 +145,7 @@ def main():
         check_columns(run)
         check_refusals(run)
         check_constraint_forces(program, "results/forces")
+        check_names(program, "results/names")
         assert len(names["axes"].lines) == 9, "three components in three analyses"
         assert names["modes"].shapes["tower"].shape == (15, 11, 6)
         assert isinstance(repr(culm.read("results/notebook")), str)

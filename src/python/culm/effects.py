@@ -107,20 +107,20 @@ def _compare(removal, whole, run, watched, norm):
 def _changes_of_modes(whole, other):
     """Largest relative change of the frequencies that both have, by table."""
     found = {}
-    others = {name: (columns, rows) for name, columns, rows, _ in other}
-    for name, columns, rows, _ in whole:
-        if "frequency [Hz]" not in columns or name not in others:
+    others = {table.title: table for table in other}
+    for table in whole:
+        if "frequency [Hz]" not in table.columns or table.title not in others:
             continue
-        a = _column(columns, rows)
-        b = _column(*others[name])
+        a = _frequencies(table)
+        b = _frequencies(others[table.title])
         pairs = [(x, y) for x, y in zip(a, b) if x is not None and y is not None and x > 0.0]
-        found[f"{name}, frequencies"] = max((abs(y - x) / x for x, y in pairs), default=0.0)
+        found[f"{table.title}, frequencies"] = max((abs(y - x) / x for x, y in pairs), default=0.0)
     return found
 
 
-def _column(columns, rows):
-    at = columns.index("frequency [Hz]")
-    return [row[at] for row in rows]
+def _frequencies(table):
+    at = table.columns.index("frequency [Hz]")
+    return [row[at] for row in table.rows]
 
 
 def _size(effects):

@@ -107,8 +107,7 @@ class Run:
         self.history = self._read_history()
         self.states = self._read_states()
         self.tables = {
-            name.replace(": ", "/"): _frame(columns, rows, remarks)
-            for name, columns, rows, remarks in results.tables()
+            f"{one.analysis}/{one.name}": _frame(one.columns, one.rows, one.remarks) for one in results.tables()
         }
 
     def __repr__(self):

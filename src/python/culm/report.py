@@ -12,7 +12,7 @@ from .option_types import finite
 from .page import Page
 from .quantities import begins_unsolved
 from .resolved_deck import ResolvedDeck
-from .results import Results
+from .results import Results, file_part
 
 
 MOST_ROWS = 40  # of a table
@@ -217,9 +217,8 @@ def _add_steps(page, results, drawing):
 
 def _add_modes(page, results, drawing, table):
     """Of the modes what people look for first, and pictures of the lowest ones."""
-    name, columns, rows, remarks = table
-    analysis = name.split(": ")[0]
-    meshes, shapes = results.meshes(), results.shapes(analysis)
+    columns, rows, remarks = table.columns, table.rows, table.remarks
+    meshes, shapes = results.meshes(), results.shapes(table.analysis)
     moves = name_modes(meshes, shapes, remarks)
     chosen = [columns.index(one) for one in ("mode", "frequency [Hz]", "damping ratio")]
     shown = [[f"{row[i]:.6g}" for i in chosen] for row in rows[:MOST_ROWS]]
@@ -229,11 +228,11 @@ def _add_modes(page, results, drawing, table):
     )
     page.paragraph(
         "The structure with most of the kinetic energy, and along which axes it moves against its first node: d1 and d2 of "
-        f"its sections, or those of space. Masses and participations: analyses/{analysis}/modes.csv."
+        f"its sections, or those of space. Masses and participations: analyses/{file_part(table.analysis)}/modes.csv."
     )
     if shapes:
         titles = [f"{row[0]}: {row[1]} Hz\n{how}" for row, how in zip(shown, moves)][:6]
-        _add_figure(page, drawing, drawing.shapes(meshes, shapes, titles), f"shapes of the modes of {analysis}")
+        _add_figure(page, drawing, drawing.shapes(meshes, shapes, titles), f"shapes of the modes of {table.analysis}")
 
 
 def _add_diagram(page, drawing, columns, rows):
@@ -253,8 +252,8 @@ def _add_diagram(page, drawing, columns, rows):
 
 def _add_tables(page, results, drawing):
     for table in results.tables():
-        name, columns, rows, remarks = table
-        page.heading(name)
+        columns, rows, remarks = table.columns, table.rows, table.remarks
+        page.heading(table.title)
         if columns[0] == "level" and "frequency 1 [Hz]" in columns:
             _add_diagram(page, drawing, columns, rows)
         if {"mode", "frequency [Hz]", "damping ratio"} <= set(columns) and remarks and rows:

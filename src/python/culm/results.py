@@ -1,6 +1,7 @@
 """The result file of a run, run.h5."""
 
 import dataclasses
+import re
 import urllib.parse
 import xml.etree.ElementTree as ElementTree
 
@@ -57,6 +58,21 @@ class Mesh:
     cells: list  # tuples of nodes
     is_surface: bool
     directors: numpy.ndarray | None = None  # (nodes, 3, 3), by columns; None of shells, which have one
+
+
+@dataclasses.dataclass
+class Table:
+    """What an analysis found; None in a row where there is no number."""
+
+    analysis: str
+    name: str
+    columns: list
+    rows: list
+    remarks: list  # one for each row, or none
+
+    @property
+    def title(self):
+        return f"{self.analysis}: {self.name}"
 
 
 class Results:
@@ -188,16 +204,21 @@ class Results:
         return {}
 
     def tables(self):
-        """Tables of analyses: (name, columns, rows, remarks); None in a row where there is no number."""
+        """Tables of analyses."""
         tables = []
         with h5py.File(self.path) as file:
-            for analysis, group in file.get("analyses", {}).items():
+            for link, group in file.get("analyses", {}).items():
                 for name, data in group.items():
                     if isinstance(data, h5py.Dataset) and data.ndim == 2:
                         columns = [_text(c) for c in data.attrs["names"]]
                         remarks = [_text(r) for r in data.attrs.get("remarks", [])]
-                        tables.append((f"{analysis}: {name}", columns, _rows(data), remarks))
+                        tables.append(Table(_without_escapes(link), name, columns, _rows(data), remarks))
         return tables
+
+
+def file_part(name):
+    """The part of the name of a file or folder that a name of the deck becomes: see culm/output/file_part.hpp."""
+    return re.sub(rb"[^a-z0-9]", b"_", name.encode().lower()).decode()
 
 
 def _without_escapes(link):

@@ -160,11 +160,11 @@ def _results(record, watched, deck):
                         found[f"{name} last"] = values[-1]
                         found[f"{name} least"] = min(values)
                         found[f"{name} largest"] = max(values)
-    for name, columns, rows, _ in Results(record.folder / "run.h5").tables():
-        for column in set(OF_TABLES) & set(columns):
-            at = columns.index(column)
-            for number, row in enumerate(rows, 1):
-                found[f"{name} {number} {column}"] = row[at]
+    for table in Results(record.folder / "run.h5").tables():
+        for column in set(OF_TABLES) & set(table.columns):
+            at = table.columns.index(column)
+            for number, row in enumerate(table.rows, 1):
+                found[f"{table.title} {number} {column}"] = row[at]
     return found
 
 

@@ -217,9 +217,9 @@ def entry_of(table, row, column, value, within):
     """An entry of a table of an analysis against a known one."""
 
     def error(evidence):
-        for name, columns, rows, _ in evidence.run.results.tables():
-            if name == table:
-                return abs(rows[row][columns.index(column)] - value) / abs(value)
+        for one in evidence.run.results.tables():
+            if one.title == table:
+                return abs(one.rows[row][one.columns.index(column)] - value) / abs(value)
         return math.nan
 
     return Check(f"error of '{column}'", error, within, INACCURATE)

@@ -184,7 +184,7 @@ class Recording:
                 for part in ("shapes", "shapes_imaginary")
             ]
             shapes = [_text(name) for name in group["shapes"].attrs["names"]]
-            found.append(Shapes(link, None if state is None else int(state), shapes, *sets))
+            found.append(Shapes(urllib.parse.unquote(link), None if state is None else int(state), shapes, *sets))
         return found
 
 
