@@ -80,6 +80,7 @@ void write_floater_history(const ElastoDyn& turbine, DeckWriter& deck) {
   }
   if (!turbine.floater->moorings) return;
   for (const MooringLine& line : turbine.floater->moorings->lines) {
+    if (!moors_the_vessel(*turbine.floater->moorings, line)) continue;
     deck.open(line_name(line), "Line");
     deck.set("Load", line_name(line));
     deck.close();

@@ -24,6 +24,10 @@ std::array<const MooringPoint*, 2> ends_of(const MoorDyn& moorings, const Moorin
 
 }  // namespace
 
+bool moors_the_vessel(const MoorDyn& moorings, const MooringLine& line) {
+  return ends_of(moorings, line)[0] != nullptr;
+}
+
 std::vector<std::string> write_lines(const MoorDyn& moorings, const std::string& body,
                                      DeckWriter& deck, Report& report) {
   std::vector<std::string> names;

@@ -8,6 +8,9 @@
 
 namespace culm::openfast {
 
+/// Whether a line leads from a fixed point to the vessel; others are not in the deck.
+bool moors_the_vessel(const MoorDyn& moorings, const MooringLine& line);
+
 /// A Catenary for each line between a fixed point and a body whose node is at the reference point
 /// of the vessel, inside an open list Loads; names of those that are there.
 std::vector<std::string> write_lines(const MoorDyn& moorings, const std::string& body,

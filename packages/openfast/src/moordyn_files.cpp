@@ -160,8 +160,17 @@ bool ends_on_rod(const std::string& end) {
   return (end.starts_with("R") || end.starts_with("r")) && !find_number(end);
 }
 
+// Whether a line of MAP++ has a flag, behind its columns.
+bool has_flag(const TextTable& table, std::size_t row, const char* flag) {
+  const std::vector<std::string>& words = table.row(row).words;
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return to_lower(word) == flag; });
+}
+
 void read_lines(const InputFile& file, MoorDyn& moorings, Report& report) {
-  const TextTable table = read_section(file, {"- LINES", "LINE PROPERTIES"}, "line");
+  // in MAP++ each has as many flags as it wants
+  const TextTable table =
+      read_section(file, {"- LINES", "LINE PROPERTIES"}, "line", !is_of_map(file));
   index_rows(table, {"ID", "Line"});
   std::vector<std::string> names;
   for (const LineType& type : moorings.types) names.push_back(type.name);
@@ -182,6 +191,18 @@ void read_lines(const InputFile& file, MoorDyn& moorings, Report& report) {
                 fmt::format("line {} ends on a rod, and is not in the deck", line.id), moorings,
                 report);
       continue;
+    }
+    if (has_flag(table, i, "linear_spring")) {
+      leave_out(table.where(i, {"Flags"}),
+                fmt::format("line {} is a linear spring, and is not in the deck", line.id),
+                moorings, report);
+      continue;
+    }
+    if (has_flag(table, i, "omit_contact")) {
+      report.add(missing,
+                 fmt::format("{}: line {} hangs through the seabed there (omit_contact), and lies "
+                             "on it here",
+                             to_string(table.where(i, {"Flags"})), line.id));
     }
     line.points = {find_point(moorings, table, i, {"AttachA", "NodeAnch", "NodeA"}),
                    find_point(moorings, table, i, {"AttachB", "NodeFair", "NodeB"})};

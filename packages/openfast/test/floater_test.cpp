@@ -126,9 +126,7 @@ TEST_F(Floaters, CarryWhatFillsTheirMembers) {
   EXPECT_THAT(imported.deck, Not(HasSubstr("Flooded")));
 }
 
-TEST_F(Floaters, TakeTheLinesOfMap) {
-  write("scene.fst", change(afloat, "3         CompMooring", "1         CompMooring"));
-  write("lines.dat", R"~(---- LINE DICTIONARY ----
+const std::string map_file = R"~(---- LINE DICTIONARY ----
 LineType Diam MassDenInAir EA CB CIntDamp Ca Cdn Cdt
 (-) (m) (kg/m) (N) (-) (Pa-s) (-) (-) (-)
 chain 0.09 77.7 3.8E8 0.001 1.0E8 0.6 -1.0 0.05
@@ -145,13 +143,40 @@ ID LineType UnstrLen NodeAnch NodeFair Flags
 Option
 (-)
 repeat 90 180
-)~");
+)~";
+
+TEST_F(Floaters, TakeTheLinesOfMap) {
+  write("scene.fst", change(afloat, "3         CompMooring", "1         CompMooring"));
+  write("lines.dat", map_file);
   const Imported imported = import_file(path_of("scene.fst"));
   EXPECT_THAT(imported.deck, HasSubstr(parameter("Anchor", "{800, 0, -200}")));
   EXPECT_THAT(imported.deck, HasSubstr("name=\"line 3\""));
   EXPECT_THAT(imported.deck, HasSubstr(parameter("Friction", "0.001")));
   EXPECT_THAT(imported.deck, HasSubstr("800, -200}"));
   EXPECT_THAT(imported.deck, HasSubstr(R"("Anchor" value="{-800, )"));
+  EXPECT_THAT(imported.report, Not(HasSubstr("seabed there")));
+}
+
+TEST_F(Floaters, WatchTheLinesThatAreThere) {
+  write("scene.fst", change(afloat, "3         CompMooring", "1         CompMooring"));
+  write("lines.dat", change(change(map_file, "---- LINE PROPERTIES",
+                                   "3 Vessel -5 0 -70 0 0 # # #\n"
+                                   "---- LINE PROPERTIES"),
+                            "---- SOLVER", "2 chain 12 3 2 tension_fair\n---- SOLVER"));
+  const Imported imported = import_file(path_of("scene.fst"));
+  EXPECT_THAT(imported.report, HasSubstr("line 2: does not lead from a fixed point"));
+  EXPECT_THAT(imported.deck, HasSubstr(parameter("Load", "line 1")));
+  EXPECT_THAT(imported.deck, Not(HasSubstr(parameter("Load", "line 2"))));
+}
+
+TEST_F(Floaters, TellWhatLinesOfMapAreNot) {
+  write("scene.fst", change(afloat, "3         CompMooring", "1         CompMooring"));
+  write("lines.dat", change(map_file, "tension_fair", "tension_fair OMIT_CONTACT"));
+  EXPECT_THAT(import_file(path_of("scene.fst")).report,
+              HasSubstr("line 1 hangs through the seabed there"));
+  write("lines.dat", change(map_file, "tension_fair", "linear_spring"));
+  EXPECT_THAT([&] { import_file(path_of("scene.fst")); },
+              ThrowsMessage<InputError>(HasSubstr("line 1 is a linear spring")));
 }
 
 TEST_F(Floaters, RefuseWhatWouldMakeAnotherPlatform) {
