@@ -198,11 +198,13 @@ void add_element_sets(const Options& list, model::BuildContext& context) {
   }
 }
 
-bool names_any(const Options& entry, const Inactive& names) {
+// Whether what a quantity shows is of a load or constraint among these. Nodes, structures and
+// signals may be called like one.
+bool is_of_any(const Options& entry, const Inactive& names) {
   const auto& parameters = entry.parameters();
   return std::any_of(parameters.begin(), parameters.end(), [&](const auto& parameter) {
-    if (!parameter.value) return false;
-    const auto* text = std::get_if<std::string>(&*parameter.value);
+    if (parameter.name != "Load" && parameter.name != "Constraint") return false;
+    const auto* text = parameter.value ? std::get_if<std::string>(&*parameter.value) : nullptr;
     return text != nullptr && names.contains(*text);
   });
 }
@@ -212,7 +214,7 @@ std::vector<WatchedQuantity> make_quantities(const Catalogue& catalogue, const O
                                              model::BuildContext& context) {
   std::vector<WatchedQuantity> watched;
   for (const Options& entry : list.entries()) {
-    if (names_any(entry, inactive)) {
+    if (is_of_any(entry, inactive)) {
       watched.push_back({entry.name(), std::make_unique<SilentQuantity>()});
       continue;
     }

@@ -193,6 +193,25 @@ std::string joint(const std::string& name, const std::string& type, const std::s
                set("First", "nacelle") + set("Second", "hub") + set("Axis", "{2, 0, 0}") + more);
 }
 
+TEST(Columns, OfNodesThatAreCalledAsALoadHaveNumbersWhereThatDoesNotAct) {
+  const std::string force = set("Node", "tip") + set("Force", "{10, 0, 0}");
+  Watching watching(list(
+      "culm",
+      list("Sections", bar) + list("Structures", beam("mast", "{0, 0, 0}", "{0, 0, 1}", 1)) +
+          list("Node Sets", list("tip", set("Nodes", "{mast/last}"))) +
+          list("Constraints", typed("foot", "Rigid Support", set("Node", "mast/first"))) +
+          list("Loads", typed("tip", "Force", force) + typed("other", "Force", force)) +
+          list("Analyses", typed("both", "Static", "") +
+                               typed("one", "Static",
+                                     set("Inactive", "{tip}") + set("Start From", "Reference"))) +
+          list("Output", list("History", typed("top", "Displacement", set("Node", "tip"))))));
+  double both = 0.0;
+  watching.run("both", [&] { both = watching["top ux"]; });
+  watching.run("one", [] {});
+  EXPECT_GT(both, 1e-3);
+  EXPECT_NEAR(watching["top ux"], 0.5 * both, 1e-3 * both);
+}
+
 // Readers find columns by name and unit, sensors by name.
 TEST(Columns, OfOneNameAreRefused) {
   const auto refusal = [](const std::string& history, const std::string& signals) {
