@@ -1,6 +1,7 @@
 // The Python module _culm: simulations in the hands of a Python program. What users import is the
 // package `culm`, which adds what is easier to write in Python.
 
+#include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/simulation/session.hpp>
 #include <culm/simulation/simulation.hpp>
@@ -376,7 +377,9 @@ py::dict quantities(Live& live) {
   std::size_t i = 0;
   for (const culm::output::HistoryColumn& column : live.simulation().quantity_columns()) {
     const std::string unit = column.unit.empty() ? "" : " [" + column.unit + "]";
-    all[py::str(column.name + unit)] = numbers[i++];
+    const double number = numbers[i++];
+    all[py::str(column.name + unit)] =
+        number == culm::absent ? std::numeric_limits<double>::quiet_NaN() : number;
   }
   return all;
 }

@@ -69,6 +69,11 @@ void Stepper::accept() {
   if (observer_ != nullptr) observer_->step(report_, state_);
 }
 
+model::Coordinates Stepper::velocity() const {
+  const bool is_open = stage_ == Stage::tried && report_.accepted;
+  return is_open ? end_velocity(report_) : state_.velocity;
+}
+
 void Stepper::go_back() {
   system().discard(state_);
   stage_ = Stage::resting;

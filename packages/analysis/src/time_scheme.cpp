@@ -1,6 +1,7 @@
 #include <culm/analysis/time_scheme.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace culm::analysis {
 
@@ -14,12 +15,18 @@ Stencil ConservingScheme::begin(model::State& state, double h) {
 
 // v_next = 2 Dq / h - v, written as v + h a with the acceleration that was balanced: what rounding
 // makes of 2 / h and 2 / h^2 would else pull the same way in every step and change the momenta.
-void ConservingScheme::finish(model::State& state, double h) {
+model::Coordinates ConservingScheme::end_velocity(const model::State& state, double h) const {
   const double inertia = Stencil::midpoint(h).inertia;
   const auto faster = [h, inertia](double v, double next, double prev, double offset) {
     return v + h * (inertia * (next - prev) + offset);
   };
-  model::combine(state.velocity, faster, state.next, state.prev, state.acceleration_offset);
+  model::Coordinates velocity = state.velocity;
+  model::combine(velocity, faster, state.next, state.prev, state.acceleration_offset);
+  return velocity;
+}
+
+void ConservingScheme::finish(model::State& state, double h) {
+  state.velocity = end_velocity(state, h);
 }
 
 GeneralisedAlphaScheme::GeneralisedAlphaScheme(double spectral_radius)
@@ -52,16 +59,29 @@ Stencil GeneralisedAlphaScheme::begin(model::State& state, double h) {
   return {h, 1.0 - alpha_f_, 1.0 - alpha_f_, (1.0 - alpha_m_) / (beta_ * h * h)};
 }
 
-void GeneralisedAlphaScheme::finish(model::State& state, double h) {
-  const model::Coordinates before = acceleration_;
+model::Coordinates GeneralisedAlphaScheme::end_acceleration(const model::State& state,
+                                                            double h) const {
+  model::Coordinates result = acceleration_;
   const auto acceleration = [this, h](double a, double next, double prev, double v) {
     return (next - prev) / (beta_ * h * h) - v / (beta_ * h) - (0.5 / beta_ - 1.0) * a;
   };
-  model::combine(acceleration_, acceleration, state.next, state.prev, state.velocity);
+  model::combine(result, acceleration, state.next, state.prev, state.velocity);
+  return result;
+}
+
+model::Coordinates GeneralisedAlphaScheme::end_velocity(const model::State& state, double h) const {
+  model::Coordinates velocity = state.velocity;
   const auto faster = [this, h](double v, double first, double last) {
     return v + h * ((1.0 - gamma_) * first + gamma_ * last);
   };
-  model::combine(state.velocity, faster, before, acceleration_);
+  model::combine(velocity, faster, acceleration_, end_acceleration(state, h));
+  return velocity;
+}
+
+void GeneralisedAlphaScheme::finish(model::State& state, double h) {
+  model::Coordinates acceleration = end_acceleration(state, h);
+  state.velocity = end_velocity(state, h);
+  acceleration_ = std::move(acceleration);
 }
 
 void GeneralisedAlphaScheme::save(const assembly::System& system, Snapshot& snapshot) const {

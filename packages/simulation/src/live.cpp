@@ -53,6 +53,7 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   if (p.state.next.empty()) {
     p.state = p.phases.of(p.present).model->initial_state();
     tell_of_deck(p.deck, p.findings, p.log);
+    p.first_memories = memories_of(p.phases.of(p.present).watched);
   }
   end_analysis();
   if (p.deck.has_list("Coupling")) {
@@ -76,9 +77,17 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     p.results->observer.begin(entries[number], number, false, *p.context, phase.linear);
     p.results->observer.follow(stepper.get(), nullptr, nullptr);
     stepper->tell(&p.results->observer);
+  } else {
+    p.let_remember(before, entries[number]);
+    p.keeper.emplace(*phase.system, phase.watched);
+    stepper->tell(&*p.keeper);
   }
   stepper->fit();
-  if (p.results != nullptr) p.results->observer.start(p.state);
+  if (p.results != nullptr) {
+    p.results->observer.start(p.state);
+  } else {
+    p.keeper->start(p.state);
+  }
   stepper->begin();
   p.stepper = std::move(stepper);
   p.heard.clear();
@@ -95,8 +104,7 @@ void Simulation::end_analysis() {
   p.stepper.reset();
   p.context->system.synchronise(p.state);
   p.warn_of_taut_beams(p.state.next, p.state.time);
-  keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state,
-             p.results == nullptr ? nullptr : &p.results->files);
+  keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state);
 }
 
 void Simulation::write_results(const std::filesystem::path& folder) {
@@ -201,9 +209,17 @@ std::vector<output::HistoryColumn> Simulation::quantity_columns() const {
   return columns_of(parts_->phases.of(parts_->present).watched);
 }
 
+// Of an open attempt as it would be accepted; what quantities remember is of accepted states.
 std::vector<double> Simulation::quantities() {
-  const model::State& now = state();
-  return evaluate(parts_->phases.of(parts_->present).watched, parts_->context->system, now);
+  Parts& p = *parts_;
+  model::State now = state();
+  now.velocity = p.stepper->velocity();
+  p.context->system.synchronise(now);
+  const std::vector<WatchedQuantity>& watched = p.phases.of(p.present).watched;
+  const std::vector<double> memories = memories_of(watched);
+  std::vector<double> numbers = evaluate(watched, p.context->system, now);
+  restore_memories(watched, memories);
+  return numbers;
 }
 
 const model::Model& Simulation::model() const { return *parts_->phases.of(parts_->present).model; }

@@ -8,6 +8,7 @@
 #include "constraint_forces.hpp"
 #include "finite.hpp"
 #include "fluid_pictures.hpp"
+#include "memories.hpp"
 #include "on_root.hpp"
 #include "pictures.hpp"
 
@@ -89,7 +90,7 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
       watched_(&watched),
       read_nodes_(nodes_of(watched)),
       shows_fluid_(settings_.pictures && !fluid_meshes(system.model()).empty()),
-      first_memories_(memories()) {
+      first_memories_(memories_of(watched)) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
     const output::SharedMeshes meshes = meshes_in(drawn);
@@ -103,29 +104,12 @@ void ResultFiles::restore_counts(const Snapshot& saved) {
   restore_memories(&saved);
 }
 
-std::vector<double> ResultFiles::memories() const {
-  std::vector<double> all;
-  for (const WatchedQuantity& watched : *watched_) {
-    const std::vector<double> memory = watched.quantity->memory();
-    all.insert(all.end(), memory.begin(), memory.end());
-  }
-  return all;
-}
-
-void ResultFiles::save_memories(Snapshot& snapshot) const {
-  snapshot.set("output/memories", memories());
-}
-
 void ResultFiles::restore_memories(const Snapshot* saved) {
   std::span<const double> rest = first_memories_;
-  if (saved != nullptr && saved->has("output/memories")) {
-    rest = saved->numbers("output/memories", first_memories_.size());
+  if (saved != nullptr && saved->has(memories_key)) {
+    rest = saved->numbers(memories_key, first_memories_.size());
   }
-  for (const WatchedQuantity& watched : *watched_) {
-    const std::size_t size = watched.quantity->memory().size();
-    watched.quantity->restore(rest.first(size));
-    rest = rest.subspan(size);
-  }
+  simulation::restore_memories(*watched_, rest);
 }
 
 bool ResultFiles::has_saved(const Snapshot& snapshot) const {
@@ -160,14 +144,11 @@ void ResultFiles::save(Snapshot& snapshot) const {
     save_mark(files_->recorder.commit(), snapshot);
     if (files_->pictures) files_->pictures->secure();
   }
-  save_memories(snapshot);
+  snapshot.set(memories_key, memories_of(*watched_));
 }
 
 void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantity>& watched) {
-  for (std::size_t i = 0; i < watched.size(); ++i) {
-    if (&watched == watched_) break;
-    watched[i].quantity->restore((*watched_)[i].quantity->memory());
-  }
+  hand_over_memories(*watched_, watched);
   system_ = &system;
   watched_ = &watched;
   read_nodes_ = nodes_of(watched);

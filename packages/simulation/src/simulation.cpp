@@ -205,7 +205,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     }
     p.warn_of_taut_beams(state.next, state.time);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
-    keep_state(entries[i].name(), state, &files);
+    keep_state(entries[i].name(), state);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "coupled_run.hpp"
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
+#include "memories.hpp"
 #include "phase.hpp"
 #include "run_observer.hpp"
 
@@ -49,7 +50,9 @@ struct Simulation::Parts {
   // driven from outside, see begin()
   model::State state = {};
   std::optional<analysis::Context> context = {};
-  std::unique_ptr<Results> results = {};  ///< if any are wanted
+  std::unique_ptr<Results> results = {};    ///< if any are wanted
+  std::optional<MemoryKeeper> keeper = {};  ///< if none are
+  std::vector<double> first_memories = {};  ///< of what is watched, before any state
   std::unique_ptr<analysis::Stepper> stepper = {};
   std::set<model::Effect> heard = {};  ///< loads from outside that have acted in this analysis
 
@@ -59,6 +62,8 @@ struct Simulation::Parts {
   void warn_of_taut_beams(const model::Coordinates& q, double time);
   /// Hands what is watched over to the phase of the present analysis. @param begins  or goes on
   void let_watch(ResultFiles& files, const Options& analysis, bool begins);
+  /// The same where no results are written. @param before  the phase of the analysis before
+  void let_remember(const Phase& before, const Options& analysis);
   /// After a load was set that is not zero: says once if supports take all of it.
   void hear(const model::Effect& effect);
   /// With its partners; null if the deck has none. @param files  for a run

@@ -4,6 +4,7 @@
 
 #include "ended_ramps.hpp"
 #include "late_supports.hpp"
+#include "memories.hpp"
 #include "other_run.hpp"
 #include "simulation_parts.hpp"
 
@@ -34,6 +35,16 @@ void Simulation::Parts::let_watch(ResultFiles& files, const Options& analysis, b
   if (!begins || !analysis.has("Start From")) return;
   const std::string& name = analysis.text("Start From");
   files.restore_memories(earlier.wants(name) ? &earlier.find(name).state : nullptr);
+}
+
+void Simulation::Parts::let_remember(const Phase& before, const Options& analysis) {
+  const std::vector<WatchedQuantity>& watched = phases.of(present).watched;
+  hand_over_memories(before.watched, watched);
+  if (!analysis.has("Start From")) return;
+  const std::string& name = analysis.text("Start From");
+  restore_memories(watched, earlier.wants(name) ? earlier.find(name).state.numbers(
+                                                      memories_key, first_memories.size())
+                                                : std::span<const double>(first_memories));
 }
 
 // Brings the state to where an analysis starts, in its phase.
@@ -100,13 +111,13 @@ Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::St
   return snapshot;
 }
 
-void Simulation::keep_state(const std::string& name, model::State& state,
-                            const ResultFiles* files) {
+void Simulation::keep_state(const std::string& name, model::State& state) {
   Parts& p = *parts_;
   if (!p.earlier.wants(name)) return;
   Snapshot snapshot;
-  p.phases.of(p.present).system->save(state, snapshot);
-  if (files != nullptr) files->save_memories(snapshot);
+  const Phase& phase = p.phases.of(p.present);
+  phase.system->save(state, snapshot);
+  snapshot.set(memories_key, memories_of(phase.watched));
   p.earlier.keep(name, p.present, std::move(snapshot));
 }
 

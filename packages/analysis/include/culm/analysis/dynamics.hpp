@@ -46,6 +46,9 @@ class Dynamics final : public Stepper {
   double propose() const override { return control_.end_of_step(state().time_prev); }
   StepReport do_attempt(double end) override;
   void do_accept(const StepReport& report) override;
+  model::Coordinates end_velocity(const StepReport& report) const override {
+    return scheme_->end_velocity(state(), report.increment);
+  }
   bool do_fail(const StepReport& report) override;
   Stencil failed_stencil() const override { return stencil_; }
   AnalysisReport do_finish() override;

@@ -74,6 +74,9 @@ class Stepper {
   /// Of the last attempt if one is open, else the accepted one.
   const model::State& state() const { return state_; }
   model::State& state() { return state_; }
+  /// Velocities that belong to state(): at the end of an attempt that is open and converged, where
+  /// state().velocity is still that at its start.
+  model::Coordinates velocity() const;
   /// Time [s] or level of the accepted state.
   double time() const { return state_.time_prev; }
   int steps() const { return steps_; }
@@ -107,6 +110,8 @@ class Stepper {
   /// Learns from an attempt that is accepted; state.prev is still the start of the step. Calls
   /// accept of the system at its place among what happens then.
   virtual void do_accept(const StepReport& report) = 0;
+  /// Velocities at the end of an attempt.
+  virtual model::Coordinates end_velocity(const StepReport&) const { return state_.velocity; }
   /// Forgets what an attempt has found, beside the state.
   virtual void do_discard() {}
   /// Learns from an attempt that failed, after going back. @return whether to give up

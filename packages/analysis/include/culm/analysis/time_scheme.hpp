@@ -23,6 +23,8 @@ class TimeScheme {
   virtual void start(model::State& state) = 0;
   /// Before a step of length h [s]: sets state.acceleration_offset. @return the step's stencil
   virtual Stencil begin(model::State& state, double h) = 0;
+  /// What velocities are at the end of the step that begin() began, as state.next has it.
+  virtual model::Coordinates end_velocity(const model::State& state, double h) const = 0;
   /// After an accepted step, before prev takes the place of next: sets state.velocity.
   virtual void finish(model::State& state, double h) = 0;
   /// What the scheme remembers beside position and velocity, under "scheme/"; see Analysis.
@@ -39,6 +41,7 @@ class ConservingScheme final : public TimeScheme {
   double error_constant() const override { return 1.0 / 12.0; }
   void start(model::State&) override {}
   Stencil begin(model::State& state, double h) override;
+  model::Coordinates end_velocity(const model::State& state, double h) const override;
   void finish(model::State& state, double h) override;
 };
 
@@ -55,6 +58,7 @@ class GeneralisedAlphaScheme : public TimeScheme {
   double error_constant() const override;
   void start(model::State& state) override;
   Stencil begin(model::State& state, double h) override;
+  model::Coordinates end_velocity(const model::State& state, double h) const override;
   void finish(model::State& state, double h) override;
   void save(const assembly::System& system, Snapshot& snapshot) const override;
   void restore(const assembly::System& system, const Snapshot& snapshot) override;
@@ -64,6 +68,8 @@ class GeneralisedAlphaScheme : public TimeScheme {
   GeneralisedAlphaScheme(double alpha_m, double alpha_f);
 
  private:
+  model::Coordinates end_acceleration(const model::State& state, double h) const;
+
   double alpha_m_, alpha_f_, beta_, gamma_;
   model::Coordinates acceleration_;
 };

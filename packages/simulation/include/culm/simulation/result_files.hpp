@@ -60,11 +60,9 @@ class ResultFiles {
   /// How much there is, under "output/" with checksums, and whose it is, under "run/".
   void save(Snapshot& snapshot) const;
 
-  /// What the watched quantities remember of states before, such as turns that were counted; a part
-  /// of save().
-  void save_memories(Snapshot& snapshot) const;
-  /// Goes back to them where an analysis starts from a state that was kept; to the beginning where
-  /// nothing was saved with it, or without it.
+  /// Goes back to what the watched quantities remember, such as turns that were counted, where an
+  /// analysis starts from a state that was kept; to the beginning where nothing was saved with it,
+  /// or without it.
   void restore_memories(const Snapshot* saved);
 
   /// Whether a snapshot is one of save(), by this object or one that it goes on from.
@@ -107,7 +105,6 @@ class ResultFiles {
 
   std::vector<output::StructureMesh> meshes_in(const model::Model& model) const;
   void restore_counts(const Snapshot& saved);
-  std::vector<double> memories() const;
   output::Pictures open_pictures(const output::SharedMeshes& meshes) const;
   std::optional<output::Pictures> open_fluid() const;
   void add_fluid(int index, double time, const model::State& state);

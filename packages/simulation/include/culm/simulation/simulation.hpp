@@ -167,7 +167,7 @@ class Simulation {
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void move_state(std::size_t number, model::State& state);
-  void keep_state(const std::string& name, model::State& state, const ResultFiles* files);
+  void keep_state(const std::string& name, model::State& state);
   /// Of those that begin() takes up.
   void end_analysis();
   /// state(), with the start of the step as well up to date on all ranks; collective.

@@ -1,0 +1,66 @@
+#include "memories.hpp"
+
+#include <culm/base/error.hpp>
+
+#include <algorithm>
+
+namespace culm::simulation {
+namespace {
+
+bool remembers(const WatchedQuantity& one) { return !one.quantity->memory().empty(); }
+
+}  // namespace
+
+std::vector<double> memories_of(const std::vector<WatchedQuantity>& watched) {
+  std::vector<double> all;
+  for (const WatchedQuantity& one : watched) {
+    const std::vector<double> memory = one.quantity->memory();
+    all.insert(all.end(), memory.begin(), memory.end());
+  }
+  return all;
+}
+
+void restore_memories(const std::vector<WatchedQuantity>& watched,
+                      std::span<const double> memories) {
+  for (const WatchedQuantity& one : watched) {
+    const std::size_t size = one.quantity->memory().size();
+    one.quantity->restore(memories.first(size));
+    memories = memories.subspan(size);
+  }
+}
+
+void hand_over_memories(const std::vector<WatchedQuantity>& from,
+                        const std::vector<WatchedQuantity>& to) {
+  if (&from == &to) return;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const std::vector<double> memory = from[i].quantity->memory();
+    // what does not act in a phase remembers nothing there
+    if (to[i].quantity->memory().size() == memory.size()) to[i].quantity->restore(memory);
+  }
+}
+
+void MemoryKeeper::step(const analysis::StepReport& report, model::State& state) {
+  if (report.accepted) show(state);
+}
+
+void MemoryKeeper::keep(Snapshot& snapshot) const {
+  snapshot.set(memories_key, memories_of(watched_));
+}
+
+void MemoryKeeper::go_back(const Snapshot& kept) {
+  const std::size_t size = memories_of(watched_).size();
+  if (!kept.has(memories_key))
+    throw UsageError("the snapshot knows nothing of what is watched here");
+  restore_memories(watched_, kept.numbers(memories_key, size));
+}
+
+void MemoryKeeper::show(model::State& state) const {
+  if (std::ranges::none_of(watched_, remembers)) return;
+  system_.synchronise(state);
+  std::vector<double> unused;
+  for (const WatchedQuantity& one : watched_) {
+    if (remembers(one)) one.quantity->evaluate(system_, state, unused);
+  }
+}
+
+}  // namespace culm::simulation
