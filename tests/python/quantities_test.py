@@ -116,6 +116,15 @@ class Files(unittest.TestCase):
             with self.assertRaisesRegex(CulmError, "of the name 'y.csv' stand in"):
                 resolved.only_files(deck)
 
+    def test_other_places_of_files(self):
+        """Of files alone, whatever signs their names have; others may be called like them."""
+        resolved = ResolvedDeck(
+            '<ParameterList><ParameterList name="a"><Parameter name="File Name" value="a &amp; &lt;b&gt;/&quot;ü&quot;.csv"/></ParameterList>'
+            '<ParameterList name="b"><Parameter name="File Names" value="{u, wind, w}"/><Parameter name="Flow" value="wind"/></ParameterList>'
+            '<ParameterList name="c"><Parameter name="File Name" value="wind"/></ParameterList></ParameterList>')
+        moved = ResolvedDeck(resolved.with_files({'a & <b>/"ü".csv': "0_a.csv", "wind": "1_wind"}))
+        self.assertEqual(list(moved.parameters.values()), ["0_a.csv", "{u, 1_wind, w}", "wind", "1_wind"])
+
     def test_states_of_other_runs_are_found(self):
         with tempfile.TemporaryDirectory() as name:
             run = pathlib.Path(name) / "half"
@@ -140,7 +149,7 @@ class Files(unittest.TestCase):
                 '</ParameterList></ParameterList>')
             resolved = ResolvedDeck(deck.read_text())
             self.assertEqual(resolved.only_files(deck), {file: folder / file for file in names})
-            moved = resolved.with_files(resolved.text, {file: f"x/{file}" for file in names})
+            moved = resolved.with_files({file: f"x/{file}" for file in names})
             self.assertEqual(resolved.files(deck)[0][0], "controller.in")
             for text in ('"x/hull.1"', '"{x/u.bin, x/v.bin}"', '"x/controller.in"'):
                 self.assertIn(text, moved)

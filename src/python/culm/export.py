@@ -64,8 +64,7 @@ def _write_resources(folder, deck, source):
     copies = {name: f"{stems.index(path.with_suffix(''))}_{path.name}" for name, path in files.items()}
     for name, copy in copies.items():
         (folder / copy).write_bytes(files[name].read_bytes())
-    text = deck.with_files(deck.text, copies)
-    (folder / "deck.xml").write_text(text, encoding="utf-8")
+    (folder / "deck.xml").write_text(deck.with_files(copies), encoding="utf-8")
     return folder
 
 

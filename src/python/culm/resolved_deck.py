@@ -51,15 +51,16 @@ class ResolvedDeck:
                 raise CulmError(f"files of the name '{name}' stand in '{path.parent}' and in '{paths[name].parent}'; rename one", 3)
         return paths
 
-    def with_files(self, text, places):
+    def with_files(self, places):
         """The text of the deck with other places of its files, by their names."""
-        for path, value in self.parameters.items():
-            if path.endswith(OF_FILE) and value in places:
-                text = text.replace(f'value="{value}"', f'value="{places[value]}"')
-            elif path.endswith(OF_FILES):
-                inside = ", ".join(places.get(name, name) for name in texts(value))
-                text = text.replace(f'value="{value}"', f'value="{{{inside}}}"')
-        return text
+        root = ElementTree.fromstring(self.text)
+        for one in root.iter("Parameter"):
+            name, value = f"/{one.get('name')}", one.get("value")
+            if name in OF_FILE:
+                one.set("value", places.get(value, value))
+            elif name == OF_FILES:
+                one.set("value", "{" + ", ".join(places.get(file, file) for file in texts(value)) + "}")
+        return ElementTree.tostring(root, encoding="unicode")
 
     def names_in(self, path):
         """The lists in a list: names_in('Output/History') are the quantities of the deck."""

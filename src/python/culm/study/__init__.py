@@ -167,10 +167,9 @@ def _write_target(judgement, program, arguments, folder):
 
 def _write_deck(program, deck, settings, path, comment):
     resolved = ResolvedDeck.of(program, deck, settings)
-    head, _, body = resolved.text.partition("?>\n")
     places = {name: os.path.relpath(file, path.parent) for name, file in resolved.only_files(deck).items()}
-    body = resolved.with_files(body, places)
-    path.write_text(f"{head}?>\n<!-- {comment.replace('--', '- -')} -->\n{body}", encoding="utf-8")
+    head = f'<?xml version="1.0" encoding="UTF-8"?>\n<!-- {comment.replace("--", "- -")} -->\n'
+    path.write_text(f"{head}{resolved.with_files(places)}\n", encoding="utf-8")
 
 
 def _write(judgement, deck, arguments, folder, promise):
