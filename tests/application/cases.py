@@ -521,7 +521,7 @@ CASES = [
             0,
             args=RUN,
             change=[
-                in_wind(load, Type="Power Law", Speed="10", Height="10", Exponent="0", Up="{0, 0, -1}"),
+                in_wind(load, Type="Power Law", Speed="10", Height="10", Exponent="0", Up="{0, 1, 0}"),
             ],
             says=[f"warning: {name} meets no wind: all of it stands at the ground of its flow or below, where the "
                   "height along 'Up' above the origin is 0; put the structure higher, or take a 'Uniform' flow\n"],

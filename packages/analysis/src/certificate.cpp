@@ -137,13 +137,17 @@ void Certificate::restore(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < places.size(); ++i) *places[i] = numbers[i + 1];
 }
 
+double Certificate::largest_energy() const {
+  return std::max({largest_kinetic_, largest_strain_, largest_work_});
+}
+
 // Where little happens, what rounding takes of the sums in each step counts: it must not look like
 // a drift.
 double Certificate::energy_scale() const {
   constexpr double roundings = 8.0;
   const double rounding =
       roundings * std::numeric_limits<double>::epsilon() * steps_ * largest_amount_;
-  return std::max({largest_kinetic_, largest_strain_, largest_work_, rounding / energy_promise});
+  return std::max(largest_energy(), rounding / energy_promise);
 }
 
 // Momenta may vanish although everything moves: a spinning body has no linear momentum. What they
@@ -212,7 +216,7 @@ std::string Certificate::excuse(bool is_rounding) const {
 std::vector<Certificate::Line> Certificate::lines() const {
   const double moved = moved_by_rounding();
   std::vector<Line> lines = {{"energy balance", relative(energy_drift_, energy_scale()),
-                              energy_promise, excuse(energy_scale() <= moved)}};
+                              energy_promise, excuse(largest_energy() <= moved)}};
   if (is_free()) {
     // what stands in equilibrium may hold much energy, and has no momentum but that of rounding
     const double momentum = std::sqrt(2.0 * system_.model().mass() * moved);

@@ -73,6 +73,7 @@ class Certificate {
   std::vector<Amount> amounts() const;
   std::vector<Line> lines() const;
   void measure(const model::State& state);
+  double largest_energy() const;
   double energy_scale() const;
   double moved_by_rounding() const;
   std::string excuse(bool is_rounding) const;
