@@ -397,8 +397,59 @@ def beside_director(*entries):
     return SHEET % (SUPPORTED + "".join(entries) + SAGS)
 
 
+# --- modes
+
+
+def swings(*wanted):
+    """Whether the modes have these frequencies [Hz] and damping ratios, all to 1e-6."""
+
+    def check(folder, _):
+        with open(folder / "out/analyses/modes/modes.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        found = [(float(row["frequency [Hz]"]), float(row["damping ratio"])) for row in rows]
+        same = len(found) == len(wanted) and all(
+            abs(f - g) <= 1e-6 * max(1.0, g) and abs(z - y) <= 1e-6 for (f, z), (g, y) in zip(found, wanted))
+        return "" if same else f"the modes are {found}"
+
+    return check
+
+
+def sprung(*loads, modes=6):
+    """Modes of a body of 1 kg, with damping, under springs and dampers."""
+    return FALLING % (listed("Loads", *loads)
+                      + listed("Analyses", entry("modes", Type="Modal", Modes=modes, Damping="true")))
+
+
+OFF = "{0, 0.3, 0}"
+# of 100 N/m and 2 N s/m on 1 kg, at the centre or 0.3 m beside it with 2.5 kg m^2 about z
+CENTRED = (math.sqrt(99.0) / (2.0 * math.pi), 0.1)
+BESIDE = 1.0 + 0.3**2 / 2.5
+SWUNG = (math.sqrt(100.0 * BESIDE - BESIDE**2) / (2.0 * math.pi), 0.1 * math.sqrt(BESIDE))
+FREE = (0.0, 0.0)
+BEAM_MODES = (STATIC, entry("modes", Type="Modal", Modes="8", Damping="true"))
+DAMPED_BEAM = ('<Parameter name="Section" value="bar"/>',
+               '<Parameter name="Section" value="bar"/><Parameter name="Damping" value="1e-5"/>')
+
+
+def has_free_motions_once(folder, _):
+    with open(folder / "out/analyses/modes/modes.csv", newline="") as file:
+        frequencies = [float(row["frequency [Hz]"]) for row in csv.DictReader(file)]
+    at_rest = sum(f == 0.0 for f in frequencies)
+    return "" if at_rest == 6 and len(frequencies) == 8 else f"the frequencies are {frequencies}"
+
+
 CASES = [
     *TURNS,
+    Case("modes of a body that moves freely, beside a damped one", 0, args=RUN, leaves=["out"],
+         deck=sprung(entry("spring", Type="Directed Ground Spring", Node="hub", Direction="{1, 0, 0}", Stiffness="100"),
+                     entry("damper", Type="Directed Ground Damper", Node="hub", Direction="{1, 0, 0}", Damping="2")),
+         check=swings(*[FREE] * 5, CENTRED)),
+    Case("modes of a body that moves freely, beside a damped one that turns it", 0, args=RUN, leaves=["out"],
+         deck=sprung(entry("spring", Type="Directed Ground Spring", Node="hub", Direction="{1, 0, 0}", Stiffness="100", Offset=OFF),
+                     entry("damper", Type="Directed Ground Damper", Node="hub", Direction="{1, 0, 0}", Damping="2", Offset=OFF)),
+         check=swings(*[FREE] * 5, SWUNG)),
+    Case("modes of a damped beam that flies", 0, args=RUN, leaves=["out"], ranks=True,
+         change=[HEAVY, DAMPED_BEAM, (CLAMP, ""), (LOADS, ""), BEAM_MODES], check=has_free_motions_once),
     Case("a mass beside the director of a shell", 3, args=RUN,
          deck=beside_director(listed("Masses", entry("mass", Type="Point Mass", Node=CORNER, Mass="5", Offset="{0, 0.2, 0}"))),
          says=["Masses / mass / Offset: node 'sheet/8' of a shell has one director: only the first component may differ"]),

@@ -23,8 +23,6 @@ using Complex = std::complex<double>;
 
 // Eigenvalues below so many times their rounding are zero; found ones are a tenth of it.
 constexpr double zero_bound = 4.0;
-// The same for lambda^2 of the quadratic problem, where a double zero is not exact to rounding.
-constexpr double quadratic_zero_bound = 1e3;
 
 // Of a tangent, above rounding.
 constexpr double least_asymmetry = 1e-12;
@@ -250,7 +248,7 @@ class Finder {
   static bool oscillates(Complex value) { return value.imag() >= 1e-9 * std::abs(value); }
 
   static bool is_zero(const solver::ComplexPairs& pairs, std::size_t i) {
-    return std::norm(pairs.values[i]) <= quadratic_zero_bound * pairs.rounding[i];
+    return solver::is_zero(pairs.values[i], pairs.rounding[i]);
   }
 
   RelaxingPencil relaxing_pencil(const assembly::Matrix& damping) const {

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace culm::solver {
 namespace {
 
 using Complex = std::complex<double>;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
 
 // Share of inertia among the terms with a rate that is rounding.
 constexpr double no_inertia = 1e-12;
@@ -82,11 +85,109 @@ class Linearised {
     return finished / std::sqrt(has_inertia ? mass : damping);
   }
 
+  // What is free of a motion: each application leaves of all others a tenth or less.
+  Eigen::VectorXcd free_part(Eigen::VectorXcd x) {
+    constexpr int applications = 12;
+    for (int i = 0; i < applications; ++i) x = finish(x, 0.0);
+    return x;
+  }
+
  private:
   const QuadraticPencil& pencil_;
   double shift_;
   ShiftInvert inverse_;
   Eigen::VectorXd mass_, damping_, sum_;
+};
+
+// Motions that nothing resists. Without brakes each is a double value at zero with one vector only:
+// it is found twice, and the vectors of several may all be alike.
+class FreeMotions {
+ public:
+  FreeMotions(Linearised& problem, const assembly::Matrix& M) : problem_(problem), M_(M) {}
+
+  // Another one than those before, none if there are no more. @param x  where it may be found
+  std::optional<Eigen::VectorXcd> next(const Eigen::VectorXcd& x) {
+    for (const Eigen::VectorXcd& start : {x, any_start()}) {
+      Eigen::VectorXcd rest = problem_.free_part(start);
+      for (const auto& [vector, M_vector] : found_) rest -= M_vector.dot(rest) * vector;
+      const double mass = rest.dot(product(problem_.inverse(), M_, rest)).real();
+      constexpr double rest_of_others = 1e-4;  // of a mass of one
+      if (!(mass > rest_of_others)) continue;
+      rest /= std::sqrt(mass);
+      found_.emplace_back(rest, product(problem_.inverse(), M_, rest));
+      return rest;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // With a part in all motions, another one each time, and alike on all ranks.
+  Eigen::VectorXcd any_start() const {
+    Eigen::VectorXcd start(problem_.size());
+    const double first = 1.0 + static_cast<double>(found_.size());
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      start[i] = std::sin(first + 12.9898 * first * static_cast<double>(i));
+    }
+    return start;
+  }
+
+  Linearised& problem_;
+  const assembly::Matrix& M_;
+  std::vector<std::pair<Eigen::VectorXcd, Eigen::VectorXcd>> found_;
+};
+
+// Free motions lie right at a shift next to zero, and twice: what rounding makes of the vectors of
+// all others grows with the square of how much further these are. Then a shift by a tenth of the
+// distance of the next one; none where that is not known or not needed.
+std::optional<double> clear_shift(const Eigen::VectorXcd& nu, double shift) {
+  constexpr double gap = 1e2;
+  bool is_close = false;
+  double next = 0.0;
+  for (const Complex value : nu) {
+    const double size = std::abs(value);
+    if (size * shift > 0.5) {
+      is_close = true;
+    } else {
+      next = std::max(next, size);
+    }
+  }
+  if (!is_close || next == 0.0 || next * gap * shift > 1.0) return std::nullopt;
+  return 0.1 / next;
+}
+
+// How well a value and a vector solve the equations, and what rounding may do to the square of the
+// value.
+struct Judgement {
+  double residual = 0.0;
+  double rounding = 0.0;
+};
+
+class Judge {
+ public:
+  Judge(const ShiftInvert& inverse, const QuadraticPencil& pencil, double shift, double stiffness)
+      : inverse_(inverse), pencil_(pencil), shift_(shift), stiffness_(stiffness) {}
+
+  Judgement operator()(Complex value, const Eigen::VectorXcd& x) const {
+    const Eigen::VectorXcd momentum = product(inverse_, *pencil_.M, x);
+    const Eigen::VectorXcd inertia = value * value * momentum;
+    const Eigen::VectorXcd rates = value * product(inverse_, *pencil_.C, x);
+    const Eigen::VectorXcd rest = product(inverse_, *pencil_.K, x) + rates + inertia;
+    const Eigen::VectorXd terms = inverse_.absolute(*pencil_.K, x.cwiseAbs());
+    double size = std::max(
+        {terms.maxCoeff(), rates.lpNorm<Eigen::Infinity>(), inertia.lpNorm<Eigen::Infinity>()});
+    // a motion that nothing resists has only rounding in its terms
+    const double stiff = stiffness_ * x.lpNorm<Eigen::Infinity>();
+    if (std::abs(value) <= shift_ && size < unresisted * stiff) size = stiff;
+    const double mass = x.dot(momentum).real();
+    return {rest.lpNorm<Eigen::Infinity>() / size,
+            eps * (x.cwiseAbs().dot(terms) + shift_ * shift_ * mass)};
+  }
+
+ private:
+  const ShiftInvert& inverse_;
+  const QuadraticPencil& pencil_;
+  double shift_;
+  double stiffness_;  // largest entry
 };
 
 // The pairs next to the shift that solve the equations, by the size of their values.
@@ -102,38 +203,33 @@ void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSetting
     return std::abs(a.first) < std::abs(b.first);
   });
 
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  const double stiffness = largest_entry(*pencil.K, comm);
+  const Judge judge(problem.inverse(), pencil, settings.shift, largest_entry(*pencil.K, comm));
+  FreeMotions free(problem, *pencil.M);
   result.values.clear();
   result.rounding.clear();
   result.worst_residual = 0.0;
   result.vectors.resize(n, 0);
   for (const auto& [value, column] : found) {
     if (result.vectors.cols() == settings.count) break;
-    const Eigen::VectorXcd x = problem.finish(pairs.vectors.col(column).head(n), value);
-    const Eigen::VectorXcd inertia = value * value * product(problem.inverse(), *pencil.M, x);
-    const Eigen::VectorXcd rates = value * product(problem.inverse(), *pencil.C, x);
-    const Eigen::VectorXcd rest = product(problem.inverse(), *pencil.K, x) + rates + inertia;
-    const Eigen::VectorXd terms = problem.inverse().absolute(*pencil.K, x.cwiseAbs());
-    double size = std::max(
-        {terms.maxCoeff(), rates.lpNorm<Eigen::Infinity>(), inertia.lpNorm<Eigen::Infinity>()});
-    // a motion that nothing resists has only rounding in its terms
-    const double stiff = stiffness * x.lpNorm<Eigen::Infinity>();
-    if (std::abs(value) <= settings.shift && size < unresisted * stiff) size = stiff;
-    const double residual = rest.lpNorm<Eigen::Infinity>() / size;
-    if (!(residual <= largest_residual)) continue;
-    result.worst_residual = std::max(result.worst_residual, residual);
+    Eigen::VectorXcd x = problem.finish(pairs.vectors.col(column).head(n), value);
+    Judgement judged = judge(value, x);
+    if (is_zero(value, judged.rounding)) {
+      const std::optional<Eigen::VectorXcd> motion = free.next(x);
+      if (!motion) continue;
+      x = *motion;
+      judged = judge(value, x);
+    }
+    if (!(judged.residual <= largest_residual)) continue;
+    result.worst_residual = std::max(result.worst_residual, judged.residual);
     result.values.push_back(value);
-    result.rounding.push_back(eps * x.cwiseAbs().dot(terms));
+    result.rounding.push_back(judged.rounding);
     result.vectors.conservativeResize(Eigen::NoChange, result.vectors.cols() + 1);
     result.vectors.rightCols<1>() = x;
   }
 }
 
-}  // namespace
-
-ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
-                             const parallel::Comm& comm) {
+ComplexPairs solve_at(const QuadraticPencil& pencil, const EigenSettings& settings,
+                      const parallel::Comm& comm, bool may_move) {
   Linearised problem(pencil, settings, comm);
   const int n = problem.size();
   const Operator op{2 * n, [&](const auto& z, auto result) { problem.apply(z, result); }};
@@ -146,11 +242,29 @@ ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings&
         result.solver == "Dense"
             ? solve_dense(op)
             : solve_arnoldi_or_dense(op, std::min(asked, 2 * n - 2), result.solver, result.note);
+    if (const auto shift = clear_shift(pairs.nu, settings.shift); shift && may_move) {
+      EigenSettings moved = settings;
+      moved.shift = *shift;
+      return solve_at(pencil, moved, comm, false);
+    }
     take(problem, pencil, settings, comm, pairs, result);
     result.are_all = result.solver == "Dense" || asked >= 2 * n - 2;
     if (static_cast<int>(result.values.size()) == settings.count || result.are_all) return result;
     if (asked > 16 * settings.count) throw_broken_down();
   }
+}
+
+}  // namespace
+
+bool is_zero(std::complex<double> value, double rounding) {
+  // of lambda^2, whose double zero is not exact to rounding
+  constexpr double bound = 1e3;
+  return std::norm(value) <= bound * rounding;
+}
+
+ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
+                             const parallel::Comm& comm) {
+  return solve_at(pencil, settings, comm, true);
 }
 
 }  // namespace culm::solver

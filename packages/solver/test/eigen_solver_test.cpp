@@ -301,6 +301,35 @@ TEST_P(EachEigenSolver, FindsDampedAndGyroscopicValues) {
   EXPECT_LT(pairs.worst_residual, 1e-12);
 }
 
+// Free chains move as a whole, which is a double value at zero: it is told once, and hides nothing.
+TEST_P(EachEigenSolver, FindsFreeMotionsOnceBesideDampedOnes) {
+  for (const Chains& chains : {Chains{2, 5, false}, Chains{3, 60, false}}) {
+    const Pencil pencil(chains);
+    const double b = 0.01;
+    const auto C = scaled(*pencil.matrices().A, b);
+    const int count = 3 * chains.count;
+    const ComplexPairs pairs = solve_quadratic({pencil.matrices().A, C, pencil.matrices().B},
+                                               settings(count, 1e-5), pencil.comm());
+    ASSERT_EQ(static_cast<int>(pairs.values.size()), count);
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double square = chains.value(i / chains.count);
+      const bool is_free = i < chains.count;
+      EXPECT_EQ(is_zero(pairs.values[at], pairs.rounding[at]), is_free) << pairs.values[at];
+      if (is_free) continue;
+      const double half = 0.5 * b * square;
+      const std::complex<double> wanted(-half, std::sqrt(square - half * half));
+      EXPECT_LT(std::abs(pairs.values[at] - wanted), 1e-9);
+    }
+    EXPECT_LT(pairs.worst_residual, 1e-9);
+    // motions of all chains, each by itself or mixed
+    const Eigen::MatrixXcd free = pairs.vectors.leftCols(chains.count);
+    const Eigen::MatrixXcd unit = free.adjoint() * chains.mass() * free;
+    EXPECT_LT((unit - Eigen::MatrixXcd::Identity(chains.count, chains.count)).norm(), 1e-8);
+    EXPECT_LT((chains.stiffness() * free).norm(), 1e-8);
+  }
+}
+
 // Rounding makes finite values of the infinite ones of constraints; they are no solutions.
 TEST(EigenSolver, GivesAsManyComplexPairsAsThereAre) {
   const Chains chains{1, 8, true};

@@ -84,16 +84,21 @@ struct QuadraticPencil {
 /// axis. The same on all ranks.
 struct ComplexPairs {
   std::vector<std::complex<double>> values;
-  Eigen::MatrixXcd vectors;      ///< columns with x^H M x = 1, or |x^H C x| = 1 without mass
-  std::vector<double> rounding;  ///< what rounding of K may do to lambda^2: eps |x|^T |K| |x|
-  double worst_residual = 0.0;   ///< largest residual over the largest | |K| |x| |
+  Eigen::MatrixXcd vectors;  ///< columns with x^H M x = 1, or |x^H C x| = 1 without mass
+  /// What rounding may do to lambda^2: eps (|x|^T |K| |x| + shift^2 x^H M x).
+  std::vector<double> rounding;
+  double worst_residual = 0.0;  ///< largest residual over the largest | |K| |x| |
   std::string solver;
   std::string note;      ///< as in EigenPairs
   bool are_all = false;  ///< likewise
 };
 
+/// Whether a value of the quadratic problem is zero within what rounding may do to its square.
+bool is_zero(std::complex<double> value, double rounding);
+
 /// The eigenvalues next to the shift, a real number >= 0, by the linearised problem of twice the
-/// size and Arnoldi's method; `Anasazi` means `Spectra` here. @source formulation 5.4
+/// size and Arnoldi's method; `Anasazi` means `Spectra` here. Free motions, double values at zero,
+/// are there once. @source formulation 5.4
 ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
                              const parallel::Comm& comm);
 
