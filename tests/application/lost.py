@@ -448,6 +448,14 @@ CASES = [
          deck=sprung(entry("spring", Type="Directed Ground Spring", Node="hub", Direction="{1, 0, 0}", Stiffness="100", Offset=OFF),
                      entry("damper", Type="Directed Ground Damper", Node="hub", Direction="{1, 0, 0}", Damping="2", Offset=OFF)),
          check=swings(*[FREE] * 5, SWUNG)),
+    *(
+        Case(f"modes of a body on a {kind}Ground Damper where it stands, spring by {next(iter(spring))}", 0, args=RUN, leaves=["out"],
+             deck=sprung(entry("spring", Type=f"{kind}Ground Spring", Node="hub", **spring, **more),
+                         entry("damper", Type=f"{kind}Ground Damper", Node="hub", Damping="2", **more)),
+             check=swings(*[FREE] * (6 - axes), *[CENTRED] * axes))
+        for kind, axes, more in (("", 3, {}), ("Plane ", 2, dict(Normal="{0, 0, 1}")))
+        for spring in (dict(Stiffness="100"), dict(Elongations="{-1, 1}", Forces="{-100, 100}"))
+    ),
     Case("modes of a damped beam that flies", 0, args=RUN, leaves=["out"], ranks=True,
          change=[HEAVY, DAMPED_BEAM, (CLAMP, ""), (LOADS, ""), BEAM_MODES], check=has_free_motions_once),
     Case("a mass beside the director of a shell", 3, args=RUN,

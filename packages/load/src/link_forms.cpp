@@ -1,5 +1,8 @@
 #include "link_forms.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace culm::load {
 namespace {
 
@@ -11,6 +14,22 @@ Vec3 sum(const Vec3& constant, const model::SlotSum& factors, const LinkSlots& q
   return result;
 }
 
+// What a sum is made of.
+double size_of_terms(const Vec3& constant, const model::SlotSum& factors, const LinkSlots& q) {
+  double size = constant.norm();
+  for (std::size_t s = 0; s < factors.size(); ++s) {
+    size += std::abs(factors[s]) * q.col(static_cast<Eigen::Index>(s)).norm();
+  }
+  return size;
+}
+
+// Points that coincide but for rounding have no distance: what rounding leaves has a direction that
+// means nothing.
+bool is_rounding(const LinkForm& form, const LinkSlots& q) {
+  constexpr double roundings = 4.0 * std::numeric_limits<double>::epsilon();
+  return sum(form.p, form.alpha, q).norm() <= roundings * size_of_terms(form.p, form.alpha, q);
+}
+
 double factor(const model::SlotSum& factors, std::size_t s) {
   return factors.empty() ? 0.0 : factors[s];
 }
@@ -19,6 +38,8 @@ double factor(const model::SlotSum& factors, std::size_t s) {
 
 Vec<2> values_of(const Link& link, const LinkSlots& q) {
   Vec<2> y = Vec<2>::Zero();
+  const bool is_length = link.measure == Measure::distance || link.measure == Measure::radius;
+  if (is_length && is_rounding(link.forms.front(), q)) return y;
   for (std::size_t k = 0; k < link.forms.size(); ++k) {
     const LinkForm& form = link.forms[k];
     y[static_cast<Eigen::Index>(k)] = sum(form.p, form.alpha, q).dot(sum(form.w, form.beta, q));

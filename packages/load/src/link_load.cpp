@@ -18,6 +18,9 @@ LinkSlots link_forces(const LinkGradient& B, const Vec<2>& stress) {
   return forces;
 }
 
+// A coordinate as laws know it.
+double length_of(double z) { return z == no_length ? 0.0 : z; }
+
 }  // namespace
 
 void LinkLoad::add(Link link) {
@@ -73,11 +76,25 @@ LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
                                      const model::State& state, const Stencil& stencil) const {
   const MeasureStep step = measure_step(item.link.measure, item.prev.y, item.prev.z,
                                         values_of(item.link, next), stencil.theta);
+  const double from = length_of(item.prev.z), to = length_of(step.next);
   const auto [force, derivative, by_signal] =
-      law_->answer(item.prev.z - item.link.rest, step.next - item.link.rest, state, stencil);
+      law_->answer(from - item.link.rest, to - item.link.rest, state, stencil);
+  if (from == 0.0 && step.next == no_length && force == 0.0) {
+    return next_to_no_length(item.link.measure, derivative, step);
+  }
   return {force * step.gradient,
           force * step.derivative + derivative * step.gradient * step.slope.transpose(),
           by_signal * step.gradient, force};
+}
+
+// Of a law that is zero there: its slope acts in all directions, by the stress on a square of a
+// length, which is the same everywhere, or by its derivative.
+LinkLoad::Response LinkLoad::next_to_no_length(Measure measure, double slope,
+                                               const MeasureStep& step) {
+  const double pull = slope * no_length;
+  Response response{pull * step.gradient, Mat<2, 2>::Zero(), Vec<2>::Zero(), 0.0};
+  if (measure == Measure::radius) response.tangent = pull * step.derivative;
+  return response;
 }
 
 Verdict LinkLoad::assemble(const model::State& state, const Stencil& stencil, Want want,
@@ -181,7 +198,7 @@ double LinkLoad::stored_energy(const model::Coordinates& q) const {
     if (!placement_.owned[i]) continue;
     const Item& item = this->item(i);
     const double z = follow(item, item.prev, values_of(item.link, slots_of(item.link, q))).z;
-    energy += law_->energy((z == no_length ? 0.0 : z) - item.link.rest);
+    energy += law_->energy(length_of(z) - item.link.rest);
   }
   return energy;
 }
@@ -193,7 +210,7 @@ LinkLoad::Sample LinkLoad::sample(int item, const model::State& state) const {
   if (!placement_.owned[i]) return {};
   const Item& it = this->item(i);
   const double z = follow(it, it.prev, values_of(it.link, slots_of(it.link, state.next))).z;
-  const double u = (z == no_length ? 0.0 : z) - it.link.rest;
+  const double u = length_of(z) - it.link.rest;
   return {u, it.force ? *it.force : law_->answer(u, u, state, Stencil::statics()).force};
 }
 

@@ -11,7 +11,7 @@ double length(double square) { return std::max(std::sqrt(square), no_length); }
 // G = 1 / (2 z_theta) with the length z_theta between the ends: Dz / D(z^2) at theta = 1/2.
 void step_distance(double a, double b, double theta, MeasureStep& step) {
   const double zb = length(b);
-  const double z = (1.0 - theta) * length(a) + theta * zb;
+  const double z = (1.0 - theta) * std::sqrt(a) + theta * zb;
   step.slope[0] = 0.5 / zb;
   step.gradient[0] = 0.5 / z;
   step.derivative(0, 0) = -0.25 * theta / zb / z / z;
@@ -20,7 +20,7 @@ void step_distance(double a, double b, double theta, MeasureStep& step) {
 // G = y_theta / z_theta
 void step_radius(const Vec<2>& a, const Vec<2>& b, double theta, MeasureStep& step) {
   const double zb = length(b.squaredNorm());
-  const double z = (1.0 - theta) * length(a.squaredNorm()) + theta * zb;
+  const double z = (1.0 - theta) * a.norm() + theta * zb;
   step.slope = b / zb;
   step.gradient = ((1.0 - theta) * a + theta * b) / z;
   step.derivative = theta * (Mat<2, 2>::Identity() - step.gradient * step.slope.transpose()) / z;

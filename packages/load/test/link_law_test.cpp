@@ -282,24 +282,42 @@ TEST(AngleLink, CountsFullTurns) {
   EXPECT_EQ(one.load->stored_energy(one.state.next), energy);
 }
 
-// At no length the force has no direction but its stiffness does: k 1.
-TEST(GroundLink, HasItsStiffnessAtNoLength) {
-  for (const bool plane : {false, true}) {
-    OneLink one;
-    one.model.nodes().add(node_at(Vec3(0.25, -0.5, 1.0)));
-    one.add(std::make_unique<SpringLaw>(PiecewiseLinear({0.0, 1.0, 2.0}, {0.0, 7.0, 9.0})),
-            [plane](const NodeTable& n) {
-              return plane ? plane_ground_link(n, {0, Vec3::Zero()}, Vec3::UnitZ())
-                           : ground_link(n, {0, Vec3::Zero()}, Vec3(0.25, -0.5, 1.0));
-            });
-    for (const Stencil& stencil : {Stencil::statics(), Stencil::midpoint(0.1)}) {
-      one.dense->prepare(one.state, stencil);
-      EXPECT_EQ(kit::largest(one.dense->residual(one.state, stencil)), 0.0);
-      Mat3 expected = 7.0 * stencil.theta * Mat3::Identity();
-      if (plane) expected(2, 2) = 0.0;
-      EXPECT_LT(
-          kit::largest(one.dense->tangent(one.state, stencil).topLeftCorner<3, 3>() - expected),
-          1e-14);
+// At no length the force has no direction but its stiffness does, k 1, and so has a damper: c /
+// h 1. Rounding of the places, and whether a table has a point there, change nothing.
+TEST(GroundLink, HasStiffnessAndDampingAtNoLength) {
+  const Vec3 offset(0.07, 0.03, 0.01);
+  const Vec3 place(0.1, 0.2, 0.3);
+  const auto spring = [](std::vector<double> x, std::vector<double> F) {
+    return [=]() -> std::unique_ptr<LinkLaw> {
+      return std::make_unique<SpringLaw>(PiecewiseLinear(x, F));
+    };
+  };
+  const auto damper = []() -> std::unique_ptr<LinkLaw> {
+    return std::make_unique<DamperLaw>(PiecewiseLinear({-1.0, 1.0}, {-7.0, 7.0}));
+  };
+  const std::vector<std::function<std::unique_ptr<LinkLaw>()>> laws = {
+      spring({0.0, 1.0, 2.0}, {0.0, 7.0, 9.0}), spring({-1.0, 1.0}, {-7.0, 7.0}), damper};
+  for (std::size_t law = 0; law < laws.size(); ++law) {
+    for (const bool plane : {false, true}) {
+      OneLink one;
+      one.model.nodes().add(node_at(place));
+      one.add(laws[law](), [&](const NodeTable& n) {
+        return plane ? plane_ground_link(n, {0, offset}, Vec3::UnitZ())
+                     : ground_link(n, {0, offset}, place + offset);
+      });
+      for (const Stencil& stencil : {Stencil::statics(), Stencil::midpoint(0.1)}) {
+        one.dense->prepare(one.state, stencil);
+        EXPECT_LT(kit::largest(one.dense->residual(one.state, stencil)), 1e-14);
+        const double h = stencil.step;
+        const double slope = law < 2 ? 7.0 * stencil.theta : h > 0.0 ? 7.0 / h : 0.0;
+        Mat3 expected = slope * Mat3::Identity();
+        if (plane) expected(2, 2) = 0.0;
+        EXPECT_LT(
+            kit::largest(one.dense->tangent(one.state, stencil).topLeftCorner<3, 3>() - expected),
+            1e-13)
+            << law << plane << h;
+        EXPECT_EQ(one.load->sample(0, one.state).force, 0.0);
+      }
     }
   }
 }

@@ -15,6 +15,8 @@
 
 namespace culm::load {
 
+struct MeasureStep;
+
 /// Links that answer to one law. With the forms y(q) of a link and the discrete gradient G of its
 /// coordinate u(y), the force on the slots is
 ///   f = B(q_theta)^T G F      B = dy/dq      G . Dy = Du
@@ -82,6 +84,8 @@ class LinkLoad final : public model::Batch, public model::Booked {
   static Place follow(const Item& item, const Place& from, const Vec<2>& y);
   Response respond(const Item& item, const Motion::Slots& next, const model::State& state,
                    const Stencil& stencil) const;
+  /// Where a step begins and ends without length. @param slope  of the law
+  static Response next_to_no_length(Measure measure, double slope, const MeasureStep& step);
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         bool tangent, model::Target& target);
