@@ -431,6 +431,16 @@ DAMPED_BEAM = ('<Parameter name="Section" value="bar"/>',
                '<Parameter name="Section" value="bar"/><Parameter name="Damping" value="1e-5"/>')
 
 
+def spun(speed):
+    """A body on springs that turns about an axis of its own, then its modes."""
+    stiffness = "{" + ", ".join("0" if i != j or i == 5 else "100" for i in range(6) for j in range(6)) + "}"
+    return FALLING % (
+        listed("Loads", entry("mount", Type="Restoring", Node="hub", Stiffness=stiffness))
+        + listed("Initial Conditions", turning("hub", speed))
+        + listed("Analyses", entry("spin", Type="Dynamic", End_Time="0.01", Step="1e-3"),
+                 entry("modes", Type="Modal", Modes="6", Damping="true")))
+
+
 def has_free_motions_once(folder, _):
     with open(folder / "out/analyses/modes/modes.csv", newline="") as file:
         frequencies = [float(row["frequency [Hz]"]) for row in csv.DictReader(file)]
@@ -456,6 +466,9 @@ CASES = [
         for kind, axes, more in (("", 3, {}), ("Plane ", 2, dict(Normal="{0, 0, 1}")))
         for spring in (dict(Stiffness="100"), dict(Elongations="{-1, 1}", Forces="{-100, 100}"))
     ),
+    Case("modes of a body that turns slowly", 0, args=RUN, leaves=["out"], deck=spun("1e-3")),
+    Case("modes of a body that turns fast", 0, args=RUN, leaves=["out"], deck=spun("20"), ranks=True,
+         says=["warning: the state is in motion and turns by up to 20 rad/s, but modes are those of a structure that stands still "]),
     Case("modes of a damped beam that flies", 0, args=RUN, leaves=["out"], ranks=True,
          change=[HEAVY, DAMPED_BEAM, (CLAMP, ""), (LOADS, ""), BEAM_MODES], check=has_free_motions_once),
     Case("a mass beside the director of a shell", 3, args=RUN,

@@ -30,6 +30,21 @@ constexpr double least_asymmetry = 1e-12;
 // Where hidden frequencies reach this share of the lowest one, that is off by 1e-3 and more.
 constexpr double notable_share = 0.3;
 
+// Of the lowest frequency, that a state may turn with before its modes see it.
+constexpr double notable_turning = 1e-2;
+
+// How fast directors of this rank turn, at most [rad/s].
+double fastest_turn(const model::State& state) {
+  if (state.velocity.empty()) return 0.0;
+  double fastest = 0.0;
+  const auto nodes = static_cast<int>(state.velocity.size() / 12);
+  for (int node = 0; node < nodes; ++node) {
+    const auto rates = model::NodeTable::slots(state.velocity, node).rightCols<3>();
+    fastest = std::max(fastest, rates.colwise().norm().maxCoeff());
+  }
+  return fastest;
+}
+
 // Multiplies a vector, whose factor is arbitrary, so that the largest displacement, or else the
 // largest rotation, is positive and real. Of components that differ by rounding the first decides.
 void fix_phase(Shape& shape) {
@@ -141,6 +156,7 @@ class Finder {
     }
     if (!settings_.expects_zero) warn_of_rounding();
     warn_of_relaxation();
+    warn_of_motion();
     const ModeMasses masses(context_.system.model(), state_);
     set_.total = masses.total();
     for (std::size_t i = 0; i < set_.modes.size(); ++i) {
@@ -352,6 +368,24 @@ class Finder {
         "relaxation",
         "frequencies are those of the lasting stiffness, without the branches of "
         "'Relaxation' and the lag of air; 'Damping' = true counts them",
+        state_.time);
+  }
+
+  // Velocities of the state have no part in the equations.
+  void warn_of_motion() const {
+    const double turning = context_.system.comm().max(fastest_turn(state_));
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Mode& mode : set_.modes) {
+      if (!mode.is_zero()) lowest = std::min(lowest, std::abs(mode.eigenvalue));
+    }
+    if (!(turning > notable_turning * lowest)) return;
+    context_.findings.warn(
+        "no equilibrium",
+        fmt::format(
+            "the state is in motion and turns by up to {:.3g} rad/s, but modes are those of "
+            "a structure that stands still there, without gyroscopic and centrifugal "
+            "forces: describe what turns in a 'Rotating Frame'",
+            turning),
         state_.time);
   }
 
