@@ -95,6 +95,9 @@ std::optional<double> clear_shift(const Eigen::VectorXd& nu, double shift) {
   return std::nullopt;
 }
 
+constexpr const char* reduced_whole =
+    "the Krylov space did not hold the eigenvalues, so whole matrices were reduced";
+
 // By the method of the result, or else by whole matrices.
 InvertedPairs solve(const ShiftedPencil& op, int count, EigenPairs& result) {
   InvertedPairs pairs;
@@ -104,8 +107,7 @@ InvertedPairs solve(const ShiftedPencil& op, int count, EigenPairs& result) {
     // where all values are one, what is found may be no number
     if (pairs.nu.size() > 0 && pairs.nu.allFinite() && pairs.vectors.allFinite()) return pairs;
     if (op.inverse.size() > largest_dense) throw_unconverged(pairs.convergence, count);
-    add_note("the Krylov space did not hold the eigenvalues, so whole matrices were reduced",
-             result.note);
+    add_note(reduced_whole, result.note);
     result.solver = "Dense";
   }
   return solve_dense(op);
@@ -169,7 +171,13 @@ EigenPairs solve_at(const SymmetricPencil& pencil, const EigenSettings& settings
                                      (Ax - result.values[i] * Bx).lpNorm<Eigen::Infinity>() / size);
   }
   constexpr double useless = 1e-3;  // sound vectors have 1e-8 and less
-  if (result.worst_residual > useless) throw_broken_down();
+  if (result.worst_residual <= useless) return result;
+  // of values that are all one a space that is exhausted may give numbers that mean nothing
+  if (result.solver == "Dense" || inverse.size() > largest_dense) throw_broken_down();
+  EigenSettings whole = settings;
+  whole.solver = "Dense";
+  result = solve_at(pencil, whole, comm, may_move);
+  add_note(reduced_whole, result.note);
   return result;
 }
 
