@@ -441,6 +441,31 @@ def spun(speed):
                  entry("modes", Type="Modal", Modes="6", Damping="true")))
 
 
+def sheet(size, damping):
+    """Modes of a sheet of this size [m], with damping."""
+    deck = SHEET % (SUPPORTED + listed("Analyses", entry("modes", Type="Modal", Modes="6", Damping="true")))
+    for old, new in (("0.01", f"{0.01 * size:g}"), ("{1, 0, 0}", f"{{{size:g}, 0, 0}}"), ("{0, 0.2, 0}", f"{{0, {0.2 * size:g}, 0}}"),
+                     ('"Density" value="8000"/>', f'"Density" value="8000"/><Parameter name="Damping" value="{damping:g}"/>')):
+        assert deck.count(old) == 1
+        deck = deck.replace(old, new)
+    return deck
+
+
+def has_sheet_modes(size):
+    """Frequencies in proportion to 1 / size, and ratios of half the damping times the circular frequency."""
+
+    def check(folder, _):
+        with open(folder / "out/analyses/modes/modes.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        found = [float(row["frequency [Hz]"]) * size for row in rows]
+        ratios = [float(row["damping ratio"]) / (math.pi * 1e-6 * f) for row, f in zip(rows, found)]
+        wanted = (8.2431647, 59.893353, 83.353286, 160.38595, 230.81902, 277.82638)
+        same = len(found) == 6 and all(abs(f / g - 1.0) < 1e-6 for f, g in zip(found, wanted))
+        return "" if same and max(abs(ratio - 1.0) for ratio in ratios) < 1e-3 else f"{found}, ratios {ratios}"
+
+    return check
+
+
 def has_free_motions_once(folder, _):
     with open(folder / "out/analyses/modes/modes.csv", newline="") as file:
         frequencies = [float(row["frequency [Hz]"]) for row in csv.DictReader(file)]
@@ -465,6 +490,11 @@ CASES = [
              check=swings(*[FREE] * (6 - axes), *[CENTRED] * axes))
         for kind, axes, more in (("", 3, {}), ("Plane ", 2, dict(Normal="{0, 0, 1}")))
         for spring in (dict(Stiffness="100"), dict(Elongations="{-1, 1}", Forces="{-100, 100}"))
+    ),
+    *(
+        Case(f"damped modes of a sheet of {size:g} m", 0, args=RUN, leaves=["out"], deck=sheet(size, 1e-6 * size),
+             check=has_sheet_modes(size))
+        for size in (1.0, 1e-2, 1e-4)
     ),
     Case("modes of a body that turns slowly", 0, args=RUN, leaves=["out"], deck=spun("1e-3")),
     Case("modes of a body that turns fast", 0, args=RUN, leaves=["out"], deck=spun("20"), ranks=True,

@@ -39,8 +39,10 @@ Eigen::VectorXcd product(const ShiftInvert& inverse, const assembly::Matrix& A,
   return real + Complex(0.0, 1.0) * imaginary;
 }
 
-// With z = (x, lambda x): (z', lambda z') = 1 / (lambda - s) in
-//   -(K + s C + s^2 M) x' = M z_2 + (C + s M) z_1,   z_2' = z_1 + s x'
+// With z = (x, lambda x / u): (z', lambda z') = 1 / (lambda - s) in
+//   -(K + s C + s^2 M) x' = M u z_2 + (C + s M) z_1,   z_2' = (z_1 + s x') / u
+// The unit u is near the lowest lambda, so that both parts are of one size: else one of them is
+// rounding beside the other where frequencies are high.
 class Linearised {
  public:
   Linearised(const QuadraticPencil& pencil, const EigenSettings& settings,
@@ -53,29 +55,31 @@ class Linearised {
                  settings.linear_solver, comm),
         mass_(inverse_.size()),
         damping_(inverse_.size()),
-        sum_(inverse_.size()) {}
+        sum_(inverse_.size()) {
+    choose_unit();
+  }
 
   int size() const { return inverse_.size(); }
   const ShiftInvert& inverse() const { return inverse_; }
 
   void apply(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> result) {
     const Eigen::Index n = size();
-    sum_ = z.tail(n) + shift_ * z.head(n);
+    sum_ = unit_ * z.tail(n) + shift_ * z.head(n);
     inverse_.multiply(*pencil_.M, sum_, mass_);
     inverse_.multiply(*pencil_.C, z.head(n), damping_);
     sum_ = -mass_ - damping_;
     inverse_.solve(sum_, result.head(n));
-    result.tail(n) = z.head(n) + shift_ * result.head(n);
+    result.tail(n) = (z.head(n) + shift_ * result.head(n)) / unit_;
   }
 
   // One more application takes away what has neither mass nor damping in a vector.
   Eigen::VectorXcd finish(const Eigen::VectorXcd& x, Complex value) {
     Eigen::VectorXd part(2 * size()), result(2 * size());
     Eigen::VectorXcd finished(size());
-    part << x.real(), (value * x).real();
+    part << x.real(), (value / unit_ * x).real();
     apply(part, result);
     finished.real() = result.head(size());
-    part << x.imag(), (value * x).imag();
+    part << x.imag(), (value / unit_ * x).imag();
     apply(part, result);
     finished.imag() = result.head(size());
     const double mass = finished.dot(product(inverse_, *pencil_.M, finished)).real();
@@ -93,8 +97,27 @@ class Linearised {
   }
 
  private:
+  // By a few steps of the power method for 1 / lambda^2; a power of two, which rounds nothing.
+  void choose_unit() {
+    constexpr int steps = 4;
+    Eigen::VectorXd x(size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(static_cast<double>(i) + 1.0);
+    inverse_.multiply(*pencil_.M, x, mass_);
+    for (int i = 0; i < steps; ++i) {
+      const double before = x.dot(mass_);
+      inverse_.solve(mass_, x);
+      inverse_.multiply(*pencil_.M, x, mass_);
+      const double growth = std::sqrt(x.dot(mass_) / before);
+      if (!std::isfinite(growth) || growth == 0.0) return;
+      x /= growth;
+      mass_ /= growth;
+      unit_ = std::exp2(std::round(-0.5 * std::log2(growth)));
+    }
+  }
+
   const QuadraticPencil& pencil_;
   double shift_;
+  double unit_ = 1.0;
   ShiftInvert inverse_;
   Eigen::VectorXd mass_, damping_, sum_;
 };

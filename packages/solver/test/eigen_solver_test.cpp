@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -327,6 +328,33 @@ TEST_P(EachEigenSolver, FindsFreeMotionsOnceBesideDampedOnes) {
     const Eigen::MatrixXcd unit = free.adjoint() * chains.mass() * free;
     EXPECT_LT((unit - Eigen::MatrixXcd::Identity(chains.count, chains.count)).norm(), 1e-8);
     EXPECT_LT((chains.stiffness() * free).norm(), 1e-8);
+  }
+}
+
+TEST_P(EachEigenSolver, IsAsExactWithDampingWhateverTheUnitOfTime) {
+  for (const bool held : {true, false}) {
+    const Chains chains{2, 80, held};
+    const Pencil pencil(chains);
+    const double b = 0.01;
+    for (double unit : {1.0, 1e-4, 1e5, 1e9}) {
+      const auto K = scaled(*pencil.matrices().A, unit * unit);
+      const auto C = scaled(*pencil.matrices().B, b * unit);
+      const auto M = pencil.matrices().B;
+      const ComplexPairs pairs =
+          solve_quadratic({K, C, M}, settings(8, 1e-5 * unit), pencil.comm());
+      ASSERT_EQ(pairs.values.size(), 8U);
+      for (int i = 0; i < 8; ++i) {
+        const double square = chains.value(i / 2);
+        if (square < 1e-12) continue;  // in each copy 0 and -b
+        const std::complex<double> root = std::sqrt(std::complex<double>(0.25 * b * b - square));
+        const std::complex<double> wanted = -0.5 * b + root;
+        const bool is_there = std::ranges::any_of(pairs.values, [&](std::complex<double> value) {
+          return std::abs(value / unit - wanted) < 1e-9;
+        });
+        EXPECT_TRUE(is_there || i / 2 > 1) << GetParam() << held << unit << wanted;
+      }
+      EXPECT_LT(pairs.worst_residual, 1e-9);
+    }
   }
 }
 
