@@ -113,29 +113,43 @@ void remove_branches(const assembly::System& system, const std::vector<LinearBra
   }
 }
 
-// Velocities are differences of coordinates over the step, so the damping is what of the tangent
-// falls as 1 / step. Everything else is the same to the last bit, but for branches, which are
-// known.
-std::shared_ptr<Matrix> find_damping(assembly::System& system, const model::State& state,
-                                     const std::vector<LinearBranches>& branches) {
-  constexpr double long_step = 1.0;
-  constexpr double short_step = 0.5;
-  std::shared_ptr<Matrix> damping;
+// What of the tangent a step of half the length has more, which is damping over the length.
+std::shared_ptr<Matrix> find_gain(assembly::System& system, const model::State& state,
+                                  const std::vector<LinearBranches>& branches, double long_step) {
+  const double short_step = 0.5 * long_step;
+  std::shared_ptr<Matrix> gain;
   for (const double step : {long_step, short_step}) {
     const Stencil stencil{step, 1.0, 1.0, 0.0};
     system.prepare(state, stencil);
     system.evaluate(state, stencil, Want::residual_and_tangent);
     const auto tangent = system.matrix()->values();
-    if (!damping) {
-      damping = std::make_shared<Matrix>(*system.matrix());
+    if (!gain) {
+      gain = std::make_shared<Matrix>(*system.matrix());
       continue;
     }
-    const auto values = damping->values();
+    const auto values = gain->values();
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = tangent[k] - values[k];
   }
-  remove_branches(system, branches, long_step, short_step, *damping);
-  remove_border(system, Keep::states, *damping);
-  if (largest_entry(system, *damping) == 0.0) return nullptr;
+  remove_branches(system, branches, long_step, short_step, *gain);
+  remove_border(system, Keep::states, *gain);
+  return gain;
+}
+
+// Velocities are differences of coordinates over the step, so the damping is what of the tangent
+// falls as 1 / step. Everything else is the same to the last bit, but for branches, which are
+// known. Where the damping is little beside the stiffness, as at high frequencies, it would be
+// rounding of it: then once more with a step, a power of two, that makes both of one size.
+std::shared_ptr<Matrix> find_damping(assembly::System& system, const model::State& state,
+                                     const std::vector<LinearBranches>& branches) {
+  constexpr double little = 1e-3;
+  std::shared_ptr<Matrix> damping = find_gain(system, state, branches, 1.0);
+  const double size = largest_entry(system, *damping);
+  if (size == 0.0) return nullptr;
+  const double share = size / largest_entry(system, *system.matrix());
+  if (share >= little) return damping;
+  const double step = std::exp2(std::floor(std::log2(share)));
+  damping = find_gain(system, state, branches, step);
+  for (double& value : damping->values()) value *= step;
   return damping;
 }
 
