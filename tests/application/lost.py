@@ -496,6 +496,9 @@ CASES = [
              check=has_sheet_modes(size))
         for size in (1.0, 1e-2, 1e-4)
     ),
+    Case("modes of a body that nothing but a brake holds", 0, args=RUN, leaves=["out"],
+         deck=sprung(entry("brake", Type="Rotation Damper", Node="hub", Axis="{0, 0, 1}", Damping="0.5"), modes=7),
+         check=swings(*[FREE] * 6, (0.0, 1.0))),
     Case("modes of a body that turns slowly", 0, args=RUN, leaves=["out"], deck=spun("1e-3")),
     Case("modes of a body that turns fast", 0, args=RUN, leaves=["out"], deck=spun("20"), ranks=True,
          says=["warning: the state is in motion and turns by up to 20 rad/s, but modes are those of a structure that stands still "]),

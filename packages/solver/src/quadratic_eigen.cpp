@@ -200,7 +200,10 @@ class Judge {
         {terms.maxCoeff(), rates.lpNorm<Eigen::Infinity>(), inertia.lpNorm<Eigen::Infinity>()});
     // a motion that nothing resists has only rounding in its terms
     const double stiff = stiffness_ * x.lpNorm<Eigen::Infinity>();
-    if (std::abs(value) <= shift_ && size < unresisted * stiff) size = stiff;
+    if (std::abs(value) <= shift_) {
+      if (size < unresisted * stiff) size = stiff;
+      size = std::max(size, shift_ * shift_ * momentum.lpNorm<Eigen::Infinity>());
+    }
     const double mass = x.dot(momentum).real();
     return {rest.lpNorm<Eigen::Infinity>() / size,
             eps * (x.cwiseAbs().dot(terms) + shift_ * shift_ * mass)};
