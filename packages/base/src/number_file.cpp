@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace culm {
 namespace {
@@ -38,7 +39,10 @@ std::vector<double> find_numbers(std::string_view text) {
 std::string read_number_lines(const std::string& name, const Where& where,
                               const std::function<void(const NumberLine&)>& take) {
   std::string path = (std::filesystem::path(where.file).parent_path() / name).string();
-  std::istringstream file(read_file(path, where));
+  std::string whole = read_file(path, where);
+  // spreadsheets begin with this mark of UTF-8
+  if (whole.starts_with("\xEF\xBB\xBF")) whole.erase(0, 3);
+  std::istringstream file(std::move(whole));
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;

@@ -23,5 +23,15 @@ TEST(NumberLines, HoldNumbersOrNothing) {
   for (std::size_t i : {2U, 3U, 4U}) EXPECT_TRUE(lines[i].numbers.empty()) << lines[i].text;
 }
 
+TEST(NumberLines, MayBeginWithTheMarkOfUtf8) {
+  const kit::TemporaryFolder folder;
+  std::ofstream(folder / "table.csv") << "\xEF\xBB\xBF"
+                                         "1, 2\r\n3, 4\r\n";
+  std::vector<std::vector<double>> lines;
+  read_number_lines("table.csv", {(folder / "deck.xml").string(), 3, "File Name"},
+                    [&](const NumberLine& line) { lines.push_back(line.numbers); });
+  EXPECT_EQ(lines, (std::vector<std::vector<double>>{{1.0, 2.0}, {3.0, 4.0}}));
+}
+
 }  // namespace
 }  // namespace culm
