@@ -8,6 +8,7 @@
 #include "doubts.hpp"
 #include "load_watch.hpp"
 #include "port_picture.hpp"
+#include "port_rates.hpp"
 #include "simulation_parts.hpp"
 
 #include <fmt/format.h>
@@ -66,6 +67,11 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   Phase& phase = p.phases.enter(number, p.comm, p.ledger);
   hand_over_loads(before, phase);
   p.findings.begin(entries[number].name());
+  if (!phase.ports.empty()) {
+    for (const std::string& sentence : rates_of_another_scheme(entries[number])) {
+      p.findings.warn("port", sentence, p.state.time);
+    }
+  }
   p.context.emplace(
       analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});
   phase.system->synchronise(p.state);

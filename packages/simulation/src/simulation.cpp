@@ -8,6 +8,7 @@
 
 #include "doubts.hpp"
 #include "port_picture.hpp"
+#include "port_rates.hpp"
 #include "run_observer.hpp"
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
@@ -195,6 +196,11 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
     warn_before(p.deck, entries[i], *phase.model, state, p.findings);
+    if (coupled != nullptr || served != nullptr) {
+      for (const std::string& sentence : rates_of_another_scheme(entries[i])) {
+        p.findings.warn("port", sentence, state.time);
+      }
+    }
     analysis::AnalysisReport report;
     try {
       report = run_analysis(entries[i], context, state, observer, coupled, served,

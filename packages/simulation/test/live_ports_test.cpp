@@ -182,6 +182,22 @@ TEST(LivePorts, ReadsRatesOfTheOpenStep) {
   }
 }
 
+TEST(LivePorts, RatesThatAreOthersThanThoseOfTheSchemeAreTold) {
+  const auto said = [](const std::string& lists, const char* scheme) {
+    std::string deck = beam_deck(clamp + lists);
+    const std::string dynamic = R"("Dynamic"/>)";
+    deck.insert(deck.find(dynamic) + dynamic.size(),
+                std::string(R"(<Parameter name="Scheme" value=")") + scheme + R"("/>)");
+    Live live(deck);
+    live.simulation.begin("motion");
+    return live.said.str();
+  };
+  const char* words = "ports show velocities and accelerations";
+  EXPECT_THAT(said(end_port, "Generalised Alpha"), HasSubstr(words));
+  EXPECT_THAT(said(end_port, "Trapezoidal"), Not(HasSubstr(words)));
+  EXPECT_THAT(said("", "Generalised Alpha"), Not(HasSubstr(words)));
+}
+
 TEST(LivePorts, APortThatAProgramAddsIsThatOfADeck) {
   Live added(beam_deck(clamp)), written(beam_deck(clamp + ring_port));
   added.simulation.add_port("skin", {ring, {"beam"}, 0.2});
