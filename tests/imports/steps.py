@@ -47,6 +47,23 @@ def held(made, node, step):
     }
 
 
+def names():
+    """A set that is called as a load: what acts in a step is told by names, of supports and loads alike."""
+    made = steps(
+        "*static\n*boundary\nforce,2\nforce,3\n*cload\n2,2,1000\n",
+        "*static\n*boundary,op=new\n1,1,6\n*cload,op=new\n3,2,1000\n2,3,1\n",
+        base=BAR.replace("*material", "*nset,nset=force\n3\n*material", 1).replace("b21", "b31"),
+    )
+    lists = {one.name: one.lists() for one in made.deck.root.lists()}
+    constraints = {one.name for one in lists["Constraints"]}
+    loads = {one.name for one in lists["Loads"]}
+    idle = [dict(item[:2] for item in one.items if isinstance(item, tuple))["Inactive"] for one in lists["Analyses"]]
+    idle = [{name.strip() for name in text.strip("{}").split(",")} for text in idle]
+    yield "supports and loads have names of their own", not constraints & loads
+    yield "supports hold in their step", idle[1] & constraints == {"force 1", "force 2"} and not idle[0] & constraints
+    yield "loads act in theirs", len(idle[0] & loads) == 2 and len(idle[1] & loads) == 1
+
+
 def goes_on():
     for format in BOTH:
         anew = steps("*static\n*cload\n3,1,7\n", "*static\n*cload,op=new\n3,1,1\n*cload,op=new\n3,2,2\n", format=format)
@@ -226,7 +243,7 @@ REFUSED = {
 
 def main():
     complaints = []
-    for facts in (goes_on, perturbs, stays_in_plane, has_axes, counts_once, holds_between, loads_both, makes_nodes, leaves_out, has_sections):
+    for facts in (goes_on, names, perturbs, stays_in_plane, has_axes, counts_once, holds_between, loads_both, makes_nodes, leaves_out, has_sections):
         complaints += [f"{facts.__name__}: {name}: does not hold" for name, holds in facts() if not holds]
     complaints += not_refused(REFUSED)
     sys.exit("\n".join(complaints) or 0)

@@ -49,7 +49,7 @@ class Deck:
         node_sets = self.root.list("Node Sets")
         element_sets = self.root.list("Element Sets")
         masses = self.root.list("Masses")
-        constraints = self.root.list("Constraints")
+        self.constraints = constraints = self.root.list("Constraints")
         loads = self.root.list("Loads")
         self._add_masses(masses)
         self._add_connections(constraints)
@@ -278,6 +278,10 @@ class Deck:
                 entry = constraints.list(name, f"{coupling.place}", "Rigid Connection")
                 entry.add("Node", self.places.one_name(nodes, name)).add("Master", master)
 
+    def _load_name(self, load, loads):
+        """Another one than those of constraints, too: Inactive names both."""
+        return unique_name(load.name, {one.name for one in (*loads.lists(), *self.constraints.lists())})
+
     def _add_node_loads(self, loads):
         for load in self.model.node_loads:
             groups = collections.defaultdict(list)
@@ -291,7 +295,7 @@ class Deck:
                         continue
                     if kind == "Moment":
                         self._tell_lost_moments(nodes, vector, load)
-                    name = unique_name(load.name, {one.name for one in loads.lists()})
+                    name = self._load_name(load, loads)
                     entry = loads.list(name, f"{load.place}", kind)
                     entry.add("Node", self.places.one_name(nodes, load.name)).add(kind, vector / copies)
                     self.inactive[name] = load.steps
@@ -308,7 +312,7 @@ class Deck:
     def _add_element_loads(self, loads, element_sets):
         for load in self.model.element_loads:
             if load.kind == "gravity":
-                name = unique_name(load.name, {one.name for one in loads.lists()})
+                name = self._load_name(load, loads)
                 entry = loads.list(name, f"{load.place}", "Gravity").add("Acceleration", numpy.array(load.value, float))
                 entry.add("Function", "Ramp")
                 self.inactive[name] = load.steps
@@ -339,7 +343,7 @@ class Deck:
                 target = f"{part.name}/{group}"
             for i in which:
                 load = on_shells[i]
-                name = unique_name(load.name, {one.name for one in loads.lists()})
+                name = self._load_name(load, loads)
                 kind = "Pressure" if load.kind == "pressure" else "Surface Force"
                 entry = loads.list(name, f"{load.place}", kind).add("Structure", target)
                 if load.kind == "pressure":
@@ -353,7 +357,7 @@ class Deck:
         segments = [i for i, element in enumerate(chain.elements) if element in members]
         if not segments:
             return
-        name = unique_name(load.name, {one.name for one in loads.lists()})
+        name = self._load_name(load, loads)
         target = chain.name
         if len(segments) < len(chain.elements):
             target = unique_name(f"{load.name} on {chain.name}", {one.name for one in element_sets.lists()})
