@@ -16,21 +16,27 @@
 namespace culm::simulation {
 namespace {
 
-void add_names(const Options& list, std::vector<std::string>& names) {
-  for (const Options& entry : list.entries()) names.push_back(entry.name());
-}
-
 Inactive read_inactive(const Options& deck, const Options& analysis) {
   std::vector<std::string> known;
-  add_names(deck.list("Loads"), known);
-  add_names(deck.list("Constraints"), known);
-  add_names(deck.list("Imperfections"), known);
+  std::map<std::string, std::vector<std::string>> lists;  // by the names of their entries
+  for (const char* list : {"Loads", "Constraints", "Imperfections"}) {
+    for (const Options& entry : deck.list(list).entries()) {
+      known.push_back(entry.name());
+      lists[entry.name()].emplace_back(list);
+    }
+  }
   Inactive inactive;
   for (const std::string& name : analysis.texts("Inactive")) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    const auto found = lists.find(name);
+    if (found == lists.end()) {
       throw InputError(analysis.where("Inactive"),
                        "there is no load, constraint or imperfection '" + name + "'" +
                            did_you_mean(name, known));
+    }
+    if (found->second.size() > 1) {
+      throw InputError(analysis.where("Inactive"),
+                       "'" + name + "' stands in the lists " + found->second[0] + " and " +
+                           found->second[1] + ", and both would not act; rename one of them");
     }
     inactive.insert(name);
   }

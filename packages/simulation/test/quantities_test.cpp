@@ -1,4 +1,6 @@
 #include <culm/base/absent.hpp>
+#include <culm/base/error.hpp>
+#include <culm/base/snapshot.hpp>
 
 #include "live_deck.hpp"
 
@@ -9,6 +11,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace culm::simulation {
 namespace {
@@ -210,6 +213,29 @@ TEST(Columns, OfNodesThatAreCalledAsALoadHaveNumbersWhereThatDoesNotAct) {
   watching.run("one", [] {});
   EXPECT_GT(both, 1e-3);
   EXPECT_NEAR(watching["top ux"], 0.5 * both, 1e-3 * both);
+}
+
+TEST(Inactive, IsOneThingOfItsName) {
+  const auto deck = [](const std::string& support) {
+    return list(
+        "culm",
+        list("Sections", bar) + list("Structures", beam("mast", "{0, 0, 0}", "{0, 0, 1}", 1)) +
+            list("Constraints",
+                 typed("foot", "Rigid Support", set("Node", "mast/first")) +
+                     typed(support, "Simple Support",
+                           set("Node", "mast/last") + set("Direction", "{1, 0, 0}"))) +
+            list("Loads",
+                 typed("push", "Force", set("Node", "mast/last") + set("Force", "{0, 1, 0}"))) +
+            list("Analyses", typed("rest", "Static", set("Inactive", "{push}"))));
+  };
+  EXPECT_NO_THROW(Live live(deck("prop")));
+  try {
+    const Live live(deck("push"));
+    ADD_FAILURE() << "both would not act";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'push' stands in the lists Loads and Constraints"),
+              std::string::npos);
+  }
 }
 
 // Readers find columns by name and unit, sensors by name.
