@@ -55,14 +55,27 @@ std::string& error_without_simulation() {
   return text;
 }
 
+void require(bool holds, const char* what) {
+  if (!holds) throw UsageError(what);
+}
+
+std::string name_of(const char* text) {
+  require(text != nullptr, "there is no name: it is NULL");
+  return text;
+}
+
 std::vector<std::string> texts(const char* const* values, int count) {
+  require(values != nullptr || count == 0, "there are no texts: the array is NULL");
   std::vector<std::string> result;
-  for (int i = 0; i < count; ++i) result.emplace_back(values[i]);
+  for (int i = 0; i < count; ++i) result.push_back(name_of(values[i]));
   return result;
 }
 
-void require(bool holds, const char* what) {
-  if (!holds) throw UsageError(what);
+// Writes a result to where the caller wants it.
+template <class T>
+void put(T value, T* place) {
+  require(place != nullptr, "there is no place for the result: it is NULL");
+  *place = std::move(value);
 }
 
 // Runs a body, keeps what it throws as text, and returns its code.
@@ -210,29 +223,33 @@ int culm_begin(culm_simulation* simulation, const char* analysis) {
 }
 
 int culm_time(culm_simulation* simulation, double* time) {
-  return with(simulation, [&](culm_simulation& s) { *time = s.stepper().time(); });
+  return with(simulation, [&](culm_simulation& s) { put(s.stepper().time(), time); });
 }
 
 int culm_proposal(culm_simulation* simulation, double* target) {
-  return with(simulation, [&](culm_simulation& s) { *target = s.stepper().proposal(); });
+  return with(simulation, [&](culm_simulation& s) { put(s.stepper().proposal(), target); });
 }
 
 int culm_is_at_end(culm_simulation* simulation, int* is_at_end) {
-  return with(simulation, [&](culm_simulation& s) { *is_at_end = s.stepper().is_at_end(); });
+  return with(simulation, [&](culm_simulation& s) {
+    put(static_cast<int>(s.stepper().is_at_end()), is_at_end);
+  });
 }
 
 int culm_final_time(culm_simulation* simulation, double* time) {
-  return with(simulation, [&](culm_simulation& s) { *time = s.stepper().final_time(); });
+  return with(simulation, [&](culm_simulation& s) { put(s.stepper().final_time(), time); });
 }
 
 int culm_is_exhausted(culm_simulation* simulation, int* is_exhausted) {
-  return with(simulation, [&](culm_simulation& s) { *is_exhausted = s.stepper().is_exhausted(); });
+  return with(simulation, [&](culm_simulation& s) {
+    put(static_cast<int>(s.stepper().is_exhausted()), is_exhausted);
+  });
 }
 
 int culm_broken_promises(culm_simulation* simulation, const char** text) {
   return with(simulation, [&](culm_simulation& s) {
     s.broken = s.simulation.broken_promises();
-    *text = s.broken.c_str();
+    put(s.broken.c_str(), text);
   });
 }
 
@@ -263,7 +280,8 @@ int culm_save(culm_simulation* simulation, culm_snapshot** snapshot) {
   return with(simulation, [&](culm_simulation& s) {
     auto saved = std::make_unique<culm_snapshot>(culm_snapshot{&s, s.taken_up});
     s.stepper().save(saved->snapshot);
-    *snapshot = saved.release();
+    put(saved.get(), snapshot);
+    static_cast<void>(saved.release());
   });
 }
 
@@ -281,7 +299,7 @@ void culm_snapshot_free(culm_snapshot* snapshot) { delete snapshot; }
 int culm_set_load(culm_simulation* simulation, const char* load, const double* numbers, int size) {
   return with(simulation, [&](culm_simulation& s) {
     const auto all = values(numbers, size, "there are no loads: the array is NULL");
-    s.simulation.set_load(load, {all.begin(), all.end()});
+    s.simulation.set_load(name_of(load), {all.begin(), all.end()});
   });
 }
 
@@ -292,13 +310,13 @@ int culm_add_port(culm_simulation* simulation, const char* port, const double* x
     culm::port::Cloud cloud{{all.begin(), all.end()}, texts(structures, count)};
     if (!(reach <= 0.0)) cloud.reach = reach;  // what is no number, too: it is refused
     if (smooth != 0) cloud.weights = culm::port::Weights::smooth;
-    s.simulation.add_port(port, std::move(cloud));
+    s.simulation.add_port(name_of(port), std::move(cloud));
   });
 }
 
 int culm_port_count(culm_simulation* simulation, int* count) {
   return with(simulation, [&](culm_simulation& s) {
-    *count = static_cast<int>(s.simulation.port_names().size());
+    put(static_cast<int>(s.simulation.port_names().size()), count);
   });
 }
 
@@ -310,17 +328,18 @@ int culm_port_name(culm_simulation* simulation, int number, const char** name) {
                        std::to_string(names.size()));
     }
     s.port_name = names[static_cast<std::size_t>(number)];
-    *name = s.port_name.c_str();
+    put(s.port_name.c_str(), name);
   });
 }
 
 int culm_port_size(culm_simulation* simulation, const char* port, int* points) {
-  return with(simulation, [&](culm_simulation& s) { *points = s.simulation.port(port).size(); });
+  return with(simulation,
+              [&](culm_simulation& s) { put(s.simulation.port(name_of(port)).size(), points); });
 }
 
 int culm_port_reference(culm_simulation* simulation, const char* port, double* numbers, int size) {
   return with(simulation, [&](culm_simulation& s) {
-    copy(s.simulation.port(port).reference(), numbers, size);
+    copy(s.simulation.port(name_of(port)).reference(), numbers, size);
   });
 }
 
@@ -336,7 +355,8 @@ int culm_port_read(culm_simulation* simulation, const char* port, int quantity, 
         all[CULM_ACCELERATION] == Quantity::acceleration && all[CULM_MOTION] == Quantity::motion);
     require(quantity >= 0 && quantity < static_cast<int>(all.size()),
             "there is no such quantity of a port");
-    copy(s.simulation.read_port(port, all[static_cast<std::size_t>(quantity)]), numbers, size);
+    copy(s.simulation.read_port(name_of(port), all[static_cast<std::size_t>(quantity)]), numbers,
+         size);
   });
 }
 
@@ -344,7 +364,7 @@ int culm_port_set(culm_simulation* simulation, const char* port, const double* f
                   const double* moments, int points) {
   return with(simulation, [&](culm_simulation& s) {
     s.simulation.set_port(
-        port, values(forces, 3 * points, "there are no forces: the array is NULL"),
+        name_of(port), values(forces, 3 * points, "there are no forces: the array is NULL"),
         moments == nullptr ? std::span<const double>() : values(moments, 3 * points, ""));
   });
 }
@@ -360,14 +380,14 @@ int culm_port_set_pressure(culm_simulation* simulation, const char* port, const 
     const auto numbers = [&](const double* given, int each) {
       return given == nullptr ? std::span<const double>() : values(given, each * faces, "");
     };
-    s.simulation.set_port_pressure(port, all, numbers(pressure, 1), numbers(traction, 3));
+    s.simulation.set_port_pressure(name_of(port), all, numbers(pressure, 1), numbers(traction, 3));
   });
 }
 
 int culm_port_exchange(culm_simulation* simulation, const char* port, double* work, double force[3],
                        double moment[3]) {
   return with(simulation, [&](culm_simulation& s) {
-    const culm::port::Exchange sum = s.simulation.exchange(port);
+    const culm::port::Exchange sum = s.simulation.exchange(name_of(port));
     if (work != nullptr) *work = sum.work;
     copy(sum.force, force);
     copy(sum.moment, moment);
@@ -375,5 +395,6 @@ int culm_port_exchange(culm_simulation* simulation, const char* port, double* wo
 }
 
 int culm_port_write(culm_simulation* simulation, const char* port, const char* path) {
-  return with(simulation, [&](culm_simulation& s) { s.simulation.write_port(port, path); });
+  return with(simulation,
+              [&](culm_simulation& s) { s.simulation.write_port(name_of(port), name_of(path)); });
 }

@@ -29,6 +29,7 @@ int main(int argc, char **argv) {
   EXPECT(culm_open(CULM_API_VERSION + 1000, CULM_WORLD, argv[1], NULL, 0, &mast), CULM_USAGE, "version 2003");
   EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, "missing.xml", NULL, 0, &mast), CULM_FILE, "missing.xml");
   EXPECT(culm_begin(NULL, NULL), CULM_USAGE, "NULL");
+  EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, argv[1], NULL, 1, &mast), CULM_USAGE, "the array is NULL");
   EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, argv[1], overrides, 1, &mast), CULM_OK, "");
   if (strstr(culm_messages(mast), "port 'skin': 6 points") == NULL) return 2;
 
@@ -52,6 +53,11 @@ int main(int argc, char **argv) {
   EXPECT(culm_final_time(mast, &last), CULM_OK, "");
   EXPECT(culm_is_exhausted(mast, &over), CULM_OK, "");
   if (last != 1.0 || over) return 8;
+  EXPECT(culm_time(mast, NULL), CULM_USAGE, "no place for the result: it is NULL");
+  EXPECT(culm_port_size(mast, "net", NULL), CULM_USAGE, "no place for the result");
+  EXPECT(culm_save(mast, NULL), CULM_USAGE, "no place for the result");
+  EXPECT(culm_port_size(mast, NULL, &points), CULM_USAGE, "there is no name: it is NULL");
+  EXPECT(culm_set_load(mast, NULL, force, 6), CULM_USAGE, "there is no name: it is NULL");
   EXPECT(culm_accept(mast), CULM_USAGE, "");
   EXPECT(culm_port_set(mast, "nett", force, NULL, 2), CULM_USAGE, "did you mean 'net'?");
   EXPECT(culm_port_set(mast, "net", force, NULL, 1), CULM_USAGE, "takes 6 values of force, got 3");
