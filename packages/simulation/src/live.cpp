@@ -24,6 +24,14 @@ bool any_acts(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return value != 0.0; });
 }
 
+// Six numbers for each node.
+void set_input(model::NodalInput& input, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < input.nodes().size(); ++i) {
+    const double* v = values.data() + 6 * i;
+    input.set(i, Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]));
+  }
+}
+
 }  // namespace
 
 void Simulation::Parts::hear(const model::Effect& effect) {
@@ -66,6 +74,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   start_analysis(number, p.state);
   Phase& phase = p.phases.enter(number, p.comm, p.ledger);
   hand_over_loads(before, phase);
+  for (const auto& [name, values] : p.set_loads) {
+    const auto input = phase.model->inputs().find(name);
+    if (input != phase.model->inputs().end()) set_input(*input->second, values);
+  }
   p.findings.begin(entries[number].name());
   if (!phase.ports.empty()) {
     for (const std::string& sentence : rates_of_another_scheme(entries[number])) {
@@ -99,6 +111,9 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   p.heard.clear();
   for (const auto& port : phase.ports) {
     if (port->is_loaded()) p.hear({"Port", port->name()});
+  }
+  for (const auto& [name, values] : p.set_loads) {
+    if (any_acts(values)) p.hear({"External", name});
   }
   return *p.stepper;
 }
@@ -159,10 +174,8 @@ void Simulation::set_load(const std::string& name, const std::vector<double>& va
     throw NonFiniteError(fmt::format("load '{}' got {} for component {} at node '{}'", name,
                                      values[i], i % 6, model().node_name(input.nodes()[i / 6])));
   }
-  for (std::size_t i = 0; i < input.nodes().size(); ++i) {
-    const double* v = values.data() + 6 * i;
-    input.set(i, Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]));
-  }
+  set_input(input, values);
+  parts_->set_loads[name] = values;
   if (any_acts(values)) parts_->hear({"External", name});
 }
 

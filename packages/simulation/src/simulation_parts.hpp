@@ -13,9 +13,12 @@
 #include "phase.hpp"
 #include "run_observer.hpp"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace culm::simulation {
 
@@ -54,6 +57,7 @@ struct Simulation::Parts {
   std::optional<MemoryKeeper> keeper = {};  ///< if none are
   std::vector<double> first_memories = {};  ///< of what is watched, before any state
   std::unique_ptr<analysis::Stepper> stepper = {};
+  std::map<std::string, std::vector<double>> set_loads = {};  ///< as they were set last
   std::set<model::Effect> heard = {};  ///< loads from outside that have acted in this analysis
 
   void warn_of_reference();

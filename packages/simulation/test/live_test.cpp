@@ -104,6 +104,33 @@ TEST(LiveSimulation, WorkOfALoadThatIsSetIsInTheBalance) {
 }
 
 // A model without a file is that of the deck that says the same.
+// Where other loads do not act, the next analysis has a model of its own.
+TEST(LiveSimulation, ALoadThatIsSetActsInTheNextAnalysisToo) {
+  const auto deck = [](const std::string& type, const char* force) {
+    std::string text =
+        cantilever(R"(<ParameterList name="push"><Parameter name="Type" value=")" + type +
+                   R"("/><Parameter name="Node" value="beam/last"/>)" + force + R"(</ParameterList>
+        <ParameterList name="other"><Parameter name="Type" value="Force"/>
+        <Parameter name="Node" value="beam/last"/><Parameter name="Force" value="{0, 0.2, 0}"/>
+        </ParameterList>)");
+    const std::string dynamic = R"("Dynamic"/>)";
+    return text.insert(text.find(dynamic) + dynamic.size(),
+                       R"(<Parameter name="Inactive" value="{other}"/>)");
+  };
+  Live set(deck("External", "")),
+      given(deck("Force", R"(<Parameter name="Force" value="{0, 0, 0.3}"/>
+                             <Parameter name="Function" value="Constant"/>)"));
+  set.simulation.set_load("push", {0.0, 0.0, 0.3, 0.0, 0.0, 0.0});
+  for (Live* live : {&set, &given}) {
+    for (const char* analysis : {"bending", "motion"}) {
+      analysis::run(live->simulation.begin(analysis));
+    }
+  }
+  const double there = given.simulation.quantities()[2];
+  EXPECT_GT(std::abs(there), 1e-3);
+  EXPECT_NEAR(set.simulation.quantities()[2], there, 1e-9);
+}
+
 TEST(LiveSimulation, AssignmentsMakeTheModelOfADeck) {
   Live written(cantilever(external));
   Simulation made = Simulation::make(
