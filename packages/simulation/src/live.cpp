@@ -159,6 +159,11 @@ void Simulation::set_load(const std::string& name, const std::vector<double>& va
   const auto& inputs = model().inputs();
   const auto found = inputs.find(name);
   if (found == inputs.end()) {
+    const Options& analysis = parts_->deck.list("Analyses").entries()[parts_->present];
+    const std::vector<std::string> idle = analysis.texts("Inactive");
+    if (std::ranges::find(idle, name) != idle.end()) {
+      throw UsageError("load '" + name + "' is 'Inactive' in '" + analysis.name() + "'");
+    }
     std::vector<std::string> names;
     for (const auto& [known, input] : inputs) names.push_back(known);
     throw UsageError("there is no load '" + name + "' of type 'External'" +

@@ -131,6 +131,22 @@ TEST(LiveSimulation, ALoadThatIsSetActsInTheNextAnalysisToo) {
   EXPECT_NEAR(set.simulation.quantities()[2], there, 1e-9);
 }
 
+TEST(LiveSimulation, ALoadThatDoesNotActInTheAnalysisIsNoUnknownOne) {
+  std::string deck = cantilever(external);
+  const std::string dynamic = R"("Dynamic"/>)";
+  deck.insert(deck.find(dynamic) + dynamic.size(),
+              R"(<Parameter name="Inactive" value="{push}"/>)");
+  Live live(deck);
+  live.simulation.set_load("push", push);
+  live.simulation.begin("motion");
+  try {
+    live.simulation.set_load("push", push);
+    ADD_FAILURE() << "it would not act";
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()), "load 'push' is 'Inactive' in 'motion'");
+  }
+}
+
 TEST(LiveSimulation, AssignmentsMakeTheModelOfADeck) {
   Live written(cantilever(external));
   Simulation made = Simulation::make(
