@@ -9,7 +9,7 @@ import culm
 deck, program, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 overrides = [
     "Loads/push/Type=Line Force", "Loads/push/Structure=mast", "Loads/push/Force={57, 10, 0}",
-    "Loads/push/Function=Constant", "Output/Every=5", "Output/History/top/Type=Displacement",
+    "Loads/push/Function=Constant", "Output/Every=5", "Output/Velocities=true", "Output/History/top/Type=Displacement",
     "Output/History/top/Node=mast/last", "Output/History/energy/Type=Energy",
     "Output/History/shake/Type=Acceleration", "Output/History/shake/Node=mast/last",
 ]
