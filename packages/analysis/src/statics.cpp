@@ -138,16 +138,16 @@ void Statics::do_accept(const StepReport& report) {
 }
 
 bool Statics::do_fail(const StepReport& report) {
-  // smaller increments of the level do not make smaller what acts at the start
-  const bool is_first = state().time_prev == settings_.start_level;
-  if (is_first && may_take_up_ && !report.outcome.converged()) {
-    may_take_up_ = false;
-    const TakeUp taken = take_up(context(), newton(), state());
-    if (taken != TakeUp::nothing) return taken == TakeUp::stuck;
-  }
   increment_ = 0.5 * report.increment;
   trend_.add(state().time);
-  return increment_ < settings_.smallest_increment || dead_end();
+  if (increment_ >= settings_.smallest_increment && !dead_end()) return false;
+  const bool is_first = state().time_prev == settings_.start_level;
+  if (!is_first || !may_take_up_) return true;
+  // smaller increments of the level do not make smaller what acts at the start
+  may_take_up_ = false;
+  if (take_up(context(), newton(), state()) != TakeUp::done) return true;
+  increment_ = settings_.increment;
+  return false;
 }
 
 void Statics::do_save(Snapshot& snapshot) const {

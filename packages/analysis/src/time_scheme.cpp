@@ -4,6 +4,19 @@
 #include <utility>
 
 namespace culm::analysis {
+namespace {
+
+// v_next = 2 Dq / h - v, written as v + h a with the acceleration that was balanced: what rounding
+// makes of 2 / h and 2 / h^2 would else pull the same way in every step and change the momenta.
+void bring_to_end(model::Coordinates& velocity, const model::State& state, double h) {
+  const double inertia = Stencil::midpoint(h).inertia;
+  const auto faster = [h, inertia](double v, double next, double prev, double offset) {
+    return v + h * (inertia * (next - prev) + offset);
+  };
+  model::combine(velocity, faster, state.next, state.prev, state.acceleration_offset);
+}
+
+}  // namespace
 
 // Dv / h = 2 Dq / h^2 - 2 v / h
 Stencil ConservingScheme::begin(model::State& state, double h) {
@@ -13,20 +26,14 @@ Stencil ConservingScheme::begin(model::State& state, double h) {
   return Stencil::midpoint(h);
 }
 
-// v_next = 2 Dq / h - v, written as v + h a with the acceleration that was balanced: what rounding
-// makes of 2 / h and 2 / h^2 would else pull the same way in every step and change the momenta.
 model::Coordinates ConservingScheme::end_velocity(const model::State& state, double h) const {
-  const double inertia = Stencil::midpoint(h).inertia;
-  const auto faster = [h, inertia](double v, double next, double prev, double offset) {
-    return v + h * (inertia * (next - prev) + offset);
-  };
   model::Coordinates velocity = state.velocity;
-  model::combine(velocity, faster, state.next, state.prev, state.acceleration_offset);
+  bring_to_end(velocity, state, h);
   return velocity;
 }
 
 void ConservingScheme::finish(model::State& state, double h) {
-  state.velocity = end_velocity(state, h);
+  bring_to_end(state.velocity, state, h);
 }
 
 GeneralisedAlphaScheme::GeneralisedAlphaScheme(double spectral_radius)

@@ -61,7 +61,7 @@ class Statics final : public Stepper {
   StaticsSettings settings_;
   double increment_ = 0.0;
   int determinant_sign_ = 0;  ///< of the tangent at the last equilibrium; 0 if unknown
-  bool may_take_up_ = true;   ///< what acts at once at the start, which is tried once
+  bool may_take_up_ = true;   ///< what acts at once at the start, which is tried last and once
   FailureTrend trend_;
   std::vector<double> crossings_;  ///< levels of the steps in which it changed
 };
