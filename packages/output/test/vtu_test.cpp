@@ -88,7 +88,7 @@ TEST(Vtu, CurvesOfHigherOrderHaveBothEndsFirst) {
   mesh.resultant_names.clear();
   mesh.cell_arrays.clear();
   Picture picture;
-  picture.structures.push_back({mesh.positions, mesh.triads, {{}, {}}, {}, {}});
+  picture.structures.push_back({mesh.positions, mesh.triads, {}, {}, {}});
   Pictures(folder.path(), "run", std::vector{mesh}).add(picture);
   const std::string text =
       run_python(std::string(decoder) +
