@@ -274,7 +274,10 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
     report.shapes.push_back(std::move(shape));
   }
   warn_of_rounding(pairs, state.time, context.findings);
-  warn_of_turns(system.model(), state.next, motion, pairs.values, state.time, context.findings);
+  if (!pairs.values.empty()) {
+    warn_of_turns(system.model(), state.next, motion, pairs.values.front(), state.time,
+                  context.findings);
+  }
   warn_of_walls(pairs, find_wall_limits(system, state.next, motion), state.time, context.findings);
   if (!pairs.note.empty()) context.log.info("note: " + pairs.note);
   // of an unsymmetric tangent that has no real factors complex ones may be left

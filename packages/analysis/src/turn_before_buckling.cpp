@@ -28,7 +28,7 @@ double turn_of(const model::Model& model, int node, const model::Coordinates& q,
 }  // namespace
 
 void warn_of_turns(const model::Model& model, const model::Coordinates& q,
-                   const model::Coordinates& motion, std::span<const double> factors, double level,
+                   const model::Coordinates& motion, double factor, double level,
                    Findings& findings) {
   double turn = 0.0;
   int most_turned = 0;
@@ -37,20 +37,17 @@ void warn_of_turns(const model::Model& model, const model::Coordinates& q,
     if (found > turn) most_turned = node;
     turn = std::max(turn, found);
   }
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    const double way = std::abs(factors[i]) * turn;
-    if (way <= small_turn) continue;
-    findings.warn(
-        "turn before buckling",
-        fmt::format("mode {}, factor {:.5g}: the linear response to so much of the reference load "
-                    "turns '{}' by {:.2g} rad, and linear buckling leaves out that the structure "
-                    "moves before it buckles: factors are good where such turns are below {:g} "
-                    "rad. A static analysis before this one to most of the load, or a 'Path', "
-                    "knows the way",
-                    i + 1, factors[i], model.node_name(most_turned), way, small_turn),
-        level);
-    return;
-  }
+  const double way = std::abs(factor) * turn;
+  if (way <= small_turn) return;
+  findings.warn(
+      "turn before buckling",
+      fmt::format("mode 1, factor {:.5g}: the linear response to so much of the reference load "
+                  "turns '{}' by {:.2g} rad, and linear buckling leaves out that the structure "
+                  "moves before it buckles: factors are good where such turns are below {:g} rad. "
+                  "A static analysis before this one to most of the load, or a 'Path', knows the "
+                  "way",
+                  factor, model.node_name(most_turned), way, small_turn),
+      level);
 }
 
 }  // namespace culm::analysis

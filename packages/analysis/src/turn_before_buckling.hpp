@@ -4,16 +4,14 @@
 #include <culm/base/findings.hpp>
 #include <culm/model/model.hpp>
 
-#include <span>
-
 namespace culm::analysis {
 
-/// Warns of the first factor at which the linear response to the reference load turns a node by
-/// more than a tenth of a radian: linear buckling leaves out that the structure has moved by then.
+/// Warns where the linear response to the reference load times a factor turns a node by more than a
+/// tenth of a radian: linear buckling leaves out that the structure has moved by then.
 /// @param q       where the structure is; as `motion` up to date for all nodes
 /// @param motion  linear response of the slots to the reference load
 void warn_of_turns(const model::Model& model, const model::Coordinates& q,
-                   const model::Coordinates& motion, std::span<const double> factors, double level,
+                   const model::Coordinates& motion, double factor, double level,
                    Findings& findings);
 
 }  // namespace culm::analysis
