@@ -142,8 +142,6 @@ class System {
   Evaluation note_unbalance(const model::State& state, const Stencil& stencil);
   /// How much of what was noted stays out of evaluations in statics from now on, from 1 to 0.
   void hold_back(double share) { held_share_ = share; }
-  /// Whether anything was noted.
-  bool has_unbalance() const { return carried_.has_value(); }
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
   void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
