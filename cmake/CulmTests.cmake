@@ -4,8 +4,8 @@ include(GoogleTest)
 
 # Open MPI: start as root (containers), allow more ranks than cores, do not pin ranks, because tests
 # that run side by side would all be pinned to the same cores, and let ranks that wait yield to those
-# that work: on a busy machine short runs are many times slower without. Do not look for fast networks
-# and do not wait a second for processes that have ended: short runs are many.
+# that work. Do not look for fast networks and do not wait a second for processes that have ended: short
+# runs are many.
 set(CULM_TEST_ENVIRONMENT
     OMPI_ALLOW_RUN_AS_ROOT=1
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
@@ -25,7 +25,8 @@ set(CULM_TEST_ENVIRONMENT
 #
 # A test on several processes takes two of the places of tests that run at once, and begins before those on
 # one: else it would wait until all others are done, since two places are hardly ever free together, and such
-# tests would run one after the other at the end.
+# tests would run one after the other at the end. Its ranks wait asleep, see tests/kit/patience.c; sanitizers
+# want to be preloaded before all others.
 function(culm_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;RANKS" "COMMAND;ENVIRONMENT")
   set(environment ${CULM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
@@ -37,6 +38,11 @@ function(culm_add_test name)
     set_tests_properties(
       ${name} PROPERTIES LABELS "${arg_LABEL};parallel" PROCESSORS 2 COST 1e4
     )
+    if(NOT CULM_SANITIZE)
+      set_property(
+        TEST ${name} APPEND PROPERTY ENVIRONMENT LD_PRELOAD=$<TARGET_FILE:culm_patience>
+      )
+    endif()
   endif()
 endfunction()
 

@@ -108,6 +108,10 @@ void register_clay(LayerRegistry& registry) {
   more.add(number("Residual", "1", "Fraction that is left beyond 0.02 diameters.")
                .between(0.0, 1.0)
                .optional(0.9));
+  more.check([](const Options& options, InputIssues& issues) {
+    if (!options.given("Residual") || !options.has("Displacements")) return;
+    issues.add(options.where("Residual"), "is of the curve of API RP 2A, but 'Fractions' is given");
+  });
   add_shaft("clay", schema, more);
   registry.add("Clay", schema, [](const Options& options) -> Layer {
     return [options](const Depth& depth, const Pile& pile) {
