@@ -69,7 +69,7 @@ def check(runs):
         if found > CLOSE:
             yield f"{ranks} ranks differ from one by {found:.2e}, allowed {CLOSE}"
 
-    runs.deck(2, "stopped", "--walltime", "0.1 s", expect=7)
+    runs.deck(2, "stopped", "--walltime", "1 us", expect=7)
     shutil.copytree(folder / "stopped", folder / "on one")
     runs(2, "resume", "stopped")
     if (folder / "stopped/history.csv").read_bytes() != (folder / "2/history.csv").read_bytes():
