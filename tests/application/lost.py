@@ -473,6 +473,10 @@ def has_free_motions_once(folder, _):
     return "" if at_rest == 6 and len(frequencies) == 8 else f"the frequencies are {frequencies}"
 
 
+CLAY = entry("clay", Type="Clay", Top="0", Strength="1e3", Unit_Weight="8e3", Strain="0.01").replace(
+    "</ParameterList>", entry("Shaft", Friction="1e3", Displacements="{1e-3}", Fractions="{1}").replace(
+        "</ParameterList>", "%s</ParameterList>") + "</ParameterList>")
+
 CASES = [
     *TURNS,
     Case("modes of a body that moves freely, beside a damped one", 0, args=RUN, leaves=["out"],
@@ -623,6 +627,24 @@ CASES = [
         change=[(FORCE, "@@" + entry("mount", Type="Restoring", Node="beam/last"))],
         errors=["deck.xml:{line}: Loads / mount: resists nothing: give 'Stiffness', 'Damping', 'Quadratic Damping' or "
                 "'Preload'"],
+    ),
+    Case(
+        "what is left of the friction of clay, beside a curve",
+        3,
+        change=[(FORCE, entry("soil", Type="Soil", Structure="beam", Ground="{0, 0, 0}", Down="{1, 0, 0}", Diameter="0.1").replace(
+            "</ParameterList>", listed("Layers", CLAY % '@@<Parameter name="Residual" value="0.5"/>') + "</ParameterList>"))],
+        errors=["deck.xml:{line}: Loads / soil / Layers / clay / Shaft / Residual: is of the curve of API RP 2A, but "
+                "'Displacements' gives another"],
+    ),
+    Case(
+        "a bar between the points of a line",
+        0,
+        change=[(FORCE, FORCE + entry("bar", Type="Cylinder Contact", Structure="beam", Radius="0.05", Bar_Radius="0.05",
+                                      Stiffness="1e6", From="{0.25, -1, 0.09}", To="{0.25, 1, 0.09}"))],
+        args=RUN,
+        says=["warning: Cylinder Contact 'bar' has points on its line 0.289 m apart, and the bar lies 0.08"],
+        leaves=["out"],
+        ranks=True,
     ),
     Case(
         "radii of nothing",

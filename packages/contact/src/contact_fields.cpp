@@ -11,7 +11,7 @@ std::vector<ContactPoint> points_of_line(const Options& options, model::BuildCon
   const double width = options.has("Width") ? options.number("Width") : 2.0 * radius;
   std::vector<ContactPoint> points;
   for (const model::LinePoint& point : context.model.line_points(name)) {
-    points.push_back({point.marker, radius, width * point.length});
+    points.push_back({point.marker, radius, width * point.length, point.length});
   }
   // select_structure reports a name that is neither a set nor a structure
   if (points.empty() && model::select_structure(options, context) != nullptr) {

@@ -72,6 +72,7 @@ void CylinderContact::add(const ContactPoint& point) {
   item.radius = point.radius;
   item.reach = point.radius + cylinder_.radius;
   item.area = point.area;
+  item.length = point.length;
   item.R.setZero();
   item.E.setZero();
   for (std::size_t a = 0; a < item.nodes.size(); ++a) {
@@ -153,25 +154,24 @@ CylinderContact::Response CylinderContact::respond(const Item& item, const model
   return response;
 }
 
-// The straight way of the point as the bar sees it: the nearest place is where one of the three
-// parts of the square of the distance is least, or one meets the next. What began inside is let
-// out.
-bool CylinderContact::passes(const Item& item, const model::State& state) const {
-  const auto seen = [&](const model::Coordinates& q) {
-    Vec3 r = item.r0;
-    for (std::size_t a = 0; a < item.nodes.size(); ++a) {
-      r += model::NodeTable::slots(q, item.nodes[a]) * item.R.segment<4>(4 * static_cast<int>(a));
-    }
-    if (cylinder_.node < 0) return r;
-    return Vec3(model::NodeTable::slots(q, cylinder_.node).rightCols<3>().transpose() * r);
-  };
+Vec3 CylinderContact::seen(const Item& item, const model::Coordinates& q) const {
+  Vec3 r = item.r0;
+  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+    r += model::NodeTable::slots(q, item.nodes[a]) * item.R.segment<4>(4 * static_cast<int>(a));
+  }
+  if (cylinder_.node < 0) return r;
+  return model::NodeTable::slots(q, cylinder_.node).rightCols<3>().transpose() * r;
+}
+
+double CylinderContact::distance_of(const Vec3& seen) const {
+  return distance({seen.squaredNorm(), seen.dot(cylinder_.along)});
+}
+
+// The nearest place is where one of the three parts of the square of the distance is least, or one
+// meets the next.
+double CylinderContact::least_distance(const Vec3& from, const Vec3& to) const {
   const Vec3& e = cylinder_.along;
-  const auto away = [&](const Vec3& r) { return distance({r.squaredNorm(), r.dot(e)}); };
-  const double deep = 0.5 * item.reach;
-  const Vec3 from = seen(state.prev);
-  const Vec3 to = seen(state.next);
   const Vec3 way = to - from;
-  if (away(from) < deep || away(to) - way.norm() > deep) return false;
   const Vec3 across = way - e.dot(way) * e;
   const double along = e.dot(way);
   const double L = cylinder_.length.value_or(0.0);
@@ -181,9 +181,21 @@ bool CylinderContact::passes(const Item& item, const model::State& state) const 
                            (L * e - from).dot(way) / way.squaredNorm(),
                            -from.dot(e) / along,
                            (L - from.dot(e)) / along};
-  return std::ranges::any_of(places, [&](double s) {
-    return away(from + std::clamp(s, 0.0, 1.0) * way) < deep;  // false for a quotient by zero
-  });
+  double least = distance_of(from);
+  for (const double s : places) {
+    const double there = distance_of(from + std::clamp(s, 0.0, 1.0) * way);
+    if (there < least) least = there;  // not for a quotient by zero
+  }
+  return least;
+}
+
+// The straight way of the point as the bar sees it. What began inside is let out.
+bool CylinderContact::passes(const Item& item, const model::State& state) const {
+  const double deep = 0.5 * item.reach;
+  const Vec3 from = seen(item, state.prev);
+  const Vec3 to = seen(item, state.next);
+  if (distance_of(from) < deep || distance_of(to) - (to - from).norm() > deep) return false;
+  return least_distance(from, to) < deep;
 }
 
 // With x = C of the slots of the point, and of those of the bar r = x - A, e = E, all at theta:
@@ -295,6 +307,30 @@ std::string CylinderContact::objection(const model::Coordinates& q) const {
     return fmt::format("lies {:.3g} m deep in the bar, more than half of both radii", depth);
   }
   return {};
+}
+
+// Between neighbours on a line, on the straight way.
+std::string CylinderContact::overlooked(const model::Coordinates& q) const {
+  double most = 0.0;
+  double apart = 0.0;
+  for (std::size_t i = 1; i < items_.size(); ++i) {
+    const Item& one = items_[i - 1];
+    const Item& other = items_[i];
+    const Vec3 from = seen(one, q);
+    const Vec3 to = seen(other, q);
+    const double way = (to - from).norm();
+    if (way > one.length + other.length) continue;
+    const double between = least_distance(from, to);
+    const double hidden = std::min(distance_of(from), distance_of(to)) - between;
+    if (between >= one.reach || hidden < std::max(0.02 * one.reach, most)) continue;
+    most = hidden;
+    apart = way;
+  }
+  if (most == 0.0) return {};
+  return fmt::format(
+      "has points on its line {:.3g} m apart, and the bar lies {:.3g} m deeper between two of them "
+      "than they see: what touches is missed, or comes too late; take more elements there",
+      apart, most);
 }
 
 Verdict CylinderContact::assemble(const model::State& state, const Stencil& stencil, Want want,

@@ -3,9 +3,12 @@
 #include "contact_laws.hpp"
 
 #include <Eigen/Geometry>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace culm::contact {
 namespace {
@@ -91,6 +94,30 @@ TEST(CylinderContact, SeesTheNearestPlaceOfTheBar) {
   EXPECT_NEAR(contact.touch(q).depth, 0.4, 1e-14);
   model::NodeTable::slots(q, node).col(0) = Vec3(2.6, 0.8, 0.0);
   EXPECT_NEAR(contact.touch(q).depth, 0.5, 1e-14);
+}
+
+// Of points on both sides the bar is as deep as half of what is between them lets it; points along
+// it see it, and spheres are no line.
+TEST(CylinderContact, SaysWhatStandsBetweenItsPoints) {
+  const auto overlooked = [](const Vec3& from, const Vec3& to, double length) {
+    model::Model model;
+    CylinderContact contact(effect, model.nodes(), {-1, Vec3::Zero(), Vec3::UnitX(), 2.0, 1.0},
+                            {3.0, 0.0, 0.0}, {});
+    std::vector<int> nodes;
+    for (const int seed : {10, 11}) nodes.push_back(model.nodes().add(kit::random_node(seed)));
+    for (const int node : nodes) contact.add({model::marker_at(node), 0.5, 1.0, length});
+    model::Coordinates q = model.nodes().reference();
+    model::NodeTable::slots(q, nodes[0]).col(0) = from;
+    model::NodeTable::slots(q, nodes[1]).col(0) = to;
+    return contact.overlooked(q);
+  };
+  EXPECT_THAT(overlooked({1.0, -2.0, 1.5}, {1.0, 2.0, 1.5 - 1e-9}, 4.0),
+              testing::HasSubstr("points on its line 4 m apart, and the bar lies 1 m deeper"));
+  EXPECT_EQ(overlooked({1.0, -2.0, 1.6}, {1.0, 2.0, 1.6}, 4.0), "");
+  EXPECT_EQ(overlooked({1.0, -0.2, 1.4}, {1.0, 0.2, 1.4}, 0.4), "");
+  EXPECT_EQ(overlooked({-3.0, 0.0, 1.4}, {5.0, 0.0, 1.4}, 8.0), "");
+  EXPECT_EQ(overlooked({1.0, -2.0, 1.4}, {1.0, 2.0, 1.4}, 1.0), "");
+  EXPECT_EQ(overlooked({1.0, -2.0, 1.4}, {1.0, 2.0, 1.4}, 0.0), "");
 }
 
 }  // namespace

@@ -3,28 +3,45 @@
 #include <culm/contact/contact_point.hpp>
 
 namespace culm::simulation {
+namespace {
 
-std::vector<std::string> deep_contacts(const model::Model& model, const model::Coordinates& q) {
+/// A sentence for each contact of which `find` finds something to say.
+template <class Find, class Say>
+std::vector<std::string> sentences_of(const model::Model& model, Find find, Say say) {
   std::vector<std::string> sentences;
   for (const auto& load : model.loads()) {
     const auto* contact = dynamic_cast<const contact::Contact*>(load.get());
     if (contact == nullptr) continue;
-    const std::string objection = contact->objection(q);
-    if (objection.empty()) continue;
-    sentences.push_back("what " + load->effect().quoted() + " should keep out " + objection +
-                        ": contact drives it out with energy that nothing has put in");
+    const std::string found = find(*contact);
+    if (!found.empty()) sentences.push_back(say(load->effect().quoted(), found));
   }
   return sentences;
 }
 
+std::string name_first(const std::string& name, const std::string& found) {
+  return name + " " + found;
+}
+
+}  // namespace
+
+std::vector<std::string> deep_contacts(const model::Model& model, const model::Coordinates& q) {
+  return sentences_of(
+      model, [&](const contact::Contact& contact) { return contact.objection(q); },
+      [](const std::string& name, const std::string& found) {
+        return "what " + name + " should keep out " + found +
+               ": contact drives it out with energy that nothing has put in";
+      });
+}
+
+std::vector<std::string> coarse_contacts(const model::Model& model, const model::Coordinates& q) {
+  return sentences_of(
+      model, [&](const contact::Contact& contact) { return contact.overlooked(q); }, name_first);
+}
+
 std::vector<std::string> contacts_at_rest(const model::Model& model) {
-  std::vector<std::string> sentences;
-  for (const auto& load : model.loads()) {
-    const auto* contact = dynamic_cast<const contact::Contact*>(load.get());
-    if (contact == nullptr || contact->left_out_at_rest().empty()) continue;
-    sentences.push_back(load->effect().quoted() + " " + contact->left_out_at_rest());
-  }
-  return sentences;
+  return sentences_of(
+      model, [](const contact::Contact& contact) { return contact.left_out_at_rest(); },
+      name_first);
 }
 
 }  // namespace culm::simulation

@@ -10,6 +10,8 @@ namespace culm::simulation {
 
 /// A sentence for each contact whose structure lies too deep in what it should touch.
 std::vector<std::string> deep_contacts(const model::Model& model, const model::Coordinates& q);
+/// A sentence for each contact that overlooks something for want of points.
+std::vector<std::string> coarse_contacts(const model::Model& model, const model::Coordinates& q);
 /// A sentence for each contact of which an analysis without time leaves something out.
 std::vector<std::string> contacts_at_rest(const model::Model& model);
 

@@ -49,4 +49,15 @@ void warn_before(const Options& deck, const Options& analysis, const model::Mode
   warn("lost moment", moments_that_are_not_carried(model));
 }
 
+// Ports show rates by the mean velocity, 2 Dq / h - v, which other schemes have as well.
+void warn_of_rates(const Options& analysis, const model::State& state, Findings& findings) {
+  if (analysis.text("Type") != "Dynamic" || analysis.text("Scheme") != "Generalised Alpha") return;
+  findings.warn(
+      "port",
+      "ports show velocities and accelerations of steps that are not accepted yet as the scheme "
+      "'Conserving' has them; those of 'Generalised Alpha' are others, by up to some percent of "
+      "what the step changes; take 'Conserving', or positions and motions",
+      state.time);
+}
+
 }  // namespace culm::simulation

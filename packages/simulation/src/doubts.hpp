@@ -16,4 +16,8 @@ void tell_of_deck(const Options& deck, Findings& findings, const Log& log);
 void warn_before(const Options& deck, const Options& analysis, const model::Model& model,
                  const model::State& state, Findings& findings);
 
+/// Warns where ports show a program or partner other velocities and accelerations in open steps
+/// than the scheme of an analysis has.
+void warn_of_rates(const Options& analysis, const model::State& state, Findings& findings);
+
 }  // namespace culm::simulation

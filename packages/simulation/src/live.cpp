@@ -8,7 +8,6 @@
 #include "doubts.hpp"
 #include "load_watch.hpp"
 #include "port_picture.hpp"
-#include "port_rates.hpp"
 #include "simulation_parts.hpp"
 
 #include <fmt/format.h>
@@ -79,15 +78,11 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     if (input != phase.model->inputs().end()) set_input(*input->second, values);
   }
   p.findings.begin(entries[number].name());
-  if (!phase.ports.empty()) {
-    for (const std::string& sentence : rates_of_another_scheme(entries[number])) {
-      p.findings.warn("port", sentence, p.state.time);
-    }
-  }
   p.context.emplace(
       analysis::Context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings});
   phase.system->synchronise(p.state);
   warn_before(p.deck, entries[number], *phase.model, p.state, p.findings);
+  if (!phase.ports.empty()) warn_of_rates(entries[number], p.state, p.findings);
   auto stepper =
       known.steppers.make(entries[number].text("Type"), entries[number], *p.context, p.state);
   if (p.results != nullptr) {
@@ -124,7 +119,7 @@ void Simulation::end_analysis() {
   p.stepper->finish();
   p.stepper.reset();
   p.context->system.synchronise(p.state);
-  p.warn_of_taut_beams(p.state.next, p.state.time);
+  p.warn_of_end(p.state.next, p.state.time);
   keep_state(p.deck.list("Analyses").entries()[p.present].name(), p.state);
 }
 

@@ -6,9 +6,9 @@
 #include <culm/simulation/resume.hpp>
 #include <culm/simulation/simulation.hpp>
 
+#include "contact_findings.hpp"
 #include "doubts.hpp"
 #include "port_picture.hpp"
-#include "port_rates.hpp"
 #include "run_observer.hpp"
 #include "served_run.hpp"
 #include "simulation_parts.hpp"
@@ -48,9 +48,12 @@ void Simulation::Parts::warn_of_reference() {
   }
 }
 
-void Simulation::Parts::warn_of_taut_beams(const model::Coordinates& q, double time) {
+void Simulation::Parts::warn_of_end(const model::Coordinates& q, double time) {
   for (const std::string& sentence : taut_beams(*phases.of(present).system, q)) {
     findings.warn("taut beam", sentence, time);
+  }
+  for (const std::string& sentence : coarse_contacts(*phases.of(present).model, q)) {
+    findings.warn("coarse contact", sentence, time);
   }
 }
 
@@ -196,20 +199,16 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
     warn_before(p.deck, entries[i], *phase.model, state, p.findings);
-    if (coupled != nullptr || served != nullptr) {
-      for (const std::string& sentence : rates_of_another_scheme(entries[i])) {
-        p.findings.warn("port", sentence, state.time);
-      }
-    }
+    if (coupled != nullptr || served != nullptr) warn_of_rates(entries[i], state, p.findings);
     analysis::AnalysisReport report;
     try {
       report = run_analysis(entries[i], context, state, observer, coupled, served,
                             resumes ? from : nullptr);
     } catch (const NumericalError&) {
-      p.warn_of_taut_beams(state.prev, state.time);
+      p.warn_of_end(state.prev, state.time);
       throw;
     }
-    p.warn_of_taut_beams(state.next, state.time);
+    p.warn_of_end(state.next, state.time);
     p.imperfections.keep(entries[i].name(), *phase.model, report);
     keep_state(entries[i].name(), state);
   }

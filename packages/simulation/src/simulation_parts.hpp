@@ -62,8 +62,8 @@ struct Simulation::Parts {
 
   void warn_of_reference();
   void tell_of(const port::Port& port);
-  /// In the phase of the present analysis; collective. @param q  up to date for what a rank needs
-  void warn_of_taut_beams(const model::Coordinates& q, double time);
+  /// Of where an analysis ends, in its phase; collective. @param q  up to date
+  void warn_of_end(const model::Coordinates& q, double time);
   /// Hands what is watched over to the phase of the present analysis. @param begins  or goes on
   void let_watch(ResultFiles& files, const Options& analysis, bool begins);
   /// The same where no results are written. @param before  the phase of the analysis before

@@ -110,7 +110,8 @@ void register_clay(LayerRegistry& registry) {
                .optional(0.9));
   more.check([](const Options& options, InputIssues& issues) {
     if (!options.given("Residual") || !options.has("Displacements")) return;
-    issues.add(options.where("Residual"), "is of the curve of API RP 2A, but 'Fractions' is given");
+    issues.add(options.where("Residual"),
+               "is of the curve of API RP 2A, but 'Displacements' gives another");
   });
   add_shaft("clay", schema, more);
   registry.add("Clay", schema, [](const Options& options) -> Layer {

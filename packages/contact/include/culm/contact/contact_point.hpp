@@ -13,6 +13,7 @@ struct ContactPoint {
   model::Marker centre;
   double radius = 0.0;  ///< [m]
   double area = 0.0;    ///< on which the pressure acts [m^2]
+  double length = 0.0;  ///< of the part of a line that it stands for; 0 of a sphere [m]
 };
 
 /// What touches.
@@ -35,6 +36,12 @@ class Contact {
   }
   /// What analyses without time leave out of it, as what follows its name; empty if nothing.
   virtual std::string left_out_at_rest() const { return {}; }
+  /// What touches at q where no point is that would see it, as what follows its name; empty if
+  /// nothing that matters.
+  virtual std::string overlooked(const model::Coordinates& q) const {
+    (void)q;
+    return {};
+  }
 };
 
 /// The place of a marker.

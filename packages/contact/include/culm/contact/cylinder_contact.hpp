@@ -51,6 +51,8 @@ class CylinderContact final : public GrippingBatch, public Contact, public model
 
   Touch touch(const model::Coordinates& q) const override;
   std::string objection(const model::Coordinates& q) const override;
+  /// From a depth of 2 % of both radii on.
+  std::string overlooked(const model::Coordinates& q) const override;
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
@@ -75,11 +77,17 @@ class CylinderContact final : public GrippingBatch, public Contact, public model
     double radius = 0.0;          ///< of its surface [m]
     double reach = 0.0;           ///< sum of the radii [m]
     double area = 0.0;            ///< [m^2]
+    double length = 0.0;          ///< of its part of a line [m]
   };
   struct Response;
 
   Vec<2> forms(const Item& item, const model::Coordinates& q) const;
   double distance(const Vec<2>& y) const;
+  /// Of a point from the beginning of the axis, and its distance, as the bar sees it.
+  Vec3 seen(const Item& item, const model::Coordinates& q) const;
+  double distance_of(const Vec3& seen) const;
+  /// Of the straight way between two places that the bar sees.
+  double least_distance(const Vec3& from, const Vec3& to) const;
   bool passes(const Item& item, const model::State& state) const;
   /// The bar, which may stand in space, and the point, where they touch.
   Pressed press(int number, const Motion& motion, const Response& response,
