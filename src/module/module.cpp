@@ -210,7 +210,9 @@ std::string shape_of(const py::array& values) {
 
 // An array as it comes. What lies under a mask was hidden on purpose, and numpy would take it.
 py::array array_of(const py::object& given, const std::string& what) {
-  if (py::module_::import("numpy.ma").attr("is_masked")(given).cast<bool>()) {
+  // only what has a mask is looked at by numpy.ma, which takes longer than all else here
+  if (py::hasattr(given, "_mask") &&
+      py::module_::import("numpy.ma").attr("is_masked")(given).cast<bool>()) {
     throw culm::UsageError(what + " has masked values: say what stands there, as with filled(0.0)");
   }
   py::array array = py::array::ensure(given);
@@ -221,10 +223,10 @@ py::array array_of(const py::object& given, const std::string& what) {
 // Its numbers, of any stride, order and type that is real.
 Values numbers_of(const py::object& given, const std::string& what) {
   const py::array array = array_of(given, what);
-  const std::string type = py::str(py::object(array.dtype())).cast<std::string>();
   const bool is_real = std::string_view("biufO").find(array.dtype().kind()) != std::string::npos;
   Values numbers = is_real ? Values::ensure(array) : Values();
   if (!is_real || !numbers) {
+    const std::string type = py::str(py::object(array.dtype())).cast<std::string>();
     throw culm::UsageError(what + " must be an array of real numbers, and is one of " + type);
   }
   return numbers;

@@ -76,18 +76,24 @@ model::Coordinates GeneralisedAlphaScheme::end_acceleration(const model::State& 
   return result;
 }
 
-model::Coordinates GeneralisedAlphaScheme::end_velocity(const model::State& state, double h) const {
-  model::Coordinates velocity = state.velocity;
+void GeneralisedAlphaScheme::bring_to_end(model::Coordinates& velocity,
+                                          const model::Coordinates& end_acceleration,
+                                          double h) const {
   const auto faster = [this, h](double v, double first, double last) {
     return v + h * ((1.0 - gamma_) * first + gamma_ * last);
   };
-  model::combine(velocity, faster, acceleration_, end_acceleration(state, h));
+  model::combine(velocity, faster, acceleration_, end_acceleration);
+}
+
+model::Coordinates GeneralisedAlphaScheme::end_velocity(const model::State& state, double h) const {
+  model::Coordinates velocity = state.velocity;
+  bring_to_end(velocity, end_acceleration(state, h), h);
   return velocity;
 }
 
 void GeneralisedAlphaScheme::finish(model::State& state, double h) {
   model::Coordinates acceleration = end_acceleration(state, h);
-  state.velocity = end_velocity(state, h);
+  bring_to_end(state.velocity, acceleration, h);
   acceleration_ = std::move(acceleration);
 }
 

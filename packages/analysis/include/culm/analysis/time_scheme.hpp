@@ -69,6 +69,8 @@ class GeneralisedAlphaScheme : public TimeScheme {
 
  private:
   model::Coordinates end_acceleration(const model::State& state, double h) const;
+  void bring_to_end(model::Coordinates& velocity, const model::Coordinates& end_acceleration,
+                    double h) const;
 
   double alpha_m_, alpha_f_, beta_, gamma_;
   model::Coordinates acceleration_;
