@@ -1,4 +1,5 @@
 #include <culm/parallel/comm.hpp>
+#include <culm/parallel/patience.hpp>
 
 #include <numeric>
 
@@ -53,6 +54,18 @@ void Comm::sum(std::span<double> values) const {
   if (size_ == 1) return;
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
                 comm_);
+}
+
+void Comm::await_root() const {
+  char word = 0;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibcast(&word, 1, MPI_CHAR, 0, comm_, &request);
+  const Patience patience;
+  for (int has_come = 0;;) {
+    MPI_Test(&request, &has_come, MPI_STATUS_IGNORE);
+    if (has_come != 0) return;
+    patience.pause();
+  }
 }
 
 std::string Comm::broadcast(std::string text) const {

@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/coupling/partner_error.hpp>
 #include <culm/coupling/remote_partner.hpp>
+#include <culm/parallel/patience.hpp>
 #include <culm/simulation/stop_request.hpp>
 
 #include <fmt/format.h>
@@ -10,15 +11,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
-#include <thread>
 #include <utility>
 
 namespace culm::simulation {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // One message for each frame, to a rank of all that were started together.
 class MpiChannel final : public coupling::Channel {
@@ -40,31 +37,23 @@ class MpiChannel final : public coupling::Channel {
     MPI_Send(frame.data(), static_cast<int>(frame.size()), MPI_BYTE, rank_, 0, MPI_COMM_WORLD);
   }
 
-  // Looks often at first, and not so often that the partner would miss the processor.
   std::string receive(double patience) override {
-    constexpr auto busy = std::chrono::milliseconds(1);
-    constexpr auto pause = std::chrono::microseconds(50);
-    const auto start = Clock::now();
+    const parallel::Patience wait;
     bool listens = false;
     MPI_Status status;
     for (;;) {
       int is_there = 0;
       MPI_Iprobe(rank_, 0, MPI_COMM_WORLD, &is_there, &status);
       if (is_there != 0) break;
-      const auto waited = Clock::now() - start;
-      if (waited > busy && !std::exchange(listens, true)) StopRequest::listen();
+      if (wait.is_long() && !std::exchange(listens, true)) StopRequest::listen();
       if (StopRequest::is_ended_by(::getppid())) {
         throw PartnerError(
             "the launcher ends all its programs, as it does when one of them has died");
       }
-      if (std::chrono::duration<double>(waited).count() > patience) {
+      if (wait.waited() > patience) {
         throw PartnerError(fmt::format("it said nothing for {:g} s", patience));
       }
-      if (waited > busy) {
-        std::this_thread::sleep_for(pause);
-      } else {
-        std::this_thread::yield();
-      }
+      wait.pause();
     }
     int size = 0;
     MPI_Get_count(&status, MPI_BYTE, &size);

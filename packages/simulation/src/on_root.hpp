@@ -30,7 +30,10 @@ void on_root(const parallel::Comm& comm, Work work) {
       error = std::string("n") + e.what();
     }
   }
-  if (comm.size() > 1) error = comm.broadcast(error);
+  if (comm.size() > 1) {
+    comm.await_root();
+    error = comm.broadcast(error);
+  }
   if (error.empty()) return;
   const std::string text = error.substr(1);
   if (error.front() == 'f') throw FileError(text);

@@ -30,6 +30,10 @@ class Comm {
   /// Elementwise, in place.
   void sum(std::span<double> values) const;
 
+  /// Waits for the root, which may be with another program for long, and leaves the processor to
+  /// others meanwhile: in all other calls here, as in MPI's own, a rank that waits keeps it busy.
+  void await_root() const;
+
   /// Text of the root on all ranks.
   std::string broadcast(std::string text) const;
   void broadcast(std::span<double> values) const;
