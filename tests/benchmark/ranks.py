@@ -2,7 +2,7 @@
 """Speed and memory of a large slender model on several processes: the flexible pendulum. The time of a step is that
 of a long run less that of a short one; memory is the largest that a process ever had.
 
-usage: ranks.py CULM [--elements N] [--ranks 1 2 4] [--steps 4 24] [--repeats 2]
+usage: ranks.py CULM [--elements N] [--ranks 1 2 4] [--steps 4 24] [--repeats 2] [--copies]
 """
 
 import argparse
@@ -21,18 +21,34 @@ WATCH = ("import os, resource, subprocess, sys; code = subprocess.call(sys.argv[
          "print(f'used {used.ru_utime + used.ru_stime} {used.ru_maxrss}', flush=True); sys.exit(code)")
 
 
-def run(culm, ranks, elements, steps):
-    """Wall time [s], CPU time [s] and memory [MB] of each process."""
-    with tempfile.TemporaryDirectory() as folder:
-        words = [culm, "run", str(INPUTS / "beam/pendulum.xml"), "--quiet", "--output", folder, "--set",
-                 f"Structures/beam/Curve/Elements={elements}", "--set",
-                 f"Analyses/motion/End Time={steps * STEP!r}", "--set", "Output/Every=100000"]
-        began = time.monotonic()
-        out = subprocess.run(["mpiexec", "-n", str(ranks), sys.executable, "-c", WATCH, *words], check=True,
-                             capture_output=True, text=True).stdout
-        wall = time.monotonic() - began
-    used = [line.split()[1:] for line in out.splitlines() if line.startswith("used")]
+def command(culm, folder, elements, steps):
+    return [sys.executable, "-c", WATCH, culm, "run", str(INPUTS / "beam/pendulum.xml"), "--quiet", "--output", folder, "--set",
+            f"Structures/beam/Curve/Elements={elements}", "--set", f"Analyses/motion/End Time={steps * STEP!r}", "--set",
+            "Output/Every=100000"]
+
+
+def run(programs):
+    """Wall time [s] of programs beside each other, CPU time [s] and memory [MB] of each process of theirs."""
+    began = time.monotonic()
+    running = [subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for words in programs]
+    done = [(program.communicate(), program.returncode) for program in running]
+    wall = time.monotonic() - began
+    for (_, errors), code in done:
+        if code != 0:
+            sys.exit(errors)
+    used = [line.split()[1:] for (out, _), _ in done for line in out.splitlines() if line.startswith("used")]
     return wall, [float(cpu) for cpu, _ in used], [int(size) / 1024 for _, size in used]
+
+
+def run_ranks(culm, ranks, elements, steps):
+    with tempfile.TemporaryDirectory() as folder:
+        return run([["mpiexec", "-n", str(ranks), *command(culm, folder, elements, steps)]])
+
+
+def run_copies(culm, copies, elements, steps):
+    """Programs that know nothing of each other, each with its part of the elements."""
+    with tempfile.TemporaryDirectory() as folder:
+        return run([command(culm, f"{folder}/{i}", elements // copies, steps) for i in range(copies)])
 
 
 def main():
@@ -42,12 +58,15 @@ def main():
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--steps", type=int, nargs=2, default=[4, 24])
     parser.add_argument("--repeats", type=int, default=2)
+    parser.add_argument("--copies", action="store_true",
+                        help="instead of ranks independent programs, each with its part of the elements: what the machine allows")
     options = parser.parse_args()
     culm = os.path.abspath(options.culm)
+    start = run_copies if options.copies else run_ranks
     print("elements  ranks  whole run [s]  a step [s]  CPU of a step and rank [s]  memory of each rank [MB]")
     for elements in options.elements:
         for ranks in options.ranks:
-            runs = {steps: [run(culm, ranks, elements, steps) for _ in range(options.repeats)]
+            runs = {steps: [start(culm, ranks, elements, steps) for _ in range(options.repeats)]
                     for steps in options.steps}
             few, many = options.steps
             best = {steps: min(wall for wall, *_ in results) for steps, results in runs.items()}
