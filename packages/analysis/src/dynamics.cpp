@@ -165,8 +165,10 @@ void Dynamics::fit_motion() {
   // the deck's velocities belong to the first motion; a later analysis goes on with what it finds
   if (state.at_rest) system().model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
-  const assembly::VelocityFit fit =
-      system().project_velocity(state, 1e-4 * settings_.steps.step, mass_solver(context(), state));
+  model::Coordinates fitted;
+  const assembly::VelocityFit fit = system().project_velocity(
+      state, 1e-4 * settings_.steps.step, mass_solver(context(), state), fitted);
+  state.velocity.swap(fitted);
   const double fastest = system().comm().max(largest(state.velocity));
   if (fit.change > tolerance * std::max(1.0, fastest)) {
     context().findings.warn(
@@ -178,19 +180,19 @@ void Dynamics::fit_motion() {
   }
 }
 
-// The velocity is put back: the state's own energy would change.
+// The state keeps its velocity: its own energy would change.
 void Dynamics::measure_hidden_constraints() {
-  model::State& state = this->state();
-  model::Coordinates velocity = state.velocity;
+  model::Coordinates fitted;
   solver::LinearSolver& linear = context().linear;
   bool sound = true;  // a closed loop may just pass a singular position
   const assembly::VelocityFit fit = system().project_velocity(
-      state, 1e-4 * settings_.steps.step, [&](const assembly::Vector& b, assembly::Vector& x) {
+      state(), 1e-4 * settings_.steps.step,
+      [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = linear.factor() && linear.solve(b, x).is_sound();
         if (!sound) x.fill(0.0);
-      });
-  if (sound) certificate_.finish(fit.change, system().comm().max(largest(state.velocity)));
-  state.velocity.swap(velocity);
+      },
+      fitted);
+  if (sound) certificate_.finish(fit.change, system().comm().max(largest(fitted)));
 }
 
 // Where momenta are kept at all; what is carried moves stiff parts a little more than rounding

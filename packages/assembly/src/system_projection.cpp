@@ -108,6 +108,7 @@ NodeMotions System::node_motions() const {
 
 System::Motions System::motions(const model::State& state) const {
   Motions motions;
+  motions.reserve(layout_.local_blocks().size());
   each_moving_node([&](int node, const model::BlockShape&) {
     motions.push_back(model_.nodes().motion(node, state.prev, state.next));
   });
@@ -116,6 +117,7 @@ System::Motions System::motions(const model::State& state) const {
 
 System::Motions System::velocities(const model::State& state) const {
   Motions velocities;
+  velocities.reserve(layout_.local_blocks().size());
   each_moving_node([&](int node, const model::BlockShape&) {
     velocities.push_back(velocity_of(model_.nodes(), state, node));
   });
@@ -223,10 +225,14 @@ int System::largest_equation(std::span<const double> rows, double largest) const
   return find_largest(largest, equation).second;
 }
 
-VelocityFit System::project_velocity(model::State& state, double probe, const Solve& solve_mass) {
+VelocityFit System::project_velocity(model::State& state, double probe, const Solve& solve_mass,
+                                     model::Coordinates& fitted) {
   // velocities given to eliminated nodes are those of their masters
-  const model::Coordinates given = state.velocity;
-  for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
+  std::vector<model::NodeSlots> given;
+  for (int slave : slaves_) {
+    given.push_back(model::NodeTable::slots(state.velocity, slave));
+    model_.nodes().follow_master(slave, state.velocity);
+  }
   const std::vector<double> speed = drive_speed(state, probe);
   const Evaluation found = evaluate(state, Stencil::statics(), Want::mass);
   if (found.verdict != Verdict::ok) {
@@ -265,16 +271,14 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   solve_mass(rhs, change);
   velocity.update(1.0, change);
 
-  const model::Coordinates before = state.velocity;
   const std::span<const double> all = column_values(velocity);
-  state.velocity.assign(state.velocity.size(), 0.0);
+  fitted.assign(state.velocity.size(), 0.0);
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
     const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);
-    model::NodeTable::slots(state.velocity, block.owner) =
-        slot_motion(model_, block.owner, w, state.next);
+    model::NodeTable::slots(fitted, block.owner) = slot_motion(model_, block.owner, w, state.next);
   });
-  for (int slave : slaves_) model_.nodes().follow_master(slave, state.velocity);
-  if (needs_all_nodes_) complete(state.velocity);
+  for (int slave : slaves_) model_.nodes().follow_master(slave, fitted);
+  if (needs_all_nodes_) complete(fitted);
   // what moves no mass, such as the frame of a linear shell, has no velocity of its own
   std::vector<bool> moves_mass = model::slots_with_mass(model_);
   for (int slave : slaves_) {
@@ -286,21 +290,24 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   }
   double largest = 0.0;
   int node = -1;
-  const auto compare = [&](int at, const model::Coordinates& wanted) {
+  const auto compare = [&](int at) {
     const auto first = static_cast<std::size_t>(model::NodeTable::offset(at));
     for (std::size_t i = first; i < first + 12; ++i) {
-      const double moved = std::abs(state.velocity[i] - wanted[i]);
+      const double moved = std::abs(fitted[i] - state.velocity[i]);
       if (!moves_mass[i / 3] || moved <= largest) continue;
       largest = moved;
       node = at;
     }
   };
   each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
-    if (!model_.nodes().is_slave(block.owner)) compare(block.owner, before);
+    if (!model_.nodes().is_slave(block.owner)) compare(block.owner);
   });
-  for (int slave : slaves_) {  // where its master is known
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const int slave = slaves_[i];
+    model::NodeTable::slots(state.velocity, slave) = given[i];
+    // where its master is known
     const bool is_here = layout_.owners()[index(unknowns.node_block(slave))] == comm_.rank();
-    if (is_here && !model::NodeTable::slots(given, slave).isZero(0.0)) compare(slave, given);
+    if (is_here && !given[i].isZero(0.0)) compare(slave);
   }
   forget_reactions();
   const auto [most, where] = find_largest(largest, node);

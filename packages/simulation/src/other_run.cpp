@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -25,12 +26,12 @@ namespace {
 using Path = std::filesystem::path;
 
 std::string sum_of(const model::Model& model, const model::Structure& structure) {
-  std::vector<double> numbers;
+  std::uint64_t sum = output::checksum({});
   for (const int node : structure.nodes) {
-    const auto slots = model::NodeTable::slots(model.nodes().reference(), node);
-    numbers.insert(numbers.end(), slots.data(), slots.data() + slots.size());
+    const model::NodeSlots slots = model::NodeTable::slots(model.nodes().reference(), node);
+    sum = output::checksum(std::as_bytes(std::span(slots.data(), 12)), sum);
   }
-  return fmt::format("{:016x}", output::checksum(std::as_bytes(std::span(numbers))));
+  return fmt::format("{:016x}", sum);
 }
 
 std::string key(std::string_view what, std::size_t number) {

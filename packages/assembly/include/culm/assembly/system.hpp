@@ -167,12 +167,15 @@ class System {
   /// collective there.
   void save(const Motions& motions, std::string_view name, Snapshot& snapshot) const;
   Motions restore_motions(const Snapshot& snapshot, std::string_view name) const;
-  /// Makes the velocity follow from supports, links and constraints: the nearest one in the metric
-  /// of the mass, H v = dg/dt. The speed of prescribed motions is found by differences over times
-  /// up to `probe` [s]. `solve_mass` solves with the matrix as it stands when it is called. There
-  /// are no reactions afterwards until the next evaluation. @source formulation 4.7
+  /// The velocity that follows from supports, links and constraints, the nearest one to that of the
+  /// state in the metric of the mass, H v = dg/dt. The speed of prescribed motions is found by
+  /// differences over times up to `probe` [s]. `solve_mass` solves with the matrix as it stands
+  /// when it is called. There are no reactions afterwards until the next evaluation. @param fitted
+  /// becomes the velocity
+  /// @return by what it differs from the state's @source formulation 4.7
   using Solve = std::function<void(const Vector& b, Vector& x)>;
-  VelocityFit project_velocity(model::State& state, double probe, const Solve& solve_mass);
+  VelocityFit project_velocity(model::State& state, double probe, const Solve& solve_mass,
+                               model::Coordinates& fitted);
 
   /// Strain energy of all elements [J].
   double strain_energy(const model::Coordinates& q) const;
