@@ -62,7 +62,7 @@ std::vector<int> PlaneContact::blocks(int item, const model::UnknownTable& unkno
 
 PlaneContact::Evaluation PlaneContact::evaluate(int item, const model::State& state,
                                                 const Stencil& stencil) const {
-  const auto& [centre, radius, area] = point(item);
+  const auto& [centre, radius, area, length] = point(item);
   Evaluation found{
       PlaneContactMotion(nodes_, centre.nodes, state, stencil.theta),
       respond(penalty_, depth(point(item), state.prev), depth(point(item), state.next), stencil)};
@@ -116,7 +116,7 @@ Verdict PlaneContact::assemble_item(std::size_t i, const model::State& state,
                                     const Stencil& stencil, bool tangent,
                                     model::Target& target) const {
   const int item = placement().items[i];
-  const auto& [centre, radius, area] = point(item);
+  const auto& [centre, radius, area, length] = point(item);
   const Evaluation found = evaluate(item, state, stencil);
   const Vec3& n = plane_.normal;
   const PlaneContactMotion::Slots r = -found.forces(n);
