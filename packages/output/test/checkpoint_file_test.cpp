@@ -45,7 +45,7 @@ TEST(CheckpointFile, TheLastTwoAreKept) {
 TEST(CheckpointFile, PiecesAreReadAsOneContent) {
   const TemporaryFolder folder;
   std::string whole;
-  for (int i = 0; i < 700'000; ++i) whole += static_cast<char>(i * i % 251);
+  for (int i = 0; i < 700'000; ++i) whole += static_cast<char>(1LL * i * i % 251);
   write_checkpoint(folder / "whole", whole + whole + whole + "end");
   write_checkpoint(folder / "pieces", [&](const TakePiece& take) {
     for (int i = 0; i < 3; ++i) take(whole);
