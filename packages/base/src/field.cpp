@@ -32,8 +32,9 @@ int to_whole(double value, const std::string& name) {
   return static_cast<int>(value);
 }
 
-/// A default as C++ spells it, brought to the kind of its field: 0 is a number too, and braces
-/// around whole numbers may mean integers or numbers.
+/// A default as C++ spells it, brought to the kind of its field: 0 is a number too, braces around
+/// whole numbers may mean integers or numbers, and compilers differ in whether braces around one
+/// text are one.
 Value to_kind(Value value, Kind kind, const std::string& name) {
   if (const auto* whole = std::get_if<int>(&value); whole && kind == Kind::number) {
     return static_cast<double>(*whole);
@@ -47,6 +48,9 @@ Value to_kind(Value value, Kind kind, const std::string& name) {
   if (const auto* items = std::get_if<std::vector<double>>(&value);
       items && items->empty() && kind == Kind::texts) {
     return std::vector<std::string>{};
+  }
+  if (const auto* text = std::get_if<std::string>(&value); text && kind == Kind::texts) {
+    return std::vector<std::string>{*text};
   }
   internal_check(kind_of(value) == kind, "the default of '" + name + "' is not of its kind");
   return value;

@@ -24,6 +24,8 @@ TEST(Field, DefaultsTakeTheKindOfTheField) {
   EXPECT_EQ(numbers("A", "", "").optional({0, 0, 1}).default_value(), Value(Numbers{0, 0, 1}));
   EXPECT_EQ(integers("A", "").optional({1, 2}).default_value(), Value(std::vector{1, 2}));
   EXPECT_EQ(text("A", "").optional("x").default_value(), Value(std::string("x")));
+  EXPECT_EQ(texts("A", "").optional({"x"}).default_value(), Value(std::vector<std::string>{"x"}));
+  EXPECT_EQ(texts("A", "").optional("x").default_value(), Value(std::vector<std::string>{"x"}));
   EXPECT_EQ(texts("A", "").optional({"x", "y"}).default_value(),
             Value(std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(flag("A", "").optional(true).default_value(), Value(true));

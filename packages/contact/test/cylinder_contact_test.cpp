@@ -115,7 +115,7 @@ TEST(CylinderContact, SaysWhatStandsBetweenItsPoints) {
               testing::HasSubstr("points on its line 4 m apart, and the bar lies 1 m deeper"));
   EXPECT_EQ(overlooked({1.0, -2.0, 1.6}, {1.0, 2.0, 1.6}, 4.0), "");
   EXPECT_EQ(overlooked({1.0, -0.2, 1.4}, {1.0, 0.2, 1.4}, 0.4), "");
-  EXPECT_EQ(overlooked({-3.0, 0.0, 1.4}, {5.0, 0.0, 1.4}, 8.0), "");
+  EXPECT_EQ(overlooked({0.2, 0.0, 1.4}, {1.8, 0.0, 1.4}, 1.6), "");
   EXPECT_EQ(overlooked({1.0, -2.0, 1.4}, {1.0, 2.0, 1.4}, 1.0), "");
   EXPECT_EQ(overlooked({1.0, -2.0, 1.4}, {1.0, 2.0, 1.4}, 0.0), "");
 }
