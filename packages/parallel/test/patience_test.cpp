@@ -22,13 +22,5 @@ TEST(Patience, RanksThatWaitForTheRootLeaveTheProcessor) {
   EXPECT_LT(used, 0.5 * patience.waited() + 0.01);
 }
 
-TEST(Patience, LooksOftenAtFirst) {
-  const Patience patience;
-  int looks = 0;
-  for (; !patience.is_long(); ++looks) patience.pause();
-  EXPECT_GE(looks, 1);
-  EXPECT_GT(patience.waited(), 0.0);
-}
-
 }  // namespace
 }  // namespace culm::parallel

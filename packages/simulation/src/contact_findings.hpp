@@ -8,6 +8,7 @@
 
 namespace culm::simulation {
 
+bool has_contacts(const model::Model& model);
 /// A sentence for each contact whose structure lies too deep in what it should touch.
 std::vector<std::string> deep_contacts(const model::Model& model, const model::Coordinates& q);
 /// A sentence for each contact that overlooks something for want of points.

@@ -52,7 +52,11 @@ void Simulation::Parts::warn_of_end(const model::Coordinates& q, double time) {
   for (const std::string& sentence : taut_beams(*phases.of(present).system, q)) {
     findings.warn("taut beam", sentence, time);
   }
-  for (const std::string& sentence : coarse_contacts(*phases.of(present).model, q)) {
+  const Phase& phase = phases.of(present);
+  if (!has_contacts(*phase.model)) return;
+  model::Coordinates whole = q;
+  phase.system->complete(whole);
+  for (const std::string& sentence : coarse_contacts(*phase.model, whole)) {
     findings.warn("coarse contact", sentence, time);
   }
 }
