@@ -23,10 +23,27 @@ Vec3 position_size(const model::BlockShape& shape, const Vec3& prev, const Vec3&
   return shape.full() ? size : Vec3(Vec3::Constant(size.maxCoeff()));
 }
 
+// How far the farthest node that follows it is from each node; empty where none does. The place of
+// a follower is found from that of its master, and rounded as it is.
+std::vector<double> levers_of(const model::NodeTable& nodes) {
+  std::vector<double> levers;
+  const auto place = [&](int node) {
+    return model::NodeTable::slots(nodes.reference(), node).col(0);
+  };
+  for (int node = 0; node < nodes.size(); ++node) {
+    if (!nodes.is_slave(node)) continue;
+    levers.resize(index(nodes.size()), 0.0);
+    double& lever = levers[index(nodes.master(node))];
+    lever = std::max(lever, (place(node) - place(nodes.master(node))).norm());
+  }
+  return levers;
+}
+
 // Sizes of the unknowns of the local columns, in proportion to which they are rounded.
 std::vector<double> unknown_sizes(const System& system, const EvaluatedPoint& point) {
   // directors are of unit length
   std::vector<double> sizes(system.layout().columns().size(), 1.0);
+  const std::vector<double> levers = levers_of(system.model().nodes());
   for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
     const model::Block& block = system.model().unknowns().block(local.block);
     const bool is_node = block.kind == model::BlockKind::node;
@@ -34,6 +51,7 @@ std::vector<double> unknown_sizes(const System& system, const EvaluatedPoint& po
     if (is_node) {
       position = position_size(block.shape, model::NodeTable::slots(point.prev, block.owner).col(0),
                                model::NodeTable::slots(point.next, block.owner).col(0));
+      if (!levers.empty()) position.array() += levers[index(block.owner)];
     }
     for (int i = 0; i < (is_node ? 3 : block.shape.width); ++i) {
       const int at = block.shape.position[index(i)];

@@ -57,6 +57,10 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     if (batch->has_tangent()) entry.entries_per_iteration = entries_of(*batch, unknowns);
     effects_.push_back(ledger.add(entry));
   }
+  for (const auto& batch : model.element_batches()) {
+    if (batch->depends_on_time()) driven_.push_back(batch.get());
+  }
+  driven_elements_ = driven_.size();
   for (const auto& batch : model.constraint_batches()) driven_.push_back(batch.get());
   for (const auto& batch : model.loads()) driven_.push_back(batch.get());
   find_needed_nodes();
@@ -162,6 +166,10 @@ void System::change_level(const model::State& state, const Stencil& stencil) {
   parallel::together(comm_, [&] {
     for (model::Batch* batch : driven_) batch->prepare(state, stencil);
   });
+}
+
+void System::show_level(const model::State& state) {
+  for (std::size_t i = 0; i < driven_elements_; ++i) driven_[i]->prepare(state, {});
 }
 
 void System::level_gradient(model::State& state, const Stencil& stencil, double step,

@@ -288,6 +288,10 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
       std::fill_n(moves_mass.begin() + master, 4, true);
     }
   }
+  // and what follows moves the mass of its master, if none of its own
+  for (int slave : slaves_) {
+    if (moves_mass[4 * index(model_.nodes().master(slave))]) moves_mass[4 * index(slave)] = true;
+  }
   double largest = 0.0;
   int node = -1;
   const auto compare = [&](int at) {

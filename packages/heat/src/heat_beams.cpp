@@ -58,7 +58,7 @@ bool heat_beam(const HeatRequest& request) {
   } else if (!batch->relaxation_times().empty()) {
     request.context.issues.add(
         where, "beam '" + name + "' relaxes; heat acts on beams without 'Relaxation'");
-  } else if (structure::yields(*batch)) {
+  } else if (structure::yields(*batch, request.structure.cells.front().item)) {
     request.context.issues.add(
         where, "beam '" + name + "' yields; heat acts on beams without 'Plasticity'");
   } else {

@@ -77,7 +77,7 @@ bool heat_shell(const HeatRequest& request) {
         where, shell + "does not expand: its materials need an 'Expansion' or 'Expansions'");
   } else if (!batch->relaxation_times().empty()) {
     request.context.issues.add(where, shell + "relaxes; heat acts on shells without 'Relaxation'");
-  } else if (structure::yields(*batch)) {
+  } else if (structure::yields(*batch, first.item)) {
     request.context.issues.add(where, shell + "yields; heat acts on shells without 'Plasticity'");
   } else {
     const auto& layup = batch->element(first.item).layup();

@@ -189,6 +189,7 @@ void LinkLoad::restore(std::span<const double> memory) {
     items_[i].accepted = {{memory[item_memory * i], memory[item_memory * i + 1]},
                           memory[item_memory * i + 2]};
     items_[i].prev = items_[i].accepted;
+    items_[i].force.reset();  // that of another state
   }
 }
 

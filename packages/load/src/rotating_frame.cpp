@@ -50,8 +50,24 @@ bool select_structures(const Options& options, model::BuildContext& context,
       continue;
     }
     nodes.insert(nodes.end(), structure->nodes.begin(), structure->nodes.end());
+    if (structure->body) nodes.push_back(*structure->body);
   }
   return found;
+}
+
+// The mass of an item if all nodes turn that have a share of it; others, such as the frame of a
+// linear shell, only say where it is.
+void add_mass(std::span<const int> nodes, const Eigen::MatrixXd& mass, RotatingFrame& load) {
+  std::vector<int> heavy;
+  std::vector<Eigen::Index> slots;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const auto first = static_cast<Eigen::Index>(4 * a);
+    if (mass.middleRows<4>(first).isZero(0.0)) continue;
+    if (!load.turns(nodes[a])) return;
+    heavy.push_back(nodes[a]);
+    for (Eigen::Index s = 0; s < 4; ++s) slots.push_back(first + s);
+  }
+  if (!heavy.empty()) load.add(heavy, mass(slots, slots));
 }
 
 void build_rotating_frame(const Options& options, model::BuildContext& context) {
@@ -77,8 +93,7 @@ void build_rotating_frame(const Options& options, model::BuildContext& context) 
   for (const auto& batch : context.model.element_batches()) {
     if (const auto* source = dynamic_cast<const model::MassSource*>(batch.get())) {
       source->visit_masses([&](std::span<const int> nodes, const Eigen::MatrixXd& mass) {
-        const bool turns = std::ranges::all_of(nodes, [&](int node) { return load->turns(node); });
-        if (turns && !mass.isZero(0.0)) load->add(nodes, mass);
+        add_mass(nodes, mass, *load);
       });
     }
   }

@@ -1,6 +1,9 @@
 #include <culm/math/rotation.hpp>
 #include <culm/model/initial_motion.hpp>
 
+#include <algorithm>
+#include <set>
+
 namespace culm::model {
 namespace {
 
@@ -17,8 +20,23 @@ Vec3 centre_of(const Options& options, const std::vector<int>& nodes, const Mode
   return NodeTable::slots(model.nodes().reference(), nodes.front()).col(0);
 }
 
+// The nodes that a parameter names, and the bodies of rigid shells that are named whole: what
+// follows does not move by itself.
+std::vector<int> select_moving_nodes(const Options& options, BuildContext& context) {
+  std::vector<int> nodes = select_nodes(options, "Node", context);
+  if (nodes.empty()) return nodes;
+  const std::set<int> named(nodes.begin(), nodes.end());
+  for (const Structure& structure : context.model.structures()) {
+    if (!structure.body || named.contains(*structure.body)) continue;
+    const bool is_whole = std::all_of(structure.nodes.begin(), structure.nodes.end(),
+                                      [&](int node) { return named.contains(node); });
+    if (is_whole) nodes.push_back(*structure.body);
+  }
+  return nodes;
+}
+
 void build_velocity(const Options& options, BuildContext& context) {
-  const std::vector<int> nodes = select_nodes(options, "Node", context);
+  const std::vector<int> nodes = select_moving_nodes(options, context);
   if (nodes.empty()) return;
   const Vec3 about = centre_of(options, nodes, context.model);
   for (int node : nodes) {
@@ -28,7 +46,7 @@ void build_velocity(const Options& options, BuildContext& context) {
 }
 
 void build_displacement(const Options& options, BuildContext& context) {
-  const std::vector<int> nodes = select_nodes(options, "Node", context);
+  const std::vector<int> nodes = select_moving_nodes(options, context);
   if (nodes.empty()) return;
   const Vec3 about = centre_of(options, nodes, context.model);
   const Vec3 rotation = options.number("Angle") * vector(options, "Axis").normalized();

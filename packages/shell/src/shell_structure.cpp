@@ -222,6 +222,7 @@ void add_rigid(const ShellMesh& mesh, const SlotMatrix<4>& mass, const Vec3& cen
   const int body = model.nodes().add(slots);
   if (mass(0, 0) > 0.0) model.masses("Rigid shells").add(body, mass);
   for (int node : structure.nodes) model.add_rigid_link(structure.name + ", rigid", node, body);
+  structure.body = body;
   model::Structure& shown = model.add_structure(structure.name + " body");
   shown.nodes = {body};
   shown.sets = {{"first", {body}}, {"last", {body}}, {"all", {body}}};

@@ -70,8 +70,11 @@ class System {
   }
   /// Instead: goes back to the start of the step.
   void discard(model::State& state) const;
-  /// Tells loads and constraints of another end of the step, state.time; elements do not know it.
+  /// Tells what depends on time itself, such as loads, constraints and heat, of another end of the
+  /// step, state.time; other elements do not know it.
   void change_level(const model::State& state, const Stencil& stencil);
+  /// Before the first step, for who looks at stresses and energies then: tells heat of state.time.
+  void show_level(const model::State& state);
   /// Derivative of the residual by state.time: a difference over `step`, exact where loads are
   /// linear in time. Needs prepare; changes neither residual() nor reactions.
   void level_gradient(model::State& state, const Stencil& stencil, double step, Vector& gradient);
@@ -246,6 +249,7 @@ class System {
   Layout layout_;
   std::vector<model::Batch*> batches_;
   std::vector<model::Batch*> driven_;  ///< those that depend on time itself
+  std::size_t driven_elements_ = 0;    ///< the first of them
   std::vector<Ledger::Id> effects_;
   Ledger::Id update_effect_;
   bool needs_all_nodes_ = false;  ///< on all ranks, up to date in each evaluation

@@ -60,6 +60,7 @@ class HeatBatch final : public model::Batch, public model::AddedStresses, public
   const model::Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(heated_.size()); }
   bool has_tangent() const override { return true; }
+  bool depends_on_time() const override { return true; }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override {
     return elements_.blocks(heated(item).item, unknowns);
   }

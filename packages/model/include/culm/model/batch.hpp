@@ -82,6 +82,9 @@ class Batch {
   virtual void accept(State&) {}
   /// Whether velocities must be those of the conserving scheme, for accept to correct them.
   virtual bool needs_mean_velocity() const { return false; }
+  /// Whether it changes with time or level itself, beside the state. Of loads and constraints
+  /// nobody asks: they are taken to.
+  virtual bool depends_on_time() const { return false; }
   /// Times of the branches by which items relax [s]; none where stress follows strain at once. An
   /// equilibrium, about which equations are linearised, is relaxed.
   virtual std::vector<double> relaxation_times() const { return {}; }

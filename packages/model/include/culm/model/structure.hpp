@@ -122,6 +122,8 @@ struct Structure {
   /// entries where no node has one.
   std::vector<std::vector<Eigen::Vector2d>> outlines;
   DeckNumbers deck;
+  /// The node that all others follow, where it is none of them: it has their mass.
+  std::optional<int> body = {};
 
   /// Nodes in the order of their numbers in the deck.
   const std::vector<int>& numbered_nodes() const { return deck.nodes.empty() ? nodes : deck.nodes; }

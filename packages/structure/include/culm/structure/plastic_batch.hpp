@@ -20,6 +20,8 @@ namespace culm::structure {
 class YieldingElements {
  public:
   virtual ~YieldingElements() = default;
+  /// Whether an element of the batch is one of them.
+  virtual bool has(int item) const = 0;
 };
 
 /// A place in an element E with a law of its own, fed by its part of the element's strains.
@@ -74,6 +76,11 @@ class PlasticBatch final : public model::Batch,
     begin_.push_back(flows_.size());
     for (const auto& places : yielding.places) flows_.resize(flows_.size() + places.size());
     yielding_.push_back(std::move(yielding));
+  }
+
+  bool has(int item) const override {
+    const auto at = static_cast<std::size_t>(item);
+    return at < numbers_.size() && numbers_[at] >= 0;
   }
 
   const model::ElementBatch<E>& elements() const { return elements_; }
@@ -406,12 +413,13 @@ PlasticBatch<E, Law>& plastic_flow(model::Model& model, const std::string& struc
   return result;
 }
 
-/// Whether some of a batch's elements yield.
+/// Whether an element of a batch yields.
 template <class E>
-bool yields(const model::ElementBatch<E>& elements) {
+bool yields(const model::ElementBatch<E>& elements, int item) {
   return std::any_of(elements.added_stresses().begin(), elements.added_stresses().end(),
-                     [](const model::AddedStresses* more) {
-                       return dynamic_cast<const YieldingElements*>(more) != nullptr;
+                     [item](const model::AddedStresses* more) {
+                       const auto* yielding = dynamic_cast<const YieldingElements*>(more);
+                       return yielding != nullptr && yielding->has(item);
                      });
 }
 
