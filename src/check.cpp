@@ -58,6 +58,9 @@ void check(const parallel::Comm& comm, CheckArguments& arguments) {
     if (written.empty()) continue;
     simulation::refuse_overwriting(comm, simulation::find_input_files(deck, source), written);
   }
+  if (!arguments.resolved.empty()) {
+    simulation::refuse_other_files(deck, arguments.resolved.parent_path());
+  }
   simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
   log.info(std::string(trim(simulation.summary())));
   if (!arguments.resolved.empty() && comm.is_root()) write_resolved(deck, arguments.resolved);

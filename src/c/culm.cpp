@@ -111,9 +111,10 @@ struct culm_simulation {
                                     culm::Log(said, culm::LogLevel::info),
                                     culm::parallel::Comm(comm))) {}
 
-  Stepper& stepper() const {
-    require(open_stepper != nullptr, "no analysis was taken up: 'culm_begin' comes first");
-    return *open_stepper;
+  Stepper& stepper() {
+    Stepper* const present = simulation.stepper();
+    require(present != nullptr, "no analysis was taken up: 'culm_begin' comes first");
+    return *present;
   }
 
   std::ostringstream said;
@@ -122,8 +123,6 @@ struct culm_simulation {
   std::string port_name;
   std::string error;
   Simulation simulation;
-  Stepper* open_stepper = nullptr;
-  long taken_up = 0;  // analyses so far
 };
 
 struct culm_snapshot {
@@ -208,18 +207,12 @@ int culm_write_results(culm_simulation* simulation, const char* folder) {
 }
 
 int culm_close_results(culm_simulation* simulation) {
-  return with(simulation, [](culm_simulation& s) {
-    if (s.simulation.writes_results()) s.open_stepper = nullptr;
-    s.simulation.close_results();
-  });
+  return with(simulation, [](culm_simulation& s) { s.simulation.close_results(); });
 }
 
 int culm_begin(culm_simulation* simulation, const char* analysis) {
-  return with(simulation, [&](culm_simulation& s) {
-    ++s.taken_up;  // also where it fails: what was taken up before is gone
-    s.open_stepper = nullptr;
-    s.open_stepper = &s.simulation.begin(analysis == nullptr ? "" : analysis);
-  });
+  return with(simulation,
+              [&](culm_simulation& s) { s.simulation.begin(analysis == nullptr ? "" : analysis); });
 }
 
 int culm_time(culm_simulation* simulation, double* time) {
@@ -278,7 +271,7 @@ int culm_finish(culm_simulation* simulation) {
 
 int culm_save(culm_simulation* simulation, culm_snapshot** snapshot) {
   return with(simulation, [&](culm_simulation& s) {
-    auto saved = std::make_unique<culm_snapshot>(culm_snapshot{&s, s.taken_up});
+    auto saved = std::make_unique<culm_snapshot>(culm_snapshot{&s, s.simulation.taken_up()});
     s.stepper().save(saved->snapshot);
     put(saved.get(), snapshot);
     static_cast<void>(saved.release());
@@ -288,7 +281,7 @@ int culm_save(culm_simulation* simulation, culm_snapshot** snapshot) {
 int culm_restore(culm_simulation* simulation, const culm_snapshot* snapshot) {
   return with(simulation, [&](culm_simulation& s) {
     require(snapshot != nullptr, "there is no snapshot: it is NULL");
-    require(snapshot->owner == &s && snapshot->taken_up == s.taken_up,
+    require(snapshot->owner == &s && snapshot->taken_up == s.simulation.taken_up(),
             "the snapshot belongs to another analysis or simulation");
     s.stepper().restore(snapshot->snapshot);
   });

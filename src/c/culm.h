@@ -79,7 +79,8 @@ CULM_API int culm_write_results(culm_simulation* simulation, const char* folder)
 /* Ends the analysis that was taken up, and the files with a report; what was written before is sound without it. Since
  * 1003. */
 CULM_API int culm_close_results(culm_simulation* simulation);
-/* Takes up an analysis of the deck that makes steps, the first one if `analysis` is NULL. */
+/* Takes up an analysis of the deck that makes steps, the first one if `analysis` is NULL. What was taken up before ends,
+ * unless the deck has no such analysis. */
 CULM_API int culm_begin(culm_simulation* simulation, const char* analysis);
 /* Time [s] or level of the accepted state. */
 CULM_API int culm_time(culm_simulation* simulation, double* time);

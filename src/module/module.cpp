@@ -99,6 +99,15 @@ class Busy {
   std::atomic<bool>& solves_;
 };
 
+// Lets Ctrl-C end a run between two steps; the last accepted one stays.
+class Interruptible final : public culm::analysis::Observer {
+ public:
+  void step(const culm::analysis::StepReport&, culm::model::State&) override {
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+};
+
 // A simulation and what it says.
 class Live {
  public:
@@ -139,17 +148,14 @@ class Live {
 
   void begin(const std::string& analysis) {
     const Busy busy(solves_);
-    ++taken_up_;  // also where it fails: what was taken up before is gone
-    stepper_ = nullptr;
-    stepper_ = &simulation_.begin(analysis);
+    simulation_.begin(analysis);
   }
   std::string close_results() {
     refuse_if_busy();
-    if (simulation_.writes_results()) stepper_ = nullptr;
     return simulation_.close_results();
   }
-  long taken_up() const { return taken_up_; }
-  Stepper* stepper() const { return stepper_; }
+  long taken_up() const { return simulation_.taken_up(); }
+  Stepper* stepper() { return simulation_.stepper(); }
 
  private:
   std::shared_ptr<Start> start_;  // the last to go
@@ -157,8 +163,6 @@ class Live {
   std::ostream said_{&ear_};
   Simulation simulation_;
   std::string failure_;
-  Stepper* stepper_ = nullptr;
-  long taken_up_ = 0;
   std::atomic<bool> solves_ = false;
 };
 
@@ -443,7 +447,8 @@ PYBIND11_MODULE(_culm, module) {
           [](const Handle& stepper) {
             Stepper& taken = stepper.get();
             const Busy busy(stepper.live().solves());
-            culm::analysis::run(taken);
+            Interruptible observer;
+            culm::analysis::run(taken, observer);
           },
           Free(), "Makes all steps to the end.")
       .def("finish", &finish, "Ends the analysis; returns the numbers of its report.")

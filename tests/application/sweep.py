@@ -133,6 +133,15 @@ class Sweeps(SweepTest):
         self.assertTrue(columns)
         self.assertTrue(all(float(row[columns[-1]]) > 0.0 for row in self.rows()))
 
+    def test_two_at_once_in_one_folder_make_each_run_once(self):
+        words = ["--vary", f"{STIFFNESS}=300,350,400,450,500", *SHORT]
+        both = [self.start(*words), self.start(*words)]
+        told = [process.communicate(timeout=TIME_LIMIT) for process in both]
+        for process, (output, errors) in zip(both, told):
+            self.assertEqual(process.returncode, 0, output + errors)
+            self.assertIn("5 runs: 5 done", output)
+        self.assertEqual(sum(output.count(f" s  {STIFFNESS}=") for output, _ in told), 5, told)
+
     def test_goes_on_after_a_kill(self):
         lines = [f"{300 + i}" for i in range(12)]
         cases = self.cases(STIFFNESS, *lines)

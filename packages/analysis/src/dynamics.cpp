@@ -53,6 +53,11 @@ double largest(std::span<const double> v) {
 
 }  // namespace
 
+std::string late_start(double start, double end) {
+  return fmt::format("the analysis starts at {:g}, unless 'Start Time' says otherwise; got {:g}",
+                     start, end);
+}
+
 Schema Dynamics::schema() {
   return Schema("Dynamic", "Motion in time from the present state and velocity.")
       .add(number("Start Time", "s",
@@ -151,7 +156,9 @@ Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme
       control_(context.system, settings_.steps, scheme_->error_constant()),
       predictor_(context.system),
       certificate_(context.system, scheme_->conserves()),
-      pulses_(context.system.model().functions()) {}
+      pulses_(context.system.model().functions()) {
+  state.in_motion = true;
+}
 
 // Motion that constraints do not allow would never decay, so it is removed.
 void Dynamics::fit_motion() {
@@ -217,10 +224,7 @@ void Dynamics::do_fit() {
   refuse_other_schemes();
   state.time = state.time_prev = settings_.start_time.value_or(state.time);
   if (reaches_end()) {
-    throw InputError(settings_.end_time,
-                     fmt::format("the analysis starts at {:g}, unless 'Start Time' says otherwise; "
-                                 "got {:g}",
-                                 state.time, settings_.steps.end_time));
+    throw InputError(settings_.end_time, late_start(state.time, settings_.steps.end_time));
   }
   fit_motion();
 }
@@ -273,9 +277,26 @@ void Dynamics::do_accept(const StepReport& report) {
     certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
   }
   scheme_->finish(state, taken);
+  warn_of_short_step(taken);
   system().accept(state);
   const Ledger::Scope scope(context().ledger, certificate_effect_);
-  certificate_.compare(state, reaches_end());
+  certificate_.compare(state);
+}
+
+// Their accelerations are differences of positions over the square of the step, from which the next
+// one starts; steps of its own are not so short.
+void Dynamics::warn_of_short_step(double taken) {
+  constexpr double too_short = 1e-4;
+  const double shortest = std::min(too_short * settings_.steps.step, settings_.steps.smallest_step);
+  if (scheme_->conserves() || taken >= shortest || reaches_end()) return;
+  context().findings.warn(
+      "short step",
+      fmt::format(
+          "a step shorter than {:.3g} s: beside 'Step' = {:g} s, scheme '{}' makes accelerations "
+          "of rounding there, which the steps behind it feel; end steps elsewhere, or take "
+          "'Conserving'",
+          shortest, settings_.steps.step, scheme_->name()),
+      state().time);
 }
 
 bool Dynamics::do_fail(const StepReport& report) {
@@ -290,6 +311,7 @@ bool Dynamics::do_fail(const StepReport& report) {
 
 AnalysisReport Dynamics::do_finish() {
   system().carry_residuals(false);
+  certificate_.compare_last(state());
   if (!certificate_.broken().empty()) {
     const model::State& now = state();
     certificate_.set_rounding(

@@ -16,6 +16,7 @@ void Stepper::require(bool holds, const char* verb) {
 void Stepper::fit() {
   require(stage_ == Stage::unbegun, "be fitted");
   do_fit();
+  system().show_level(state_);
 }
 
 void Stepper::begin() {
@@ -70,8 +71,7 @@ void Stepper::accept() {
 }
 
 model::Coordinates Stepper::velocity() const {
-  const bool is_open = stage_ == Stage::tried && report_.accepted;
-  return is_open ? end_velocity(report_) : state_.velocity;
+  return is_open() ? end_velocity(report_) : state_.velocity;
 }
 
 void Stepper::go_back() {

@@ -33,6 +33,7 @@ model::State System::gather(const model::State& state) {
   whole.time_prev = state.time_prev;
   whole.time = state.time;
   whole.at_rest = state.at_rest;
+  whole.in_motion = state.in_motion;
   whole.next = gather(state.next);
   whole.prev = whole.next;  // what is asked of it at its end reads the start, too, by no weight
   whole.velocity = gather(state.velocity);

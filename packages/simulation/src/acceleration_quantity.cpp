@@ -22,13 +22,13 @@ class Acceleration final : public Quantity {
   void evaluate(const assembly::System&, const model::State& state,
                 std::vector<double>& numbers) const override {
     const Vec3 velocity = place_.seen_velocity(state);
-    if (!last_ || state.time < last_->time || state.velocity.empty()) {
+    if (!last_ || state.time < last_->time || !state.in_motion) {
       mean_ = Vec3::Constant(absent);
     } else if (state.time > last_->time) {
       mean_ = (velocity - last_->velocity) / (state.time - last_->time);
     }
     last_.reset();
-    if (!state.velocity.empty()) last_ = {state.time, velocity};
+    if (state.in_motion) last_ = {state.time, velocity};
     numbers.insert(numbers.end(), mean_.begin(), mean_.end());
   }
 

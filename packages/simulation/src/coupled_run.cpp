@@ -74,7 +74,9 @@ bool CoupledRun::serves(const std::string& port) const {
 }
 
 analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::System& system,
-                                         const Ports& ports, analysis::Observer& observer) {
+                                         const Ports& ports,
+                                         const std::vector<WatchedQuantity>& watched,
+                                         analysis::Observer& observer) {
   for (CoupledSide& side : sides_) {
     for (const auto& port : ports) {
       if (port->name() == side.port_name) side.port = port.get();
@@ -91,7 +93,7 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
                                to_string(settings_.where("Window")), *length, whole),
                    stepper.time());
   }
-  CoupledWindow window(stepper, system, sides_, length, cuts_);
+  CoupledWindow window(stepper, system, watched, sides_, length, cuts_);
   if (!has_begun_) {
     system.synchronise(stepper.state());
     begin(stepper.state());
@@ -108,6 +110,7 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
       window.abandon();
       throw;
     }
+    for (const analysis::StepReport& report : window.passed()) observer.pass(report);
     observer.step(window.report(), stepper.state());
     if (stepper.is_exhausted()) stepper.give_up();
   }

@@ -27,9 +27,10 @@ class CoupledRun {
   bool serves(const std::string& port) const;
   /// Makes all steps of a motion, as analysis::run does, and reports what crossed the ports. Throws
   /// PartnerError where a partner fails, NumericalError where a window does not fit.
-  /// @param ports  of the present model
+  /// @param ports, watched  of the present model
   analysis::AnalysisReport run(analysis::Stepper& stepper, assembly::System& system,
-                               const Ports& ports, analysis::Observer& observer);
+                               const Ports& ports, const std::vector<WatchedQuantity>& watched,
+                               analysis::Observer& observer);
   /// Between windows; collective.
   void save(Snapshot& snapshot);
   /// Before run(). @param snapshot  must live until then

@@ -63,13 +63,23 @@ void WindowCuts::restore(const Snapshot& snapshot) {
   end = kept[3];
 }
 
+CoupledWindow::CoupledWindow(analysis::Stepper& stepper, assembly::System& system,
+                             const std::vector<WatchedQuantity>& watched,
+                             std::vector<CoupledSide>& sides, std::optional<double> length,
+                             WindowCuts& cuts)
+    : stepper_(stepper), system_(system), sides_(sides), length_(length), cuts_(cuts) {
+  if (length_ && remember(watched)) keeper_.emplace(system_, watched);
+}
+
 void CoupledWindow::start(int number, double latest) {
   number_ = number;
   start_ = stepper_.time();
   latest_ = latest;
   is_ahead_ = false;
   may_cut_ = true;
+  passed_.clear();
   if (length_) stepper_.save(memory_);
+  if (keeper_) keeper_->keep(memory_);
 }
 
 bool CoupledWindow::go() {
@@ -79,7 +89,11 @@ bool CoupledWindow::go() {
 }
 
 void CoupledWindow::go_back() {
-  if (length_ && is_ahead_) stepper_.restore(memory_);
+  if (length_ && is_ahead_) {
+    stepper_.restore(memory_);
+    if (keeper_) keeper_->go_back(memory_);
+    passed_.clear();
+  }
   is_ahead_ = false;
 }
 
@@ -212,10 +226,11 @@ bool CoupledWindow::go_in_one() {
 bool CoupledWindow::go_in_steps() {
   const double end = proposal();
   const double tolerance = same_end * (end - start_);
-  is_ahead_ = true;
   bool has_cut = false;
   shortest_step_ = end - start_;
   while (stepper_.time() < end - tolerance && !stepper_.is_at_end()) {
+    if (is_ahead_) passed_.push_back(report_);
+    is_ahead_ = true;
     const double step = stepper_.proposal();
     const double target = step > end + tolerance ? end : step;
     report_ = stepper_.attempt(target);
@@ -223,6 +238,7 @@ bool CoupledWindow::go_in_steps() {
       read(target >= end - tolerance);
       shortest_step_ = std::min(shortest_step_, target - stepper_.time());
       stepper_.accept();
+      if (keeper_) keeper_->step(report_, stepper_.state());
       report_.is_last = stepper_.is_at_end();
     } else {
       stepper_.fail();

@@ -7,6 +7,7 @@
 #include <culm/coupling/window.hpp>
 
 #include "coupled_side.hpp"
+#include "memories.hpp"
 
 #include <optional>
 #include <vector>
@@ -28,11 +29,12 @@ struct WindowCuts {
 /// Collective.
 class CoupledWindow {
  public:
+  /// @param watched  sees all steps of a window, where it remembers any; must live as long
   /// @param length  of windows of several steps [s]; none: each step is one
   /// @param cuts  those so far; must live as long
   CoupledWindow(analysis::Stepper& stepper, assembly::System& system,
-                std::vector<CoupledSide>& sides, std::optional<double> length, WindowCuts& cuts)
-      : stepper_(stepper), system_(system), sides_(sides), length_(length), cuts_(cuts) {}
+                const std::vector<WatchedQuantity>& watched, std::vector<CoupledSide>& sides,
+                std::optional<double> length, WindowCuts& cuts);
 
   /// Before the first window of an analysis, or of what is left of it.
   void enter();
@@ -67,6 +69,8 @@ class CoupledWindow {
   double shortest_step() const { return shortest_step_; }
   bool has_steps() const { return length_.has_value(); }
   const analysis::StepReport& report() const { return report_; }
+  /// Those of the attempts before it in the same window.
+  const std::vector<analysis::StepReport>& passed() const { return passed_; }
 
  private:
   double whole_end() const;
@@ -82,6 +86,7 @@ class CoupledWindow {
   std::vector<CoupledSide>& sides_;
   std::optional<double> length_;
   WindowCuts& cuts_;
+  std::optional<MemoryKeeper> keeper_;
   Snapshot memory_ = Snapshot(Snapshot::Use::memory);
   bool is_ahead_ = false;  // steps of the window have been accepted
   bool is_open_ = false;   // its only step has been attempted
@@ -94,6 +99,7 @@ class CoupledWindow {
   double latest_ = 0.0;
   double shortest_step_ = 0.0;  ///< of the last attempt [s]
   analysis::StepReport report_;
+  std::vector<analysis::StepReport> passed_;
   std::vector<coupling::Window> motions_;
 };
 

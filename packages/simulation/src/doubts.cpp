@@ -8,7 +8,11 @@
 #include "weightless.hpp"
 #include "widths_in_media.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 namespace culm::simulation {
 namespace {
@@ -23,10 +27,33 @@ bool has_lost_velocities(const Options& deck) {
          !has_entry_of(deck.list("Analyses"), "Dynamic");
 }
 
+// The system loads a file once, with one memory, however often it is named.
+std::vector<std::string> libraries_with_one_memory(const Options& deck) {
+  std::vector<std::string> sentences;
+  std::map<std::filesystem::path, std::string> first;
+  for (const Options& signal : deck.list("Signals").entries()) {
+    if (signal.text("Type") != "Library") continue;
+    const Where where = signal.where("File Name");
+    std::error_code failure;
+    const std::filesystem::path file = std::filesystem::weakly_canonical(
+        std::filesystem::path(where.file).parent_path() / signal.text("File Name"), failure);
+    const auto [other, is_new] = first.emplace(file, signal.name());
+    if (is_new) continue;
+    sentences.push_back(fmt::format(
+        "{}: signals '{}' and '{}' call one library, so they share what it remembers from call to "
+        "call; give one of them a copy of the file under another name",
+        to_string(where), other->second, signal.name()));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 void tell_of_deck(const Options& deck, Findings& findings, const Log& log) {
   for (const std::string& sentence : weightless_structures(deck)) log.info("note: " + sentence);
+  for (const std::string& sentence : libraries_with_one_memory(deck)) {
+    findings.warn("shared library", sentence, 0.0);
+  }
   if (has_lost_velocities(deck)) {
     findings.warn("initial velocities",
                   "the initial velocities of the deck are lost: they act in analyses of type "

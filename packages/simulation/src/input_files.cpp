@@ -24,20 +24,18 @@ void add_beside(const Path& file, std::vector<Path>& files) {
   }
 }
 
-void add_named_files(const Options& list, std::vector<Path>& files) {
+// Calls action(parameter, folder, name) for each file that a list names, relative to a folder.
+template <class Action>
+void visit_named_files(const Options& list, const Action& action) {
   for (const Options::Parameter& parameter : list.parameters()) {
     if (!parameter.value) continue;
     const Path folder = Path(parameter.where.file).parent_path();
-    if (parameter.name == "File Name") {
-      const Path file = folder / list.text(parameter.name);
-      files.push_back(file);
-      add_beside(file, files);
-    }
+    if (parameter.name == "File Name") action(parameter, folder, list.text(parameter.name));
     if (parameter.name != "File Names") continue;
-    for (const std::string& name : list.texts(parameter.name)) files.push_back(folder / name);
+    for (const std::string& name : list.texts(parameter.name)) action(parameter, folder, name);
   }
   for (const auto* lists : {&list.lists(), &list.entries()}) {
-    for (const Options& below : *lists) add_named_files(below, files);
+    for (const Options& below : *lists) visit_named_files(below, action);
   }
 }
 
@@ -72,8 +70,24 @@ bool is_within_results(const Path& file, const Path& folder) {
 
 std::vector<Path> find_named_files(const Options& deck) {
   std::vector<Path> files;
-  add_named_files(deck, files);
+  visit_named_files(
+      deck, [&](const Options::Parameter& parameter, const Path& folder, const std::string& name) {
+        files.push_back(folder / name);
+        if (parameter.name == "File Name") add_beside(files.back(), files);
+      });
   return files;
+}
+
+void refuse_other_files(const Options& deck, const Path& folder) {
+  visit_named_files(deck, [&](const Options::Parameter& parameter, const Path& its_folder,
+                              const std::string& name) {
+    const Path there = folder / name;
+    std::error_code failure;
+    if (!std::filesystem::exists(there, failure) || is_same_file(there, its_folder / name)) return;
+    throw FileError(there.string(), "would be read in place of " + (its_folder / name).string() +
+                                        ", which " + to_string(parameter.where) +
+                                        " means; write elsewhere");
+  });
 }
 
 std::vector<Path> find_input_files(const Options& deck, const DeckSource& source) {

@@ -58,6 +58,7 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     throw UsageError("no analysis '" + analysis + "' of the deck makes steps" +
                      did_you_mean(analysis, names));
   }
+  ++p.taken_up;
   if (p.state.next.empty()) {
     p.state = p.phases.of(p.present).model->initial_state();
     tell_of_deck(p.deck, p.findings, p.log);
@@ -113,6 +114,10 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
   return *p.stepper;
 }
 
+analysis::Stepper* Simulation::stepper() { return parts_->stepper.get(); }
+
+long Simulation::taken_up() const { return parts_->taken_up; }
+
 void Simulation::end_analysis() {
   Parts& p = *parts_;
   if (p.stepper == nullptr) return;
@@ -143,7 +148,7 @@ std::string Simulation::close_results() {
   const bool is_done = p.stepper != nullptr && p.stepper->is_at_end();
   end_analysis();
   if (!p.state.next.empty()) {
-    p.results->observer.end(p.state, is_done ? "done" : "ended by the program that made the steps");
+    p.results->observer.end(p.state, is_done ? "done" : ended_from_outside);
   }
   std::string words = p.results->observer.closing_words();
   p.results.reset();
@@ -229,8 +234,14 @@ std::vector<output::HistoryColumn> Simulation::quantity_columns() const {
 }
 
 // Of an open attempt as it would be accepted; what quantities remember is of accepted states.
+// Without one those that were shown when the step was accepted: reactions and the like belong to
+// the last attempt, which may have been thrown away.
 std::vector<double> Simulation::quantities() {
   Parts& p = *parts_;
+  if (p.stepper == nullptr) throw UsageError("there is no state yet: 'begin' comes first");
+  if (!p.stepper->is_open()) {
+    return p.results != nullptr ? p.results->observer.shown() : p.keeper->shown();
+  }
   model::State now = state();
   now.velocity = p.stepper->velocity();
   p.context->system.synchronise(now);

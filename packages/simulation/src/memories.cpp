@@ -5,12 +5,6 @@
 #include <algorithm>
 
 namespace culm::simulation {
-namespace {
-
-bool remembers(const WatchedQuantity& one) { return !one.quantity->memory().empty(); }
-
-}  // namespace
-
 std::vector<double> memories_of(const std::vector<WatchedQuantity>& watched) {
   std::vector<double> all;
   for (const WatchedQuantity& one : watched) {
@@ -39,12 +33,18 @@ void hand_over_memories(const std::vector<WatchedQuantity>& from,
   }
 }
 
+void MemoryKeeper::start(model::State& state) {
+  model::State first = unsolved(state);
+  show(first);
+}
+
 void MemoryKeeper::step(const analysis::StepReport& report, model::State& state) {
   if (report.accepted) show(state);
 }
 
 void MemoryKeeper::keep(Snapshot& snapshot) const {
   snapshot.set(memories_key, memories_of(watched_));
+  snapshot.set(shown_key, shown_);
 }
 
 void MemoryKeeper::go_back(const Snapshot& kept) {
@@ -52,15 +52,25 @@ void MemoryKeeper::go_back(const Snapshot& kept) {
   if (!kept.has(memories_key))
     throw UsageError("the snapshot knows nothing of what is watched here");
   restore_memories(watched_, kept.numbers(memories_key, size));
+  const std::span<const double> shown = kept.numbers(shown_key);
+  shown_.assign(shown.begin(), shown.end());
 }
 
-void MemoryKeeper::show(model::State& state) const {
-  if (std::ranges::none_of(watched_, remembers)) return;
+void MemoryKeeper::show(model::State& state) {
+  if (watched_.empty()) return;
   system_.synchronise(state);
-  std::vector<double> unused;
-  for (const WatchedQuantity& one : watched_) {
-    if (remembers(one)) one.quantity->evaluate(system_, state, unused);
-  }
+  shown_ = evaluate(watched_, system_, state);
+}
+
+model::State unsolved(const model::State& state) {
+  model::State result = state;
+  std::fill(result.multipliers.begin(), result.multipliers.end(), 0.0);
+  return result;
+}
+
+bool remember(const std::vector<WatchedQuantity>& watched) {
+  return std::ranges::any_of(
+      watched, [](const WatchedQuantity& one) { return !one.quantity->memory().empty(); });
 }
 
 }  // namespace culm::simulation

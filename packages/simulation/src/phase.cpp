@@ -1,5 +1,6 @@
 #include "phase.hpp"
 
+#include <culm/analysis/dynamics.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/nearest.hpp>
 #include <culm/solver/fill.hpp>
@@ -175,6 +176,7 @@ Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfecti
     by_analysis_.push_back(&find_or_build(setting));
   }
   refuse_jumps();
+  refuse_late_starts();
   complete_columns();
 }
 
@@ -231,6 +233,32 @@ void Phases::refuse_jumps() const {
     issues.add(analyses[i].where("Start From"),
                "imperfections give it another stress-free geometry than '" +
                    analyses[*origin].name() + "' has; start it from 'Reference'");
+  }
+  issues.throw_if_any();
+}
+
+// At what time or level an analysis ends, where the deck says so.
+std::optional<double> Phases::end_of(std::size_t analysis) const {
+  const std::vector<Options>& analyses = deck_.list("Analyses").entries();
+  const Options& entry = analyses[analysis];
+  const std::string& type = entry.text("Type");
+  if (type == "Static") return entry.number("Final Level");
+  if (type == "Dynamic") return entry.number("End Time");
+  if (!catalogue_.analyses.inspections.contains(type)) return {};
+  const std::optional<std::size_t> origin = origin_of(analyses, analysis);
+  return origin ? end_of(*origin) : std::nullopt;
+}
+
+void Phases::refuse_late_starts() const {
+  const std::vector<Options>& analyses = deck_.list("Analyses").entries();
+  InputIssues issues;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    const Options& entry = analyses[i];
+    if (entry.text("Type") != "Dynamic" || entry.has("Start Time")) continue;
+    const std::optional<std::size_t> origin = origin_of(analyses, i);
+    const std::optional<double> start = origin ? end_of(*origin) : std::nullopt;
+    if (!start || *start < entry.number("End Time")) continue;
+    issues.add(entry.where("End Time"), analysis::late_start(*start, entry.number("End Time")));
   }
   issues.throw_if_any();
 }

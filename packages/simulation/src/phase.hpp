@@ -75,6 +75,8 @@ class Phases {
   void build(Phase& phase) const;
   static void attach(const std::string& name, const port::Cloud& cloud, Phase& phase);
   void refuse_jumps() const;
+  std::optional<double> end_of(std::size_t analysis) const;
+  void refuse_late_starts() const;
   void complete_columns();
 
   const Catalogue& catalogue_;

@@ -8,6 +8,7 @@
 #include "air_words.hpp"
 #include "coupled_run.hpp"
 #include "finite.hpp"
+#include "memories.hpp"
 #include "other_run.hpp"
 #include "served_run.hpp"
 
@@ -97,10 +98,8 @@ void RunObserver::start_run(model::State& state, bool steps_follow) {
 void RunObserver::start(model::State& state) {
   start_run(state, true);
   has_history_ = true;
-  // nothing has been solved yet, so there are no reactions, in whatever form they are computed
-  model::State unsolved = state;
-  std::fill(unsolved.multipliers.begin(), unsolved.multipliers.end(), 0.0);
-  add_history(state.time, 0, unsolved);
+  model::State first = unsolved(state);
+  add_history(state.time, 0, first);
 }
 
 void RunObserver::add_history(double time, int step, model::State& state) {
@@ -116,6 +115,7 @@ void RunObserver::add_history(double time, int step, model::State& state) {
     }
   }
   const Ledger::Scope scope(ledger_, history_effect_);
+  shown_ = numbers;
   files_.add_history({time, numbers, static_cast<int>(number_), step});
 }
 
@@ -124,30 +124,40 @@ void RunObserver::record(double time, int step, model::State& state, bool was_so
   files_.record(time, static_cast<int>(number_), step, state, was_solved);
 }
 
-void RunObserver::step(const analysis::StepReport& report, model::State& state) {
+void RunObserver::pass(const analysis::StepReport& report) {
   const auto& outcome = report.outcome;
+  iterations_ += outcome.iterations;
+  if (!report.accepted) {
+    ++rejected_;
+    return;
+  }
+  ++accepted_;
+  ++passed_;
+  most_iterations_ = std::max(most_iterations_, outcome.iterations);
+  worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
+  worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
+  steps_.rows.push_back({report.time, static_cast<double>(outcome.iterations),
+                         outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0,
+                         static_cast<double>(number_), static_cast<double>(report.step)});
+  balance_.scale = std::max(balance_.scale, outcome.last.force_scale);
+  if (outcome.held_unknown) add_held(report);
+}
+
+void RunObserver::step(const analysis::StepReport& report, model::State& state) {
   has_stepped_ = false;
   if (report.accepted) {
     is_recorded_ = true;  // a state beyond the range of numbers is none to keep or to go on from
     add_history(report.time, report.step, state);
-    ++accepted_;
-    most_iterations_ = std::max(most_iterations_, outcome.iterations);
-    worst_residual_ = std::max(worst_residual_, outcome.history.back().force);
-    worst_constraint_ = std::max(worst_constraint_, outcome.history.back().constraint);
-    steps_.rows.push_back({report.time, static_cast<double>(outcome.iterations),
-                           outcome.history.back().force, outcome.held_unknown ? 1.0 : 0.0,
-                           static_cast<double>(number_), static_cast<double>(report.step)});
-    balance_.scale = std::max(balance_.scale, outcome.last.force_scale);
-    if (outcome.held_unknown) add_held(report);
+  }
+  pass(report);
+  if (report.accepted) {
     watch_turns(report.time, state);
     watch_loads(report, state);
-    is_recorded_ = files_.is_due(accepted_) || report.is_last;
+    is_recorded_ = files_.is_due(accepted_ - passed_, accepted_) || report.is_last;
+    passed_ = 0;
     if (is_recorded_) record(report.time, report.step, state, true);
-  } else {
-    ++rejected_;
   }
   has_stepped_ = true;
-  iterations_ += outcome.iterations;
   progress_.show(report);
   if (checkpoints_ == nullptr) return;
   const Checkpoints::Demand demand = checkpoints_->demand();
@@ -248,6 +258,7 @@ void RunObserver::save(Snapshot& snapshot) const {
 void RunObserver::keep(Snapshot& snapshot) const {
   save(snapshot);
   files_.save(snapshot);
+  snapshot.set(shown_key, shown_);
 }
 
 void RunObserver::go_back(const Snapshot& kept) {
@@ -259,6 +270,8 @@ void RunObserver::go_back(const Snapshot& kept) {
   numbers_.clear();
   restore(kept);
   resume(kept);
+  const std::span<const double> shown = kept.numbers(shown_key);
+  shown_.assign(shown.begin(), shown.end());
 }
 
 void RunObserver::restore(const Snapshot& snapshot) {
@@ -300,10 +313,22 @@ void RunObserver::finish(const analysis::AnalysisReport& report, const model::St
   }
   certificates_ += report.text;
   air_ = describe_air(context_->system.model());
-  const bool is_first = numbers_.empty();
-  for (const auto& [name, value] : report.numbers) {
-    numbers_.push_back({is_first ? name : name_ + ": " + name, "", value});
+  const std::string before = free_prefix();
+  for (const auto& [name, value] : report.numbers) numbers_.push_back({before + name, "", value});
+}
+
+// What sets the numbers of an analysis apart from those before it, which may have had its name: a
+// program can take up an analysis again.
+std::string RunObserver::free_prefix() const {
+  if (numbers_.empty()) return {};
+  std::string prefix = name_ + ": ";
+  const auto is_taken = [&](const output::NamedScalar& one) {
+    return one.name.starts_with(prefix);
+  };
+  for (int time = 2; std::ranges::any_of(numbers_, is_taken); ++time) {
+    prefix = fmt::format("{} ({}): ", name_, time);
   }
+  return prefix;
 }
 
 // Loads of a step, such as impulses, are asked for by both of its ends.

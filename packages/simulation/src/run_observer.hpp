@@ -22,6 +22,9 @@ namespace culm::simulation {
 class CoupledRun;
 class ServedRun;
 
+/// The outcome of a run that a program led and left before its end.
+inline constexpr const char* ended_from_outside = "ended by the program that made the steps";
+
 /// How well the steps of an analysis are in balance, beside the largest force of any of them: the
 /// first steps may be all but unloaded.
 struct Balance {
@@ -34,7 +37,7 @@ struct Balance {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 7;
+  static constexpr int checkpoint_format = 8;
 
   /// @param checkpoints  null: there are none, and nobody stops the run
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints* checkpoints,
@@ -67,12 +70,15 @@ class RunObserver final : public analysis::Observer {
   void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
   void step(const analysis::StepReport& report, model::State& state) override;
+  void pass(const analysis::StepReport& report) override;
   void keep(Snapshot& snapshot) const override;
   /// Also in the files. But findings stay.
   void go_back(const Snapshot& kept) override;
   /// Writes a checkpoint of the present analysis, if it has made a step and the deck wants any.
   /// @return whether it did
   bool write_checkpoint();
+  /// The numbers of the last row of the history.
+  const std::vector<double>& shown() const { return shown_; }
   /// How to go on from the last checkpoint, in a line that begins anew; empty if there is none.
   std::string way_on() const;
   void finish(const analysis::AnalysisReport& report, const model::State& state) override;
@@ -84,6 +90,7 @@ class RunObserver final : public analysis::Observer {
  private:
   void save(Snapshot& snapshot) const;
   std::string convergence() const;
+  std::string free_prefix() const;
   void add_held(const analysis::StepReport& report);
   std::string findings() const;
   /// Says where rounding held a step further out of balance than the deck allows.
@@ -135,7 +142,9 @@ class RunObserver final : public analysis::Observer {
       {"time", "iterations", "force residual", "held by rounding", "analysis", "step"},
       {},
       {}};
+  std::vector<double> shown_;
   int accepted_ = 0;
+  int passed_ = 0;  // of them since the last one that was shown
   int rejected_ = 0;
   int iterations_ = 0;
   int most_iterations_ = 0;

@@ -80,6 +80,7 @@ analysis::AnalysisReport ServedRun::run(analysis::Stepper& stepper, assembly::Sy
   greet(course);
   while (follow(hear(), course)) {
   }
+  was_left_ = was_left_ || !stepper.is_at_end();
   analysis::AnalysisReport report = stepper.finish();
   report.text += fmt::format(
       "led by '{}' at port '{}': {} steps of {} attempts\n  work on the structure             "

@@ -41,6 +41,8 @@ class ServedRun {
                                const Ports& ports, RunObserver& observer);
   /// Tells it why the run fails; empty if it does not.
   void end(const std::string& why);
+  /// Whether the partner left before the end of a motion.
+  bool was_left() const { return was_left_; }
 
  private:
   // What was saved under a number.
@@ -78,6 +80,7 @@ class ServedRun {
   coupling::Introduction partner_;
   std::map<std::uint32_t, Kept> kept_;
   double work_ = 0.0;  // on the structure [J]
+  bool was_left_ = false;
   int accepted_ = 0;
   int attempts_ = 0;
   std::uint32_t number_ = 0;  ///< that the other program gave the last checkpoint

@@ -181,7 +181,8 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     }
     throw;
   }
-  observer.end(state, "done");
+  const bool was_left = served != nullptr && served->was_left();
+  observer.end(state, was_left ? ended_from_outside : "done");
   if (!settings.quiet) p.log.info(observer.closing_words());
   const std::string verdict = p.findings.verdict(settings.strict);
   if (!verdict.empty()) throw PromiseBroken(verdict);
@@ -248,13 +249,14 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     stepper->begin();
   }
   try {
-    const Ports& ports = parts_->phases.of(parts_->present).ports;
+    const Phase& phase = parts_->phases.of(parts_->present);
+    const Ports& ports = phase.ports;
     const auto make_steps = [&] {
       if (is_motion && served != nullptr) {
         return served->run(*stepper, context.system, ports, observer);
       }
       if (is_motion && coupled != nullptr) {
-        return coupled->run(*stepper, context.system, ports, observer);
+        return coupled->run(*stepper, context.system, ports, phase.watched, observer);
       }
       return analysis::run(*stepper, observer);
     };

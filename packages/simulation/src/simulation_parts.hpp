@@ -57,6 +57,7 @@ struct Simulation::Parts {
   std::optional<MemoryKeeper> keeper = {};  ///< if none are
   std::vector<double> first_memories = {};  ///< of what is watched, before any state
   std::unique_ptr<analysis::Stepper> stepper = {};
+  long taken_up = 0;                                          ///< analyses so far
   std::map<std::string, std::vector<double>> set_loads = {};  ///< as they were set last
   std::set<model::Effect> heard = {};  ///< loads from outside that have acted in this analysis
 

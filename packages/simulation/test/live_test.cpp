@@ -2,10 +2,12 @@
 
 #include "live_deck.hpp"
 
+#include <culm_kit/temporary_folder.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -47,6 +49,80 @@ TEST(LiveSimulation, ALoadThatIsSetActsAsThatOfADeck) {
     ASSERT_EQ(watched.size(), set.simulation.quantity_columns().size());
     EXPECT_NEAR(watched[1], moved[1], 1e-15);
   }
+}
+
+// The cantilever with the force of its clamp in the history.
+std::string watched_clamp() {
+  std::string deck = cantilever(external);
+  const std::string history = R"(<ParameterList name="History">)";
+  deck.insert(deck.find(history) + history.size(), R"(<ParameterList name="foot">
+      <Parameter name="Type" value="Reaction"/> <Parameter name="Node" value="beam/first"/>
+    </ParameterList>)");
+  return deck;
+}
+
+// Reactions belong to the last evaluation, which may be that of an attempt that was thrown away.
+TEST(LiveSimulation, QuantitiesBetweenStepsAreThoseOfTheAcceptedOne) {
+  Live live(watched_clamp());
+  Simulation& s = live.simulation;
+  s.set_load("push", push);
+  analysis::Stepper& stepper = s.begin("motion");
+  EXPECT_EQ(s.quantities().front(), 0.0) << "nothing has been solved yet";
+  const auto step = [&](double factor) {
+    std::vector<double> load = push;
+    for (double& value : load) value *= factor;
+    s.set_load("push", load);
+    return stepper.attempt(stepper.proposal()).accepted;
+  };
+  ASSERT_TRUE(step(1.0));
+  const std::vector<double> open = s.quantities();
+  stepper.accept();
+  const std::vector<double> accepted = s.quantities();
+  for (std::size_t i = 0; i < open.size(); ++i) EXPECT_NEAR(open[i], accepted[i], 1e-12);
+  Snapshot there(Snapshot::Use::memory);
+  stepper.save(there);
+  ASSERT_TRUE(step(2.0));
+  EXPECT_GT(std::abs(s.quantities().front() - accepted.front()), 0.01);
+  stepper.discard();
+  EXPECT_EQ(s.quantities(), accepted);
+  ASSERT_TRUE(step(2.0));
+  stepper.fail();
+  EXPECT_EQ(s.quantities(), accepted);
+  ASSERT_TRUE(step(2.0));
+  stepper.accept();
+  EXPECT_NE(s.quantities(), accepted);
+  stepper.restore(there);
+  EXPECT_EQ(s.quantities(), accepted);
+}
+
+TEST(LiveSimulation, ABeginOfWhatIsNotThereLeavesWhatWasTakenUp) {
+  Live live(cantilever(external));
+  Simulation& s = live.simulation;
+  EXPECT_EQ(s.stepper(), nullptr);
+  analysis::Stepper& stepper = s.begin("motion");
+  const long taken_up = s.taken_up();
+  ASSERT_TRUE(stepper.attempt(stepper.proposal()).accepted);
+  EXPECT_THROW(s.begin("modes"), UsageError);
+  EXPECT_EQ(s.stepper(), &stepper);
+  EXPECT_EQ(s.taken_up(), taken_up);
+  stepper.accept();
+  s.begin("bending");
+  EXPECT_GT(s.taken_up(), taken_up);
+}
+
+// The numbers of each have names of their own.
+TEST(LiveSimulation, AnAnalysisCanBeTakenUpAgainAndAgainWithResults) {
+  const kit::TemporaryFolder folder;
+  Live live(cantilever(external));
+  Simulation& s = live.simulation;
+  s.write_results(folder / "out");
+  for (int time = 0; time < 4; ++time) {
+    analysis::Stepper& stepper = s.begin("motion");
+    ASSERT_TRUE(stepper.attempt(stepper.proposal()).accepted);
+    stepper.accept();
+  }
+  EXPECT_NO_THROW(s.close_results());
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "run.h5"));
 }
 
 // A signal of the caller's own controller scales a load as a number in the deck does.

@@ -71,6 +71,9 @@ class Observer {
   /// Called after each attempt. When it was accepted, state.next is the new equilibrium, up to date
   /// on all ranks only after System::synchronise.
   virtual void step(const StepReport& report, model::State& state) = 0;
+  /// Called before step, for each attempt on the way there that is not shown by itself, as within a
+  /// window of a coupling.
+  virtual void pass(const StepReport& report) { (void)report; }
   /// Called at the end, with what the analysis says.
   virtual void finish(const AnalysisReport& report, const model::State& state) {
     (void)report;

@@ -24,6 +24,9 @@ struct DynamicsSettings {
   solver::NewtonSettings newton;
 };
 
+/// Says that a motion would end before it starts. Times in s.
+std::string late_start(double start, double end);
+
 /// Time integration with fixed or adaptive steps. @source formulation 4.6b
 class Dynamics final : public Stepper {
  public:
@@ -59,6 +62,7 @@ class Dynamics final : public Stepper {
   void fit_motion();
   void measure_hidden_constraints();
   void keep_balance();
+  void warn_of_short_step(double taken);
 
   DynamicsSettings settings_;
   std::unique_ptr<TimeScheme> scheme_;

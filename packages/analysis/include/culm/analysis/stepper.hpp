@@ -18,7 +18,9 @@ namespace culm::analysis {
 /// UsageError. A stepper borrows its context and its state.
 class Stepper {
  public:
-  Stepper(Context& context, model::State& state) : context_(context), state_(state) {}
+  Stepper(Context& context, model::State& state) : context_(context), state_(state) {
+    state_.in_motion = false;  // where it is, the constructor of what moves says so
+  }
   virtual ~Stepper() = default;
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -54,6 +56,8 @@ class Stepper {
   void discard();
   /// Goes back because the attempt was not good: the next proposal is nearer.
   void fail();
+  /// Whether an attempt has converged and waits for its verb.
+  bool is_open() const { return stage_ == Stage::tried && report_.accepted; }
   /// Whether nothing nearer than the last failure may be tried.
   bool is_exhausted() const { return is_exhausted_; }
   /// Throws NumericalError or NonFiniteError with a post-mortem of the attempts that failed.

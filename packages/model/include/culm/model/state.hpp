@@ -15,6 +15,7 @@ struct State {
   Coordinates prev;        ///< accepted configuration at the start of the step
   Coordinates next;        ///< trial configuration at the end of the step
   bool at_rest = true;     ///< nothing has moved in time yet
+  bool in_motion = false;  ///< the present analysis makes steps of time, no equilibria
   Coordinates velocity;    ///< at the start of the step [m/s, 1/s]; empty in statics
   /// Acceleration in the equations while q_next = q_prev [m/s^2, 1/s^2]; empty in statics.
   Coordinates acceleration_offset;

@@ -18,6 +18,10 @@ std::vector<std::filesystem::path> find_input_files(const Options& deck, const D
 /// Tables, meshes and other files that the lists of a deck name (parameters "File Name").
 std::vector<std::filesystem::path> find_named_files(const Options& deck);
 
+/// Throws FileError where a file that the deck names would be another one if the deck stood in
+/// `folder`, as its resolved form does.
+void refuse_other_files(const Options& deck, const std::filesystem::path& folder);
+
 /// Throws FileError on all ranks if a file to be written is one of the inputs, under this name or,
 /// by links, another one.
 void refuse_overwriting(const parallel::Comm& comm,

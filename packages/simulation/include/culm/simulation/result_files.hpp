@@ -77,8 +77,10 @@ class ResultFiles {
   std::vector<double> evaluate(model::State& state) const;
   /// Adds a row to the history.
   void add_history(const output::HistoryRow& row);
-  /// Whether a step is one of those to be recorded.
-  bool is_due(int step) const { return step % settings_.every == 0; }
+  /// Whether one of the accepted steps behind `before`, up to `step`, is to be recorded.
+  bool is_due(int before, int step) const {
+    return step / settings_.every > before / settings_.every;
+  }
   /// Records a whole state.
   /// @param analysis, step  as in output::HistoryRow
   /// @param was_solved      whether the last evaluation was that of this state, so that forces of

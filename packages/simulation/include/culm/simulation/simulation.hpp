@@ -94,6 +94,11 @@ class Simulation {
   /// UsageError if there is no such analysis, else what run() throws before a first step.
   /// @return to be driven by the caller; lives until the next begin()
   analysis::Stepper& begin(const std::string& analysis = {});
+  /// What begin() took up; null where nothing was, or where a later begin() found its analysis but
+  /// could not take it up.
+  analysis::Stepper* stepper();
+  /// How often begin() found its analysis; what belongs to an earlier one is gone.
+  long taken_up() const;
   /// Sets the load of type 'External' of this name for all attempts from now on. Call it on all
   /// ranks alike. Throws UsageError for an unknown name or another number of values, NonFiniteError
   /// for a value that is no number.
@@ -137,7 +142,8 @@ class Simulation {
   Vec3 velocity(int node);
   /// The state of the stepper, up to date on all ranks: of the last attempt if one is open.
   const model::State& state();
-  /// What the deck's history watches, and its values at state().
+  /// What the deck's history watches, and its values: those of an open attempt as it would be
+  /// accepted, else those of the last accepted step, or of the start.
   std::vector<output::HistoryColumn> quantity_columns() const;
   std::vector<double> quantities();
   /// The model of the analysis that was taken up.

@@ -1,0 +1,205 @@
+"""What works alone must work together: frames that turn and linear or rigid shells, heat and paths, heat and plastic
+neighbours, joints under load that statics leave slightly open."""
+
+import csv
+
+from deck_text import ends_with, entry, last_row, listed
+from driver import Case
+
+RUN = "run deck.xml --output out --quiet"
+
+
+def deck(*lists):
+    return f'<ParameterList name="culm">{"".join(lists)}</ParameterList>'
+
+
+def rows_of(folder, column):
+    """Texts of a column, with the analysis and the step of each row."""
+    with open(folder / "out/history.csv", newline="") as file:
+        names, *rows = list(csv.reader(file))
+    return [(int(row[names.index("analysis")]), int(row[names.index("step")]), row[names.index(column)]) for row in rows]
+
+
+# --- a plate of 2 m by 1 m whose centre is 2 m from an axis
+
+STEEL = listed("Materials", entry("steel", Type="Isotropic", Young_Modulus="2e11", Poisson_Ratio="0.3", Density="7800"))
+MASS = 7800 * 2.0 * 1.0 * 0.05
+HUB = entry("hub", Type="Rigid Box", Position="{0, 0, 0}", Size="{0.1, 0.1, 0.1}", Density="1000")
+
+
+def plate(fidelity):
+    mesh = entry("Mesh", Type="Plane", Origin="{1, -0.5, 0}", Side_1="{2, 0, 0}", Side_2="{0, 1, 0}", Elements="{4, 2}")
+    options = f'<Parameter name="Material" value="steel"/><Parameter name="Thickness" value="0.05"/>{mesh}'
+    return (f'<ParameterList name="plate"><Parameter name="Type" value="Shell"/>'
+            f'<Parameter name="Fidelity" value="{fidelity}"/>{options}</ParameterList>')
+
+
+def turning(fidelity, **which):
+    """The plate on a hub that is held, or held by its own body, in a frame that turns with 10 rad/s."""
+    held = "plate body" if fidelity == "Rigid" else "hub"
+    carried = "" if fidelity == "Rigid" else entry("root", Type="Rigid Connection", Node="plate/u0", Master="hub")
+    return deck(
+        STEEL, listed("Structures", plate(fidelity), HUB),
+        listed("Constraints", carried, entry("hub", Type="Rigid Support", Node="hub"),
+               entry("body", Type="Rigid Support", Node="plate body") if fidelity == "Rigid" else ""),
+        listed("Loads", entry("spin", Type="Rotating Frame", Axis="{0, 0, 1}", Speed="10", **which)),
+        listed("Analyses", entry("spin", Type="Static", Steps="1")),
+        listed("Output", listed("History", entry("held", Type="Reaction", Node=held))),
+    )
+
+
+TURNING = [
+    Case(f"a turning frame and a shell of fidelity {fidelity}, {'named' if which else 'all'}", 0, args=RUN, leaves=["out"],
+         deck=turning(fidelity, **which), check=ends_with("held Fx [N]", -MASS * 2.0 * 10.0**2, 0.01 * MASS * 200), ranks=True)
+    for fidelity in ("Full", "Linear", "Rigid")
+    for which in ({}, {"Structures": "{plate, hub}"})
+]
+
+
+def flying(node, *more):
+    return deck(
+        STEEL, listed("Structures", plate("Rigid")),
+        listed("Initial Conditions", entry("throw", Type="Velocity", Node=node, Velocity="{1, 2, 3}")),
+        listed("Analyses", entry("fly", Type="Dynamic", Step="0.01", End_Time="0.1")),
+        listed("Output", listed("History", entry("body", Type="Position", Node="plate body"))), *more)
+
+
+# --- a bar between two clamps, heated by 20 K
+
+BAR = listed("Sections", *(
+    entry(name, Type="Rectangle", Width="0.05", Height="0.05", Young_Modulus="2e11", Poisson_Ratio="0.3", Density="7800",
+          **more).replace("</ParameterList>", f"{plasticity}</ParameterList>")
+    for name, more, plasticity in (("bar", {"Expansion": "1.2e-5"}, ""),
+                                   ("soft", {}, entry("Plasticity", Yield_Stress="2e8", Isotropic_Hardening="1e9")))))
+THRUST = 2e11 * 0.05**2 * 1.2e-5 * 20  # E A alpha T
+GROWS = listed("Functions", entry("grows", Type="Linear", Duration="1"))
+
+
+def beam(name, section, x, y):
+    curve = entry("Curve", Type="Line", From=f"{{{x}, {y}, 0}}", To=f"{{{x + 2}, {y}, 0}}", Up="{0, 0, 1}", Elements="4")
+    return entry(name, Type="Beam", Section=section).replace("</ParameterList>", f"{curve}</ParameterList>")
+
+
+def clamps(name):
+    return entry(f"{name} first", Type="Rigid Support", Node=f"{name}/first") + entry(
+        f"{name} last", Type="Rigid Support", Node=f"{name}/last")
+
+
+def heated(analyses, structures=beam("bar", "bar", 0, 0), constraints=clamps("bar")):
+    return deck(
+        BAR, GROWS, listed("Structures", structures), listed("Constraints", constraints),
+        listed("Loads", entry("heat", Type="Temperature", Structure="bar", Value="20", Function="grows")),
+        listed("Analyses", analyses),
+        listed("Output", listed("History", entry("bar", Type="Stress Resultants", Structure="bar", Element="1"),
+                                entry("all", Type="Energy"))),
+    )
+
+
+def starts_with(column, analysis, value):
+    """A check of the row in which an analysis begins."""
+    def check(folder, _):
+        found = [float(text) for number, step, text in rows_of(folder, column) if (number, step) == (analysis, 0)]
+        return "" if len(found) == 1 and abs(found[0] - value) <= 1e-6 * abs(value) else f"{column} begins with {found}, not {value}"
+
+    return check
+
+
+# another one as long and as stiff is pressed by it
+ALONG = heated(
+    entry("heat", Type="Path", First_Increment="0.3", Final_Level="1"), beam("bar", "bar", 0, 0) + beam("cold", "bar", 2, 0),
+    entry("left", Type="Rigid Support", Node="bar/first") + entry("right", Type="Rigid Support", Node="cold/last")
+    + entry("weld", Type="Rigid Connection", Node="cold/first", Master="bar/last"))
+STIFFNESS = 2e11 * 0.05**2 / 2.0  # of one of them
+
+HEATED = [
+    Case("a path that heat alone follows", 0, args=RUN, leaves=["out"], deck=ALONG,
+         check=ends_with("bar N3 [N]", -THRUST / 2, 1e-3 * THRUST), ranks=True),
+    Case("the energy at its end", 0, args=RUN, leaves=["out"], deck=ALONG,
+         check=ends_with("all strain [J]", (THRUST / 2) ** 2 / STIFFNESS, 0.1)),
+    Case("the stress with which an analysis begins that starts from an earlier one", 0, args=RUN, leaves=["out"],
+         deck=heated(entry("warm", Type="Static", Final_Level="0.5", Steps="1")
+                     + entry("hot", Type="Static", Start_Level="0.5", Final_Level="1", Steps="1")
+                     + entry("again", Type="Static", Start_From="warm", Start_Level="0.5", Final_Level="0.6", Steps="1")),
+         check=starts_with("bar N3 [N]", 2, -0.5 * THRUST)),
+    Case("heat on a beam beside one that yields", 0, args=RUN, leaves=["out"],
+         deck=heated(entry("heat", Type="Static", Steps="1"), beam("bar", "bar", 0, 0) + beam("pile", "soft", 0, 1),
+                     clamps("bar") + clamps("pile")),
+         check=ends_with("bar N3 [N]", -THRUST, 1e-6 * THRUST)),
+]
+
+# --- joints
+
+BOXES = "".join(entry(name, Type="Rigid Box", Position=f"{{{x}, 0, 0}}", Size="{1, 1, 1}", Density="1000")
+                for name, x in (("a", 0), ("b", 2)))
+
+
+def is_empty_in_statics(folder, _):
+    """Cells of an acceleration, in statics and where a motion begins: empty; in its steps: not."""
+    for number, step, text in rows_of(folder, "shake ax [m/s^2]"):
+        if (text == "") != (number == 1 or step == 0):
+            return f"analysis {number}, step {step}: '{text}'"
+    return ""
+
+
+# --- a wheel that turns by 10 rad/s, whose partner sees windows of ten steps
+
+WHEEL = deck(
+    listed("Structures", *(entry(name, Type="Rigid Body", Position="{0, 0, 0}", Mass="1", Inertia="{1, 1, 1}")
+                           for name in ("base", "wheel"))),
+    listed("Constraints", entry("ground", Type="Rigid Support", Node="base"),
+           entry("axle", Type="Revolute Joint", First="base", Second="wheel", Axis="{0, 0, 1}")),
+    listed("Initial Conditions", entry("spin", Type="Velocity", Node="wheel", Angular_Velocity="{0, 0, 10}")),
+    listed("Ports", entry("wheel", Type="Points", Points="{wheel}")),
+    listed("Analyses", entry("turn", Type="Dynamic", Step="0.05", End_Time="2")),
+    listed("Output", listed("History", entry("angle", Type="Joint Angle", First="base", Second="wheel", Axis="{0, 0, 1}"))))
+
+
+def sees_all_steps(folder, report):
+    angle = last_row(folder)["angle [rad]"]
+    if abs(angle - 20.0) > 0.5:
+        return f"the wheel has turned by {angle} rad"
+    return "" if "40 steps accepted" in report else f"40 steps were made, and the report says\n{report[:400]}"
+
+
+WINDOWS = Case("turns and steps within windows of a coupling", 0, leaves=["out"], deck=WHEEL, silent=False,
+               args="couple deck.xml --partner dashpot --damping 1e-9 --window 0.5 --output out", check=sees_all_steps)
+
+JOINED = [
+    WINDOWS,
+    Case("the force of a spring where an analysis starts from the reference again", 0, args=RUN, leaves=["out"],
+         deck=deck(BAR, listed("Structures", beam("bar", "bar", 0, 0)),
+                   listed("Constraints", entry("held", Type="Rigid Support", Node="bar/first")),
+                   listed("Loads", entry("push", Type="Force", Node="bar/last", Force="{0, 0, 50}"),
+                          entry("prop", Type="Directed Ground Spring", Node="bar/last", Direction="{0, 0, 1}", Stiffness="1e4")),
+                   listed("Analyses", entry("one", Type="Static", Steps="1"),
+                          entry("two", Type="Static", Steps="1", Start_From="Reference")),
+                   listed("Output", listed("History", entry("prop", Type="Link", Load="prop")))),
+         check=starts_with("prop F [N]", 1, 0.0)),
+    Case("two bodies on one connection in free flight along it", 0, args=RUN, leaves=["out"],
+         deck=deck(listed("Structures", BOXES),
+                   listed("Constraints", entry("rod", Type="Rigid Connection", Node="b", Master="a")),
+                   listed("Initial Conditions", entry("throw", Type="Velocity", Node="a", Velocity="{0.1, 0.2, 0.3}"),
+                          entry("with it", Type="Velocity", Node="b", Velocity="{0.1, 0.2, 0.3}")),
+                   listed("Analyses", entry("fly", Type="Dynamic", Step="0.01", End_Time="0.1")),
+                   listed("Output", listed("History", entry("b", Type="Position", Node="b")))),
+         check=ends_with("b y [m]", 0.02, 1e-12), ranks=True),
+    Case("accelerations in statics between motions", 0, args=RUN, leaves=["out"],
+         deck=deck(BAR, listed("Structures", beam("bar", "bar", 0, 0)),
+                   listed("Constraints", entry("held", Type="Rigid Support", Node="bar/first")),
+                   listed("Loads", entry("push", Type="Force", Node="bar/last", Force="{0, 0, 50}", Function="Constant")),
+                   listed("Analyses", entry("one", Type="Dynamic", Step="0.01", End_Time="0.05"),
+                          entry("rest", Type="Static", Start_Level="1", Final_Level="2", Steps="2"),
+                          entry("two", Type="Dynamic", Start_Time="2", Step="0.01", End_Time="2.05")),
+                   listed("Output", listed("History", entry("shake", Type="Acceleration", Node="bar/last")))),
+         check=is_empty_in_statics),
+]
+
+CASES = [
+    *TURNING,
+    Case("a rigid shell that is thrown", 0, args=RUN, leaves=["out"], deck=flying("plate"),
+         check=ends_with("body z [m]", 0.3, 1e-9), ranks=True),
+    Case("one node of it that is thrown", 0, args=RUN, leaves=["out"], deck=flying("plate/u1 v1"),
+         says=["warning: initial velocities were made to fit the constraints"]),
+    *HEATED,
+    *JOINED,
+]
