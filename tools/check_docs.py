@@ -3,6 +3,7 @@
 
 - Formulas in $$ stand between empty lines: others are not drawn on the site.
 - Links between pages, also to headings, and paths in `code`, lead somewhere.
+- Code below `<!-- verbatim PATH -->` stands so in that file.
 - The table of packages in doc/developer/architecture.md says what their CMakeLists.txt say.
 - CHANGELOG.md knows the version, and that of the format of decks.
 - Every section that a comment cites, as in `@source formulation 4.1`, has a page in doc/theory/README.md.
@@ -11,6 +12,7 @@
 import pathlib
 import re
 import sys
+import textwrap
 
 from check_layers import PACKAGES, ROOT, close, read_dependencies
 
@@ -55,6 +57,12 @@ def check_page(page):
             continue
         if not exists(ROOT, name.rstrip("/.,")):
             yield f"{place}: there is no '{name}'"
+
+
+def check_code(page):
+    for name, code in re.findall(r"<!-- verbatim (\S+) -->\s*```\w*\n(.*?)\n *```", page.read_text(), re.S):
+        if textwrap.dedent(code).strip() not in (ROOT / name).read_text():
+            yield f"{page.relative_to(ROOT)}: the code from '{name}' does not stand there any more"
 
 
 def check_formulas(page):
@@ -134,6 +142,7 @@ def main():
     for page in pages():
         count += 1
         errors += check_page(page)
+        errors += check_code(page)
         if page.is_relative_to(DOC):
             errors += check_formulas(page)
     errors += check_packages()

@@ -1634,6 +1634,18 @@ WRITING = [
         ],
     ),
     Case(
+        "resolved deck where a file of an include is another one",
+        6,
+        change=[(LOADS, INCLUDE.replace("loads.xml", "parts/functions.xml") + LOADS)],
+        files={
+            "parts/functions.xml": function_file("rise.csv").replace("@@", ""),
+            "parts/rise.csv": "0, 0\n1, 1\n",
+            "rise.csv": "0, 0\n1, 2\n",
+        },
+        args="check deck.xml --resolved resolved.xml",
+        errors=["rise.csv: would be read in place of parts/rise.csv, which parts/functions.xml:..."],
+    ),
+    Case(
         "results over a table",
         6,
         change=[(LOADS, function_file("history.csv") + LOADS)],

@@ -36,6 +36,13 @@ class Measures(unittest.TestCase):
         for norm in quantities.NORMS:
             self.assertAlmostEqual(self.change(a, b, norm), 0.1)
 
+    def test_a_reference_covers_what_the_runs_cover(self):
+        run = history([(0, 1), (1, 2), (2, 3)])
+        quantities.refuse_other_span(history([(0, 1), (0.5, 1), (2, 3)]), run)
+        for other in ([(0, 1), (1, 2)], [(0, 1), (2, 2), (4, 3)], [(0, 1)], [(1, 2), (2, 3)], []):
+            with self.assertRaisesRegex(CulmError, "--reference: its history"):
+                quantities.refuse_other_span(history(other), run)
+
     def test_nothing_in_common_is_an_error(self):
         a = history([(0, ""), (1, 10), (2, "")])
         b = history([(0, 1), (1, ""), (2, 10)])

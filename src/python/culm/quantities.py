@@ -149,6 +149,20 @@ def _last_stretch(levels):
     return levels[start:]
 
 
+def refuse_other_span(reference, history):
+    """A reference is compared from end to end, so it must begin and end where the run does."""
+    there, here = (_last_stretch(one.levels) for one in (reference, history))
+    if len(there) == 0:
+        raise CulmError("--reference: its history has no rows")
+    tolerance = 1e-6 * (here[-1] - here[0])
+    if abs(there[0] - here[0]) <= tolerance and abs(there[-1] - here[-1]) <= tolerance:
+        return
+    raise CulmError(
+        f"--reference: its history goes from {there[0]:g} to {there[-1]:g}, that of the runs from "
+        f"{here[0]:g} to {here[-1]:g}; both must cover the same"
+    )
+
+
 def _weights(levels):
     """Of the trapezoidal rule, divided by the length."""
     if len(levels) < 2:

@@ -212,7 +212,16 @@ class Deck:
         groups = collections.defaultdict(list)
         for node, mass in self._weights.items():
             if not self.places.spots.get(node):
-                refuse(places[node], f"node {name_of(node)} has a mass, but nothing holds it to the structure")
+                followed = any(node in coupling.followers for coupling in self.model.couplings)
+                refuse(
+                    places[node],
+                    f"node {name_of(node)} has a mass, but belongs to no element, and "
+                    + (
+                        "followers of a coupling that belong to none are left out; give the mass to the reference of the coupling"
+                        if followed
+                        else "nothing holds it to the structure"
+                    ),
+                )
             groups[(mass, self.places.copies(node))].append(node)
         for (mass, copies), nodes in groups.items():
             name = unique_name("mass", {one.name for one in masses.lists()})

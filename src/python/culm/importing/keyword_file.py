@@ -70,7 +70,7 @@ def read_blocks(path, depth=0):
         elif not blocks:
             refuse(place, f"expected a keyword, as *NODE, found '{line[:40]}'")
         else:
-            blocks[-1].lines.append((place, [cell.strip() for cell in line.split(",")]))
+            blocks[-1].lines.append((place, _cells(line)))
     return blocks
 
 
@@ -139,8 +139,14 @@ def _logical_lines(path):
         refuse(Place(str(path), start), "the file ends within a keyword line")
 
 
+def _cells(line):
+    """What stands between commas; within quotes they belong to a name."""
+    cells = re.split(r',(?=(?:[^"]*"[^"]*")*[^"]*$)', line) if '"' in line else line.split(",")
+    return [cell.strip() for cell in cells]
+
+
 def _keyword(line, place):
-    first, *rest = [cell.strip() for cell in line[1:].split(",")]
+    first, *rest = _cells(line[1:])
     parameters = {}
     for cell in rest:
         if not cell:

@@ -4,7 +4,7 @@ import dataclasses
 import itertools
 
 from ..errors import CulmError
-from ..quantities import Measure, drift
+from ..quantities import Measure, drift, refuse_other_span
 from .fit import Order, order_of_differences, order_of_errors
 from .reference import ROUNDING, Limit, corner_limit, limit
 
@@ -149,6 +149,8 @@ class Judgement:
         }
         histories = list(self._histories.values())
         if self.plan.reference is not None:
+            for history in histories:
+                refuse_other_span(self.plan.reference, history)
             histories.append(self.plan.reference)
         self.measure = Measure(self.plan.watched, self.plan.norm, histories)
         self.held_out = Measure(self.plan.held_out, self.plan.norm, histories)

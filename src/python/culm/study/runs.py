@@ -1,6 +1,8 @@
 """The runs of a study: one folder per settings, kept, so that a study that was stopped goes on."""
 
+import contextlib
 import dataclasses
+import fcntl
 import functools
 import hashlib
 import json
@@ -60,6 +62,7 @@ class StudyRuns:
         self.say = say
         self.needs_history = needs_history
         self.folder.mkdir(parents=True, exist_ok=True)
+        self.claims = open(self.folder / "claims.lock", "ab")  # closing it would give up all claims
 
     def find(self, settings):
         """The record of a run that came to its end earlier, or None."""
@@ -92,6 +95,25 @@ class StudyRuns:
         yield from at_once(lambda one: self.find(one[0]) or self._run(*one, timed=False), wanted, jobs)
 
     def _run(self, settings, label, timed):
+        """A run that nobody else makes meanwhile, such as the same sweep that was started once more."""
+        with self._claimed(settings, label):
+            return self.find(settings) or self._run_alone(settings, label, timed)
+
+    @contextlib.contextmanager
+    def _claimed(self, settings, label):
+        """The lock of a byte of its own; the system frees it where a process dies."""
+        place = int(self._key(settings)[:15], 16)
+        try:
+            fcntl.lockf(self.claims, fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
+        except OSError:
+            self.say(f"another process makes {label}: waiting for it")
+            fcntl.lockf(self.claims, fcntl.LOCK_EX, 1, place)
+        try:
+            yield
+        finally:
+            fcntl.lockf(self.claims, fcntl.LOCK_UN, 1, place)
+
+    def _run_alone(self, settings, label, timed):
         folder = self.folder / self._key(settings)
         part = folder.with_suffix(".part")
         for old in (folder, part):
