@@ -72,8 +72,9 @@ std::vector<Path> find_named_files(const Options& deck) {
   std::vector<Path> files;
   visit_named_files(
       deck, [&](const Options::Parameter& parameter, const Path& folder, const std::string& name) {
-        files.push_back(folder / name);
-        if (parameter.name == "File Name") add_beside(files.back(), files);
+        const Path file = folder / name;
+        files.push_back(file);
+        if (parameter.name == "File Name") add_beside(file, files);
       });
   return files;
 }
