@@ -164,8 +164,27 @@ def sees_all_steps(folder, report):
 WINDOWS = Case("turns and steps within windows of a coupling", 0, leaves=["out"], deck=WHEEL, silent=False,
                args="couple deck.xml --partner dashpot --damping 1e-9 --window 0.5 --output out", check=sees_all_steps)
 
+def sprung(*analyses):
+    spring = entry("spring", Type="Torsion Spring", First="base", Second="wheel", Axis="{0, 0, 1}", Stiffness="0.1")
+    return WHEEL.replace('<ParameterList name="Analyses">', listed("Loads", spring) + '<ParameterList name="Analyses">' + "".join(
+        entry(name, Type="Dynamic", Step="0.05", Start_Time="0", End_Time="0.5", **more) for name, more in analyses))
+
+
 JOINED = [
     WINDOWS,
+    Case("a spring that does not act for an analysis forgets its turns", 0, args=RUN, leaves=["out"],
+         deck=sprung(("with", {}), ("without", {"Inactive": "{spring}"})),
+         says=["warning: Torsion Spring 'spring' begins anew: "]),
+    Case("a spring that acts later has nothing to forget", 0, args=RUN, leaves=["out"],
+         deck=sprung(("without", {"Inactive": "{spring}"})), never=["begins anew"]),
+    Case("weight of what supports move", 0, args=RUN, leaves=["out"],
+         deck=deck(listed("Structures", BOXES.replace("name=\"b\"", "name=\"arm\"")), GROWS,
+                   listed("Constraints", entry("held", Type="Rigid Support", Node="a"),
+                          entry("arm", Type="Rigid Support", Node="arm", Axis="{0, 1, 0}", Angle="1", Angle_Function="grows")),
+                   listed("Loads", entry("weight", Type="Gravity")),
+                   listed("Analyses", entry("turn", Type="Dynamic", Step="0.1", End_Time="1")),
+                   listed("Output", listed("History", entry("arm", Type="Reaction", Node="arm")))),
+         says=["warning: Gravity 'weight' moves nothing: "]),
     Case("the force of a spring where an analysis starts from the reference again", 0, args=RUN, leaves=["out"],
          deck=deck(BAR, listed("Structures", beam("bar", "bar", 0, 0)),
                    listed("Constraints", entry("held", Type="Rigid Support", Node="bar/first")),

@@ -49,6 +49,8 @@ std::string idle_warning(const model::Batch& load) {
 void LoadWatch::begin(const model::Model& model) {
   loads_.clear();
   has_stepped_ = false;
+  is_driven_ = std::ranges::any_of(model.constraints(),
+                                   [](const model::Constraint& c) { return c.is_driven(); });
   for (const auto& load : model.loads()) {
     if (is_given(*load)) loads_.push_back({load.get()});
   }
@@ -111,8 +113,9 @@ void LoadWatch::report_held(const model::State& state, Findings& findings) const
   const bool all_of_partners = std::ranges::all_of(loads_, [](const Load& load) {
     return load.seen != Seen::held || is_of_partner(*load.batch);
   });
-  // shares that consistent loads have at supports belong to loads that act
-  if (count(Seen::moving) == 0 && !all_of_partners) {
+  // shares that consistent loads have at supports belong to loads that act, and what is driven asks
+  // for the forces that it takes
+  if (count(Seen::moving) == 0 && !all_of_partners && !is_driven_) {
     findings.broken("idle load", text, state.time);
   } else {
     findings.warn("idle load", text, state.time);

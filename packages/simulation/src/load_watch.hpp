@@ -47,6 +47,7 @@ class LoadWatch {
   void report_silent(double time, Findings& findings) const;
 
   std::vector<Load> loads_;
+  bool is_driven_ = false;             // supports move the model
   bool has_stepped_ = false;           // in this analysis
   std::map<std::string, bool> acted_;  // whether it did in an analysis that is over, by its name
 };

@@ -1,5 +1,6 @@
 // How the state of a simulation comes from one analysis to the next.
 
+#include <culm/load/link_load.hpp>
 #include <culm/simulation/simulation.hpp>
 
 #include "ended_ramps.hpp"
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace culm::simulation {
@@ -24,6 +26,33 @@ void warn_of_open_joints(Findings& findings, const Options& analysis, const mode
   for (const std::string& sentence : open_joints(model, q, start, analysis.name())) {
     findings.warn("open joint", sentence, start);
   }
+}
+
+bool acts_in(const model::Model& model, const model::Effect& effect) {
+  return std::ranges::any_of(model.batches(),
+                             [&](const model::Batch* batch) { return batch->effect() == effect; });
+}
+
+// Whether it carries more than where it is.
+bool remembers(const model::Batch& batch) {
+  const auto* link = dynamic_cast<const load::LinkLoad*>(&batch);
+  return batch.memory_size() > 0 &&
+         (link == nullptr || link->link(0).measure == load::Measure::angle);
+}
+
+// What an analysis begins anew, because the one before, `last`, does without it, and what acted in
+// one before that.
+std::vector<std::string> forgotten(const Phases& phases, std::size_t last, const Phase& phase) {
+  std::vector<std::string> titles;
+  for (const model::Batch* batch : phase.model->batches()) {
+    if (!remembers(*batch) || acts_in(*phases.of(last).model, batch->effect())) continue;
+    for (std::size_t earlier = 0; earlier < last; ++earlier) {
+      if (!acts_in(*phases.of(earlier).model, batch->effect())) continue;
+      titles.push_back(batch->effect().quoted());
+      break;
+    }
+  }
+  return titles;
 }
 
 }  // namespace
@@ -68,11 +97,20 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
 void Simulation::move_state(std::size_t number, model::State& state) {
   Parts& p = *parts_;
   const Options& entry = p.deck.list("Analyses").entries()[number];
-  const Phase& before = p.phases.of(p.present);
+  const std::size_t last = p.present;
+  const Phase& before = p.phases.of(last);
   Phase& phase = p.phases.enter(number, p.comm, p.ledger);
   p.present = number;
   if (!entry.has("Start From")) {
     if (&phase == &before) return;
+    for (const std::string& title : forgotten(p.phases, last, phase)) {
+      p.findings.warn(
+          "memory",
+          fmt::format("{} begins anew: what it remembers, such as turns, or what flowed "
+                      "or slid, is lost in the analysis before, where it is 'Inactive'",
+                      title),
+          state.time);
+    }
     Snapshot saved;
     before.system->save(state, saved);
     state = phase.model->initial_state();
