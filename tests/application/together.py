@@ -175,6 +175,10 @@ JOINED = [
     Case("a spring that does not act for an analysis forgets its turns", 0, args=RUN, leaves=["out"],
          deck=sprung(("with", {}), ("without", {"Inactive": "{spring}"})),
          says=["warning: Torsion Spring 'spring' begins anew: "]),
+    Case("a start by more than half a turn beside a spring that counts turns", 0, args=RUN, leaves=["out"],
+         deck=sprung().replace('<ParameterList name="spin">', entry(
+             "turned", Type="Displacement", Node="wheel", Axis="{0, 0, 1}", Angle="3*pi/2") + '<ParameterList name="spin">'),
+         says=["turns by 4.71239 rad, which is more than half a turn: springs and drives that count turns begin at -1.5708 rad"]),
     Case("a spring that acts later has nothing to forget", 0, args=RUN, leaves=["out"],
          deck=sprung(("without", {"Inactive": "{spring}"})), never=["begins anew"]),
     Case("weight of what supports move", 0, args=RUN, leaves=["out"],

@@ -11,8 +11,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 
 namespace culm::simulation {
 namespace {
@@ -47,12 +49,34 @@ std::vector<std::string> libraries_with_one_memory(const Options& deck) {
   return sentences;
 }
 
+// A place does not tell full turns.
+std::vector<std::string> starts_beyond_half_turn(const Options& deck) {
+  std::vector<std::string> sentences;
+  const auto counts_turns = [](const Options& load) {
+    return load.text("Type").starts_with("Torsion");
+  };
+  if (std::ranges::none_of(deck.list("Loads").entries(), counts_turns)) return sentences;
+  for (const Options& start : deck.list("Initial Conditions").entries()) {
+    if (start.text("Type") != "Displacement") continue;
+    const double angle = start.number("Angle");
+    if (std::abs(angle) <= (1.0 + 1e-9) * std::numbers::pi) continue;
+    sentences.push_back(fmt::format(
+        "{}: turns by {:g} rad, which is more than half a turn: springs and drives that "
+        "count turns begin at {:g} rad",
+        to_string(start.where("Angle")), angle, std::remainder(angle, 2.0 * std::numbers::pi)));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 void tell_of_deck(const Options& deck, Findings& findings, const Log& log) {
   for (const std::string& sentence : weightless_structures(deck)) log.info("note: " + sentence);
   for (const std::string& sentence : libraries_with_one_memory(deck)) {
     findings.warn("shared library", sentence, 0.0);
+  }
+  for (const std::string& sentence : starts_beyond_half_turn(deck)) {
+    findings.warn("memory", sentence, 0.0);
   }
   if (has_lost_velocities(deck)) {
     findings.warn("initial velocities",
