@@ -110,12 +110,13 @@ void LoadWatch::report_held(const model::State& state, Findings& findings) const
                       "{} loads, {} the first of them, move nothing: all of them act where "
                       "supports hold the model and go straight into them",
                       held, first->batch->effect().quoted());
-  const bool all_of_partners = std::ranges::all_of(loads_, [](const Load& load) {
-    return load.seen != Seen::held || is_of_partner(*load.batch);
+  // what is driven has its weight all the same
+  const bool all_expected = std::ranges::all_of(loads_, [&](const Load& load) {
+    return load.seen != Seen::held || is_of_partner(*load.batch) ||
+           (is_driven_ && load.batch->effect().type == "Gravity");
   });
-  // shares that consistent loads have at supports belong to loads that act, and what is driven asks
-  // for the forces that it takes
-  if (count(Seen::moving) == 0 && !all_of_partners && !is_driven_) {
+  // shares that consistent loads have at supports belong to loads that act
+  if (count(Seen::moving) == 0 && !all_expected) {
     findings.broken("idle load", text, state.time);
   } else {
     findings.warn("idle load", text, state.time);
