@@ -54,7 +54,7 @@ class State:
             if prefix + name not in found:
                 known = [array.removeprefix(prefix) for array in found if array.startswith(prefix)]
                 if not known:
-                    raise KeyError(f"no forces of constraints in state {self.index}; states have them with 'Constraint Forces' in "
+                    raise KeyError(f"no forces of a constraint '{name}', nor of any other, in state {self.index}; states have them with 'Constraint Forces' in "
                                    "'Output', but for those in which an analysis begins or a run was ended from outside")
                 raise KeyError(f"no forces of a constraint '{name}' among: {', '.join(known)}")
             values = group[found[prefix + name]][()]
