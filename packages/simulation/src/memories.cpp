@@ -58,7 +58,11 @@ void MemoryKeeper::go_back(const Snapshot& kept) {
 
 void MemoryKeeper::show(model::State& state) {
   if (watched_.empty()) return;
-  system_.synchronise(state);
+  if (nodes_) {
+    system_.synchronise(state, *nodes_);
+  } else {
+    system_.synchronise(state);
+  }
   shown_ = evaluate(watched_, system_, state);
 }
 

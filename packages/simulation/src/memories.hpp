@@ -5,6 +5,7 @@
 #include <culm/assembly/system.hpp>
 #include <culm/simulation/quantity.hpp>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,7 @@ void hand_over_memories(const std::vector<WatchedQuantity>& from,
 class MemoryKeeper final : public analysis::Observer {
  public:
   MemoryKeeper(assembly::System& system, const std::vector<WatchedQuantity>& watched)
-      : system_(system), watched_(watched) {}
+      : system_(system), watched_(watched), nodes_(nodes_of(watched)) {}
 
   void start(model::State& state) override;
   void step(const analysis::StepReport& report, model::State& state) override;
@@ -44,6 +45,7 @@ class MemoryKeeper final : public analysis::Observer {
 
   assembly::System& system_;
   const std::vector<WatchedQuantity>& watched_;
+  std::optional<std::vector<int>> nodes_;  // that all read; none: they may read everything
   std::vector<double> shown_;
 };
 

@@ -176,7 +176,6 @@ Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfecti
     by_analysis_.push_back(&find_or_build(setting));
   }
   refuse_jumps();
-  refuse_late_starts();
   complete_columns();
 }
 

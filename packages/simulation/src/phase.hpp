@@ -66,6 +66,9 @@ class Phases {
   const Phase& of(std::size_t analysis) const { return *by_analysis_[analysis]; }
   /// Whether an analysis goes on from a path and is none.
   bool leaves_path(std::size_t analysis) const;
+  /// Of analyses that follow each other as in the deck: throws InputErrors if a motion
+  /// would begin behind its end.
+  void refuse_late_starts() const;
   /// Adds a port to all models, beside those of the deck; before any analysis begins. Throws
   /// UsageError where a point has no place.
   void add_port(const std::string& name, port::Cloud cloud);
@@ -76,7 +79,6 @@ class Phases {
   static void attach(const std::string& name, const port::Cloud& cloud, Phase& phase);
   void refuse_jumps() const;
   std::optional<double> end_of(std::size_t analysis) const;
-  void refuse_late_starts() const;
   void complete_columns();
 
   const Catalogue& catalogue_;

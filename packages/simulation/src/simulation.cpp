@@ -112,6 +112,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
                      const Snapshot* from) {
   Parts& p = *parts_;
   refuse_overwriting_by_run(p.comm, find_input_files(p.deck, p.source), settings.folder);
+  p.phases.refuse_late_starts();
   const Options& output = p.deck.list("Output");
   Checkpoints checkpoints(p.comm, settings.folder, output.flag("Checkpoints"),
                           output.number("Checkpoint Interval"), request);

@@ -19,6 +19,7 @@ constexpr double most_operations = 2e10;
 
 void Simulation::examine() {
   Parts& p = *parts_;
+  p.phases.refuse_late_starts();
   p.make_coupling({});
   const std::vector<Options>& entries = p.deck.list("Analyses").entries();
   for (std::size_t i = 0; i < entries.size(); ++i) {

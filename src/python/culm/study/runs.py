@@ -62,7 +62,10 @@ class StudyRuns:
         self.say = say
         self.needs_history = needs_history
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.claims = open(self.folder / "claims.lock", "ab")  # closing it would give up all claims
+        try:
+            self.claims = open(self.folder / "claims.lock", "ab")  # closing it would give up all claims
+        except OSError:  # what is there can be read, all the same
+            self.claims = None
 
     def find(self, settings):
         """The record of a run that came to its end earlier, or None."""
@@ -102,16 +105,22 @@ class StudyRuns:
     @contextlib.contextmanager
     def _claimed(self, settings, label):
         """The lock of a byte of its own; the system frees it where a process dies."""
+        if self.claims is None:
+            yield
+            return
         place = int(self._key(settings)[:15], 16)
         try:
             fcntl.lockf(self.claims, fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
-        except OSError:
+        except (BlockingIOError, PermissionError):
             self.say(f"another process makes {label}: waiting for it")
             fcntl.lockf(self.claims, fcntl.LOCK_EX, 1, place)
+        except OSError:  # there are file systems without locks
+            pass
         try:
             yield
         finally:
-            fcntl.lockf(self.claims, fcntl.LOCK_UN, 1, place)
+            with contextlib.suppress(OSError):
+                fcntl.lockf(self.claims, fcntl.LOCK_UN, 1, place)
 
     def _run_alone(self, settings, label, timed):
         folder = self.folder / self._key(settings)
