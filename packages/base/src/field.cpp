@@ -123,6 +123,21 @@ Field& Field::optional() {
   return *this;
 }
 
+Field& Field::optional(double value) { return set_default(value); }
+Field& Field::optional(int value) { return set_default(value); }
+Field& Field::optional(bool value) { return set_default(value); }
+Field& Field::optional(const char* value) { return set_default(std::string(value)); }
+Field& Field::optional(std::string value) { return set_default(std::move(value)); }
+Field& Field::optional(std::vector<double> value) { return set_default(std::move(value)); }
+Field& Field::optional(std::vector<int> value) { return set_default(std::move(value)); }
+Field& Field::optional(std::vector<std::string> value) { return set_default(std::move(value)); }
+Field& Field::optional(std::initializer_list<double> value) {
+  return set_default(std::vector<double>(value));
+}
+Field& Field::optional(std::initializer_list<std::string> value) {
+  return set_default(std::vector<std::string>(value));
+}
+
 Field& Field::set_default(Value value) {
   default_ = to_kind(std::move(value), kind_, name_);
   const std::vector<std::string> wrong = mistakes(*default_);

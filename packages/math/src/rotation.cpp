@@ -52,6 +52,10 @@ Mat3 exp_rotation(const Vec3& theta) {
   return R;
 }
 
+Mat3 polar_correction(const Mat3& D) {
+  return 0.5 * D * (3.0 * Mat3::Identity() - D.transpose() * D);
+}
+
 Vec3 log_rotation(const Mat3& R) {
   const Vec3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
   const double s2 = 0.25 * twice.squaredNorm();  // sin^2 t

@@ -14,10 +14,45 @@
 
 namespace culm::model {
 
+Model::Model() = default;
+Model::~Model() = default;
+
 Structure& Model::add_structure(std::string name) {
   structures_.emplace_back();
   structures_.back().name = std::move(name);
   return structures_.back();
+}
+
+void Model::add_element_batch(std::unique_ptr<Batch> batch) {
+  element_batches_.push_back(std::move(batch));
+}
+
+void Model::add_initial_velocity(const InitialVelocity& velocity) {
+  initial_velocities_.push_back(velocity);
+}
+
+void Model::add_initial_displacement(const InitialDisplacement& displacement) {
+  initial_displacements_.push_back(displacement);
+}
+
+void Model::add_node_set(const std::string& name, std::vector<int> nodes) {
+  node_sets_[name] = std::move(nodes);
+}
+
+void Model::add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
+
+void Model::add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
+
+void Model::add_input(const std::string& name, std::unique_ptr<NodalInput> input) {
+  inputs_.emplace(name, std::move(input));
+}
+
+void Model::add_setting(const std::string& name, const Signal& signal) {
+  settings_.emplace(name, signal);
+}
+
+void Model::add_function(const std::string& name, const Amplitude& function) {
+  functions_.emplace(name, function);
 }
 
 MassBatch& Model::masses(const Effect& effect) {

@@ -53,20 +53,16 @@ class Field {
   Field& optional();
   /// May be absent, and has this value then. The default must itself obey the rules declared before
   /// it, or InternalError.
-  Field& optional(double value) { return set_default(value); }
-  Field& optional(int value) { return set_default(value); }
-  Field& optional(bool value) { return set_default(value); }
-  Field& optional(const char* value) { return set_default(std::string(value)); }
-  Field& optional(std::string value) { return set_default(std::move(value)); }
-  Field& optional(std::vector<double> value) { return set_default(std::move(value)); }
-  Field& optional(std::vector<int> value) { return set_default(std::move(value)); }
-  Field& optional(std::vector<std::string> value) { return set_default(std::move(value)); }
-  Field& optional(std::initializer_list<double> value) {
-    return set_default(std::vector<double>(value));
-  }
-  Field& optional(std::initializer_list<std::string> value) {
-    return set_default(std::vector<std::string>(value));
-  }
+  Field& optional(double value);
+  Field& optional(int value);
+  Field& optional(bool value);
+  Field& optional(const char* value);
+  Field& optional(std::string value);
+  Field& optional(std::vector<double> value);
+  Field& optional(std::vector<int> value);
+  Field& optional(std::vector<std::string> value);
+  Field& optional(std::initializer_list<double> value);
+  Field& optional(std::initializer_list<std::string> value);
 
   Kind kind() const { return kind_; }
   const std::string& name() const { return name_; }

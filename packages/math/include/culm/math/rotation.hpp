@@ -13,9 +13,7 @@ Vec3 log_rotation(const Mat3& R);
 
 /// One Newton step of the polar decomposition, D <- D (3 - D^T D) / 2: removes the round-off that
 /// repeated multiplicative updates leave in a triad; error squared by each call.
-inline Mat3 polar_correction(const Mat3& D) {
-  return 0.5 * D * (3.0 * Mat3::Identity() - D.transpose() * D);
-}
+Mat3 polar_correction(const Mat3& D);
 
 /// Nearest rotation to D in the Frobenius norm (polar decomposition by SVD).
 Mat3 nearest_rotation(const Mat3& D);

@@ -3,7 +3,6 @@
 
 #include <compare>
 #include <string>
-#include <utility>
 
 namespace culm::model {
 
@@ -14,26 +13,19 @@ struct Effect {
   std::string name = {};  ///< of the entry of the deck; empty where a batch serves several
   std::string part = {};  ///< where an entry has several batches, such as "moments"
 
-  Effect(std::string of_type, std::string of_name = {}, std::string of_part = {})
-      : type(std::move(of_type)), name(std::move(of_name)), part(std::move(of_part)) {}
-  Effect(const char* of_type) : type(of_type) {}
+  Effect(std::string of_type, std::string of_name = {}, std::string of_part = {});
+  Effect(const char* of_type);
 
   /// Another batch of the same entry.
-  Effect of_part(std::string other) const { return {type, name, std::move(other)}; }
+  Effect of_part(std::string other) const;
 
   auto operator<=>(const Effect&) const = default;
   bool operator==(const Effect&) const = default;
 
   /// In the ledger and in messages: "Force, tip force".
-  std::string title() const {
-    std::string text = type;
-    for (const std::string* more : {&name, &part}) {
-      if (!more->empty()) text += ", " + *more;
-    }
-    return text;
-  }
+  std::string title() const;
   /// "Force 'tip force'", in sentences.
-  std::string quoted() const { return name.empty() ? type : type + " '" + name + "'"; }
+  std::string quoted() const;
 };
 
 }  // namespace culm::model

@@ -39,7 +39,8 @@ struct InitialDisplacement {
 /// are fixed from there on.
 class Model {
  public:
-  Model() = default;
+  Model();
+  ~Model();
   Model(const Model&) = delete;  // batches refer to the node table
   Model& operator=(const Model&) = delete;
 
@@ -50,45 +51,33 @@ class Model {
   /// @return a structure that stays in place while others are added
   Structure& add_structure(std::string name);
   /// @see elements, in element_batch.hpp
-  void add_element_batch(std::unique_ptr<Batch> batch) {
-    element_batches_.push_back(std::move(batch));
-  }
+  void add_element_batch(std::unique_ptr<Batch> batch);
   /// The batch of masses with this ledger name, made when it is first asked for.
   MassBatch& masses(const Effect& effect);
   /// Sets the velocity that a node has at the start of a dynamic analysis, v + omega x (p - about)
   /// for every point p of the node; constraints are imposed later.
-  void add_initial_velocity(InitialVelocity velocity) { initial_velocities_.push_back(velocity); }
+  void add_initial_velocity(const InitialVelocity& velocity);
   /// Displaces a node at the start, after what was added before.
-  void add_initial_displacement(const InitialDisplacement& displacement) {
-    initial_displacements_.push_back(displacement);
-  }
+  void add_initial_displacement(const InitialDisplacement& displacement);
   /// Nodes under one name, for select_nodes.
-  void add_node_set(std::string name, std::vector<int> nodes) {
-    node_sets_[std::move(name)] = std::move(nodes);
-  }
+  void add_node_set(const std::string& name, std::vector<int> nodes);
   /// Elements of a structure under one name, by their numbers in the deck.
   void add_element_set(std::string name, const Structure& structure,
                        const std::vector<int>& elements);
-  void add_constraint(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
+  void add_constraint(Constraint constraint);
   /// Unknowns for a batch that writes their rows. @return number of the block
   int add_own_block(OwnBlock block);
   /// Gives an unknown of a batch its value at the start.
   void set_initial(const Signal& signal, double value);
   /// A rigid link by elimination: `slave` follows `master`; twelve rows in the multiplier form.
   void add_rigid_link(std::string name, int slave, int master);
-  void add_load(std::unique_ptr<Batch> load) { loads_.push_back(std::move(load)); }
+  void add_load(std::unique_ptr<Batch> load);
   /// A load that a program sets, by its name in the deck.
-  void add_input(const std::string& name, std::unique_ptr<NodalInput> input) {
-    inputs_.emplace(name, std::move(input));
-  }
+  void add_input(const std::string& name, std::unique_ptr<NodalInput> input);
   /// A signal that a program sets, by its name in the deck.
-  void add_setting(const std::string& name, const Signal& signal) {
-    settings_.emplace(name, signal);
-  }
+  void add_setting(const std::string& name, const Signal& signal);
   /// Notes a function of the deck that a load or a constraint follows.
-  void add_function(const std::string& name, const Amplitude& function) {
-    functions_.emplace(name, function);
-  }
+  void add_function(const std::string& name, const Amplitude& function);
 
   /// Keeps equations that follow from others; for tests that look at rows one by one.
   void keep_redundant_rows() { keeps_redundant_rows_ = true; }

@@ -31,12 +31,7 @@ class Scatter {
   };
 
   /// Appends an item. @param offsets run offsets within a row, one per pair (a, b), row by row
-  void add_item(std::span<const Rows> rows, std::span<const int> offsets) {
-    rows_.insert(rows_.end(), rows.begin(), rows.end());
-    offsets_.insert(offsets_.end(), offsets.begin(), offsets.end());
-    first_block_.push_back(rows_.size());
-    first_pair_.push_back(offsets_.size());
-  }
+  void add_item(std::span<const Rows> rows, std::span<const int> offsets);
 
   /// Adds the residual of block a of an item; `values` has at least the width of the block.
   void add_residual(std::size_t item, int a, const double* values, Target& target) const {
