@@ -2,258 +2,32 @@
 // package `culm`, which adds what is easier to write in Python.
 
 #include <culm/base/absent.hpp>
-#include <culm/base/error.hpp>
-#include <culm/simulation/session.hpp>
-#include <culm/simulation/simulation.hpp>
-#include <culm/solver/newton_solver.hpp>
+
+#include "arrays.hpp"
+#include "live.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <array>
-#include <atomic>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-namespace py = pybind11;
-
+namespace culm::module {
 namespace {
 
-using culm::Snapshot;
-using culm::analysis::Stepper;
-using culm::port::Quantity;
-using culm::simulation::Simulation;
-
-// MPI and Trilinos, from the import of the module to the end of Python.
-class Start {
- public:
-  Start() : session_(count_, values_) {}
-
- private:
-  std::array<char, 7> name_{"python"};
-  std::array<char*, 2> arguments_{name_.data(), nullptr};
-  int count_ = 1;
-  char** values_ = arguments_.data();
-  culm::simulation::Session session_;
-};
-
-// What the module keeps until Python ends, and each simulation as long as it lives.
-std::shared_ptr<Start>& start() {
-  static std::shared_ptr<Start> kept;
-  return kept;
-}
-
-// Keeps what culm says, and makes of each alarm a warning of Python at once.
-class Ear final : public std::stringbuf {
- public:
-  // What was heard since the last call.
-  std::string take() {
-    std::string text = str();
-    str({});
-    told_ = 0;
-    return text;
-  }
-
- private:
-  // Once for each message.
-  int sync() override {
-    const std::string text = str();
-    const std::string message = text.substr(told_, text.find_last_not_of('\n') + 1 - told_);
-    told_ = text.size();
-    if (!message.starts_with("warning: ") && !message.starts_with("error: ")) return 0;
-    const py::gil_scoped_acquire held;
-    const std::string words = message.substr(message.find(' ') + 1);
-    // where warnings are errors of Python: it is not allowed to throw through a log
-    if (PyErr_WarnEx(PyExc_UserWarning, words.c_str(), 1) != 0) PyErr_WriteUnraisable(nullptr);
-    return 0;
-  }
-
-  std::size_t told_ = 0;
-};
-
-// Who solves. The interpreter is free then, and another thread that came in would find or change
-// what is half done.
-class Busy {
- public:
-  explicit Busy(std::atomic<bool>& solves) : solves_(solves) {
-    if (solves_.exchange(true)) refuse();
-  }
-  Busy(const Busy&) = delete;
-  Busy& operator=(const Busy&) = delete;
-  ~Busy() { solves_ = false; }
-
-  [[noreturn]] static void refuse() {
-    throw culm::UsageError("another thread is in this simulation: one at a time may be");
-  }
-
- private:
-  std::atomic<bool>& solves_;
-};
-
-// Lets Ctrl-C end a run between two steps; the last accepted one stays.
-class Interruptible final : public culm::analysis::Observer {
- public:
-  void step(const culm::analysis::StepReport&, culm::model::State&) override {
-    const py::gil_scoped_acquire held;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
-};
-
-// A simulation and what it says.
-class Live {
- public:
-  Live(const std::string& deck, std::vector<std::string> overrides)
-      : start_(start()),
-        simulation_(
-            Simulation::open(deck, std::move(overrides), culm::Log(said_, culm::LogLevel::info))) {}
-
-  // What was said since the last call.
-  std::string messages() {
-    refuse_if_busy();
-    return ear_.take();
-  }
-
-  // Tries a step. Why it failed is known until the next one.
-  bool attempt(Stepper& stepper, double target) {
-    const Busy busy(solves_);
-    failure_.clear();
-    const double from = stepper.time();
-    const culm::analysis::StepReport& report = stepper.attempt(target);
-    if (report.accepted) return true;
-    std::ostringstream text;
-    text << culm::solver::describe(report.outcome.end) << ", from " << from << " to " << target
-         << ", after " << report.outcome.iterations << " iterations; relative force residuals:";
-    for (const auto& record : report.outcome.history) text << ' ' << record.force;
-    failure_ = text.str();
-    return false;
-  }
-  const std::string& failure() const { return failure_; }
-  Simulation& simulation() {
-    refuse_if_busy();
-    return simulation_;
-  }
-  std::atomic<bool>& solves() { return solves_; }
-  void refuse_if_busy() const {
-    if (solves_) Busy::refuse();
-  }
-
-  void begin(const std::string& analysis) {
-    const Busy busy(solves_);
-    simulation_.begin(analysis);
-  }
-  std::string close_results() {
-    refuse_if_busy();
-    return simulation_.close_results();
-  }
-  long taken_up() const { return simulation_.taken_up(); }
-  Stepper* stepper() { return simulation_.stepper(); }
-
- private:
-  std::shared_ptr<Start> start_;  // the last to go
-  Ear ear_;
-  std::ostream said_{&ear_};
-  Simulation simulation_;
-  std::string failure_;
-  std::atomic<bool> solves_ = false;
-};
-
-// The stepper of an analysis, as long as it is taken up.
-class Handle {
- public:
-  explicit Handle(Live& live) : live_(live), number_(live.taken_up()) {}
-
-  Stepper& get() const {
-    if (live_.taken_up() != number_ || live_.stepper() == nullptr) {
-      throw culm::UsageError("this analysis has ended");
-    }
-    return *live_.stepper();
-  }
-  Stepper* operator->() const { return &get(); }
-  // For what changes the state.
-  Stepper& take() const {
-    live_.refuse_if_busy();
-    return get();
-  }
-  Live& live() const { return live_; }
-  bool is_of(const Handle& other) const {
-    return &live_ == &other.live_ && number_ == other.number_;
-  }
-
- private:
-  Live& live_;
-  long number_;
-};
-
-// What a stepper saved, and which one.
-struct Saved {
-  Handle stepper;
-  Snapshot snapshot = Snapshot(Snapshot::Use::memory);
-};
-
-// A copy of coordinates, x and the three directors of each node.
-py::array copy(std::span<const double> coordinates) {
-  const auto nodes = static_cast<py::ssize_t>(coordinates.size() / 12);
-  return py::array_t<double>({nodes, py::ssize_t{4}, py::ssize_t{3}}, coordinates.data());
-}
-
-using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-// A shape as Python writes it.
-std::string shape_of(const py::array& values) {
-  return py::str(py::object(values.attr("shape"))).cast<std::string>();
-}
-
-// An array as it comes. What lies under a mask was hidden on purpose, and numpy would take it.
-py::array array_of(const py::object& given, const std::string& what) {
-  // only what has a mask is looked at by numpy.ma, which takes longer than all else here
-  if (py::hasattr(given, "_mask") &&
-      py::module_::import("numpy.ma").attr("is_masked")(given).cast<bool>()) {
-    throw culm::UsageError(what + " has masked values: say what stands there, as with filled(0.0)");
-  }
-  py::array array = py::array::ensure(given);
-  if (!array) throw culm::UsageError(what + " must be an array of numbers");
-  return array;
-}
-
-// Its numbers, of any stride, order and type that is real.
-Values numbers_of(const py::object& given, const std::string& what) {
-  const py::array array = array_of(given, what);
-  const bool is_real = std::string_view("biufO").find(array.dtype().kind()) != std::string::npos;
-  Values numbers = is_real ? Values::ensure(array) : Values();
-  if (!is_real || !numbers) {
-    const std::string type = py::str(py::object(array.dtype())).cast<std::string>();
-    throw culm::UsageError(what + " must be an array of real numbers, and is one of " + type);
-  }
-  return numbers;
-}
-
-// Whether values stand in the order of items: flat, or in a row for each item, which may be cut in
-// force and moment. Others, as those of a transposed array, are as many and mean something else.
-bool stand_in_order(const py::array& values, py::ssize_t items) {
-  const auto proper = [](std::vector<py::ssize_t> shape) {
-    std::erase(shape, 1);
-    return shape;
-  };
-  const auto shape = proper({values.shape(), values.shape() + values.ndim()});
-  return shape.size() < 2 || shape == proper({items, 6}) || shape == proper({items, 2, 3});
-}
+using port::Quantity;
 
 void set_load(Live& live, const std::string& name, const py::object& given) {
   const Values values = numbers_of(given, "load '" + name + "'");
   const py::ssize_t nodes = values.size() / 6;
   if (values.size() == 6 * nodes && !stand_in_order(values, nodes)) {
-    throw culm::UsageError("load '" + name + "' takes values of the shape (" +
-                           std::to_string(nodes) + ", 6), force and moment of each node, got " +
-                           shape_of(values));
+    throw UsageError("load '" + name + "' takes values of the shape (" + std::to_string(nodes) +
+                     ", 6), force and moment of each node, got " + shape_of(values));
   }
   live.simulation().set_load(name, {values.data(), values.data() + values.size()});
 }
@@ -263,7 +37,7 @@ class PortHandle {
  public:
   PortHandle(Live& live, std::string name) : live_(live), name_(std::move(name)) { get(); }
 
-  const culm::port::Port& get() const { return live_.simulation().port(name_); }
+  const port::Port& get() const { return live_.simulation().port(name_); }
   Simulation& simulation() const { return live_.simulation(); }
   const std::string& name() const { return name_; }
   Live& live() const { return live_; }
@@ -272,15 +46,6 @@ class PortHandle {
   Live& live_;
   std::string name_;
 };
-
-// Numbers of points as an array of one row per point.
-py::array rows_of(const std::vector<double>& values, int points) {
-  const auto rows = static_cast<py::ssize_t>(points);
-  const auto columns = static_cast<py::ssize_t>(values.size()) / rows;
-  if (columns == 9)
-    return py::array_t<double>({rows, py::ssize_t{3}, py::ssize_t{3}}, values.data());
-  return py::array_t<double>({rows, columns}, values.data());
-}
 
 py::array read(const PortHandle& port, Quantity quantity) {
   std::vector<double> values;
@@ -293,18 +58,6 @@ py::array read(const PortHandle& port, Quantity quantity) {
   return rows_of(values, port.get().size());
 }
 
-// The numbers of an array with three columns.
-std::span<const double> three_columns(const Values& values, const std::string& what,
-                                      std::optional<int> rows = {}) {
-  const bool has_rows = values.ndim() == 2 && (!rows || values.shape(0) == *rows);
-  if (!has_rows || values.shape(1) != 3) {
-    throw culm::UsageError(what + " must have the shape (" +
-                           (rows ? std::to_string(*rows) : "points") + ", 3), and has " +
-                           shape_of(values));
-  }
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
 void set_port(const PortHandle& port, const py::object& force, const py::object& moment) {
   const int points = port.get().size();
   const Values forces = numbers_of(force, "force");
@@ -314,44 +67,12 @@ void set_port(const PortHandle& port, const py::object& force, const py::object&
       moment.is_none() ? std::span<const double>() : three_columns(moments, "moment", points));
 }
 
-using Whole = py::array_t<long long, py::array::c_style | py::array::forcecast>;
-
-// The numbers of points, which a fraction would be cut down to.
-Whole whole_numbers_of(const py::object& given, const std::string& what) {
-  const py::array array = array_of(given, what);
-  const Whole numbers = Whole::ensure(array);
-  const py::module_ numpy = py::module_::import("numpy");
-  if (!numbers || !numpy.attr("array_equal")(array, numbers).cast<bool>()) {
-    throw culm::UsageError(what + " must be whole numbers");
-  }
-  return numbers;
-}
-
-// Faces of three or four points, an array with as many columns.
-std::vector<culm::port::Face> faces_of(const Whole& corners) {
-  if (corners.ndim() != 2 || (corners.shape(1) != 3 && corners.shape(1) != 4)) {
-    throw culm::UsageError("faces must have the shape (faces, 3) or (faces, 4), and has " +
-                           shape_of(corners));
-  }
-  constexpr long long most = std::numeric_limits<int>::max();
-  std::vector<culm::port::Face> faces;
-  for (py::ssize_t i = 0; i < corners.shape(0); ++i) {
-    culm::port::Face& face = faces.emplace_back();
-    face[3] = -1;
-    for (py::ssize_t a = 0; a < corners.shape(1); ++a) {
-      face[static_cast<std::size_t>(a)] =
-          static_cast<int>(std::clamp(corners.at(i, a), -most, most));
-    }
-  }
-  return faces;
-}
-
 void set_pressure(const PortHandle& port, const py::object& faces, const py::object& pressure,
                   const py::object& traction) {
   const Values pressures = numbers_of(pressure, "pressure");
   const Values tractions = traction.is_none() ? Values() : numbers_of(traction, "traction");
   if (pressures.ndim() != 1) {
-    throw culm::UsageError("pressure must have the shape (faces,), and has " + shape_of(pressures));
+    throw UsageError("pressure must have the shape (faces,), and has " + shape_of(pressures));
   }
   port.simulation().set_port_pressure(
       port.name(), faces_of(whole_numbers_of(faces, "faces")),
@@ -363,12 +84,12 @@ void add_port(Live& live, const std::string& name, const py::object& points,
               const std::vector<std::string>& structures, double reach, bool smooth) {
   const Values given = numbers_of(points, "points");
   const std::span<const double> numbers = three_columns(given, "points");
-  const auto weights = smooth ? culm::port::Weights::smooth : culm::port::Weights::elements;
+  const auto weights = smooth ? port::Weights::smooth : port::Weights::elements;
   live.simulation().add_port(name, {{numbers.begin(), numbers.end()}, structures, reach, weights});
 }
 
 py::dict exchange(const PortHandle& port) {
-  const culm::port::Exchange sum = port.simulation().exchange(port.name());
+  const port::Exchange sum = port.simulation().exchange(port.name());
   py::dict numbers;
   numbers["work"] = sum.work;
   numbers["force"] = py::array_t<double>(3, sum.force.data());
@@ -381,11 +102,11 @@ py::dict quantities(Live& live) {
   py::dict all;
   const std::vector<double> numbers = live.simulation().quantities();
   std::size_t i = 0;
-  for (const culm::output::HistoryColumn& column : live.simulation().quantity_columns()) {
+  for (const output::HistoryColumn& column : live.simulation().quantity_columns()) {
     const std::string unit = column.unit.empty() ? "" : " [" + column.unit + "]";
     const double number = numbers[i++];
     all[py::str(column.name + unit)] =
-        number == culm::absent ? std::numeric_limits<double>::quiet_NaN() : number;
+        number == absent ? std::numeric_limits<double>::quiet_NaN() : number;
   }
   return all;
 }
@@ -397,12 +118,12 @@ py::dict finish(const Handle& stepper) {
 }
 
 void register_errors(py::module_& module) {
-  const auto base = py::register_exception<culm::Error>(module, "Error");
-  py::register_exception<culm::UsageError>(module, "UsageError", base);
-  py::register_exception<culm::InputError>(module, "InputError", base);
-  py::register_exception<culm::NumericalError>(module, "NumericalError", base);
-  py::register_exception<culm::NonFiniteError>(module, "NonFiniteError", base);
-  py::register_exception<culm::FileError>(module, "FileError", base);
+  const auto base = py::register_exception<Error>(module, "Error");
+  py::register_exception<UsageError>(module, "UsageError", base);
+  py::register_exception<InputError>(module, "InputError", base);
+  py::register_exception<NumericalError>(module, "NumericalError", base);
+  py::register_exception<NonFiniteError>(module, "NonFiniteError", base);
+  py::register_exception<FileError>(module, "FileError", base);
 }
 
 }  // namespace
@@ -448,7 +169,7 @@ PYBIND11_MODULE(_culm, module) {
             Stepper& taken = stepper.get();
             const Busy busy(stepper.live().solves());
             Interruptible observer;
-            culm::analysis::run(taken, observer);
+            analysis::run(taken, observer);
           },
           Free(), "Makes all steps to the end.")
       .def("finish", &finish, "Ends the analysis; returns the numbers of its report.")
@@ -464,7 +185,7 @@ PYBIND11_MODULE(_culm, module) {
           "restore",
           [](const Handle& stepper, const Saved& saved) {
             if (!saved.stepper.is_of(stepper)) {
-              throw culm::UsageError("the snapshot belongs to another analysis or simulation");
+              throw UsageError("the snapshot belongs to another analysis or simulation");
             }
             stepper.take().restore(saved.snapshot);
           },
@@ -587,3 +308,5 @@ PYBIND11_MODULE(_culm, module) {
       .def("messages", &Live::messages,
            "What culm said since the last call; warnings were warnings of Python before.");
 }
+
+}  // namespace culm::module
