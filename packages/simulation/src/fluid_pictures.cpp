@@ -196,7 +196,7 @@ output::Picture fluid_picture(const model::Model& model, const model::State& at)
     picture.structures.push_back(wake_state(*load, at.next));
   }
   // in statics time is the load level, and the sea is that at time 0
-  const double time = at.velocity.empty() ? 0.0 : at.time;
+  const double time = at.in_motion ? at.time : 0.0;
   for (const ShownSea& sea : seas_of(model)) picture.structures.push_back(surface_state(sea, time));
   return picture;
 }

@@ -236,7 +236,7 @@ class WavesQuantity final : public Quantity {
   void evaluate(const assembly::System&, const model::State& state,
                 std::vector<double>& numbers) const override {
     // in statics time is the load level, and the sea is that at time 0
-    const double time = state.velocity.empty() ? 0.0 : state.time;
+    const double time = state.in_motion ? state.time : 0.0;
     const water::WaterMotion water = sea_.motion(place_, time);
     numbers.push_back(sea_.elevation(place_, time));
     numbers.insert(numbers.end(), water.velocity.begin(), water.velocity.end());

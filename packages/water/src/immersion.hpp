@@ -34,8 +34,9 @@ struct Immersion {
 /// The wet part of a circle, below the line that is `p` above its centre.
 template <class Number>
 struct WetSlice {
-  Number area;   ///< [m^2]
-  Number first;  ///< integral of the height over the centre, in the plane of the circle [m^3]
+  Number area;         ///< [m^2]
+  Number first;        ///< integral of the height over the centre, in the plane of the circle [m^3]
+  double chord = 0.0;  ///< how long the line is within the circle [m]
 };
 
 template <class Number>
@@ -51,7 +52,8 @@ WetSlice<Number> cut_slice(const Number& p, const Number& radius) {
   const double angle = std::acos(std::clamp(-P / R, -1.0, 1.0));
   return {chain(R * R * angle + P * half_width, p, 2.0 * half_width, radius, 2.0 * R * angle),
           chain(-2.0 / 3.0 * half_width * half_width * half_width, p, 2.0 * P * half_width, radius,
-                -2.0 * R * half_width)};
+                -2.0 * R * half_width),
+          2.0 * half_width};
 }
 
 /// Integral over the wet part of a circle of the square of the height over its centre [m^4].

@@ -62,6 +62,8 @@ class SegmentForces {
       const double surface = is_far ? 0.0 : sea_.wet_to(place, time_);
       immersion_.depths[end] =
           Number(surface + sea_.site().level) - dot<Number>(up_, motion_.place[end]);
+      const bool is_near = std::abs(value_of(immersion_.depths[end])) < segment_.length + thickness;
+      if (is_near && model_.buoyancy) cut_off_[end] = sea_.pressed_at_surface(place, time_);
     }
     const Number cosine = (immersion_.depths[0] - immersion_.depths[1]) / length_;
     const Number square = Number(1.0) - cosine * cosine;
@@ -106,8 +108,30 @@ class SegmentForces {
           const Vector<Number> force = force_per_length(share, slice, outer.radius(share));
           add(share, length * force);
           off_axis += length * slice.first;
+          if (model_.buoyancy) add_cut_off(share, value_of(length), slice);
         });
-    if (model_.buoyancy) add_righting(outer, off_axis);
+    if (!model_.buoyancy) return;
+    add_righting(outer, off_axis);
+    add_upright_cut_off(outer);
+  }
+
+  // Where waves are counted up to still water only, the volume ends at a plane on which their
+  // pressure would act, and there is no face: it is taken back, as is what vertical stretching
+  // leaves in troughs. The plane is wide by the chord of a slice, and long by the length over the
+  // sine. @param sign  -1 for water inside
+  void add_cut_off(const Number& share, double length, const Slice& slice, double sign = 1.0) {
+    if (slice.chord <= 0.0) return;
+    add_cut_off(share, sign * length * slice.chord / value_of(immersion_.sine));
+  }
+  void add_upright_cut_off(const Cone& cone, double sign = 1.0) {
+    const double h0 = value_of(immersion_.depths[0]), h1 = value_of(immersion_.depths[1]);
+    if (value_of(immersion_.sine) > 0.0 || (h0 > 0.0) == (h1 > 0.0)) return;
+    const double share = h0 / (h0 - h1), radius = cone.radius(share);
+    add_cut_off(Number(share), sign * std::numbers::pi * radius * radius);
+  }
+  void add_cut_off(const Number& share, double area) {
+    const double height = std::lerp(cut_off_[0], cut_off_[1], value_of(share));
+    if (height != 0.0) add(share, Number(specific_weight() * height * area) * up_);
   }
 
   // Water inside that is open to that outside: its pressure is the same, and it moves along across
@@ -123,14 +147,17 @@ class SegmentForces {
               between<Number>(motion_.acceleration[0], motion_.acceleration[1], share);
           Vector<Number> force = -across(acceleration);
           if (model_.buoyancy) {
-            const Vector<Number> water = water_at(share).acceleration.template cast<Number>();
+            const Vector<Number> water = water_at(share).push.template cast<Number>();
             force -= dot<Number>(water, tangent_) * tangent_;
             force -= Number(sea_.site().gravity) * up_;
+            add_cut_off(share, value_of(weight) * segment_.length, slice, -1.0);
           }
           add(share, mass * force);
           off_axis -= weight * Number(segment_.length) * slice.first;
         });
-    if (model_.buoyancy) add_righting(inner, off_axis, -1.0);
+    if (!model_.buoyancy) return;
+    add_righting(inner, off_axis, -1.0);
+    add_upright_cut_off(inner, -1.0);
   }
 
   // The moment of wet slices that are not wet as a whole. Where the axis is upright it is what
@@ -165,9 +192,11 @@ class SegmentForces {
     force +=
         Number(mass * at(&WetSection::axial_added_mass, share) * dot<Number>(pulled, tangent_)) *
         tangent_;
-    // pressure of the undisturbed water
+    // pressure of the undisturbed water; along the axis it must fit that on the faces
     if (model_.buoyancy) {
-      force += mass * (pull + Number(sea_.site().gravity) * up_);
+      const Vector<Number> push = water.push.template cast<Number>();
+      force += mass * (across(pull) + dot<Number>(push, tangent_) * tangent_ +
+                       Number(sea_.site().gravity) * up_);
     } else if (model_.pull) {
       force += mass * across(pull);
     }
@@ -217,15 +246,16 @@ class SegmentForces {
 
   // Drag and added mass of a plate or a blunt end.
   void add_wet_face(std::size_t end, const Slice& slice, double radius) {
-    if (model_.end_drag == 0.0 && model_.end_added_mass == 0.0) return;
+    if (model_.end_drag[end] == 0.0 && model_.end_added_mass[end] == 0.0) return;
     const WaterMotion water = water_at(Number(static_cast<double>(end)));
     const Vector<Number> relative = water.velocity.template cast<Number>() - motion_.velocity[end];
     const Vector<Number> pulled =
         water.acceleration.template cast<Number>() - motion_.acceleration[end];
     const Number along = dot<Number>(relative, tangent_);
-    Number force = Number(0.5 * density() * model_.end_drag) * slice.area * size_of(along) * along;
+    Number force =
+        Number(0.5 * density() * model_.end_drag[end]) * slice.area * size_of(along) * along;
     // 2/3 pi R^3 = 2/3 R A
-    force += Number(density() * model_.end_added_mass * 2.0 / 3.0 * radius) * slice.area *
+    force += Number(density() * model_.end_added_mass[end] * 2.0 / 3.0 * radius) * slice.area *
              dot<Number>(pulled, tangent_);
     forces_[end] += force * tangent_;
   }
@@ -233,14 +263,16 @@ class SegmentForces {
   // The volume of a member stands for the pressure on all of its surface; no water touches this
   // face. @param sign  -1 for the part of it that is open
   void take_back_pressure(std::size_t end, const Slice& slice, double radius, double sign) {
-    const Number depth = immersion_.depths[end];
+    // of water at rest that presses as much at the centre
     const double waves = water_at(Number(static_cast<double>(end))).pressure;
+    const Number level = Number(sea_.site().level) - dot<Number>(up_, motion_.place[end]) +
+                         Number(waves / specific_weight());
+    const Number depth = immersion_.depths[end];
     const Number weight(sign * specific_weight());
     const Vector<Number> outward = Number(end == 0 ? -1.0 : 1.0) * tangent_;
-    const Number pressed = weight * (depth * slice.area - immersion_.sine * slice.first) +
-                           Number(sign * waves) * slice.area;
+    const Number pressed = weight * (level * slice.area - immersion_.sine * slice.first);
     forces_[end] += pressed * outward;
-    // moment about the centre: (depth S - sine Q) n x t_out with n = across_up / sine
+    // moment about the centre: (level S - sine Q) n x t_out with n = across_up / sine
     const bool is_cut = value_of(immersion_.sine) > 0.0 &&
                         std::abs(value_of(depth)) < radius * value_of(immersion_.sine);
     Number second(0.25 * std::numbers::pi * std::pow(radius, 4));
@@ -248,7 +280,8 @@ class SegmentForces {
       const Number p = depth / immersion_.sine;
       const double half_square = radius * radius - value_of(p) * value_of(p);
       const double slope = 2.0 * value_of(p) * value_of(p) * std::sqrt(std::max(half_square, 0.0));
-      second = chain(wet_second_moment(value_of(p), radius), p, slope, p, 0.0) - p * slice.first;
+      second = chain(wet_second_moment(value_of(p), radius), p, slope, p, 0.0) -
+               level / immersion_.sine * slice.first;
     }
     const Number direction(end == 0 ? -1.0 : 1.0);
     add_couple(Number(weight * direction * second) * across_up_);
@@ -262,6 +295,7 @@ class SegmentForces {
   Vector<Number> tangent_, up_, across_up_;
   Number length_, rise_;
   Immersion<Number> immersion_;
+  std::array<double, 2> cut_off_{};  // pressure where what is wet ends, at both ends [m]
   std::array<Vector<Number>, 2> forces_;
 };
 

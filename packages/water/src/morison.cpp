@@ -161,10 +161,18 @@ Schema morison_schema() {
       .add(number("End Drag", "1", "Coefficient of the drag of the wet end faces along the axis.")
                .non_negative()
                .optional(0.0))
+      .add(numbers("End Drags", "1", "The same of the first and the last face.")
+               .size(2)
+               .non_negative()
+               .optional())
       .add(number("End Added Mass", "1",
                   "Water that moves along with wet end faces, over that in a half sphere.")
                .non_negative()
                .optional(0.0))
+      .add(numbers("End Added Masses", "1", "The same of the first and the last face.")
+               .size(2)
+               .non_negative()
+               .optional())
       .check(check_place)
       .check(check_tables)
       .check(check_growth)
@@ -371,6 +379,13 @@ bool is_alone(const MorisonLoad& load, const Options& options, model::BuildConte
   return true;
 }
 
+// What the first and the last face of a member have.
+std::array<double, 2> of_faces(const char* one, const char* several, const Options& options) {
+  if (!options.has(several)) return {options.number(one), options.number(one)};
+  const std::vector<double>& values = options.numbers(several);
+  return {values[0], values[1]};
+}
+
 void make_morison(const Options& options, flow::FluidContext& context) {
   model::BuildContext& build = context.build;
   const auto sea = find_sea(options, context);
@@ -380,8 +395,9 @@ void make_morison(const Options& options, flow::FluidContext& context) {
   if (!sea || !function || !member) return;
   std::vector<Segment> segments = segments_of(options, *member);
   if (!is_sound(segments, *sea, options, build)) return;
-  const MorisonModel model{options.flag("Buoyancy"), options.number("End Drag"),
-                           options.number("End Added Mass"), options.flag("Pull")};
+  const MorisonModel model{options.flag("Buoyancy"), of_faces("End Drag", "End Drags", options),
+                           of_faces("End Added Mass", "End Added Masses", options),
+                           options.flag("Pull")};
   auto load = std::make_unique<MorisonLoad>(model::Effect("Morison", options.name()),
                                             build.model.nodes(), *function, sea, model);
   const std::vector<double>& range = options.numbers("Range");

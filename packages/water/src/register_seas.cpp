@@ -152,6 +152,16 @@ void check_irregular(const Options& options, InputIssues& issues) {
                fmt::format("waves from {:g} to {:g} Hz must have the peak, {:g} Hz, among them",
                            band.lowest, band.highest, peak));
   }
+  // in parts as wide as the peak one wave may get all of its energy, or none does
+  constexpr double widest = 0.25;
+  const int count = options.integer("Waves");
+  const double part = (band.highest - band.lowest) / count;
+  if (part > widest * peak && band.highest > 4.0 * peak) {
+    issues.add(options.where("Highest"),
+               fmt::format("{} waves up to {:g} Hz are {:.3g} Hz apart, more than a quarter of the "
+                           "frequency of the peak, {:g} Hz: a lower 'Highest' or more 'Waves'",
+                           count, band.highest, part, peak));
+  }
   if (options.text("Spectrum") == "Pierson Moskowitz" && options.has("Peak")) {
     issues.add(options.where("Peak"), "is 1 in a spectrum of Pierson and Moskowitz; leave it out");
   }

@@ -49,21 +49,36 @@ double Sea::elevation(const Vec3& place, double time) const {
   return growth(time) * sum;
 }
 
-// Height at which the profiles of the theory are taken, from the bed to still water.
-double Sea::profile_height(const Vec3& place, double time) const {
+Sea::Profile Sea::profile_at(const Vec3& place, double time) const {
+  const double d = site_.depth;
   double z = height(place);
+  Profile profile{0.0, site_.up};
   if (stretching_ == Stretching::wheeler && !waves_.empty()) {
-    const double surface = elevation(place, time);
+    double surface = 0.0;
+    Vec3 slope = Vec3::Zero();
+    for (const Wave& wave : waves_) {
+      const double phase = phase_of(wave, place, time);
+      surface += wave.amplitude * std::cos(phase);
+      slope -= wave.amplitude * wave.number * std::sin(phase) * wave.direction;
+    }
+    surface *= growth(time);
+    slope *= growth(time);
     // waves that bare the bed are beyond the theory; nothing there is wet
-    z = site_.depth * (z - surface) / std::max(site_.depth + surface, 1e-3 * site_.depth);
+    const double whole = std::max(d + surface, 1e-3 * d);
+    profile.gradient = d / whole * (site_.up - (d + z) / whole * slope);
+    z = d * (z - surface) / whole;
   }
-  return std::clamp(z, -site_.depth, 0.0);
+  profile.height = std::clamp(z, -d, 0.0);
+  // as at still water, all the way up
+  if (z > 0.0) profile.gradient.setZero();
+  return profile;
 }
 
 // The ratios cosh k(z+d) / sinh kd and sinh k(z+d) / sinh kd stand in a form that does not
 // overflow.
 WaterMotion Sea::motion(const Vec3& place, double time) const {
-  const double z = profile_height(place, time);
+  const Profile profile = profile_at(place, time);
+  const double z = profile.height;
   const double g = growth(time);
   WaterMotion motion;
   motion.velocity = current_.at(z);
@@ -83,7 +98,16 @@ WaterMotion Sea::motion(const Vec3& place, double time) const {
     motion.pressure += site_.density * site_.gravity * g * wave.amplitude * c * upward *
                        (1.0 + mirrored) / (1.0 + whole);
   }
+  const double upward = motion.acceleration.dot(site_.up);
+  motion.push = motion.acceleration + upward * (profile.gradient - site_.up);
   return motion;
+}
+
+double Sea::pressed_at_surface(const Vec3& place, double time) const {
+  if (stretching_ == Stretching::wheeler || waves_.empty()) return 0.0;
+  const double surface = wet_to(place, time);
+  const Vec3 there = place + (surface - height(place)) * site_.up;
+  return motion(there, time).pressure / (site_.density * site_.gravity) - surface;
 }
 
 void Sea::velocities(std::span<const Vec3> places, double time, std::span<Vec3> velocities) const {

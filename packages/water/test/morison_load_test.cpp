@@ -22,8 +22,9 @@ void fill(model::Model& model, bool with_slave, double level) {
   for (const int seed : {10, 11}) model.nodes().add(kit::random_node(seed));
   const auto amplitude = model::Amplitude::of_time([](double t) { return 1.0 + t; });
   const auto sea = make_sea("Still Water", {{"Depth", 50.0}, {"Level", level}, {"Density", 1.0}});
-  auto load = std::make_unique<MorisonLoad>(model::Effect("Morison", "tested"), model.nodes(),
-                                            amplitude, sea, MorisonModel{true, 0.7, 0.6});
+  auto load =
+      std::make_unique<MorisonLoad>(model::Effect("Morison", "tested"), model.nodes(), amplitude,
+                                    sea, MorisonModel{true, {0.7, 0.4}, {0.6, 0.8}});
   const WetSection section{0.9, 0.5, 1.1, 0.8, 0.2, 0.3, 1.7};
   Segment one = segment({0.1, 0.2, -0.3}, {0.5, -0.3, 0.4}, 1.0, 0.8);
   for (WetSection& end : one.sections) {
@@ -98,6 +99,76 @@ TEST(MorisonLoad, OfWavesOnAFixedCylinder) {
   }
 }
 
+std::shared_ptr<const Sea> waves(const std::string& stretching, double phase,
+                                 double period = 10.0) {
+  return make_sea("Regular Waves", {{"Depth", 20.0},
+                                    {"Gravity", 9.80665},
+                                    {"Height", 4.0},
+                                    {"Period", period},
+                                    {"Phase", phase},
+                                    {"Stretching", stretching}});
+}
+
+WetSection smooth(double diameter) {
+  WetSection section;
+  section.diameter = diameter;
+  return section;
+}
+
+// Whatever the theory, phase and tilt: pressure across the axis has no part along it.
+TEST(MorisonLoad, OfWavesOnCylindersWithDryFacesIsAcrossThem) {
+  const Vec3 axis = Vec3(0.6, 0.3, 1.0).normalized();
+  for (const char* stretching : {"None", "Vertical", "Wheeler"}) {
+    for (const double phase : {0.0, 0.7, pi}) {
+      const auto sea = waves(stretching, phase);
+      std::vector<Segment> pile = member({0, 0, -20}, {0, 0, 5}, smooth(6.0), smooth(6.0), 50);
+      std::vector<Segment> brace =
+          member({1, 2, -15}, Vec3(1, 2, -15) + 10.0 * axis, smooth(1.0), smooth(1.0), 20);
+      for (std::vector<Segment>* all : {&pile, &brace}) {
+        all->front().faces[0] = all->back().faces[1] = Face::dry;
+      }
+      const auto q = MovedMember::placed(Vec3::Zero(), Mat3::Identity());
+      // two points in parts of 0.5 m, and a surface that is straight within them
+      const double rest = 1e-3 * 1025.0 * 9.80665 * 0.25 * pi * 36.0;
+      EXPECT_NEAR(MovedMember(pile, sea).stand(q).force[2], 0.0, rest) << stretching << phase;
+      EXPECT_NEAR(MovedMember(brace, sea).stand(q).force.dot(axis), 0.0, rest / 36.0)
+          << stretching << phase;
+    }
+  }
+}
+
+TEST(MorisonLoad, OfWavesUnderAFloatingCylinderIsThatOfThePressureOnItsFace) {
+  for (const char* stretching : {"None", "Vertical", "Wheeler"}) {
+    for (const double phase : {0.0, pi}) {
+      const auto sea = waves(stretching, phase);
+      MovedMember buoy(member({0, 0, -10}, {0, 0, 5}, smooth(2.0), smooth(2.0), 30), sea);
+      const auto q = MovedMember::placed(Vec3::Zero(), Mat3::Identity());
+      const double pressure = 1025.0 * 9.80665 * 10.0 + sea->motion({0, 0, -10}, 0.0).pressure;
+      EXPECT_NEAR(buoy.stand(q).force[2] / (pressure * pi), 1.0, 1e-4) << stretching << phase;
+    }
+  }
+}
+
+// In a long wave pressure is the same everywhere: it lifts with the plane in which the surface cuts
+// the body, whether that is counted as wet up to the crest or not.
+TEST(MorisonLoad, OfLongWavesIsThatOfTheirHeightOnTheWaterplane) {
+  const auto sea = waves("None", 0.0, 300.0);
+  const double height = sea->elevation(Vec3::Zero(), 0.0);
+  for (const double tilt : {0.0, 0.2, 0.5}) {
+    const Mat3 directors = Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix();
+    const auto q = MovedMember::placed(Vec3::Zero(), directors);
+    const auto lifted = [&](const std::shared_ptr<const Sea>& water) {
+      WetSection tube = smooth(2.0);
+      tube.flooded_diameter = 1.0;
+      return MovedMember(member({0, 0, -8}, {0, 0, 8}, tube, tube, 8), water).stand(q).force[2];
+    };
+    const double plane = pi * (1.0 - 0.25) / std::cos(tilt);
+    EXPECT_NEAR((lifted(sea) - lifted(still_water(20.0))) / (1025.0 * 9.80665 * height * plane),
+                1.0, 2e-3)
+        << tilt;
+  }
+}
+
 // A point that moves to and fro in still water loses 8/3 of its drag per cycle, and added mass
 // takes nothing. @source fluids C17
 TEST(MorisonLoad, OfACylinderThatMovesToAndFro) {
@@ -134,7 +205,7 @@ TEST(MorisonLoad, OfACylinderThatMovesToAndFro) {
 TEST(MorisonLoad, WaterMovesAlong) {
   WetSection section{2.0, 1.0, 0.0, 0.8, 0.0, 0.1, 300.0};
   MovedMember tube(member({0, 0, -10}, {0, 0, -6}, section, section, 2), still_water(),
-                   {.end_added_mass = 0.5});
+                   {.end_added_mass = {0.6, 0.4}});
   const auto q = MovedMember::placed(Vec3::Zero(), Mat3::Identity());
   const auto rest = tube.stand(q);
   const double h = 0.1;

@@ -95,6 +95,23 @@ TEST(Airy, StretchingTakesTheSurfaceOfTheTheoryUp) {
   EXPECT_EQ(wheeler->wet_to(still, t), eta);
 }
 
+TEST(Airy, PushIsTheGradientOfThePressure) {
+  const double t = 0.4, h = 1e-4;
+  for (const char* stretching : {"None", "Vertical", "Wheeler"}) {
+    const auto sea = regular(stretching);
+    const double above = std::string(stretching) == "None" ? -0.5 : 0.3;
+    for (const Vec3& x : {Vec3(3.0, -2.0, -6.0), Vec3(4.0, 1.0, 2.0 + above)}) {
+      Vec3 slope;
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 dx = h * Vec3::Unit(i);
+        slope[i] = (sea->motion(x + dx, t).pressure - sea->motion(x - dx, t).pressure) / (2.0 * h);
+      }
+      EXPECT_NEAR((sea->density() * sea->motion(x, t).push + slope).norm(), 0.0, 1e-3)
+          << stretching;
+    }
+  }
+}
+
 // A point with Wheeler, when the surface passes still water. @source fluids C17, welib's test
 TEST(Airy, InertiaOfALargeCylinderAtTheSurface) {
   const auto sea = make_sea(
@@ -239,6 +256,10 @@ TEST(IrregularWaves, MustHaveTheirPeak) {
   values.emplace_back("Spectrum", std::string("Pierson Moskowitz"));
   values.emplace_back("Peak", 3.3);
   EXPECT_THAT(mistakes("Irregular Waves", values), ElementsAre(HasSubstr("leave it out")));
+  values = storm(1);
+  values.emplace_back("Highest", 79.6);
+  EXPECT_THAT(mistakes("Irregular Waves", values),
+              ElementsAre(HasSubstr("300 waves up to 79.6 Hz are 0.265 Hz apart")));
 }
 
 TEST(WaveComponents, AddUp) {

@@ -36,9 +36,11 @@ struct Segment {
 
 /// What holds for all segments of a load.
 struct MorisonModel {
-  bool buoyancy = true;         ///< whether the pressure of the water acts on them
-  double end_drag = 0.0;        ///< coefficient of the drag of wet faces [-]
-  double end_added_mass = 0.0;  ///< water that moves with them, over that in a half sphere [-]
+  bool buoyancy = true;  ///< whether the pressure of the water acts on them
+  /// Coefficients of the drag of the first and the last face, where they are wet [-].
+  std::array<double, 2> end_drag = {0.0, 0.0};
+  /// Water that moves with them, over that in a half sphere [-].
+  std::array<double, 2> end_added_mass = {0.0, 0.0};
   bool pull = true;  ///< without `buoyancy`: whether waves pull across, by their acceleration
 };
 

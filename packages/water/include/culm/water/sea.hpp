@@ -31,6 +31,9 @@ struct WaterMotion {
   Vec3 velocity = Vec3::Zero();      ///< with the current [m/s]
   Vec3 acceleration = Vec3::Zero();  ///< of the waves at the place, without convection [m/s^2]
   double pressure = 0.0;             ///< of the waves, beside that of water at rest [Pa]
+  /// What its gradient makes of water, -grad p / density: the acceleration, but where the theory is
+  /// stretched [m/s^2].
+  Vec3 push = Vec3::Zero();
 };
 
 /// A sea of constant depth with waves by Airy's theory and a current, which do not know of each
@@ -53,6 +56,9 @@ class Sea final : public flow::Flow {
   double wet_to(const Vec3& place, double time) const {
     return stretching_ == Stretching::none ? 0.0 : elevation(place, time);
   }
+  /// Pressure that the theory leaves where what is wet ends, above a place or below it, as a height
+  /// of water: none after Wheeler [m].
+  double pressed_at_surface(const Vec3& place, double time) const;
   /// No surface is farther from still water [m].
   double highest() const { return highest_; }
   /// Length of the highest wave; infinite where there are none [m].
@@ -65,7 +71,12 @@ class Sea final : public flow::Flow {
                   std::span<Vec3> velocities) const override;
 
  private:
-  double profile_height(const Vec3& place, double time) const;
+  // Where the profiles of the theory are taken.
+  struct Profile {
+    double height = 0.0;           // from the bed to still water [m]
+    Vec3 gradient = Vec3::Zero();  // of this height
+  };
+  Profile profile_at(const Vec3& place, double time) const;
 
   Site site_;
   std::vector<Wave> waves_;
