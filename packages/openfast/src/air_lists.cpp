@@ -146,8 +146,7 @@ void write_flow(const ElastoDyn& turbine, const std::filesystem::path& folder, R
   if (wind.kind == Kind::mann) write_mann(wind.mann, folder, deck);
   if (wind.kind == Kind::bladed) write_bladed(wind.bladed, deck);
   if (is_box(wind)) {
-    const double centre = wind.kind == Kind::box ? turbine.hub_height() : wind.centre;
-    deck.set("Centre", Vec3(0.0, 0.0, centre));
+    deck.set("Centre", Vec3(0.0, 0.0, wind.centre));
     if (is_endless(wind)) deck.set("Delay", has_mean(wind) ? wind.ahead / wind.speed : 0.0);
     deck.set("Outside", "Hold");
   }

@@ -224,6 +224,17 @@ YawDrive read_yaw_drive(const std::filesystem::path& path, Report& report) {
     report.add(missing, fmt::format("{} = {:g}, {}", to_string(file.where(control.flag)),
                                     file.number(control.flag), control.effect));
   }
+  // newer files name theirs, older ones have one each in the nacelle and the tower
+  for (const char* count : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"}) {
+    if (file.number(count, 0.0) == 0.0) continue;
+    report.add(missing, fmt::format("{} = {:g}: structural controllers, dampers with masses of "
+                                    "their own, are not there",
+                                    to_string(file.where(count)), file.number(count)));
+  }
+  for (const char* flag : {"CompNTMD", "CompTTMD"}) {
+    if (!file.has(flag) || !file.flag(flag)) continue;
+    report.add(missing, to_string(file.where(flag)) + ": the tuned mass damper is not there");
+  }
   if (file.number("YCMode", 0.0) != 0.0) {
     report.add(not_used, fmt::format("{}: yaw control, YCMode = {:g}: the neutral angle stays",
                                      to_string(file.where("YCMode")), file.number("YCMode")));

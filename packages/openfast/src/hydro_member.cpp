@@ -102,7 +102,7 @@ class MemberWriter {
     std::vector<double> places = {0.0, 1.0};
     if (member_.coefficients == 2) {
       for (const HydroDepth& one : hydro_.by_depth) {
-        add_height(hydro_.sea.level - one.depth, places);
+        add_height(-one.depth, places);
       }
     }
     for (const HydroGrowth& one : hydro_.growth) add_height(one.height, places);
@@ -163,7 +163,7 @@ class MemberWriter {
       return mix(member_.own[0][grown], member_.own[1][grown], on_member(s));
     }
     const auto& depths = hydro_.by_depth;
-    const double depth = hydro_.sea.level - height(s);
+    const double depth = -height(s);
     if (depth <= depths.front().depth) return depths.front().coefficients[grown];
     for (std::size_t i = 0; i + 1 < depths.size(); ++i) {
       if (depth > depths[i + 1].depth) continue;
@@ -244,17 +244,40 @@ class MemberWriter {
     if (range[0] > 0.0 || goes_on(0) || place_[0].z() - bed <= near) dry.emplace_back("first");
     if (range[1] < 1.0 || goes_on(1) || place_[1].z() - bed <= near) dry.emplace_back("last");
     if (!dry.empty()) deck.set("Dry Ends", dry);
-    const HydroJoint &first = hydro_.joints[member_.joints[0]],
-                     &last = hydro_.joints[member_.joints[1]];
-    const double drag = std::max(first.drag, last.drag);
-    const double added_mass = std::max(first.added_mass, last.added_mass);
-    if (drag > 0.0) deck.set("End Drag", drag);
-    if (added_mass > 0.0 && !is_drag_only()) deck.set("End Added Mass", added_mass);
-    if (dry.empty() && (first.drag != last.drag || first.added_mass != last.added_mass)) {
-      report_.add(assumed, fmt::format("member {}: both of its faces have the larger axial "
-                                       "coefficients of its joints",
-                                       member_.id));
+    std::vector<double> drags, masses;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const HydroJoint& joint = hydro_.joints[member_.joints[end]];
+      // HydroDyn's force is rho / 4 times its coefficient, ours rho / 2
+      drags.push_back(0.5 * joint.drag * free_share(end, 2));
+      masses.push_back(is_drag_only() ? 0.0 : joint.added_mass * free_share(end, 3));
     }
+    if (drags[0] + drags[1] > 0.0) write_values("End Drag", "End Drags", drags, deck);
+    if (masses[0] + masses[1] > 0.0) {
+      write_values("End Added Mass", "End Added Masses", masses, deck);
+    }
+  }
+
+  // What other members leave of a face that go on there: of its area by the squares of diameters,
+  // of the water before it by their cubes.
+  double free_share(std::size_t end, int power) const {
+    const std::size_t joint = member_.joints[end];
+    const double own = std::pow(member_.diameters[end], power);
+    double covered = 0.0;
+    for (const HydroMember& other : hydro_.members) {
+      for (std::size_t its = 0; its < 2; ++its) {
+        if (other.id == member_.id || other.joints[its] != joint) continue;
+        if (inward(other, its).dot(inward(member_, end)) > -0.999) continue;
+        covered += std::pow(other.diameters[its], power);
+      }
+    }
+    return own > 0.0 ? std::max(1.0 - covered / own, 0.0) : 1.0;
+  }
+
+  // Along a member from one of its ends to the other.
+  Vec3 inward(const HydroMember& member, std::size_t end) const {
+    const Vec3 &from = hydro_.joints[member.joints[end]].place,
+               &to = hydro_.joints[member.joints[1 - end]].place;
+    return (to - from).normalized();
   }
 
   void report_coefficients(const std::string& name) const {

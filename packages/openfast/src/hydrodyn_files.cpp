@@ -66,10 +66,16 @@ std::vector<HydroDepth> read_by_depth(InputFile& file) {
   const char* keyword = one_of(file, "NCoefDpthCyl", "NCoefDpth");
   const TextTable table = read_table(file, keyword, "coefficients by depth");
   for (std::size_t i = 0; i < table.size(); ++i) {
-    depths.push_back({table.number(i, {"Dpth"}), read_pair(table, i, "Dpth", "")});
+    // heights over mean sea level, in spite of their name
+    depths.push_back({-table.number(i, {"Dpth"}), read_pair(table, i, "Dpth", "")});
+    if (i > 0 && !(depths[i].depth > depths[i - 1].depth)) {
+      throw InputError(
+          table.where(i, {"Dpth"}),
+          fmt::format("must be below the one before, {:g}: 'Dpth' is a height over mean "
+                      "sea level, such as -10",
+                      -depths[i - 1].depth));
+    }
   }
-  std::sort(depths.begin(), depths.end(),
-            [](const HydroDepth& a, const HydroDepth& b) { return a.depth < b.depth; });
   return depths;
 }
 
@@ -105,6 +111,13 @@ void read_joints(InputFile& file, HydroDyn& hydro, HydroLists& lists, Report& re
          {table.number(i, {"Jointxi"}), table.number(i, {"Jointyi"}), table.number(i, {"Jointzi"})},
          bounded(axial, row, "AxCd", 0.0),
          bounded(axial, row, "AxCa", 0.0)});
+    for (const auto& [name, neutral] :
+         {std::pair{"AxFDMod", 0.0}, {"AxVnCOff", 0.0}, {"AxFDLoFSc", 1.0}}) {
+      const double value = axial.number(row, {name}, neutral);
+      if (value == neutral || hydro.joints.back().drag == 0.0) continue;
+      report.add(not_used, fmt::format("{} = {:g}: the drag of faces is that of {:g}",
+                                       to_string(axial.where(row, {name})), value, neutral));
+    }
     if (bounded(axial, row, "AxCp", 1.0) != 1.0 && bounded(axial, row, "AxCa", 0.0) > 0.0) {
       report.add(not_used, to_string(axial.where(row, {"AxCp"})) +
                                ": pressure of waves on faces counts fully");
@@ -284,6 +297,21 @@ void report_rest_of_hydrodyn(InputFile& file, Report& report) {
   for (const char* keyword : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"}) {
     if (file.number(keyword, 0.0) == 0.0) continue;
     report.add(not_used, to_string(file.where(keyword)) + ": forces of second order");
+  }
+  struct Rest {
+    const char* keyword;
+    double neutral;
+    const char* instead;
+  };
+  constexpr Rest rests[] = {
+      {"PtfmRefY", 0.0, "the body of potential flow stands unturned"},
+      {"PtfmYMod", 0.0, "the yaw that its waves are seen from stays"},
+      {"ExctnDisp", 0.0, "waves act on the body of potential flow at its place in the reference"},
+      {"ExctnCutOff", 0.0, "waves act at the place without a filter"}};
+  for (const Rest& rest : rests) {
+    if (!file.has(rest.keyword) || file.number(rest.keyword) == rest.neutral) continue;
+    report.add(not_used, fmt::format("{} = {:g}: {}", to_string(file.where(rest.keyword)),
+                                     file.number(rest.keyword), rest.instead));
   }
   if (file.number("WaveDisp", 1.0) == 0.0) {
     report.add(assumed, to_string(file.where("WaveDisp")) +

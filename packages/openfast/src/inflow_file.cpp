@@ -9,6 +9,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <vector>
 
 namespace culm::openfast {
@@ -34,6 +39,25 @@ void read_box(InputFile part, Wind& wind, Report& report) {
   wind.kind = Wind::Kind::box;
   wind.file = part.file(name_of(part, "FileName_BTS", "Filename"));
   report.add(unknown, part.unread());
+}
+
+// The middle between the lowest and the highest points of a box, as its header has them: 32-bit
+// numbers of points, 32-bit floats of lengths.
+double middle_of_box(const std::filesystem::path& path) {
+  constexpr std::size_t points_upwards = 2, spacing_upwards = 18, lowest_point = 38;
+  std::array<char, lowest_point + sizeof(float)> header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(header.data(), header.size());
+  const auto at = [&header]<class T>(std::size_t place, T number) {
+    std::memcpy(&number, header.data() + place, sizeof number);
+    return static_cast<double>(number);
+  };
+  const double middle = at(lowest_point, 0.0F) + 0.5 * (at(points_upwards, std::int32_t{}) - 1.0) *
+                                                     at(spacing_upwards, 0.0F);
+  if (!file || !std::isfinite(middle)) {
+    throw FileError(path.string(), "is no box of TurbSim: its header has no height");
+  }
+  return middle;
 }
 
 void make_still(Wind& wind, double height) {
@@ -90,6 +114,13 @@ Wind read_inflow(const std::filesystem::path& path, double height, Report& repor
                            "variable V, the speed at the hub",
                            place, gone.string()));
     make_still(wind, height);
+  }
+  if (wind.kind == Wind::Kind::box) {
+    wind.centre = middle_of_box(wind.file);
+    if (std::abs(wind.centre - height) > 1e-3 * height) {
+      report.add(read, fmt::format("{}: the middle of the box is {:g} m high, the hub {:g} m",
+                                   wind.file.string(), wind.centre, height));
+    }
   }
   if (general.has("VelInterpCubic") && general.flag("VelInterpCubic")) {
     report.add(assumed, to_string(general.where("VelInterpCubic")) +

@@ -101,7 +101,15 @@ void read_waves(InputFile& file, SeaState& sea, Report& report) {
   const double lowest = file.number("WvLowCOff") / turn;
   const double highest = file.number("WvHiCOff") / turn;
   if (lowest > 0.0 && lowest < peak) sea.lowest = lowest;
-  if (highest > peak) sea.highest = highest;
+  // beyond there is 1e-4 of the energy, and parts of the band would grow too wide for the rest
+  const double clipped = std::min(highest, 10.0 * peak);
+  if (highest > peak) sea.highest = clipped;
+  if (clipped < highest) {
+    report.add(assumed,
+               fmt::format("{} = {:g} rad/s: waves up to ten times the frequency of the "
+                           "peak, {:.4g} rad/s",
+                           to_string(file.where("WvHiCOff")), turn * highest, turn * clipped));
+  }
   if (lowest >= peak || (highest > 0.0 && highest <= peak)) {
     throw InputError(file.where(lowest >= peak ? "WvLowCOff" : "WvHiCOff"),
                      fmt::format("cuts off the peak of the waves, {:g} rad/s", turn * peak));

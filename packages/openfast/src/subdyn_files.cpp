@@ -147,6 +147,11 @@ SubMember read_member(const TextTable& table, std::size_t i, const SubLists& lis
   member.x = usual_x(sub.joints[member.joints[0]].place, sub.joints[member.joints[1]].place);
   if (!table.optional_text(i, {"COSMID"}).empty() && table.integer(i, {"COSMID"}) > 0) {
     member.x = lists.x[look_up(lists.axes, table, i, {"COSMID"}, "matrix")];
+    const Vec3 way = sub.joints[member.joints[1]].place - sub.joints[member.joints[0]].place;
+    if (std::abs(member.x.dot(way)) > 1e-2 * way.norm()) {
+      throw InputError(table.where(i, {"COSMID"}),
+                       "the first row of its matrix must be across the member");
+    }
   }
   if (kind == "4" && table.has({"MSpin", "MSpin/COSMID"})) {
     const double spin = table.number(i, {"MSpin", "MSpin/COSMID"});
@@ -211,11 +216,11 @@ void read_axes(InputFile& file, SubLists& lists) {
   const TextTable table = read_table(file, "NCOSMs", "matrix of directions");
   lists.axes = index_rows(table, {"COSMID"});
   for (std::size_t i = 0; i < table.size(); ++i) {
-    // columns of the matrix are the axes of the member
-    const Vec3 x(table.number(i, {"COSM11"}), table.number(i, {"COSM21"}),
-                 table.number(i, {"COSM31"}));
+    // rows of the matrix are the axes of the member
+    const Vec3 x(table.number(i, {"COSM11"}), table.number(i, {"COSM12"}),
+                 table.number(i, {"COSM13"}));
     if (std::abs(x.norm() - 1.0) > 1e-3) {
-      throw InputError(table.where(i, {"COSM11"}), "its first column must be of length 1");
+      throw InputError(table.where(i, {"COSM11"}), "its first row must be of length 1");
     }
     lists.x.push_back(x);
   }

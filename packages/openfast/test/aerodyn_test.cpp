@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <numbers>
 
 namespace culm::openfast {
@@ -165,7 +167,15 @@ TEST_F(AeroDynFiles, SteadyWindHasItsDirection) {
 
 TEST_F(AeroDynFiles, UniformWindAndBoxesNameTheirFiles) {
   write("gust.wnd", "0 8 0 0 0 0 0 0\n");
-  write("box.bts", "");
+  // 3 points upwards, 4 m apart, from 15 m on
+  std::string header(42, '\0');
+  const auto put = [&header](std::size_t place, auto number) {
+    std::memcpy(header.data() + place, &number, sizeof number);
+  };
+  put(2, std::int32_t{3});
+  put(18, 4.0F);
+  put(38, 15.0F);
+  write("box.bts", header);
   const std::string type = "1   WindType";
   const Wind table = inflow(change(wind, type, "2   WindType"));
   EXPECT_EQ(table.kind, Wind::Kind::table);
@@ -175,6 +185,11 @@ TEST_F(AeroDynFiles, UniformWindAndBoxesNameTheirFiles) {
   const Wind box = inflow(change(wind, type, "3   WindType"));
   EXPECT_EQ(box.kind, Wind::Kind::box);
   EXPECT_EQ(box.file.filename(), "box.bts");
+  EXPECT_EQ(box.centre, 19.0);
+  EXPECT_THAT(told(), HasSubstr("the middle of the box is 19 m high, the hub 22 m"));
+  write("box.bts", "short");
+  EXPECT_THAT(message_of([&] { (void)inflow(change(wind, type, "3   WindType")); }),
+              HasSubstr("box.bts: is no box of TurbSim"));
 }
 
 TEST_F(AeroDynFiles, WindsThatAreNotKnownAreNamedWithWhatIsNearest) {

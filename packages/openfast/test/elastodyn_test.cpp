@@ -212,6 +212,21 @@ TEST_F(ElastoDynFiles, YawTurnsAgainstTheSpringOfServoDyn) {
   EXPECT_EQ(imported.variants.front().name, "yaw locked");
 }
 
+TEST_F(ElastoDynFiles, DampersWithMassesOfServoDynAreMissedAloud) {
+  const std::string text = std::string(servodyn) +
+                           "1        NumNStC  - Number of nacelle structural controllers\n"
+                           "\"n.dat\"  NStCfiles - their files\n"
+                           "True     CompTTMD - Compute tower tuned mass damper\n";
+  const Imported imported =
+      import_file(path_, {.blade = {}, .blade_mass = 0.0, .servodyn = write("yaw.dat", text)});
+  const auto at = imported.report.find("not in these files, and what that does");
+  ASSERT_NE(at, std::string::npos);
+  const std::string missed = imported.report.substr(at);
+  EXPECT_THAT(missed, HasSubstr("NumNStC = 1: structural controllers"));
+  EXPECT_THAT(missed, HasSubstr("CompTTMD: the tuned mass damper is not there"));
+  EXPECT_THAT(missed, Not(HasSubstr("NumBStC")));
+}
+
 // Rigid: nacelle 500 kg m^2 and hub 100 kg 3 m away, two blades of 180 kg each and 5 kg at a tip,
 // on a tower whose GJ is (1e8 + 2e8) / 2.6 over 20 m.
 TEST_F(ElastoDynFiles, FrequencyOfYawIsComputed) {

@@ -201,7 +201,7 @@ PropSetID  PropD  PropThck
 Dpth  DpthCd DpthCdMG DpthCa DpthCaMG DpthCp DpthCpMG DpthAxCd DpthAxCdMG DpthAxCa DpthAxCaMG DpthAxCp DpthAxCpMG DpthCb DpthCbMG
 (m)    (-)     (-)     (-)     (-)      (-)    (-)      (-)       (-)       (-)       (-)        (-)       (-)      (-)     (-)
  0.0   0.7     1.0     1.0     0.8      1.0    1.0      0.0       0.0       0.0       0.0        1.0       1.0      1.0     1.0
-10.0   0.9     1.4     0.6     0.5      1.0    1.0      0.0       0.0       0.0       0.0        1.0       1.0      1.0     1.0
+-10.0  0.9     1.4     0.6     0.5      1.0    1.0      0.0       0.0       0.0       0.0        1.0       1.0      1.0     1.0
 ---- MEMBER-BASED HYDRODYNAMIC COEFFICIENTS (model 3) ----
 1         NCoefMembers - Number
 MemberID MemberCd1 MemberCd2 MemberCdMG1 MemberCdMG2 MemberCa1 MemberCa2 MemberCaMG1 MemberCaMG2 MemberCp1 MemberCp2 MemberCpMG1 MemberCpMG2

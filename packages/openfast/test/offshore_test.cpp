@@ -145,7 +145,7 @@ TEST_F(OffshoreFiles, MembersOfHydroDynHaveTheirCoefficientsAlongTheirLength) {
   for (const std::string& part :
        {std::string("6, 5.49999166669, 5.49999166669, 4.99999333336"),
         std::string("0.9, 0.9, 1.4, 1.4, 1.08, 0.74"), parameter("Growth Density", "1325"),
-        parameter("Flooded Diameter", "2.9"), parameter("End Drag", "0.6"),
+        parameter("Flooded Diameter", "2.9"), parameter("End Drag", "0.3"),
         parameter("End Added Mass", "1"), parameter("Drags", "{0.5, 0.8}"),
         parameter("Dry Ends", "{first}")}) {
     EXPECT_THAT(imported.deck, HasSubstr(part));
@@ -154,6 +154,52 @@ TEST_F(OffshoreFiles, MembersOfHydroDynHaveTheirCoefficientsAlongTheirLength) {
   EXPECT_THAT(imported.report,
               HasSubstr("member 3: is left to potential flow, and not in the deck"));
   EXPECT_THAT(imported.deck, Not(HasSubstr("name=\"member 3\"")));
+}
+
+// Rows are axes: of the brace along x, turned about it.
+TEST_F(OffshoreFiles, MatricesOfDirectionsTurnSections) {
+  std::string text = change(subdyn_file, "0            NCOSMs", "1            NCOSMs");
+  text = change(text, "7           7         4     -1", "7           7         4      5");
+  const std::string last =
+      "COSM31    COSM32    COSM33\n"
+      " (-)       (-)       (-)       (-)       (-)       (-)       (-)       "
+      "(-)       (-)       (-)\n";
+  const std::string turned = change(text, last, last + " 5  0 0.8 0.6  0 -0.6 0.8  1 0 0\n");
+  EXPECT_THAT(import(turned).deck, HasSubstr(parameter("Up", "{0, 0.8, 0.6}")));
+  EXPECT_THAT(message_of(change(text, last, last + " 5  0.8 0 0.6  0 1 0  -0.6 0 0.8\n")),
+              HasSubstr("the first row of its matrix must be across the member"));
+}
+
+TEST_F(OffshoreFiles, WhatHydroDynDoesWithFacesIsTold) {
+  const Imported imported =
+      import(change(hydrodyn_file, "  2       0.6    1.0    1.0      0      0.0      1.0",
+                    "  2       0.6    1.0    1.0      1      0.0      0.3"));
+  EXPECT_THAT(imported.report, HasSubstr("AxFDMod = 1: the drag of faces is that of 0"));
+  EXPECT_THAT(imported.report, HasSubstr("AxFDLoFSc = 0.3: the drag of faces is that of 1"));
+  EXPECT_THAT(imported.report, Not(HasSubstr("AxVnCOff")));
+}
+
+TEST_F(OffshoreFiles, DepthsAreHeights) {
+  EXPECT_THAT(message_of(change(hydrodyn_file, "-10.0  0.9", "10.0  0.9")),
+              HasSubstr("Dpth: must be below the one before, 0"));
+}
+
+TEST_F(OffshoreFiles, FacesHaveWhatOtherMembersLeaveOfThem) {
+  std::string text = hydrodyn_file;
+  text = change(text, "6         NJoints", "7         NJoints");
+  text = change(text, "  5       30.0     0.0   -15.0      1         0",
+                "  7       10.0    12.0     4.0      1         0\n"
+                "  5       30.0     0.0   -15.0      1         0");
+  text = change(text, "3         NMembers", "4         NMembers");
+  text = change(text, "  3          5         6         1 ",
+                "  4          4         7         1           1         0.5       1        1     "
+                "FALSE\n  3          5         6         1 ");
+  // 3 m thick before 6 m
+  const Imported imported = import(text);
+  EXPECT_THAT(imported.deck, HasSubstr(parameter("End Drags", "{0.3, 0}")));
+  EXPECT_THAT(imported.deck, HasSubstr(parameter("End Added Masses", "{1, 0}")));
+  EXPECT_THAT(imported.deck, HasSubstr(parameter("End Drags", "{0.225, 0}")));
+  EXPECT_THAT(imported.deck, HasSubstr(parameter("End Added Masses", "{0.875, 0}")));
 }
 
 TEST_F(OffshoreFiles, LinesOfMoorDynLeadFromAnchorsToTheVessel) {

@@ -24,7 +24,7 @@ using HydroPair = std::array<HydroCoefficients, 2>;
 
 /// Coefficients of the whole at a depth.
 struct HydroDepth {
-  double depth = 0.0;  ///< below still water [m]
+  double depth = 0.0;  ///< below mean sea level [m]
   HydroPair coefficients;
 };
 
