@@ -85,7 +85,7 @@ SectionTable read_sections(const Options& options,
   std::vector<material::Section> along;
   for (const std::string& name : options.texts("Sections")) along.push_back(find(name));
   for (const material::Section& section : along) {
-    if (section.fibres.size() == along.front().fibres.size()) continue;
+    if (section.pattern == along.front().pattern) continue;
     throw InputError(options.where(field),
                      "sections along one beam must yield with the same 'Type' and 'Cells', or all "
                      "be elastic");

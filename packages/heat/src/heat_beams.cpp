@@ -20,7 +20,7 @@ Vec6 free_strain(const Temperature& temperature) {
 
 template <class Beam>
 HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, const model::Cell& cell,
-                                 const HeatRequest& request) {
+                                 const TemperatureAt& temperature_at, const model::Model& model) {
   const Beam& beam = batch.element(cell.item);
   const Vec<Beam::num_points> expansion = batch.expansion(cell.item);
   const auto rule = gauss_legendre(Beam::num_points);
@@ -29,8 +29,7 @@ HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, const m
   heated.resultants.setZero();
   for (int p = 0; p < Beam::num_points; ++p) {
     const auto N = Lagrange<Beam::num_points>::values(rule[static_cast<std::size_t>(p)].xi);
-    const Temperature temperature =
-        request.temperatures.at(place_of(cell.nodes, N, request.context.model));
+    const Temperature temperature = temperature_at(place_of(cell.nodes, N, model));
     const Vec<Beam::num_strains> e =
         expansion[p] * free_strain(temperature).template head<Beam::num_strains>();
     auto& stress = heated.stress[static_cast<std::size_t>(p)];
@@ -62,8 +61,9 @@ bool heat_beam(const HeatRequest& request) {
     request.context.issues.add(
         where, "beam '" + name + "' yields; heat acts on beams without 'Plasticity'");
   } else {
-    add_heat(request, *batch,
-             [&](const model::Cell& cell) { return heat_element(*batch, cell, request); });
+    add_heat(request, *batch, [&](const model::Cell& cell, const TemperatureAt& temperature) {
+      return heat_element(*batch, cell, temperature, request.context.model);
+    });
   }
   return true;
 }

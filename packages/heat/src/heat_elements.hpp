@@ -12,12 +12,6 @@
 
 namespace culm::heat {
 
-/// A temperature at a place of an axis or a middle surface, at amplitude 1.
-struct Temperature {
-  double value = 0.0;                                  ///< above the stress-free state [K]
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< by xi1 and xi2, or by zeta [K/m]
-};
-
 /// Temperatures as the deck describes them.
 struct Temperatures {
   Temperature everywhere;
@@ -73,14 +67,35 @@ model::ElementBatch<E>* batch_of(const model::Cell& cell, const model::Model& mo
   return nullptr;
 }
 
-/// Adds the batch that heats the cells of a structure of elements E: heat(cell) of each.
+/// Adds the batch that heats the cells of a structure of elements E: heat(cell, temperature) of
+/// each.
 template <class E, class Heat>
 void add_heat(const HeatRequest& request, model::ElementBatch<E>& elements, Heat heat) {
   model::Model& model = request.context.model;
+  const TemperatureAt here = [temperatures = request.temperatures](const Vec3& place) {
+    return temperatures.at(place);
+  };
   auto batch =
       std::make_unique<HeatBatch<E>>(model::Effect("Temperature", request.options.name()),
-                                     model.nodes(), request.temperatures.amplitude, elements);
-  for (const model::Cell& cell : request.structure.cells) batch->add(heat(cell));
+                                     model.nodes(), request.temperatures.amplitude, elements, here);
+  for (const model::Cell& cell : request.structure.cells) batch->add(heat(cell, here));
+  for (const auto& one : model.element_batches()) {
+    const auto* other = dynamic_cast<const HeatBatch<E>*>(one.get());
+    if (other == nullptr || &other->elements() != &elements) continue;
+    const TemperatureAt both = [&](const Vec3& place) {
+      const Temperature mine = here(place), its = other->temperature()(place);
+      return Temperature{mine.value + its.value, mine.gradient + its.gradient};
+    };
+    // energies are quadratic: what that of the sum has more than both
+    std::vector<double> energies;
+    for (const model::Cell& cell : request.structure.cells) {
+      const HeatedElement<E>* its = other->find(cell.item);
+      energies.push_back(its == nullptr ? 0.0
+                                        : heat(cell, both).energy - batch->find(cell.item)->energy -
+                                              its->energy);
+    }
+    batch->add_between(*other, std::move(energies));
+  }
   elements.show_with(*batch);
   model.add_element_batch(std::move(batch));
 }

@@ -82,9 +82,9 @@ bool heat_shell(const HeatRequest& request) {
   } else {
     const auto& layup = batch->element(first.item).layup();
     const Eigen::Vector4d centre = Eigen::Vector4d::Constant(0.25);
-    add_heat(request, *batch, [&](const model::Cell& cell) {
+    add_heat(request, *batch, [&](const model::Cell& cell, const TemperatureAt& temperature_at) {
       const Temperature temperature =
-          request.temperatures.at(place_of(cell.nodes, centre, request.context.model));
+          temperature_at(place_of(cell.nodes, centre, request.context.model));
       return heat_element(batch->element(cell.item), cell.item, free_strain(temperature, layup));
     });
   }

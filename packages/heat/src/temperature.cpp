@@ -5,20 +5,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 namespace culm::heat {
 namespace {
 
-// Whether a field has the same values at some times at all nodes of a structure.
+// Whether a field has the same values at some times at all nodes of a structure, and at many times,
+// each a twentieth later than the one before, at some of the nodes.
 bool rests(const model::VectorField& field, const model::Structure& structure,
            const model::Model& model) {
-  return std::ranges::all_of(structure.nodes, [&](int node) {
-    const Vec3 place = model::NodeTable::slots(model.nodes().reference(), node).col(0);
+  std::vector<double> many;
+  for (double time = 1e-2; time < 1e6; time *= 1.05) many.push_back(time);
+  const std::vector<double> few = {0.1, 1.0, 17.0, 1e3, 1e5};
+  const std::size_t stride = 1 + structure.nodes.size() / 20;
+  for (std::size_t i = 0; i < structure.nodes.size(); ++i) {
+    const Vec3 place =
+        model::NodeTable::slots(model.nodes().reference(), structure.nodes[i]).col(0);
     const Vec3 at_start = field.value(place, 0.0);
-    return std::ranges::all_of(std::array{0.1, 1.0, 17.0, 1e3, 1e5},
-                               [&](double time) { return field.value(place, time) == at_start; });
-  });
+    const bool stays = std::ranges::all_of(i % stride == 0 ? many : few, [&](double time) {
+      return field.value(place, time) == at_start;
+    });
+    if (!stays) return false;
+  }
+  return true;
 }
 
 void build(const Options& options, model::BuildContext& context) {

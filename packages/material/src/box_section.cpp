@@ -81,7 +81,10 @@ Section BoxSection::make(const Options& options) {
                     .flange = options.number("Flange Thickness"),
                     .web = options.number("Web Thickness")};
   Profile box = profile(walls, poisson_ratio(options));
-  if (yields(options)) box.fibres = wall_fibres(walls, cells_of(options, {8, 8}));
+  if (yields(options)) {
+    box.pattern = {"Box", cells_of(options, {8, 8})};
+    box.fibres = wall_fibres(walls, box.pattern.cells);
+  }
   return make_section(box, options);
 }
 

@@ -27,7 +27,10 @@ Schema CircleSection::schema() {
 Section CircleSection::make(const Options& options) {
   const double radius = options.number("Radius");
   Profile circle = profile(radius, poisson_ratio(options));
-  if (yields(options)) circle.fibres = ring_fibres(0.0, radius, cells_of(options, {24, 6}));
+  if (yields(options)) {
+    circle.pattern = {"Circle", cells_of(options, {24, 6})};
+    circle.fibres = ring_fibres(0.0, radius, circle.pattern.cells);
+  }
   return make_section(circle, options);
 }
 

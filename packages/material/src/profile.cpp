@@ -95,6 +95,7 @@ Section make_section(const Profile& profile, const Options& options) {
   section.expansion = options.number("Expansion");
   if (const auto plasticity = read_plasticity(options)) {
     section.fibres = profile.fibres;
+    section.pattern = profile.pattern;
     section.plasticity = {E, *plasticity};
   }
   return place(section, options);

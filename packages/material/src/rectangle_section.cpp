@@ -53,7 +53,8 @@ Section RectangleSection::make(const Options& options) {
   Profile rectangle = profile(width, height, poisson_ratio(options));
   if (yields(options)) {
     const Vec<2> corner(0.5 * width, 0.5 * height);
-    rectangle.fibres = rectangle_fibres(-corner, corner, cells_of(options, {8, 8}));
+    rectangle.pattern = {"Rectangle", cells_of(options, {8, 8})};
+    rectangle.fibres = rectangle_fibres(-corner, corner, rectangle.pattern.cells);
   }
   return make_section(rectangle, options);
 }

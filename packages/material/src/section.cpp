@@ -48,6 +48,16 @@ std::vector<std::string> form_mistakes(const Mat<N, N>& A, const std::string& wh
   return {};
 }
 
+// Of fibres that are stretched by Γ3 + K1 xi2 - K2 xi1, against (Γ3, K1, K2).
+Mat3 fibre_stiffness(const Section& section) {
+  Mat3 sum = Mat3::Zero();
+  for (const Fibre& fibre : section.fibres) {
+    const Vec3 stretch(1.0, fibre.place[1], -fibre.place[0]);
+    sum += section.plasticity.young_modulus() * fibre.area * stretch * stretch.transpose();
+  }
+  return sum;
+}
+
 Mat<2, 2> turn(double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -115,6 +125,7 @@ Section rotated(const Section& section, double angle) {
                  {},
                  section.expansion,
                  section.fibres,
+                 section.pattern,
                  section.plasticity};
   for (const Vec<2>& point : section.outline) result.outline.emplace_back(Q2 * point);
   for (Fibre& fibre : result.fibres) fibre.place = Q2 * fibre.place;
@@ -133,6 +144,7 @@ Section shifted(const Section& section, const Vec<2>& offset) {
                  {},
                  section.expansion,
                  section.fibres,
+                 section.pattern,
                  section.plasticity};
   for (const Vec<2>& point : section.outline) result.outline.emplace_back(point + offset);
   for (Fibre& fibre : result.fibres) fibre.place += offset;
@@ -145,12 +157,17 @@ Section interpolate(const Section& a, const Section& b, double t) {
                  t < 0.5 ? a.outline : b.outline,
                  (1.0 - t) * a.expansion + t * b.expansion,
                  a.fibres,
+                 a.pattern,
                  UniaxialPlasticity::interpolate(a.plasticity, b.plasticity, t)};
   for (std::size_t i = 0; i < result.fibres.size(); ++i) {
     Fibre& fibre = result.fibres[i];
     fibre.place = (1.0 - t) * fibre.place + t * b.fibres[i].place;
     fibre.area = (1.0 - t) * fibre.area + t * b.fibres[i].area;
   }
+  // what is not the fibres' would stay elastic for ever: their second moments are no linear
+  // function
+  result.stiffness.block<3, 3>(2, 2) +=
+      fibre_stiffness(result) - (1.0 - t) * fibre_stiffness(a) - t * fibre_stiffness(b);
   if (a.outline.size() == b.outline.size()) {
     for (std::size_t i = 0; i < a.outline.size(); ++i) {
       result.outline[i] = (1.0 - t) * a.outline[i] + t * b.outline[i];

@@ -47,7 +47,8 @@ Section TubeSection::make(const Options& options) {
   const double wall = options.number("Wall Thickness");
   Profile tube = profile(radius, wall, poisson_ratio(options));
   if (yields(options)) {
-    tube.fibres = ring_fibres(radius - wall, radius, cells_of(options, {32, 1}));
+    tube.pattern = {"Tube", cells_of(options, {32, 1})};
+    tube.fibres = ring_fibres(radius - wall, radius, tube.pattern.cells);
   }
   return make_section(tube, options);
 }

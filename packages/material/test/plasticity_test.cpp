@@ -174,24 +174,33 @@ void expect_same_stiffness(const Section& section) {
   EXPECT_LT((sum - expected).norm(), 1e-13 * expected.norm());
 }
 
+template <class Type>
+Section yielding(const Type&, kit::GivenValues values) {
+  values.insert(values.end(), {{"Young Modulus", E},
+                               {"Poisson Ratio", nu},
+                               {"Offset", std::vector<double>{0.1, -0.3}},
+                               {"Angle", 0.4}});
+  Options options = kit::deck_list(Type::schema(), values);
+  options.add_list(kit::deck_list(*Type::schema().find_slot("Plasticity")->find(""),
+                                  {{"Yield Stress", 1.0}}, "Plasticity"));
+  return Type::make(options);
+}
+
 TEST(Fibres, HaveTheStiffnessOfTheirSection) {
-  const auto section = [](const auto& type, kit::GivenValues values) {
-    using Type = std::decay_t<decltype(type)>;
-    values.insert(values.end(), {{"Young Modulus", E},
-                                 {"Poisson Ratio", nu},
-                                 {"Offset", std::vector<double>{0.1, -0.3}},
-                                 {"Angle", 0.4}});
-    Options options = kit::deck_list(Type::schema(), values);
-    options.add_list(kit::deck_list(*Type::schema().find_slot("Plasticity")->find(""),
-                                    {{"Yield Stress", 1.0}}, "Plasticity"));
-    return Type::make(options);
-  };
-  expect_same_stiffness(section(RectangleSection{}, {{"Width", 0.3}, {"Height", 0.7}}));
-  expect_same_stiffness(section(CircleSection{}, {{"Radius", 0.3}}));
-  expect_same_stiffness(section(TubeSection{}, {{"Outer Radius", 0.3}, {"Wall Thickness", 0.1}}));
-  expect_same_stiffness(section(
+  expect_same_stiffness(yielding(RectangleSection{}, {{"Width", 0.3}, {"Height", 0.7}}));
+  expect_same_stiffness(yielding(CircleSection{}, {{"Radius", 0.3}}));
+  expect_same_stiffness(yielding(TubeSection{}, {{"Outer Radius", 0.3}, {"Wall Thickness", 0.1}}));
+  expect_same_stiffness(yielding(
       BoxSection{},
       {{"Width", 0.3}, {"Height", 0.7}, {"Flange Thickness", 0.05}, {"Web Thickness", 0.02}}));
+}
+
+// Else a part of the moment would never yield.
+TEST(Fibres, HaveTheStiffnessOfSectionsInBetween) {
+  const Section thick = yielding(RectangleSection{}, {{"Width", 0.3}, {"Height", 0.7}});
+  Section thin = yielding(RectangleSection{}, {{"Width", 0.2}, {"Height", 0.3}});
+  thin = shifted(rotated(thin, 0.3), {0.05, 0.1});
+  for (const double t : {0.0, 0.3, 0.5, 1.0}) expect_same_stiffness(interpolate(thick, thin, t));
 }
 
 TEST(Fibres, AreInTheMiddleOfTwoSectionsInBetween) {

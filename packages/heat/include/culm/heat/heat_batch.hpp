@@ -7,11 +7,21 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace culm::heat {
+
+/// A temperature at a place of an axis or a middle surface, at amplitude 1.
+struct Temperature {
+  double value = 0.0;                                  ///< above the stress-free state [K]
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< by xi1 and xi2, or by zeta [K/m]
+};
+
+/// At a place in the reference [m].
+using TemperatureAt = std::function<Temperature(const Vec3& place)>;
 
 /// What an element of type E would like to do at the temperature of its load, at amplitude 1.
 template <class E>
@@ -33,7 +43,8 @@ struct HeatedElement {
 /// of which the elements have C e and 1/2 e . C e, and this batch has the rest. The amplitude a in
 /// a step is that between the values at both ends, so the conserving step does the work
 ///   S . De = DW - D,   D = (a C e_T . e_T - C e_T . e) Da     at the means of a and e,
-/// of which D is the work that heat does on the structure.
+/// of which D is the work that heat does on the structure. Heats of several batches add up, so each
+/// has with those before it what is stored between them, a_1 a_2 e_1 . C e_2.
 template <class E>
 class HeatBatch final : public model::Batch, public model::AddedStresses, public model::Booked {
  public:
@@ -43,18 +54,31 @@ class HeatBatch final : public model::Batch, public model::AddedStresses, public
 
   /// @pre amplitude.is_function_of_time(); `elements` outlives this
   HeatBatch(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
-            const model::ElementBatch<E>& elements)
+            const model::ElementBatch<E>& elements, TemperatureAt temperature)
       : Booked("heat"),
         effect_(std::move(effect)),
         nodes_(nodes),
         amplitude_(std::move(amplitude)),
-        elements_(elements) {}
+        elements_(elements),
+        temperature_(std::move(temperature)) {}
+
+  const model::ElementBatch<E>& elements() const { return elements_; }
+  /// What it was made with, at amplitude 1.
+  const TemperatureAt& temperature() const { return temperature_; }
+  /// What heats an element of `elements`; null if nothing does.
+  const HeatedElement<E>* find(int item) const;
 
   void add(HeatedElement<E> heated) {
     const auto item = static_cast<std::size_t>(heated.item);
     if (numbers_.size() <= item) numbers_.resize(item + 1, -1);
     numbers_[item] = size();
     heated_.push_back(std::move(heated));
+  }
+
+  /// Says what is stored between the heat of another batch and this one in each element of this
+  /// one, in the order in which they were added, at amplitudes 1 [J]. `other` outlives this.
+  void add_between(const HeatBatch& other, std::vector<double> energies) {
+    between_.push_back({&other, std::move(energies)});
   }
 
   const model::Effect& effect() const override { return effect_; }
@@ -90,8 +114,6 @@ class HeatBatch final : public model::Batch, public model::AddedStresses, public
   Slots<S> gather(int item, const model::Coordinates& q) const {
     return model::gather_slots<K>(elements_.nodes(item), q);
   }
-  // null if an item of the batch of elements is not heated
-  const HeatedElement<E>* find(int item) const;
   // sum over the points of C e_T . e
   double product(const HeatedElement<E>& heated, const model::Coordinates& q) const;
   template <class Space>
@@ -102,7 +124,13 @@ class HeatBatch final : public model::Batch, public model::AddedStresses, public
   const model::NodeTable& nodes_;
   model::Amplitude amplitude_;
   const model::ElementBatch<E>& elements_;
+  TemperatureAt temperature_;
   std::vector<HeatedElement<E>> heated_;
+  struct Between {
+    const HeatBatch* other;
+    std::vector<double> energies;  // by number of the heated element
+  };
+  std::vector<Between> between_;
   std::vector<int>
       numbers_;  // of heated elements, by item of the batch of elements; -1: not heated
   model::Placement placement_;
@@ -174,8 +202,12 @@ double HeatBatch<E>::stored_energy(const model::Coordinates& q) const {
   double energy = 0.0;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
-    const HeatedElement<E>& heated = this->heated(placement_.items[i]);
+    const int number = placement_.items[i];
+    const HeatedElement<E>& heated = this->heated(number);
     energy += present_ * (present_ * heated.energy - product(heated, q));
+    for (const Between& pair : between_) {
+      energy += present_ * pair.other->present_ * pair.energies[static_cast<std::size_t>(number)];
+    }
   }
   return energy;
 }
@@ -185,6 +217,15 @@ model::StepWork HeatBatch<E>::step_work(const model::State& state, const Stencil
   const double before = amplitude_.at(state.time_prev);
   const double after = amplitude_.at(state.time);
   model::StepWork work;
+  for (const Between& pair : between_) {
+    const model::Amplitude& other = pair.other->amplitude_;
+    const double change = after * other.at(state.time) - before * other.at(state.time_prev);
+    if (change == 0.0) continue;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (!placement_.owned[i]) continue;
+      work.drives += change * pair.energies[static_cast<std::size_t>(placement_.items[i])];
+    }
+  }
   if (before == after) return work;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;

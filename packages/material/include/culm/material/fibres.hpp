@@ -6,6 +6,7 @@
 #include <culm/math/types.hpp>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace culm::material {
@@ -18,6 +19,14 @@ struct Fibre {
 
 /// How many cells along two directions of a section.
 using Cells = std::array<int, 2>;
+
+/// How a section is cut in fibres: where it is the same, those of two sections belong to each other
+/// one by one.
+struct FibrePattern {
+  std::string shape;  ///< type of the section; empty without fibres
+  Cells cells = {};
+  bool operator==(const FibrePattern&) const = default;
+};
 
 /// Fibres of a rectangle with corners `from` < `to`: 2 x 2 Gauss points in each cell, so that the
 /// area and its moments up to the third are exact.

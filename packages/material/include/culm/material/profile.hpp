@@ -17,6 +17,7 @@ struct Profile {
   double k2 = 1.0;       ///< shear factor for forces along d2 [-]
   std::vector<Vec<2>> outline;
   std::vector<Fibre> fibres = {};  ///< where it yields
+  FibrePattern pattern = {};
 };
 
 /// The beginning of the schema of a type with a profile: material, placement, the parameters that

@@ -24,6 +24,7 @@ struct Section {
   /// What it is made of where it can yield, and how; none of a section that is elastic. Their
   /// stiffness in stretch and bending is that of `stiffness`.
   std::vector<Fibre> fibres = {};
+  FibrePattern pattern = {};
   UniaxialPlasticity plasticity = {};
 };
 
@@ -75,8 +76,9 @@ Section rotated(const Section& section, double angle);
 /// The section whose own origin lies at `offset` (xi1, xi2) [m] from the axis of the beam.
 Section shifted(const Section& section, const Vec<2>& offset);
 
-/// (1 - t) a + t b. @pre as many fibres in both. Outlines are joined point by point if they have
-/// the same number of points, otherwise the nearer one is taken.
+/// (1 - t) a + t b; where both yield, fibres are joined by place and area, and the stiffness in
+/// stretch and bending is theirs. @pre the same pattern of fibres in both. Outlines are joined
+/// point by point if they have the same number of points, otherwise the nearer one is taken.
 Section interpolate(const Section& a, const Section& b, double t);
 
 /// What makes a stiffness or a mass impossible, one sentence each; empty if nothing does. Both

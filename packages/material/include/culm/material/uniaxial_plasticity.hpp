@@ -22,6 +22,7 @@ class UniaxialPlasticity {
   UniaxialPlasticity(double young_modulus, const Plasticity& plasticity)
       : E_(young_modulus), constants_(plasticity) {}
 
+  double young_modulus() const { return E_; }  ///< [N/m^2]
   /// A step from a strain to another one, forces taken at `theta`.
   PlasticStep<1> step(const Vec<1>& prev, const Vec<1>& next, const Flow& flow,
                       double theta) const noexcept;
