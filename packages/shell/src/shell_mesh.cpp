@@ -118,6 +118,23 @@ std::array<Vec3, 4> corner_normals(const std::array<Vec3, 4>& points) {
   return normals;
 }
 
+std::vector<int> partners_along(const std::vector<Corner>& edge) {
+  constexpr std::size_t furthest = 8;
+  const auto share_side = [](const Corner& a, const Corner& b) {
+    return a.quad == b.quad && (a.corner - b.corner) % 2 != 0;
+  };
+  std::vector<int> partners(edge.size(), -1);
+  for (std::size_t i = 0; i < edge.size(); ++i) {
+    for (std::size_t j = i; j-- > (i > furthest ? i - furthest : 0);) {
+      if (partners[j] >= 0 || !share_side(edge[j], edge[i])) continue;
+      partners[i] = static_cast<int>(j);
+      partners[j] = static_cast<int>(i);
+      break;
+    }
+  }
+  return partners;
+}
+
 ShellMesh make_mesh(const Facets& facets, double fold_angle) {
   const std::vector<int> point = join_points(facets.points, 1e-6 * shortest_edge(facets));
   const auto at = [&](std::size_t quad, std::size_t corner) {
@@ -191,6 +208,17 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
     for (const Corner& c : along) {
       const int node = mesh.quads[index(c.quad)][index(c.corner)];
       if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+    }
+    if (facets.points_only.contains(name)) continue;
+    const std::vector<int> partners = partners_along(along);
+    std::set<std::pair<int, int>> known;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      if (partners[i] <= static_cast<int>(i)) continue;  // the first of a pair speaks for it
+      const Corner &from = along[i], &to = along[index(partners[i])];
+      const auto place = [&](const Corner& c) { return at(index(c.quad), index(c.corner)); };
+      if (!known.insert(edge_key(place(from), place(to))).second) continue;
+      const auto node = [&](const Corner& c) { return mesh.quads[index(c.quad)][index(c.corner)]; };
+      mesh.sides[name].push_back({node(from), node(to)});
     }
   }
   mesh.parts = facets.parts;

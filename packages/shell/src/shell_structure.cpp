@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -111,29 +112,27 @@ std::vector<int> add_nodes(const ShellMesh& mesh, model::Model& model) {
   return numbers;
 }
 
-// Two Gauss points on each piece of a line through nodes.
-std::vector<model::LinePoint> line_points(const std::vector<int>& nodes,
-                                          const model::NodeTable& table) {
+// Two Gauss points on each side along an edge.
+std::vector<model::LinePoint> line_points(const std::vector<std::array<int, 2>>& sides,
+                                          const ShellMesh& mesh, const std::vector<int>& nodes) {
   std::vector<model::LinePoint> points;
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const auto at = [&](std::size_t k) {
-      return Vec3(model::NodeTable::slots(table.reference(), nodes[k]).col(0));
-    };
-    const double length = (at(i + 1) - at(i)).norm();
-    if (length == 0.0) continue;  // both sides of a fold
+  for (const auto& [from, to] : sides) {
+    const double length = (mesh.positions[index(to)] - mesh.positions[index(from)]).norm();
     for (double xi : {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)}) {
-      points.push_back({{{nodes[i], nodes[i + 1]}, {1.0 - xi, xi}, Vec3::Zero()}, 0.5 * length});
+      points.push_back(
+          {{{nodes[index(from)], nodes[index(to)]}, {1.0 - xi, xi}, Vec3::Zero()}, 0.5 * length});
     }
   }
   return points;
 }
 
-void add_sets(const ShellMesh& mesh, const std::vector<int>& nodes, const model::NodeTable& table,
-              model::Structure& structure) {
+void add_sets(const ShellMesh& mesh, const std::vector<int>& nodes, model::Structure& structure) {
   for (const auto& [name, edge] : mesh.edges) {
     std::vector<int>& set = structure.sets[name];
     for (int node : edge) set.push_back(nodes[static_cast<std::size_t>(node)]);
-    structure.edges[name] = line_points(set, table);
+    const auto sides = mesh.sides.find(name);
+    structure.edges[name] = sides == mesh.sides.end() ? std::vector<model::LinePoint>{}
+                                                      : line_points(sides->second, mesh, nodes);
   }
   // where two edges meet: "u0 v0"
   const auto edges = structure.sets;
@@ -462,7 +461,7 @@ void add_shell(const Options& options, structure::StructureContext& context) {
   if (fidelity != "Rigid") {
     join_folds(mesh, structure.nodes, structure.name, context.model);
   }
-  add_sets(mesh, structure.nodes, context.model.nodes(), structure);
+  add_sets(mesh, structure.nodes, structure);
 }
 
 void register_shells(structure::StructureRegistry& registry) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -104,7 +105,7 @@ class Parts {
     return {quad(c.quad, i, j), c.corner};
   }
 
-  // The far ends of the n pieces of the side from a corner to the next one.
+  // Both ends of each of the n pieces of the side from a corner to the next one.
   std::vector<Corner> along_side(const Corner& from) const {
     std::vector<Corner> ends;
     for (int k = 0; k < n_; ++k) {
@@ -112,17 +113,17 @@ class Parts {
       const std::array<std::pair<int, int>, 4> places = {
           {{k, 0}, {n_ - 1, k}, {back, n_ - 1}, {0, back}}};
       const auto [i, j] = places[index(from.corner)];
-      ends.push_back({quad(from.quad, i, j), (from.corner + 1) % 4});
+      const int piece = quad(from.quad, i, j);
+      ends.push_back({piece, from.corner});
+      ends.push_back({piece, (from.corner + 1) % 4});
     }
     return ends;
   }
 
   // The same from a corner to the one before it.
   std::vector<Corner> against_side(const Corner& from) const {
-    const Corner other{from.quad, (from.corner + 3) % 4};
-    std::vector<Corner> ends;
-    for (int k = n_ - 2; k >= 0; --k) ends.push_back(along_side(other)[index(k)]);
-    ends.push_back(at_corner(other));
+    std::vector<Corner> ends = along_side({from.quad, (from.corner + 3) % 4});
+    std::ranges::reverse(ends);
     return ends;
   }
 
@@ -130,25 +131,17 @@ class Parts {
   int n_;
 };
 
-// Whether two corners of a quadrilateral are the ends of one of its sides.
-bool share_side(const Corner& a, const Corner& b) {
-  return a.quad == b.quad && (a.corner - b.corner) % 2 != 0;
-}
-
-// The corners of an edge come in pairs, the ends of a side; between them are those of its parts.
+// Between the ends of a side are those of its parts.
 std::vector<Corner> divide_line(const std::vector<Corner>& edge, const Parts& parts) {
-  // ends of a pair may be apart by the corners of the other quadrilaterals along the side
-  constexpr std::size_t furthest = 8;
+  const std::vector<int> partners = partners_along(edge);
   std::vector<Corner> fine;
-  std::vector<bool> is_paired(edge.size(), false);
   for (std::size_t i = 0; i < edge.size(); ++i) {
-    std::vector<Corner> next{parts.at_corner(edge[i])};
-    for (std::size_t j = i; j-- > (i > furthest ? i - furthest : 0);) {
-      if (is_paired[j] || !share_side(edge[j], edge[i])) continue;
-      is_paired[i] = is_paired[j] = true;
-      const bool is_ahead = (edge[j].corner + 1) % 4 == edge[i].corner;
-      next = is_ahead ? parts.along_side(edge[j]) : parts.against_side(edge[j]);
-      break;
+    std::vector<Corner> next;
+    if (partners[i] < 0) {
+      next = {parts.at_corner(edge[i])};
+    } else if (partners[i] > static_cast<int>(i)) {
+      const bool is_ahead = (edge[i].corner + 1) % 4 == edge[index(partners[i])].corner;
+      next = is_ahead ? parts.along_side(edge[i]) : parts.against_side(edge[i]);
     }
     fine.insert(fine.end(), next.begin(), next.end());
   }

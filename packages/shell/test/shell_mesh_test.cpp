@@ -1,4 +1,5 @@
 #include <culm/shell/shell_geometry.hpp>
+#include <culm/shell/subdivision.hpp>
 #include <culm/shell/surfaces.hpp>
 
 #include <Eigen/Geometry>
@@ -32,6 +33,35 @@ void expect_sound(const ShellMesh& mesh, double thickness) {
     EXPECT_EQ(shell_mistakes(mesh.slots(q), thickness), std::vector<std::string>{}) << q;
   }
   for (const Vec3& director : mesh.directors) EXPECT_NEAR(director.norm(), 1.0, 1e-15);
+}
+
+double length(const ShellMesh& mesh, const std::string& edge) {
+  double sum = 0.0;
+  for (const auto& [from, to] : mesh.sides.at(edge)) {
+    sum += (mesh.positions[static_cast<std::size_t>(to)] -
+            mesh.positions[static_cast<std::size_t>(from)])
+               .norm();
+  }
+  return sum;
+}
+
+// Whether an edge closes on itself, or is several that meet.
+TEST(ShellMesh, SidesAlongAnEdgeAreAllThereAndOnce) {
+  const auto flat = patch(plane(Vec3::Zero(), Vec3(3, 0, 0), Vec3(0, 2, 0)), 3, 2, "plate");
+  EXPECT_NEAR(length(make_mesh(flat, fold), "plate u1"), 2.0, 1e-14);
+  const auto tube = patch(cylinder(2.0, 5.0), 24, 5, "tube");
+  EXPECT_EQ(make_mesh(tube, fold).sides.at("tube v0").size(), 24u);
+  EXPECT_NEAR(length(make_mesh(tube, fold), "tube v0"), 24 * 4.0 * std::sin(pi / 24), 1e-12);
+  const auto profile = i_section({2.0, 1.0, 1.5}, 10.0, 2, 4, 5);
+  EXPECT_NEAR(length(make_mesh(profile, fold), "start"), 4.5, 1e-12);
+  for (const Facets& coarse : {flat, tube, profile}) {
+    const ShellMesh mesh = make_mesh(coarse, fold);
+    const ShellMesh fine = make_mesh(subdivide(coarse, mesh, 3), fold);
+    for (const auto& [name, sides] : mesh.sides) {
+      EXPECT_EQ(fine.sides.at(name).size(), 3 * sides.size()) << name;
+      EXPECT_NEAR(length(fine, name) / length(mesh, name), 1.0, 5e-3) << name;
+    }
+  }
 }
 
 TEST(ShellMesh, PlanePatchHasNamedEdgesInOrder) {

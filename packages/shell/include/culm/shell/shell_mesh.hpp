@@ -32,12 +32,18 @@ struct Facets {
   void append(const Facets& other);
 };
 
+/// With which of an edge each of its corners makes a side: they come in pairs, between which may be
+/// corners of the other quadrilaterals along the side. -1 for one that is left over.
+std::vector<int> partners_along(const std::vector<Corner>& edge);
+
 /// A mesh of shell elements.
 struct ShellMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> directors;  ///< length one
   std::vector<std::array<int, 4>> quads;
   std::map<std::string, std::vector<int>> edges;  ///< nodes in order along the edge
+  /// Both ends of each side along it; of a fold, where two elements have one, that of the first.
+  std::map<std::string, std::vector<std::array<int, 2>>> sides;
   std::map<std::string, std::vector<int>> parts;  ///< elements by name
   /// Nodes at one place with different directors, at folds and where more than two walls meet.
   std::vector<std::vector<int>> folds;
