@@ -26,7 +26,7 @@ J, T, P, I, SET_POINT = 2.0, 0.2, 3.0, 4.0, 1.5
 CULM = LIBRARY = None
 
 
-def sampled(step, end):
+def sampled(step, end, gust=1.0):
     """Speeds in the steps: a rigid rotor and a lag by the mid-point rule, a controller that holds its demand from one
     step to the next."""
     speed = moment = demand = total = 0.0
@@ -34,7 +34,7 @@ def sampled(step, end):
     for n in range(round(end / step)):
         before = moment
         moment = ((1 - step / (2 * T)) * moment + step / T * demand) / (1 + step / (2 * T))
-        change = step / J * (0.5 * (before + moment) + np.sin((n + 0.5) * step) ** 2)
+        change = step / J * (0.5 * (before + moment) + gust * np.sin((n + 0.5) * step) ** 2)
         speeds.append(speed + 0.5 * change)
         speed += change
         error = SET_POINT - speeds[-1]
@@ -81,6 +81,10 @@ class LibraryTest(unittest.TestCase):
         errors = [np.abs(self.speeds(step, self.settings()) - sampled(step, 4.0)).max() for step in (0.02, 0.01)]
         self.assertLess(errors[1], 2e-4)
         self.assertAlmostEqual(np.log2(errors[0] / errors[1]), 2.0, delta=0.1)
+
+    def test_it_starts_what_is_at_rest(self):
+        speeds = self.speeds(0.01, [*self.settings(), "--set", "Analyses/motion/Inactive={gust}"])
+        self.assertLess(np.abs(speeds - sampled(0.01, 4.0, gust=0.0)).max(), 2e-4)
 
     def test_it_is_one_step_late_against_blocks(self):
         apart = []

@@ -2,10 +2,12 @@
 neighbours, joints under load that statics leave slightly open."""
 
 import csv
+import pathlib
 
 from deck_text import ends_with, entry, last_row, listed
 from driver import Case
 
+INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs"
 RUN = "run deck.xml --output out --quiet"
 
 
@@ -121,6 +123,11 @@ HEATED = [
                      + entry("hot", Type="Static", Start_Level="0.5", Final_Level="1", Steps="1")
                      + entry("again", Type="Static", Start_From="warm", Start_Level="0.5", Final_Level="0.6", Steps="1")),
          check=starts_with("bar N3 [N]", 2, -0.5 * THRUST)),
+    Case("the energy of two heats on one bar", 0, args=RUN, leaves=["out"],
+         deck=heated(entry("heat", Type="Static", Steps="1")).replace(
+             '<ParameterList name="Loads">', '<ParameterList name="Loads">' + entry(
+                 "more", Type="Temperature", Structure="bar", Value="20")),
+         check=ends_with("all strain [J]", (2 * THRUST) ** 2 / 2 / STIFFNESS, 1e-6 * THRUST**2 / STIFFNESS)),
     Case("heat on a beam beside one that yields", 0, args=RUN, leaves=["out"],
          deck=heated(entry("heat", Type="Static", Steps="1"), beam("bar", "bar", 0, 0) + beam("pile", "soft", 0, 1),
                      clamps("bar") + clamps("pile")),
@@ -217,8 +224,95 @@ JOINED = [
          check=is_empty_in_statics),
 ]
 
+# --- little that moves among much that cancels: energies and momenta are kept to the rounding of what there is
+
+SPAR = INPUTS / "offshore/moored_spar.xml"
+SHORT = " --set Loads/pull/Force={-0.5,0,0} --set Analyses/decay/Step=0.05 --set 'Analyses/decay/End Time=0.5'"
+
+CANCELS = [
+    Case("a heated bar that hardly swings", 0, args=RUN, leaves=["out"],
+         deck=deck(BAR, listed("Structures", beam("bar", "bar", 0, 0)),
+                   listed("Constraints", entry("held", Type="Rigid Support", Node="bar/first")),
+                   listed("Loads", entry("heat", Type="Temperature", Structure="bar", Value="50"),
+                          entry("push", Type="Force", Node="bar/last", Force="{0, 0, 0.01}", Function="Constant")),
+                   listed("Analyses", entry("heat", Type="Static", Steps="1", Inactive="{push}"),
+                          entry("swing", Type="Dynamic", Start_Time="1", End_Time="1.1", Step="1e-3")),
+                   listed("Output", listed("History", entry("bar", Type="Position", Node="bar/last"))))),
+    Case("a moored spar that hardly moves", 0, args=RUN + SHORT, leaves=["out"], deck=SPAR.read_text(), ranks=True),
+]
+
+# --- a pile in a wave that stands still at its crest, on a foot that no water touches
+
+PILE = (INPUTS / "water/wave_on_pile.xml").read_text()
+CREST = PILE.replace('name="Buoyancy" value="false"', 'name="Dry Ends" value="{first}"').replace(
+    '<ParameterList name="History">', '<ParameterList name="History">' + entry("sea", Type="Waves", Load="waves"))
+
+
+def waves_lift_nothing(stretching):
+    """Pressure acts across the pile, so its foot is pressed by nothing but what the theory leaves out."""
+    return Case(f"a crest at a pile with a dry foot, {stretching}", 0, leaves=["out"], deck=CREST,
+                args=f"{RUN} --set p=0 --set Flows/sea/Stretching={stretching}",
+                check=ends_with("bed Fz [N]", 0.0, 2e-3 * 1025 * 9.80665 * 28.27))
+
+
+CRESTS = [waves_lift_nothing(stretching) for stretching in ("None", "Vertical", "Wheeler")] + [
+    Case("the sea that statics see", 0, leaves=["out"], deck=CREST, args=f"{RUN} --set p=0",
+         check=ends_with("sea elevation [m]", 3.0, 1e-12)),
+]
+
+# --- a cantilever of 1 m whose height falls from 0.2 to 0.1 m, bent about its wider side by a turn of its tip
+
+
+def yielding(name, cells, width):
+    rectangle = entry(name, Type="Rectangle", Width=width, Height="0.1", Young_Modulus="2e11", Poisson_Ratio="0.3")
+    return rectangle.replace("</ParameterList>", entry("Plasticity", Yield_Stress="2.5e8", Kinematic_Hardening="2e7",
+                                                       Cells=cells) + "</ParameterList>")
+
+
+def tapered(cells, *widths):
+    curve = entry("Curve", Type="Line", From="{0, 0, 0}", To="{1, 0, 0}", Up="{0, 0, 1}", Elements="10")
+    return deck(
+        listed("Sections", yielding("a", "{20, 2}", widths[0]), yielding("b", cells, widths[1])),
+        listed("Structures", entry("bar", Type="Beam", Sections="{a, b}", Section_Positions="{0, 1}", Order="2").replace(
+            "</ParameterList>", f"{curve}</ParameterList>")),
+        listed("Constraints", entry("held", Type="Rigid Support", Node="bar/first"),
+               entry("turned", Type="Rotation", Node="bar/last", Axis="{0, 1, 0}", Angle="0.1")),
+        listed("Analyses", entry("bend", Type="Static", Steps="10")),
+        listed("Output", listed("History", entry("held", Type="Reaction", Node="bar/first"))))
+
+
+def stays_plastic(folder, _):
+    found = abs(last_row(folder)["held My [N m]"])
+    weakest = 2.5e8 * 0.1 * 0.1**2 / 4  # full plastic moment of the end
+    return "" if weakest < found < 1.06 * weakest else f"the moment is {found}, that of a hinge {weakest}"
+
+
+TAPERED = [
+    Case("a beam that is thinner at one end and yields there", 0, args=RUN, leaves=["out"], deck=tapered("{20, 2}", "0.2", "0.1"),
+         check=stays_plastic),
+    Case("sections with as many fibres elsewhere", 3, args=RUN, deck=tapered("{2, 20}", "0.1", "0.1"),
+         says=["sections along one beam must yield with the same 'Type' and 'Cells'"]),
+]
+
+# --- schemes that go from acceleration to acceleration begin with that of what acts from the start
+
+FALLS = [
+    Case(f"free fall by {scheme}, in two motions", 0, args=RUN, leaves=["out"],
+         deck=deck(listed("Structures", entry("box", Type="Rigid Box", Position="{0, 0, 0}", Size="{1, 1, 1}", Density="1000")),
+                   listed("Loads", entry("weight", Type="Gravity", Acceleration="{0, 0, -9.81}")),
+                   listed("Analyses", *(entry(name, Type="Dynamic", Scheme=scheme, Step="0.01", End_Time=end)
+                                        for name, end in (("one", "0.3"), ("two", "1")))),
+                   listed("Output", listed("History", entry("box", Type="Position", Node="box")))),
+         check=ends_with("box z [m]", -9.81 / 2, 1e-6))
+    for scheme in ("Conserving", "Generalised Alpha", "Trapezoidal")
+]
+
 CASES = [
     *TURNING,
+    *FALLS,
+    *TAPERED,
+    *CRESTS,
+    *CANCELS,
     Case("a rigid shell that is thrown", 0, args=RUN, leaves=["out"], deck=flying("plate"),
          check=ends_with("body z [m]", 0.3, 1e-9), ranks=True),
     Case("one node of it that is thrown", 0, args=RUN, leaves=["out"], deck=flying("plate/u1 v1"),

@@ -29,9 +29,14 @@ Books::Books(const assembly::System& system) : system_(system), batches_(system.
 
 model::StepWork Books::add(const model::State& state, const Stencil& stencil) {
   std::vector<model::StepWork> step(works_.size());
+  pushed_ = {0.0, 0.0};
   for (std::size_t i = 0; i < batches_.size(); ++i) {
-    step[account_of_[i]] += batches_[i]->step_work(state, stencil);
+    const model::StepWork work = batches_[i]->step_work(state, stencil);
+    step[account_of_[i]] += work;
+    pushed_[0] += work.force.norm();
+    pushed_[1] += work.moment.norm();
   }
+  system_.comm().sum(pushed_);
   model::StepWork total;
   for (std::size_t i = 0; i < step.size(); ++i) {
     model::StepWork& work = step[i];

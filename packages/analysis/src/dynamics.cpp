@@ -231,13 +231,39 @@ void Dynamics::do_fit() {
 
 void Dynamics::do_begin() {
   model::State& state = this->state();
-  scheme_->start(state);
+  scheme_->start(model::Coordinates(state.velocity.size()));
   stencil_ = scheme_->begin(state, settings_.steps.step);
   system().prepare(state, stencil_);
   system().choose_multiplier_scale(state, stencil_);
   make_post_mortem(state, stencil_);
   do_prepare_resume();
+  is_first_ = true;
   certificate_.start(state);
+}
+
+// That of a step of the conserving scheme, so short that it hardly changes within. Pulses and noise
+// have another value in such a step, so where there are any it is left at zero.
+model::Coordinates Dynamics::first_acceleration(double first_step) {
+  constexpr double share = 1e-2;  // shorter ones lose digits by their square
+  model::State& state = this->state();
+  model::Coordinates acceleration(state.velocity.size());
+  for (const auto& [name, function] : system().model().functions()) {
+    if (!function.is_function_of_time() && function.signal() == nullptr) return acceleration;
+  }
+  const double step = share * first_step;
+  ConservingScheme probe;
+  state.time = state.time_prev + step;
+  const Stencil stencil = probe.begin(state, step);
+  system().prepare(state, stencil);
+  if (newton().solve(state, stencil).converged()) {
+    const auto found = [&stencil](double, double next, double prev, double offset) {
+      return stencil.inertia * (next - prev) + offset;
+    };
+    model::combine(acceleration, found, state.next, state.prev, state.acceleration_offset);
+  }
+  system().discard(state);
+  make_newton(settings_.newton);  // what is rounding in so short a step is none in others
+  return acceleration;
 }
 
 void Dynamics::do_prepare_resume() {
@@ -253,8 +279,9 @@ StepReport Dynamics::do_attempt(double end) {
         fmt::format("a step of time from {:g} s cannot end at {:g} s", state.time_prev, end));
   }
   StepReport report;
-  report.time = state.time = end;
   report.increment = end - state.time_prev;
+  if (is_first_ && !scheme_->conserves()) scheme_->start(first_acceleration(report.increment));
+  report.time = state.time = end;
   stencil_ = scheme_->begin(state, report.increment);
   system().prepare(state, stencil_);
   predictor_.predict(state, report.increment);
@@ -277,6 +304,7 @@ void Dynamics::do_accept(const StepReport& report) {
     certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
   }
   scheme_->finish(state, taken);
+  is_first_ = false;
   warn_of_short_step(taken);
   system().accept(state);
   const Ledger::Scope scope(context().ledger, certificate_effect_);
@@ -334,6 +362,7 @@ void Dynamics::do_save(Snapshot& snapshot) const {
   cut_backs_.save(snapshot);
   certificate_.save(snapshot);
   pulses_.save(snapshot);
+  snapshot.set("dynamics/first", is_first_ ? 1 : 0);
 }
 
 void Dynamics::do_restore(const Snapshot& snapshot) {
@@ -343,6 +372,7 @@ void Dynamics::do_restore(const Snapshot& snapshot) {
   cut_backs_.restore(snapshot);
   certificate_.restore(snapshot);
   pulses_.restore(snapshot);
+  is_first_ = snapshot.integer("dynamics/first") != 0;
 }
 
 }  // namespace culm::analysis

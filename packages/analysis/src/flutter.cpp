@@ -2,6 +2,7 @@
 #include <culm/analysis/modal.hpp>
 #include <culm/analysis/newton_options.hpp>
 #include <culm/base/absent.hpp>
+#include <culm/base/error.hpp>
 #include <culm/model/method_limits.hpp>
 
 #include "levels.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_rate = 1e-6;
 constexpr double precision = 1e-6;  // of a level, relative
 constexpr int most_trials = 60;
+constexpr int most_refused = 8;
 // of eigenvalues between levels, relative; below it they are the same but for rounding
 constexpr double least_change = 1e-10;
 
@@ -84,6 +87,7 @@ struct Crossing {
   int stable_sign = 0;        // of a stiffness with which no motion grows; 0: not known
   std::optional<double> below, above = {};  // levels between which it happens
   double rate_below = 0.0, rate_above = 0.0;
+  Growth at_above = {};
 
   void begin(const ModeSet& first) {
     if (!by_stiffness) return;
@@ -91,20 +95,24 @@ struct Crossing {
         std::ranges::any_of(first.modes, [](const Mode& m) { return m.is_zero(); });
     stable_sign = is_free ? 0 : first.stiffness_sign * (count_growing(first) % 2 == 0 ? 1 : -1);
   }
-  // The mode that begins to grow is not always among those that are found, the sign is.
+  // The mode that begins to grow is not always among those that are found, the sign is; where two
+  // begin together it is the sign that does not show it.
   Growth measure(const ModeSet& set) const {
     Growth found = of_modes(set);
     if (stable_sign == 0 || set.stiffness_sign == 0) return found;
+    if (of_modes == divergence_of && found.rate > 0.0) return found;
     found.rate = set.stiffness_sign == stable_sign ? -1.0 : 1.0;
     if (found.mode.frequency() != 0.0) found.mode.eigenvalue = found.mode.eigenvalue.real();
     return found;
   }
   void see(double level, const ModeSet& set) {
     if (above) return;
-    const double rate = measure(set).rate;
+    const Growth found = measure(set);
+    const double rate = found.rate;
     if (rate > 0.0) {
       above = level;
       rate_above = rate;
+      at_above = found;
     } else {
       below = level;
       rate_below = rate;
@@ -120,17 +128,40 @@ struct Crossing {
   }
 };
 
+// Nothing where no equilibrium is found, of a crossing that is one of the stiffness.
+std::optional<Growth> measure_at(double level, const Crossing& crossing, ModeDiagram& diagram,
+                                 model::State& state) {
+  if (!crossing.by_stiffness) return crossing.measure(diagram.find(state, level));
+  try {
+    return crossing.measure(diagram.find(state, level));
+  } catch (const NumericalError&) {
+    return {};
+  }
+}
+
 // Halves and secants in turn: growth may have kinks, and jumps where motions cease to oscillate.
+// Near where the stiffness vanishes there may be no equilibrium to be found: other levels between
+// are tried then, and a level among those without one is the level that is looked for.
 Growth close_in(Crossing& crossing, ModeDiagram& diagram, model::State& state) {
-  Growth last;
+  Growth last = crossing.at_above;
   double &below = *crossing.below, &above = *crossing.above;
+  int refused = 0;  // trials in turn without equilibrium
   for (int i = 0; i < most_trials && above - below > precision * above; ++i) {
     const bool has_secant = i % 2 == 0 && std::isfinite(crossing.rate_below);
     const double share =
         has_secant ? -crossing.rate_below / (crossing.rate_above - crossing.rate_below) : 0.5;
+    const double elsewhere = std::fmod(0.5 + refused * std::numbers::phi, 1.0);
     // a little off the secant, so that both ends come
-    const double level = below + std::clamp(share, 0.01, 0.99) * (above - below);
-    const Growth found = crossing.measure(diagram.find(state, level));
+    const double level =
+        below + std::clamp(refused == 0 ? share : elsewhere, 0.01, 0.99) * (above - below);
+    const std::optional<Growth> here = measure_at(level, crossing, diagram, state);
+    if (!here) {
+      if (++refused < most_refused) continue;
+      above = level;
+      return last;
+    }
+    refused = 0;
+    const Growth& found = *here;
     if (found.rate > 0.0) {
       above = level;
       crossing.rate_above = found.rate;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace culm::analysis {
 namespace {
@@ -111,7 +112,9 @@ void Statics::do_begin() {
   // of the state without the first load: under stresses that come by themselves, as those of heat
   // do, the first iteration may lie beyond a bifurcation already
   if (system().layout().rows().total() > 0) {
-    determinant_sign_ = context().linear.determinant().sign;
+    const solver::Determinant first = context().linear.determinant();
+    determinant_sign_ = first.sign;
+    first_log_size_ = first.log_size;
   }
   make_newton(settings_.newton);
 }
@@ -154,6 +157,8 @@ void Statics::do_save(Snapshot& snapshot) const {
   snapshot.set("statics/increment", increment_);
   snapshot.set("statics/determinant sign", determinant_sign_);
   snapshot.set("statics/crossings", crossings_);
+  snapshot.set("statics/first log size", first_log_size_);
+  snapshot.set("statics/unstable pair", has_unstable_pair_ ? 1 : 0);
   trend_.save(snapshot);
 }
 
@@ -162,6 +167,8 @@ void Statics::do_restore(const Snapshot& snapshot) {
   increment_ = snapshot.number("statics/increment");
   determinant_sign_ = snapshot.integer("statics/determinant sign");
   crossings_ = snapshot.copy("statics/crossings");
+  first_log_size_ = snapshot.number("statics/first log size");
+  has_unstable_pair_ = snapshot.integer("statics/unstable pair") != 0;
   trend_.restore(snapshot);
 }
 
@@ -183,11 +190,44 @@ int Statics::find_determinant_sign(const StepReport& report) {
   return context().linear.factor() ? context().linear.determinant().sign : 0;
 }
 
+// Two directions that lose their stiffness together, as those in which a round column bends, leave
+// the determinant its sign. Then the softest one, of which there is energy to be had, shows it; of
+// tangents that are symmetric and without multipliers.
+void Statics::watch_pairs(const StepReport& report) {
+  const bool is_softer = report.outcome.last_determinant.log_size < first_log_size_;
+  if (has_unstable_pair_ || !crossings_.empty() || report.outcome.iterations == 0 || !is_softer ||
+      system().model().unknowns().num_forces() > 0) {
+    return;
+  }
+  const assembly::Matrix& tangent = *system().matrix();
+  const auto softest = softest_direction(context().linear, system().layout().rows());
+  if (!softest || resistance(tangent, *softest) < least_resistance) return;
+  const assembly::Vector other = irregular(system().layout().rows());
+  assembly::Vector force(other.rows()), other_force(other.rows());
+  tangent.multiply(*softest, force);
+  tangent.multiply(other, other_force);
+  const double one = other.dot(force), transposed = softest->dot(other_force);
+  constexpr double rounding = 1e-8;
+  const double terms = std::sqrt(other.dot(other) * force.dot(force));
+  if (softest->dot(force) >= 0.0 || std::abs(one - transposed) > rounding * terms) return;
+  has_unstable_pair_ = true;
+  context().findings.warn(
+      "stability",
+      fmt::format("by level {:.6g} the stiffness in one direction is negative, although the "
+                  "determinant has kept its sign: two directions lost theirs, and the equilibrium "
+                  "that was found is unstable; an analysis of type 'Buckling' shows where",
+                  report.time),
+      report.time);
+}
+
 void Statics::watch_stability(const StepReport& report) {
   int sign = find_determinant_sign(report);
   if (sign == 0) return;
   if (determinant_sign_ == 0) determinant_sign_ = report.outcome.first_determinant.sign;
-  if (sign == determinant_sign_) return;
+  if (sign == determinant_sign_) {
+    watch_pairs(report);
+    return;
+  }
   // the last iteration began before the equilibrium, where a blade that turns may not be stretched
   system().evaluate(state(), Stencil::statics(), Want::residual_and_tangent);
   sign = context().linear.factor() ? context().linear.determinant().sign : 0;

@@ -46,8 +46,8 @@ GeneralisedAlphaScheme::GeneralisedAlphaScheme(double alpha_m, double alpha_f)
       beta_(0.25 * (1.0 - alpha_m_ + alpha_f_) * (1.0 - alpha_m_ + alpha_f_)),
       gamma_(0.5 - alpha_m_ + alpha_f_) {}
 
-void GeneralisedAlphaScheme::start(model::State& state) {
-  acceleration_.assign(state.velocity.size(), 0.0);
+void GeneralisedAlphaScheme::start(model::Coordinates acceleration) {
+  acceleration_ = std::move(acceleration);
 }
 
 // The accelerations of the method belong to times alpha_m - alpha_f steps later than their index.

@@ -269,7 +269,11 @@ std::string WeakDirection::mechanism(const Vector& motion) const {
          rigid_motions(moved) +
          "Try: add a support or a joint that holds it, or give the section stiffness. If "
          "something\n"
-         "does: beside stiffnesses 1e12 times as large it is lost in rounding; check units.";
+         "does: beside stiffnesses 1e12 times as large it is lost in rounding; check units. What "
+         "only its\n"
+         "own weight holds, as what hangs from a hinge, is stiff once it carries it: hold it by a "
+         "support\n"
+         "that is 'Inactive' in the analysis after this one.";
 }
 
 std::string WeakDirection::massless(const Vector& direction) const {

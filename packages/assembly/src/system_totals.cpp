@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 namespace culm::assembly {
 namespace {
 
@@ -59,12 +61,16 @@ double System::strain_energy(const model::Coordinates& q) const {
 }
 
 Energies System::energies(const model::Coordinates& q, const model::Momentum& momentum) const {
-  Energies energies;
-  energies.kinetic = momentum.kinetic_energy;
-  energies.strain = strain_energy(q);
-  for (const auto& load : model_.loads()) energies.potential += load->stored_energy(q);
-  energies.potential = comm_.sum(energies.potential);
-  return energies;
+  double strain = 0.0, potential = 0.0, amount = 0.0;
+  const auto add = [&](const model::Batch& batch, double& sum) {
+    const double energy = batch.stored_energy(q);
+    sum += energy;
+    amount += std::abs(energy);
+  };
+  for (const auto& batch : model_.element_batches()) add(*batch, strain);
+  for (const auto& load : model_.loads()) add(*load, potential);
+  return {momentum.kinetic_energy, comm_.sum(strain), comm_.sum(potential),
+          std::abs(momentum.kinetic_energy) + comm_.sum(amount)};
 }
 
 model::Momentum System::momentum(const model::Coordinates& q,

@@ -97,7 +97,13 @@ Verdict LibraryBatch::assemble(const model::State& state, const Stencil&, Want w
           (state.own[static_cast<std::size_t>(output.signal.index)] - output.held) /
           output.signal.scale;
       const int at = static_cast<int>(k);
-      if (want != Want::mass) placement().scatter.add_residual(i, at, &change, target);
+      if (want != Want::mass) {
+        placement().scatter.add_residual(i, at, &change, target);
+        // where nothing else is out of balance a new demand must be taken over all the same
+        const double size = std::max(1.0, std::abs(output.held / output.signal.scale));
+        target.constraint_violation =
+            std::max(target.constraint_violation, std::abs(change) / size);
+      }
       if (want == Want::residual) continue;
       placement().scatter.add_tangent(i, at, at, Mat<1, 1>(1.0), target);
     }

@@ -3,6 +3,7 @@
 
 #include <culm/assembly/system.hpp>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -18,6 +19,11 @@ class Books {
   /// @return the sum over all accounts
   model::StepWork add(const model::State& state, const Stencil& stencil);
 
+  /// What all batches pushed with in the last step, whichever way: the sum of the sizes of their
+  /// forces [N] and of their moments about the origin [N m], none less than on any number of ranks.
+  double forces() const { return pushed_[0]; }
+  double moments() const { return pushed_[1]; }
+
   /// Names of the accounts, sorted.
   const std::vector<std::string>& accounts() const { return accounts_; }
   /// What was booked: by account, and last that of all batches without one.
@@ -30,6 +36,7 @@ class Books {
   std::vector<std::string> accounts_;
   std::vector<std::size_t> account_of_;  ///< by batch
   std::vector<model::StepWork> works_;
+  std::array<double, 2> pushed_ = {0.0, 0.0};
 };
 
 }  // namespace culm::analysis

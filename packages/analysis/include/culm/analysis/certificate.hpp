@@ -96,9 +96,10 @@ class Certificate {
   double largest_work_ = 0.0;
   double closing_ = 0.0;  ///< what constraints hold that do not hold exactly at the start [J]
   double largest_linear_ = 0.0, largest_angular_ = 0.0;
-  double energy_drift_ = 0.0;   ///< largest defect of the balance [J]
-  double linear_drift_ = 0.0;   ///< [N s]
-  double angular_drift_ = 0.0;  ///< [N m s]
+  double pushed_linear_ = 0.0, pushed_angular_ = 0.0;  ///< impulses, whichever way they act
+  double energy_drift_ = 0.0;                          ///< largest defect of the balance [J]
+  double linear_drift_ = 0.0;                          ///< [N s]
+  double angular_drift_ = 0.0;                         ///< [N m s]
   double constraint_violation_ = 0.0;
   std::optional<double> hidden_violation_;
   double rounding_ = 0.0;

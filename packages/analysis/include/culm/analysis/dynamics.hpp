@@ -60,13 +60,15 @@ class Dynamics final : public Stepper {
   void do_restore(const Snapshot& snapshot) override;
   void refuse_other_schemes() const;
   void fit_motion();
+  model::Coordinates first_acceleration(double first_step);
   void measure_hidden_constraints();
   void keep_balance();
   void warn_of_short_step(double taken);
 
   DynamicsSettings settings_;
   std::unique_ptr<TimeScheme> scheme_;
-  Stencil stencil_;  ///< of the last attempt
+  Stencil stencil_;       ///< of the last attempt
+  bool is_first_ = true;  ///< no step was accepted yet
   StepControl control_;
   Predictor predictor_;
   CutBacks cut_backs_;

@@ -57,11 +57,14 @@ class Statics final : public Stepper {
   int find_determinant_sign(const StepReport& report);
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
+  void watch_pairs(const StepReport& report);
 
   StaticsSettings settings_;
   double increment_ = 0.0;
-  int determinant_sign_ = 0;  ///< of the tangent at the last equilibrium; 0 if unknown
-  bool may_take_up_ = true;   ///< what acts at once at the start, which is tried last and once
+  int determinant_sign_ = 0;     ///< of the tangent at the last equilibrium; 0 if unknown
+  double first_log_size_ = 0.0;  ///< logarithm of the determinant of the first tangent
+  bool has_unstable_pair_ = false;
+  bool may_take_up_ = true;  ///< what acts at once at the start, which is tried last and once
   FailureTrend trend_;
   std::vector<double> crossings_;  ///< levels of the steps in which it changed
 };

@@ -19,8 +19,8 @@ class TimeScheme {
   virtual bool conserves() const = 0;
   /// c of the error c h^3 q''' that a step adds to positions.
   virtual double error_constant() const = 0;
-  /// Once, with position and velocity of the start.
-  virtual void start(model::State& state) = 0;
+  /// Once, with the acceleration of the start [m/s^2, 1/s^2].
+  virtual void start(model::Coordinates acceleration) = 0;
   /// Before a step of length h [s]: sets state.acceleration_offset. @return the step's stencil
   virtual Stencil begin(model::State& state, double h) = 0;
   /// What velocities are at the end of the step that begin() began, as state.next has it.
@@ -39,7 +39,7 @@ class ConservingScheme final : public TimeScheme {
   std::string name() const override { return "Conserving"; }
   bool conserves() const override { return true; }
   double error_constant() const override { return 1.0 / 12.0; }
-  void start(model::State&) override {}
+  void start(model::Coordinates) override {}
   Stencil begin(model::State& state, double h) override;
   model::Coordinates end_velocity(const model::State& state, double h) const override;
   void finish(model::State& state, double h) override;
@@ -56,7 +56,7 @@ class GeneralisedAlphaScheme : public TimeScheme {
   std::string name() const override { return "Generalised Alpha"; }
   bool conserves() const override { return false; }
   double error_constant() const override;
-  void start(model::State& state) override;
+  void start(model::Coordinates acceleration) override;
   Stencil begin(model::State& state, double h) override;
   model::Coordinates end_velocity(const model::State& state, double h) const override;
   void finish(model::State& state, double h) override;

@@ -31,6 +31,8 @@ struct Energies {
   double kinetic = 0.0;    ///< [J]
   double strain = 0.0;     ///< [J]
   double potential = 0.0;  ///< of loads that have one [J]
+  /// Sizes of all of which these are sums: what rounding takes its share of [J].
+  double amount = 0.0;
   double total() const { return kinetic + strain + potential; }
 };
 
