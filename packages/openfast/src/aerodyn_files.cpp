@@ -10,8 +10,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace culm::openfast {
@@ -110,6 +113,11 @@ void read_lag(InputFile& file, AeroDyn& aero, Report& report) {
     report.add(assumed, fmt::format("{} = {}: the nearest model of unsteady airfoils is taken, {}",
                                     place(file, keyword), model,
                                     model == 7 ? "Oye (6)" : "four states (4)"));
+  }
+  if (aero.lag == "Oye") {
+    report.add(assumed, place(file, keyword) +
+                            ": the flow that separates lags by 6 half chords; AeroDyn's by 3 where "
+                            "an airfoil has no T_f0 of its own");
   }
   if (file.has("AoA34") && !flag_of(file, "AoA34", true)) {
     report.add(assumed, place(file, "AoA34") +
@@ -259,6 +267,27 @@ AirfoilColumns read_columns(InputFile& file) {
   return columns;
 }
 
+// What has no place in the deck, where it is not what it is without.
+void report_not_used(InputFile& file, Report& report) {
+  struct Rest {
+    const char* keyword;
+    double neutral;
+    const char* instead;
+  };
+  constexpr Rest rests[] = {
+      {"UAStartRad", 0.0, "unsteady aerodynamics from the root on"},
+      {"UAEndRad", 1.0, "unsteady aerodynamics up to the tip"},
+      {"SkewRedistrFactor", 15.0 * std::numbers::pi / 32.0, "skewed wakes with 15 pi / 32"},
+      {"SkewModFactor", 15.0 * std::numbers::pi / 32.0, "skewed wakes with 15 pi / 32"}};
+  for (const Rest& rest : rests) {
+    if (!file.has(rest.keyword) || is_default(file, rest.keyword)) continue;
+    const double value = file.number(rest.keyword);
+    if (std::abs(value - rest.neutral) <= 1e-3 * std::max(1.0, rest.neutral)) continue;
+    report.add(not_used,
+               fmt::format("{} = {:g}: {}", place(file, rest.keyword), value, rest.instead));
+  }
+}
+
 void ignore_rest_of_aerodyn(InputFile& file) {
   file.ignore({"Echo",
                "DTAero",
@@ -356,6 +385,7 @@ AeroDyn read_aerodyn(const std::filesystem::path& path, std::size_t blades,
   const std::vector<AeroTowerStation> tower = read_drag_stations(file);
   if (file.flag("TwrAero")) aero.tower = tower;
   aero.tower_influence = read_influence(file, tower);
+  report_not_used(file, report);
   ignore_rest_of_aerodyn(file);
   report.add(unknown, file.unread());
   return aero;

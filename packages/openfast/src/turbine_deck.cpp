@@ -415,6 +415,11 @@ void replace_blades(ElastoDyn& turbine, const std::vector<BeamDyn>& blades, Repo
   report.add(assumed,
              "blades: those of BeamDyn; what ElastoDyn's blade files say is left out but for "
              "the mode shapes, and the damping of blades that have none of their own");
+  if (std::ranges::any_of(turbine.tip_masses, [](double mass) { return mass > 0.0; })) {
+    report.add(not_used,
+               "masses at the tips of blades, TipMass: ElastoDyn's blades have them only");
+  }
+  std::ranges::fill(turbine.tip_masses, 0.0);
   for (std::size_t i = 0; i < blades.size(); ++i) {
     turbine.blades[i].beam = blades[i];
     const auto& damping = blades[i].blade.damping;

@@ -72,9 +72,21 @@ TEST_F(AeroDynFiles, OlderKeywordsMeanTheSame) {
   const AeroDyn read = AeroDynFiles::read();
   EXPECT_EQ(read.induction, "Steady");
   EXPECT_EQ(read.lag, "Oye");
+  EXPECT_THAT(told(), HasSubstr("lags by 6 half chords; AeroDyn's by 3"));
   EXPECT_EQ(read.yaw, "None");
   write("aero.dat", change(old, "2 AFAeroMod", "1 AFAeroMod"));
   EXPECT_EQ(AeroDynFiles::read().lag, "None");
+}
+
+TEST_F(AeroDynFiles, WhatHasNoPlaceInTheDeckIsTold) {
+  const std::string more =
+      "4          UA_Mod    - (switch)\n0.25       UAStartRad - start\n"
+      "1.0        UAEndRad   - end\n3.0        SkewRedistrFactor - factor";
+  write("aero.dat", change(aero, "4          UA_Mod    - (switch)", more));
+  (void)AeroDynFiles::read();
+  EXPECT_THAT(told(), HasSubstr("UAStartRad = 0.25: unsteady aerodynamics from the root on"));
+  EXPECT_THAT(told(), HasSubstr("SkewRedistrFactor = 3: skewed wakes with 15 pi / 32"));
+  EXPECT_THAT(told(), Not(HasSubstr("UAEndRad")));
 }
 
 TEST_F(AeroDynFiles, TablesOfAirfoilsHaveTheirColumns) {
