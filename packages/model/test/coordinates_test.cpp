@@ -1,11 +1,12 @@
 #include <culm/model/coordinates.hpp>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace culm::model {
@@ -13,11 +14,15 @@ namespace {
 
 constexpr std::size_t large = 12'800'000;  // 102 MB
 
+// Pages that were written to: some kernels count the one page of zeros as resident wherever it is
+// read.
 double resident_megabytes() {
-  std::ifstream file("/proc/self/statm");
-  double size = 0.0, resident = 0.0;
-  file >> size >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+  std::ifstream file("/proc/self/smaps_rollup");
+  for (std::string word; file >> word;) {
+    double kilobytes = 0.0;
+    if (word == "Private_Dirty:" && file >> kilobytes) return kilobytes / 1e3;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 TEST(Coordinates, AreZeroAtFirstAndKeepWhatIsWritten) {
