@@ -130,6 +130,14 @@ void check_pull(const Options& options, InputIssues& issues) {
              "must be true where 'Buoyancy' is true, which is the whole pressure");
 }
 
+void check_faces(const Options& options, InputIssues& issues) {
+  for (const auto& [one, several] :
+       {std::pair{"End Drag", "End Drags"}, {"End Added Mass", "End Added Masses"}}) {
+    if (!options.given(one) || !options.given(several)) continue;
+    issues.add(options.where(several), fmt::format("give one of '{}' and '{}'", one, several));
+  }
+}
+
 Schema morison_schema() {
   Schema schema("Morison",
                 "Waves, current and buoyancy on members with circular sections: the pressure of "
@@ -176,6 +184,7 @@ Schema morison_schema() {
       .check(check_place)
       .check(check_tables)
       .check(check_growth)
+      .check(check_faces)
       .check(check_pull);
 }
 

@@ -127,6 +127,9 @@ TEST_F(MorisonDeck, MistakesAreNamed) {
   EXPECT_THAT(
       mistakes({{"Diameters", std::vector{1.0, 2.0}}, {"Positions", std::vector{0.1, 1.0}}}),
       ElementsAre(HasSubstr("rise from 0 to 1")));
+  EXPECT_THAT(
+      mistakes({{"Diameter", 1.0}, {"End Drag", 1.0}, {"End Drags", std::vector{1.0, 0.5}}}),
+      ElementsAre(HasSubstr("give one of 'End Drag' and 'End Drags'")));
   kit::GivenValues deep = column({{"Diameter", 1.0}});
   deep[1].second = std::vector{0.0, 0.0, -60.0};
   EXPECT_THAT(build(deep), ElementsAre(HasSubstr("reaches 10 m below the bed of 'sea'")));
