@@ -80,6 +80,7 @@ void PathFollowing::do_begin() {
   system().prepare(state, stencil);
   system().choose_multiplier_scale(state, stencil);
   make_post_mortem(state, stencil, state.time + 1e3 * condition_.level_difference());
+  post_mortem().refuse_singular();
   balance_start();
   condition_.begin(settings_.first_increment);
   const auto [tangent, determinant] = compute_tangent();

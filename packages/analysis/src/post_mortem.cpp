@@ -65,14 +65,15 @@ PostMortem::PostMortem(Context& context, model::State& state, const Stencil& ste
                        double first_level)
     : context_(context), level_step_(first_level - state.time) {
   first_flexibility_ = load_flexibility(state, stencil, level_step_);
-  refuse_singular(state);
+  singular_ = find_singular(state);
 }
 
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil)
     : context_(context) {
   context_.system.evaluate(state, stencil, Want::residual_and_tangent);
   is_factored_ = context_.linear.factor();
-  refuse_singular(state);
+  singular_ = find_singular(state);
+  refuse_singular();
 }
 
 PostMortem::PostMortem(Context& context, const Snapshot& snapshot)
@@ -112,9 +113,19 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
   return load.dot(response);
 }
 
-void PostMortem::refuse_singular(const model::State& state) {
+bool PostMortem::is_singular(model::State& state, const Stencil& stencil) {
+  context_.system.evaluate(state, stencil, Want::residual_and_tangent);
+  is_factored_ = context_.linear.factor();
+  return !find_singular(state).empty();
+}
+
+void PostMortem::refuse_singular() const {
+  if (is_singular()) throw NumericalError(singular_);
+}
+
+std::string PostMortem::find_singular(const model::State& state) {
   assembly::System& system = context_.system;
-  if (system.layout().rows().total() == 0) return;  // held or rigid altogether
+  if (system.layout().rows().total() == 0) return {};  // held or rigid altogether
   const Vector probe = irregular(system.layout().rows());
   Vector response(system.layout().rows());
   const double size = system.matrix()->norm();
@@ -124,9 +135,9 @@ void PostMortem::refuse_singular(const model::State& state) {
                     time_word(), state.time, beyond_range));
   }
   const bool solves = is_factored_ && context_.linear.solve(probe, response).is_sound();
-  if (solves && response.largest() * size < 1e13 * probe.largest()) return;
+  if (solves && response.largest() * size < 1e13 * probe.largest()) return {};
   // most soft models show by the factors at hand that they are none; others take as much memory
-  if (solves && resists(system, softest_direction(context_.linear, probe.rows()))) return;
+  if (solves && resists(system, softest_direction(context_.linear, probe.rows()))) return {};
   Vector direction(system.layout().rows());
   const double ratio = context_.linear.weakest_direction(direction);
   if (size == 0.0) {  // no motion is resisted
@@ -135,11 +146,12 @@ void PostMortem::refuse_singular(const model::State& state) {
   }
   // without useful factors no step can be solved, whatever the ratio
   if (solves &&
-      (ratio > singular_ratio || resistance(*system.matrix(), direction) > least_resistance))
-    return;
-  throw NumericalError(system.comm().broadcast(fmt::format(
+      (ratio > singular_ratio || resistance(*system.matrix(), direction) > least_resistance)) {
+    return {};
+  }
+  return system.comm().broadcast(fmt::format(
       "The equations are singular at {} {:.6g}, before the first step.\n{}", time_word(),
-      state.time, WeakDirection(context_.system, state).singular_cause(direction))));
+      state.time, WeakDirection(context_.system, state).singular_cause(direction)));
 }
 
 void PostMortem::refuse_massless(Context& context, const model::State& state) {

@@ -109,14 +109,16 @@ void Statics::do_begin() {
   system().prepare(state(), stencil);
   system().choose_multiplier_scale(state(), stencil);
   make_post_mortem(state(), stencil, proposal());
+  hangs_ = post_mortem().is_singular();
   // of the state without the first load: under stresses that come by themselves, as those of heat
   // do, the first iteration may lie beyond a bifurcation already
-  if (system().layout().rows().total() > 0) {
+  if (system().layout().rows().total() > 0 && !hangs_) {
     const solver::Determinant first = context().linear.determinant();
     determinant_sign_ = first.sign;
     first_log_size_ = first.log_size;
   }
   make_newton(settings_.newton);
+  newton().hold_free(hangs_);
 }
 
 StepReport Statics::do_attempt(double level) {
@@ -129,18 +131,39 @@ StepReport Statics::do_attempt(double level) {
   report.outcome = newton().solve(state(), stencil);
   refuse_mirrored(context(), state(), report.outcome);
   refuse_missed_turns(context(), state(), stencil, report.outcome);
+  if (hangs_ && report.outcome.converged() && post_mortem().is_singular(state(), stencil)) {
+    report.outcome.end = solver::StepEnd::singular;
+  }
   return report;
 }
 
 void Statics::do_accept(const StepReport& report) {
   watch_stability(report);
   system().accept(state());
+  if (hangs_) note_hanging();
   if (report.outcome.iterations <= settings_.easy_iterations && report.increment >= increment_) {
     increment_ = std::min(1.5 * increment_, settings_.largest_increment);
   }
 }
 
+void Statics::note_hanging() {
+  hangs_ = false;
+  newton().hold_free(false);
+  system().prepare(state(), Stencil::statics());
+  if (!reaches_end()) make_post_mortem(state(), Stencil::statics(), proposal());
+  context().log.info(
+      fmt::format("note: nothing resisted some motion before the first step, as where something "
+                  "hangs from a hinge; at level {:g} what it carries does",
+                  state().time));
+}
+
+void Statics::explain_failure() {
+  if (hangs_) post_mortem().refuse_singular();
+}
+
 bool Statics::do_fail(const StepReport& report) {
+  if (hangs_)
+    return true;  // a load moves what is free at any size, and what hangs straight at none
   increment_ = 0.5 * report.increment;
   trend_.add(state().time);
   if (increment_ >= settings_.smallest_increment && !dead_end()) return false;
@@ -159,6 +182,7 @@ void Statics::do_save(Snapshot& snapshot) const {
   snapshot.set("statics/crossings", crossings_);
   snapshot.set("statics/first log size", first_log_size_);
   snapshot.set("statics/unstable pair", has_unstable_pair_ ? 1 : 0);
+  snapshot.set("statics/hangs", hangs_ ? 1 : 0);
   trend_.save(snapshot);
 }
 
@@ -169,6 +193,8 @@ void Statics::do_restore(const Snapshot& snapshot) {
   crossings_ = snapshot.copy("statics/crossings");
   first_log_size_ = snapshot.number("statics/first log size");
   has_unstable_pair_ = snapshot.integer("statics/unstable pair") != 0;
+  hangs_ = snapshot.integer("statics/hangs") != 0;
+  newton().hold_free(hangs_);
   trend_.restore(snapshot);
 }
 
@@ -223,7 +249,10 @@ void Statics::watch_pairs(const StepReport& report) {
 void Statics::watch_stability(const StepReport& report) {
   int sign = find_determinant_sign(report);
   if (sign == 0) return;
-  if (determinant_sign_ == 0) determinant_sign_ = report.outcome.first_determinant.sign;
+  if (determinant_sign_ == 0) {
+    determinant_sign_ = report.outcome.first_determinant.sign;
+    first_log_size_ = report.outcome.first_determinant.log_size;
+  }
   if (sign == determinant_sign_) {
     watch_pairs(report);
     return;

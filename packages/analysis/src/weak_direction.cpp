@@ -270,10 +270,10 @@ std::string WeakDirection::mechanism(const Vector& motion) const {
          "Try: add a support or a joint that holds it, or give the section stiffness. If "
          "something\n"
          "does: beside stiffnesses 1e12 times as large it is lost in rounding; check units. What "
-         "only its\n"
-         "own weight holds, as what hangs from a hinge, is stiff once it carries it: hold it by a "
-         "support\n"
-         "that is 'Inactive' in the analysis after this one.";
+         "hangs from\n"
+         "a hinge is stiff once it carries its weight: 'Static' finds it where it starts as it "
+         "hangs; else\n"
+         "hold it by a support that is 'Inactive' in the analysis after this one.";
 }
 
 std::string WeakDirection::massless(const Vector& direction) const {

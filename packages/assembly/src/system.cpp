@@ -325,6 +325,17 @@ double System::largest_diagonal() const {
   return largest;
 }
 
+void System::stiffen(double share) {
+  const double largest = comm_.max(largest_diagonal());
+  const double least = largest > 0.0 ? largest : 1.0;
+  const auto values = matrix_->values();
+  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
+    if (!is_force_row_[row]) continue;
+    double& entry = values[index(diagonal_[row])];
+    entry += share * (entry == 0.0 ? least : std::abs(entry));
+  }
+}
+
 // Of this rank's columns; valid until the next call.
 std::span<const double> System::column_values(const Vector& increment) {
   return column_import_ ? (*column_import_)(increment) : increment.values();

@@ -9,6 +9,10 @@ namespace {
 // With old factors an iteration is cheap, but its residual must fall at least so much.
 constexpr double slow = 0.2;
 
+// Of the stiffness, against motions that nothing resists: little beside what loads give them, and
+// much beside rounding.
+constexpr double held_share = 1e-8;
+
 double relative_residual(const assembly::Evaluation& e) {
   const double force = e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0;
   return std::max(force, e.constraint_violation);
@@ -167,6 +171,7 @@ bool NewtonGroup::solve_linear() {
   p.direction_is_fresh = has_tangent_;
   if (has_tangent_) {
     const Ledger::Scope scope(p.ledger, p.factor_effect);
+    if (p.holds_free && p.iterations == 0) p.system.stiffen(held_share);
     p.singular = !p.linear.factor();
     ++p.factorisations;
     p.has_factors = !p.singular;

@@ -36,6 +36,7 @@ struct NewtonProblem {
   int iterations = 0;             ///< of this step, so far
   int expected_iterations = 0;    ///< those of the step before; 0 before the first
   bool direction_is_fresh = false;  ///< the last Newton direction is that of a new tangent
+  bool holds_free = false;  ///< motions that nothing resists are held a little where a step begins
   bool tangent_is_whole = true;  ///< no load says that it leaves out something (`LeftOutOfModes`)
   bool singular = false;         ///< the last factorisation failed
   bool not_finite = false;       ///< the last solution is infinite or not a number

@@ -265,6 +265,8 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   return outcome;
 }
 
+void NewtonSolver::hold_free(bool holds) { nox_->problem->holds_free = holds; }
+
 void NewtonSolver::keep() {
   const NewtonProblem& p = *nox_->problem;
   p.linear.remember_pivots();

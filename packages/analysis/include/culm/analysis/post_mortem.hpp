@@ -14,18 +14,25 @@ namespace culm::analysis {
 /// Remembers what a diagnosis needs while an analysis runs, and makes it when the analysis fails.
 class PostMortem {
  public:
-  /// Measures the structure at the start of the analysis, where the system has begun a step.
-  /// Throws NumericalError if its tangent is singular there: a mechanism or redundant constraints;
-  /// NonFiniteError if it is beyond the range of numbers.
+  /// Measures the structure at the start of the analysis, where the system has begun a step, and
+  /// notes why its tangent is singular there, if it is: a mechanism or redundant constraints.
+  /// Throws NonFiniteError if it is beyond the range of numbers.
   /// @param first_level a level above that of state
   PostMortem(Context& context, model::State& state, const Stencil& stencil, double first_level);
-  /// The same in dynamics, where no load can be too large for an equilibrium.
+  /// The same in dynamics, where no load can be too large for an equilibrium. Throws NumericalError
+  /// if the tangent is singular.
   PostMortem(Context& context, model::State& state, const Stencil& stencil);
   /// Goes on where an earlier one was, without another look at the structure.
   PostMortem(Context& context, const Snapshot& snapshot);
   /// What it measured at the start.
   void save(Snapshot& snapshot) const;
 
+  bool is_singular() const { return !singular_.empty(); }
+  /// Whether the tangent at `state` is singular as well, where the system has begun a step.
+  /// Collective.
+  bool is_singular(model::State& state, const Stencil& stencil);
+  /// Throws NumericalError if the tangent is singular where the analysis starts.
+  void refuse_singular() const;
   /// Throws NumericalError where the mass matrix, bordered by constraints, has no useful factors.
   [[noreturn]] static void refuse_massless(Context& context, const model::State& state);
 
@@ -42,8 +49,9 @@ class PostMortem {
   /// d . p for the response K d = p to the load p of a unit level: grows without bound, then
   /// changes sign, where load control ends. Infinite when the tangent is singular.
   double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
-  /// Throws if the tangent at `state`, factored or not, is singular to working precision.
-  void refuse_singular(const model::State& state);
+  /// Why the tangent at `state`, factored or not, is singular to working precision, on all
+  /// ranks; empty if it is not.
+  std::string find_singular(const model::State& state);
   const char* time_word() const { return level_step_ == 0.0 ? "time" : "level"; }
   std::string history() const;
   std::string worst_rows() const;
@@ -58,6 +66,7 @@ class PostMortem {
   bool is_factored_ = false;  ///< whether the tangent looked at last has factors
   double first_flexibility_ = 0.0;
   double level_step_ = 0.0;          ///< 0 in dynamics
+  std::string singular_;             ///< why the first tangent is singular; empty if it is not
   std::deque<StepReport> attempts_;  ///< the last ones
   std::vector<UnknownNames::Entry> worst_;
 };

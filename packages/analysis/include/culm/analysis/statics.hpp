@@ -44,6 +44,7 @@ class Statics final : public Stepper {
   StepReport do_attempt(double level) override;
   void do_accept(const StepReport& report) override;
   bool do_fail(const StepReport& report) override;
+  void explain_failure() override;
   std::optional<double> dead_end() const override { return trend_.end(settings_.final_level); }
   Stencil failed_stencil() const override { return Stencil::statics(); }
   AnalysisReport do_finish() override;
@@ -58,12 +59,16 @@ class Statics final : public Stepper {
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
   void watch_pairs(const StepReport& report);
+  /// Measures the structure again once loads give it the stiffness that it had not at the start.
+  void note_hanging();
 
   StaticsSettings settings_;
   double increment_ = 0.0;
   int determinant_sign_ = 0;     ///< of the tangent at the last equilibrium; 0 if unknown
   double first_log_size_ = 0.0;  ///< logarithm of the determinant of the first tangent
   bool has_unstable_pair_ = false;
+  /// Something moves freely at the start, which may be held by what it carries from the first step.
+  bool hangs_ = false;
   bool may_take_up_ = true;  ///< what acts at once at the start, which is tried last and once
   FailureTrend trend_;
   std::vector<double> crossings_;  ///< levels of the steps in which it changed

@@ -215,6 +215,10 @@ class System {
   const Vector& residual() const { return residual_; }
   /// The tangent, or what was asked for in its place, of the last evaluation.
   const std::shared_ptr<const Matrix>& matrix() const { return matrix_view_; }
+  /// Adds a share of itself to each entry on the diagonal of matrix() that belongs to a force, of
+  /// the largest one where there is none, so that motions which nothing resists are resisted a
+  /// little. Collective.
+  void stiffen(double share);
   const Layout& layout() const { return layout_; }
   /// Whose blocks this rank owns, eliminated ones with their masters' included; rising.
   const std::vector<int>& owned_nodes() const { return owned_nodes_; }

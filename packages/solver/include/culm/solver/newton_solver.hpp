@@ -80,6 +80,11 @@ class NewtonSolver {
   StepOutcome solve(model::State& state, const Stencil& stencil,
                     LevelCondition* condition = nullptr);
 
+  /// Whether the first tangent of a static step resists a little what nothing else resists, as the
+  /// swinging of a rod that hangs from a hinge before it carries its weight. Equilibrium is judged
+  /// as ever; whether the state that is found is a stable one remains to be seen.
+  void hold_free(bool holds);
+
   /// What it has learned so far belongs to the step that was just ended.
   void keep();
   /// Forgets what was learned since, as if the attempts after keep() had not been made.
