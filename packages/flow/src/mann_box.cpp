@@ -50,6 +50,19 @@ void scale(const std::vector<double>& factors, const Where& where, TurbulenceGri
   }
 }
 
+// What a point has on the average over the box, along the wind.
+void remove_means(TurbulenceGrid& grid) {
+  const std::size_t plane = grid.values.size() / static_cast<std::size_t>(grid.planes);
+  for (std::size_t point = 0; point < plane; point += 3) {
+    double sum = 0.0;
+    for (std::size_t i = point; i < grid.values.size(); i += plane) sum += grid.values[i];
+    const double mean = sum / grid.planes;
+    for (std::size_t i = point; i < grid.values.size(); i += plane) {
+      grid.values[i] = static_cast<float>(grid.values[i] - mean);
+    }
+  }
+}
+
 SharedFlow make_mann_box(const Options& options, model::BuildContext&) {
   const std::vector<int>& n = options.integers("Points");
   const std::vector<double>& d = options.numbers("Spacing");
@@ -60,6 +73,7 @@ SharedFlow make_mann_box(const Options& options, model::BuildContext&) {
     const Where& where = options.where("Deviations");
     scale(factors_to(options.numbers("Deviations"), where, grid), where, grid);
   }
+  if (options.flag("Without Means")) remove_means(grid);
   return add_mean_wind(options, options.number("Speed"), make_box(options, std::move(grid)));
 }
 
@@ -94,6 +108,10 @@ void register_mann_box(FlowRegistry& registry) {
                    .size(3)
                    .non_negative()
                    .optional())
+          .add(flag("Without Means",
+                    "Whether the component along the wind loses its mean over the length of the "
+                    "box at each point across it, after it was scaled.")
+                   .optional(false))
           .check([](const Options& options, InputIssues& issues) {
             if (!options.has("Factors") || !options.has("Deviations")) return;
             issues.add(options.where("Factors"),

@@ -12,6 +12,10 @@ namespace {
 
 using std::numbers::pi;
 
+// Close to the tower, or behind one of much drag, the formulas of wakes leave their range. As in
+// AeroDyn they take half of the wind at most.
+constexpr double largest_deficit = 0.5;
+
 // A tower in its reference, a straight line with a radius that is linear along it.
 struct Tower {
   Vec3 foot = Vec3::Zero();
@@ -156,19 +160,19 @@ Eigen::Vector2d TowerInfluence::change(double along, double across) const {
     }
   }
   if (downstream == Downstream::none || along <= 0.0) return change;
+  double deficit = 0.0;
   if (downstream == Downstream::powles) {
     const double root = std::sqrt(std::hypot(along, across));
     if (std::abs(across) < root) {
       const double shape = std::cos(0.5 * pi * across / root);
-      change[0] -= drag / root * shape * shape;
+      deficit = drag / root * shape * shape;
     }
   } else {
     const double width = turbulence * along;
     const double share = across / width;
-    // close to the tower the formula leaves its range; the wake does not turn the wind round
-    change[0] -=
-        std::min(drag / (width * std::sqrt(2.0 * pi)) * std::exp(-0.5 * share * share), 1.0);
+    deficit = drag / (width * std::sqrt(2.0 * pi)) * std::exp(-0.5 * share * share);
   }
+  change[0] -= std::min(deficit, largest_deficit);
   return change;
 }
 

@@ -104,6 +104,19 @@ TEST_F(MannBoxes, DeviationsAreThoseAskedFor) {
               HasSubstr("component 1 of the box cannot be scaled to"));
 }
 
+TEST_F(MannBoxes, MeansOfPointsAreTakenAwayIfAskedFor) {
+  const SharedFlow wind = box({{"Without Means", true}, {"Factors", std::vector{2.0, 1.0, 1.0}}});
+  for (int y = 0; y < ny; ++y)
+    for (int z = 0; z < nz; ++z) {
+      double mean = 0.0;
+      for (int x = 0; x < nx; ++x) mean += known(x, y, z)[0] / nx;
+      const Vec3 profile(speed * std::pow(point(z, y)[2] / height, 0.2), 0.0, 0.0);
+      const Vec3 rest = wind->velocity(point(z, y), dt) - profile;
+      EXPECT_NEAR(rest[0], 2.0 * (known(1, y, z)[0] - mean), 1e-5);
+      EXPECT_NEAR(rest[1], known(1, y, z)[1], 1e-6);
+    }
+}
+
 TEST_F(MannBoxes, FactorsAndALogarithmicMeanWindStandInPlaceOfTheOthers) {
   const SharedFlow wind = box({{"Roughness", 0.05}, {"Factors", std::vector{2.0, 0.0, 0.5}}});
   const Vec3 place = point(1, 1);

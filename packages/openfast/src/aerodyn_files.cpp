@@ -6,6 +6,7 @@
 #include "degree.hpp"
 #include "entries.hpp"
 #include "headings.hpp"
+#include "left_out.hpp"
 #include "named_table.hpp"
 
 #include <fmt/format.h>
@@ -269,23 +270,13 @@ AirfoilColumns read_columns(InputFile& file) {
 
 // What has no place in the deck, where it is not what it is without.
 void report_not_used(InputFile& file, Report& report) {
-  struct Rest {
-    const char* keyword;
-    double neutral;
-    const char* instead;
-  };
-  constexpr Rest rests[] = {
-      {"UAStartRad", 0.0, "unsteady aerodynamics from the root on"},
-      {"UAEndRad", 1.0, "unsteady aerodynamics up to the tip"},
-      {"SkewRedistrFactor", 15.0 * std::numbers::pi / 32.0, "skewed wakes with 15 pi / 32"},
-      {"SkewModFactor", 15.0 * std::numbers::pi / 32.0, "skewed wakes with 15 pi / 32"}};
-  for (const Rest& rest : rests) {
-    if (!file.has(rest.keyword) || is_default(file, rest.keyword)) continue;
-    const double value = file.number(rest.keyword);
-    if (std::abs(value - rest.neutral) <= 1e-3 * std::max(1.0, rest.neutral)) continue;
-    report.add(not_used,
-               fmt::format("{} = {:g}: {}", place(file, rest.keyword), value, rest.instead));
-  }
+  constexpr double skew = 15.0 * std::numbers::pi / 32.0;
+  tell_left_out(file,
+                {{"UAStartRad", 0.0, "unsteady aerodynamics from the root on"},
+                 {"UAEndRad", 1.0, "unsteady aerodynamics up to the tip"},
+                 {"SkewRedistrFactor", skew, "skewed wakes with 15 pi / 32"},
+                 {"SkewModFactor", skew, "skewed wakes with 15 pi / 32"}},
+                report);
 }
 
 void ignore_rest_of_aerodyn(InputFile& file) {

@@ -112,6 +112,7 @@ void write_mann(const MannFiles& box, const std::filesystem::path& folder, DeckW
   deck.set("Spacing", box.spacing);
   if (!box.factors.empty()) deck.set("Factors", box.factors);
   if (!box.deviations.empty()) deck.set("Deviations", box.deviations);
+  if (box.loses_means) deck.set("Without Means", "true");
 }
 
 void write_bladed(const BladedFile& box, DeckWriter& deck) {

@@ -169,8 +169,7 @@ void ignore_rest_of_elastodyn(InputFile& file) {
        "M_FCSmax", "M_MCSmax",       "M_CD",     "M_FCD",     "M_MCD",           "sig_v",
        "sig_v2",   "OmgCut",         "GBoxEff",  "Furling",   "FurlFile",        "TwrNodes",
        "SumPrint", "OutFile",        "TabDelim", "OutFmt",    "TStart",          "DecFact",
-       "NTwGages", "TwrGagNd",       "NBlGages", "BldGagNd",  "BldNd_BladesOut", "BldNd_BlOutNd",
-       "Gravity"});
+       "NTwGages", "TwrGagNd",       "NBlGages", "BldGagNd",  "BldNd_BladesOut", "BldNd_BlOutNd"});
   for (int i = 1; i <= 3; ++i) {
     file.ignore({fmt::format("PBrIner({})", i), fmt::format("BlPIner({})", i),
                  fmt::format("BldFile({})", i), fmt::format("PreCone({})", i),
@@ -299,6 +298,7 @@ ElastoDyn read_elastodyn(const std::filesystem::path& path, Report& report) {
   }
   turbine.tower = read_bending_tower(file.file("TwrFile"), report);
   turbine.platform = read_platform(file);
+  if (file.has("Gravity")) turbine.gravity = file.number("Gravity");  // before OpenFAST 3
   report_left_out(file, report);
   ignore_rest_of_elastodyn(file);
   report.add(unknown, file.unread());

@@ -5,6 +5,7 @@
 
 #include "file_end.hpp"
 #include "headings.hpp"
+#include "left_out.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -118,7 +119,7 @@ void read_joints(InputFile& file, HydroDyn& hydro, HydroLists& lists, Report& re
       report.add(not_used, fmt::format("{} = {:g}: the drag of faces is that of {:g}",
                                        to_string(axial.where(row, {name})), value, neutral));
     }
-    if (bounded(axial, row, "AxCp", 1.0) != 1.0 && bounded(axial, row, "AxCa", 0.0) > 0.0) {
+    if (bounded(axial, row, "AxCp", 1.0) != 1.0) {
       report.add(not_used, to_string(axial.where(row, {"AxCp"})) +
                                ": pressure of waves on faces counts fully");
     }
@@ -164,7 +165,8 @@ bool read_flag(const TextTable& table, std::size_t row, TextTable::Names names) 
   throw InputError(table.where(row, names), "must be True or False, got '" + word + "'");
 }
 
-HydroMember read_member(const TextTable& table, std::size_t i, const HydroLists& lists) {
+HydroMember read_member(const TextTable& table, std::size_t i, const HydroLists& lists,
+                        Report& report) {
   HydroMember member;
   member.id = table.integer(i, {"MemberID"});
   constexpr const char* joints[] = {"MJointID1", "MJointID2"};
@@ -192,6 +194,11 @@ HydroMember read_member(const TextTable& table, std::size_t i, const HydroLists&
     member.own = lists.coefficients[found->second];
   }
   member.has_buoyancy = table.number(i, {"MHstLMod"}, 1.0) != 0.0;
+  if (!member.has_buoyancy) {
+    report.add(assumed, to_string(table.where(i, {"MHstLMod"})) +
+                            " = 0: with the pressure of still water that of waves on faces and "
+                            "tapers is left out as well");
+  }
   member.is_potential = read_flag(table, i, {"PropPot"});
   return member;
 }
@@ -298,21 +305,18 @@ void report_rest_of_hydrodyn(InputFile& file, Report& report) {
     if (file.number(keyword, 0.0) == 0.0) continue;
     report.add(not_used, to_string(file.where(keyword)) + ": forces of second order");
   }
-  struct Rest {
-    const char* keyword;
-    double neutral;
-    const char* instead;
-  };
-  constexpr Rest rests[] = {
-      {"PtfmRefY", 0.0, "the body of potential flow stands unturned"},
-      {"PtfmYMod", 0.0, "the yaw that its waves are seen from stays"},
-      {"ExctnDisp", 0.0, "waves act on the body of potential flow at its place in the reference"},
-      {"ExctnCutOff", 0.0, "waves act at the place without a filter"}};
-  for (const Rest& rest : rests) {
-    if (!file.has(rest.keyword) || file.number(rest.keyword) == rest.neutral) continue;
-    report.add(not_used, fmt::format("{} = {:g}: {}", to_string(file.where(rest.keyword)),
-                                     file.number(rest.keyword), rest.instead));
-  }
+  tell_left_out(
+      file,
+      {{"PtfmRefY", 0.0, "the body of potential flow stands unturned"},
+       {"PtfmYMod", 0.0, "the yaw that its waves are seen from stays"},
+       {"ExctnDisp", 0.0, "waves act on the body of potential flow at its place in the reference"},
+       {"ExctnCutOff", 0.0, "waves act at the place without a filter"}},
+      report);
+  file.ignore({"Echo",        "HDSum",     "OutAll",      "OutSwtch", "OutFmt",    "OutSFmt",
+               "NMOutputs",   "NJOutputs", "JOutLst",     "HstMod",   "NBodyMod",  "NExctnHdg",
+               "PtfmYCutOff", "RdtnDT",    "RdtnTMax",    "PotFile",  "WAMITULEN", "PtfmVol0",
+               "PtfmCOBxt",   "PtfmCOByt", "RdtnMod",     "ExctnMod", "NBody",     "PtfmRefxt",
+               "PtfmRefyt",   "PtfmRefzt", "PtfmRefztRot"});
   if (file.number("WaveDisp", 1.0) == 0.0) {
     report.add(assumed, to_string(file.where("WaveDisp")) +
                             ": waves at the place without displacement; in the deck at the place "
@@ -363,7 +367,7 @@ HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& su
   const TextTable members = read_table(file, "NMembers", "member");
   index_rows(members, {"MemberID"});
   for (std::size_t i = 0; i < members.size(); ++i) {
-    hydro.members.push_back(read_member(members, i, lists));
+    hydro.members.push_back(read_member(members, i, lists, report));
     const HydroMember& member = hydro.members.back();
     if (member.coefficients == 2 && hydro.by_depth.empty()) {
       throw InputError(members.where(i, {"MCoefMod"}), "there are no coefficients by depth");
@@ -376,6 +380,12 @@ HydroDyn read_hydrodyn(const std::filesystem::path& path, const Surroundings& su
   hydro.potential = read_potential(file, report);
   hydro.added = read_added(file);
   report_rest_of_hydrodyn(file, report);
+  if (file.number("AMMod", 1.0) == 0.0 && hydro.sea.stretching != "None") {
+    report.add(assumed, to_string(file.where("AMMod")) +
+                            " = 0: added mass up to the water's surface all the same");
+  }
+  ignore_sea(file);  // which was part of older files
+  report.add(unknown, file.unread());
   check_end(file, report);
   report.add(read, fmt::format("{}: HydroDyn, {} joints, {} members, {} depths with coefficients, "
                                "{} with growth",

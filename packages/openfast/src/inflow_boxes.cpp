@@ -13,6 +13,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace culm::openfast {
@@ -27,6 +28,7 @@ void read_scaling(InputFile part, Wind& wind, Report& report) {
     return std::vector{non_negative(part, name + "x"), non_negative(part, name + "y"),
                        non_negative(part, name + "z")};
   };
+  wind.mann.loses_means = method != 0;
   if (method == 1) wind.mann.factors = three("SF");
   if (method == 2) {
     wind.mann.deviations = three("SigmaF");
@@ -144,6 +146,17 @@ class Scaling {
   }
 
   std::string text(const std::string& name) { return get(name).value; }
+  Where where(const std::string& name) const { return {path_.string(), get(name).line, name}; }
+  /// Entries that nobody asked for.
+  std::vector<InputIssue> unread() const {
+    std::vector<InputIssue> issues;
+    for (const auto& [name, entry] : values_) {
+      if (known_.contains(name)) continue;
+      issues.push_back(
+          {{path_.string(), entry.line, name}, "unknown entry, left out: '" + entry.value + "'"});
+    }
+    return issues;
+  }
   double number(const std::string& name) {
     const Entry& entry = get(name);
     const std::optional<double> found = find_number(entry.value);
@@ -151,7 +164,7 @@ class Scaling {
     return *found;
   }
   double number(const std::string& name, double otherwise) {
-    return values_.contains(to_lower(name)) ? number(name) : otherwise;
+    return has(name) ? number(name) : otherwise;
   }
   double positive(const std::string& name) {
     const double value = number(name);
@@ -164,7 +177,9 @@ class Scaling {
     int line = 0;
     std::string value;
   };
+  bool has(const std::string& name) const { return values_.contains(to_lower(name)); }
   const Entry& get(const std::string& name) const {
+    known_.insert(to_lower(name));
     const auto found = values_.find(to_lower(name));
     if (found == values_.end()) fail({}, name, "is missing");
     return found->second;
@@ -176,6 +191,7 @@ class Scaling {
 
   std::filesystem::path path_;
   std::map<std::string, Entry> values_;
+  mutable std::set<std::string> known_;
 };
 
 }  // namespace
@@ -263,6 +279,14 @@ void read_native_bladed(const InputFile& file, Wind& wind, Report& report) {
   wind.ahead = scaling.number("XOFFSET", 0.0);
   wind.file = (path.parent_path() / scaling.text("WINDF")).lexically_normal();
   wind.bladed.is_left_handed = wind.bladed.is_periodic = true;
+  for (const char* shear : {"VLINSHEAR", "HLINSHEAR"}) {
+    if (scaling.number(shear, 0.0) == 0.0) continue;
+    report.add(not_used, fmt::format("{} = {:g}: the mean wind has no shear but that of the power "
+                                     "law",
+                                     to_string(scaling.where(shear)), scaling.number(shear)));
+  }
+  scaling.number("REFLENGTH", 0.0);  // the length of these shears
+  report.add(unknown, scaling.unread());
   report.add(checked,
              fmt::format("{}: {:g} m/s at {:g} m, growing with the height to the power of "
                          "{:g}; at the start the hub is {:g} m inside the box",

@@ -192,20 +192,8 @@ void report_rest_of_seastate(InputFile& file, Report& report) {
   }
 }
 
-// What of a file of SeaState is known and changes nothing here.
 void finish(InputFile& file, Report& report) {
-  file.ignore({"Echo",         "WaveTMax",     "WaveDT",      "WaveDirSpread", "WaveNDir",
-               "WaveDirRange", "WaveSeed(2)",  "WvKinFile",   "WvLowCOffD",    "WvHiCOffD",
-               "WvLowCOffS",   "WvHiCOffS",    "CrestHmax",   "CrestTime",     "CrestXi",
-               "CrestYi",      "X_HalfWidth",  "Y_HalfWidth", "Z_Depth",       "NX",
-               "NY",           "NZ",           "SeaStSum",    "OutSwtch",      "OutFmt",
-               "OutSFmt",      "NWaveElev",    "WaveElevxi",  "WaveElevyi",    "NWaveKin",
-               "WaveKinxi",    "WaveKinyi",    "WaveKinzi",   "WaveHs",        "WaveTp",
-               "WavePkShp",    "WaveSeed(1)",  "WaveDir",     "WaveDirMod",    "WaveNDAmp",
-               "WaveStMod",    "CurrMod",      "CurrSSV0",    "CurrSSDir",     "CurrNSRef",
-               "CurrNSV0",     "CurrNSDir",    "CurrDIV",     "CurrDIDir",     "WvDiffQTF",
-               "WvSumQTF",     "ConstWaveMod", "MCFD",        "WvLowCOff",     "WvHiCOff",
-               "WtrDens",      "WtrDpth",      "MSL2SWL"});
+  ignore_sea(file);
   report.add(unknown, file.unread());
   check_end(file, report);
 }
@@ -253,6 +241,21 @@ Surroundings find_surroundings(const std::filesystem::path& module) {
 Surroundings read_surroundings(const std::filesystem::path& whole) {
   InputFile file(whole);
   return surroundings_of(file);
+}
+
+void ignore_sea(InputFile& file) {
+  file.ignore({"Echo",         "WaveTMax",     "WaveDT",      "WaveDirSpread", "WaveNDir",
+               "WaveDirRange", "WaveSeed(2)",  "WvKinFile",   "WvLowCOffD",    "WvHiCOffD",
+               "WvLowCOffS",   "WvHiCOffS",    "CrestHmax",   "CrestTime",     "CrestXi",
+               "CrestYi",      "X_HalfWidth",  "Y_HalfWidth", "Z_Depth",       "NX",
+               "NY",           "NZ",           "SeaStSum",    "OutSwtch",      "OutFmt",
+               "OutSFmt",      "NWaveElev",    "WaveElevxi",  "WaveElevyi",    "NWaveKin",
+               "WaveKinxi",    "WaveKinyi",    "WaveKinzi",   "WaveHs",        "WaveTp",
+               "WavePkShp",    "WaveSeed(1)",  "WaveDir",     "WaveDirMod",    "WaveNDAmp",
+               "WaveStMod",    "CurrMod",      "CurrSSV0",    "CurrSSDir",     "CurrNSRef",
+               "CurrNSV0",     "CurrNSDir",    "CurrDIV",     "CurrDIDir",     "WvDiffQTF",
+               "WvSumQTF",     "ConstWaveMod", "MCFD",        "WvLowCOff",     "WvHiCOff",
+               "WtrDens",      "WtrDpth",      "MSL2SWL",     "WaveMod"});
 }
 
 SeaState read_seastate(const std::filesystem::path& path, const Surroundings& surroundings,

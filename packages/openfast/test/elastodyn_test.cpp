@@ -100,6 +100,14 @@ TEST_F(ElastoDynFiles, DeckPutsEverythingInItsPlace) {
   EXPECT_THAT(deck, Not(HasSubstr("blade 2 station")));  // one file, one set of sections
 }
 
+TEST_F(ElastoDynFiles, OlderFilesHaveTheirGravity) {
+  const std::string old = "3.7  Gravity  - (m/s^2)\n--- INITIAL CONDITIONS ---";
+  write("turbine.dat", change(turbine, "--- INITIAL CONDITIONS ---", old));
+  const Imported imported = import_file(path_);
+  EXPECT_THAT(imported.deck, HasSubstr(R"(name="Acceleration" value="{0, 0, -3.7}")"));
+  EXPECT_THAT(imported.report, Not(HasSubstr("gravity 9.80665")));
+}
+
 // With phi = x^2: int EI phi''^2 = 4 EI, int m phi^2 = 24 (1/5) - 12 (1/6) = 2.8 kg/m.
 TEST_F(ElastoDynFiles, ReportHasFrequenciesMassesAndAssumptions) {
   const std::string report = import_file(path_).report;

@@ -111,9 +111,10 @@ TEST_F(InflowBoxes, OfHawc2HaveAMeanWindAndFactorsOrDeviations) {
        {R"("Mann Box")", "/mann_u.bin, ", "/mann_w.bin}\"", R"(name="Points" value="{4, 3, 2}")",
         R"(name="Factors" value="{1.5, 0.7, 0.5}")", R"(name="Speed" value="V")",
         R"(name="Exponent" value="0.1")", R"(name="Centre" value="{0, 0, 25}")",
-        R"(name="Delay" value="0.5")"}) {
+        R"(name="Delay" value="0.5")", R"(name="Without Means" value="true")"}) {
     EXPECT_THAT(winds(deck(5)), HasSubstr(part));
   }
+  EXPECT_FALSE(inflow(change(wind_of_type(5), method, "0   ScaleMethod")).mann.loses_means);
 }
 
 TEST_F(InflowBoxes, OfTurbSimInBladedsFormatFollowTheirSummary) {
@@ -158,6 +159,15 @@ TEST_F(InflowBoxes, OfBladedFollowTheFileWithTheirScaling) {
         R"(name="Components Across" value="Right")"}) {
     EXPECT_THAT(winds(deck(7)), HasSubstr(part));
   }
+}
+
+TEST_F(InflowBoxes, WhatAScalingSaysBesideIsTold) {
+  write("style", scaling + "VLINSHEAR  0.1\nHLINSHEAR 0\nREFLENGTH  120\nTWRSHADE  2\n");
+  (void)inflow(7);
+  EXPECT_THAT(told(), HasSubstr("style:11: VLINSHEAR = 0.1: the mean wind has no shear but"));
+  EXPECT_THAT(told(), HasSubstr("style:14: twrshade: unknown entry, left out: '2'"));
+  EXPECT_THAT(told(), Not(HasSubstr("HLINSHEAR")));
+  EXPECT_THAT(told(), Not(HasSubstr("reflength")));
 }
 
 TEST_F(InflowBoxes, MistakesAreNamedWithTheirPlace) {

@@ -177,6 +177,18 @@ TEST_F(OffshoreFiles, WhatHydroDynDoesWithFacesIsTold) {
   EXPECT_THAT(imported.report, HasSubstr("AxFDMod = 1: the drag of faces is that of 0"));
   EXPECT_THAT(imported.report, HasSubstr("AxFDLoFSc = 0.3: the drag of faces is that of 1"));
   EXPECT_THAT(imported.report, Not(HasSubstr("AxVnCOff")));
+  const std::string pressed =
+      change(hydrodyn_file, "  1       0.0    0.0    1.0 ", "  1       0.0    0.0    0.0 ");
+  EXPECT_THAT(import(pressed).report, HasSubstr("AxCp: pressure of waves on faces counts fully"));
+}
+
+TEST_F(OffshoreFiles, WhatNobodyKnowsIsTold) {
+  EXPECT_THAT(import(hydrodyn_file).report, Not(HasSubstr("unknown entry")));
+  const std::string text =
+      change(hydrodyn_file, "---- OUTPUT ----", "7         MyOption - Own\n---- OUTPUT ----");
+  EXPECT_THAT(import(text).report, HasSubstr("MyOption: unknown entry, left out: '7'"));
+  const std::string dry = change(hydrodyn_file, "0.5       3        1 ", "0.5       3        0 ");
+  EXPECT_THAT(import(dry).report, HasSubstr("MHstLMod = 0: with the pressure of still water"));
 }
 
 TEST_F(OffshoreFiles, DepthsAreHeights) {

@@ -15,6 +15,7 @@ struct MannFiles {
   std::vector<double> spacing;     ///< [m]
   std::vector<double> factors;     ///< on the components; none if empty
   std::vector<double> deviations;  ///< to which components are scaled; not if empty [m/s]
+  bool loses_means = false;        ///< of the component along the wind, at each point
 };
 
 /// What a file of Bladed does not say of itself.

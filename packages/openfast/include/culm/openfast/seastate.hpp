@@ -53,6 +53,9 @@ struct SeaState {
   std::vector<double> current_depths, current_speeds;  ///< of a table [m, m/s]
 };
 
+/// Takes the keywords of SeaState as known, in a file of its own or in an older one of HydroDyn.
+void ignore_sea(InputFile& file);
+
 /// Throws InputError, FileError; tells the report what it found and what is not in the deck.
 SeaState read_seastate(const std::filesystem::path& path, const Surroundings& surroundings,
                        Report& report);
