@@ -260,6 +260,14 @@ model::Coordinates Dynamics::first_acceleration(double first_step) {
       return stencil.inertia * (next - prev) + offset;
     };
     model::combine(acceleration, found, state.next, state.prev, state.acceleration_offset);
+  } else {
+    context().findings.warn(
+        "first acceleration",
+        fmt::format("no motion was found that begins at {:.6g} s, so scheme '{}' "
+                    "begins without acceleration: its first step is of first "
+                    "order",
+                    state.time_prev, scheme_->name()),
+        state.time_prev);
   }
   system().discard(state);
   make_newton(settings_.newton);  // what is rounding in so short a step is none in others

@@ -88,6 +88,7 @@ struct Crossing {
   std::optional<double> below, above = {};  // levels between which it happens
   double rate_below = 0.0, rate_above = 0.0;
   Growth at_above = {};
+  bool is_within = false;  // no equilibrium is found between these levels
 
   void begin(const ModeSet& first) {
     if (!by_stiffness) return;
@@ -124,7 +125,11 @@ struct Crossing {
     if (!growth) return fmt::format("{} below the first level, {:.6g}", name, levels.front());
     const double frequency = growth->mode.frequency();
     const std::string with = frequency > 0.0 ? fmt::format(", with {:.6g} Hz", frequency) : "";
-    return fmt::format("{} from level {:.7g} on{}", name, *above, with);
+    const std::string within =
+        is_within
+            ? fmt::format("; between {:.7g} and {:.7g} no equilibrium was found", *below, *above)
+            : "";
+    return fmt::format("{} from level {:.7g} on{}{}", name, *above, with, within);
   }
 };
 
@@ -158,6 +163,7 @@ Growth close_in(Crossing& crossing, ModeDiagram& diagram, model::State& state) {
     if (!here) {
       if (++refused < most_refused) continue;
       above = level;
+      crossing.is_within = true;
       return last;
     }
     refused = 0;
