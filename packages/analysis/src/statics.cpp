@@ -119,6 +119,16 @@ void Statics::do_begin() {
   }
   make_newton(settings_.newton);
   newton().hold_free(hangs_);
+  if (hangs_) try_hanging();
+}
+
+// Whether the first step leads to where nothing moves freely any more must be known before there are
+// results.
+void Statics::try_hanging() {
+  const bool holds = do_attempt(proposal()).outcome.converged();
+  system().discard(state());
+  newton().go_back();
+  if (!holds) post_mortem().refuse_singular();
 }
 
 StepReport Statics::do_attempt(double level) {

@@ -59,6 +59,8 @@ class Statics final : public Stepper {
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
   void watch_pairs(const StepReport& report);
+  /// Throws NumericalError if something moves freely after the first step as well.
+  void try_hanging();
   /// Measures the structure again once loads give it the stiffness that it had not at the start.
   void note_hanging();
 
