@@ -1,12 +1,13 @@
 #!/bin/sh
 # compile_with_headers.sh COMPILER ARGUMENTS...: starts the compiler. GCC maps a precompiled header
 # whole at one address and gives up ("PCH allocation failure") where a machine denies it that, for
-# want of address space or of memory it may promise. The same headers then go in as text.
+# want of address space or of memory it may promise; a file that was cut off, as when a build was
+# killed, ends it with a bus error. The same headers then go in as text.
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
 "$@" 2>"$log"
 status=$?
-if [ $status -eq 0 ] || ! grep -q 'PCH allocation failure' "$log"; then
+if [ $status -eq 0 ] || ! grep -qE 'PCH allocation failure|Bus error' "$log"; then
   cat "$log" >&2
   exit $status
 fi

@@ -122,8 +122,8 @@ void Statics::do_begin() {
   if (hangs_) try_hanging();
 }
 
-// Whether the first step leads to where nothing moves freely any more must be known before there are
-// results.
+// Whether the first step leads to where nothing moves freely any more must be known before there
+// are results.
 void Statics::try_hanging() {
   const bool holds = do_attempt(proposal()).outcome.converged();
   system().discard(state());

@@ -312,7 +312,7 @@ void report_rest_of_hydrodyn(InputFile& file, Report& report) {
        {"ExctnDisp", 0.0, "waves act on the body of potential flow at its place in the reference"},
        {"ExctnCutOff", 0.0, "waves act at the place without a filter"}},
       report);
-  file.ignore({"Echo",        "HDSum",     "OutAll",      "OutSwtch", "OutFmt",    "OutSFmt",
+  file.ignore({"AddF0", "AddCLin", "AddBLin", "AddBQuad", "Echo",        "HDSum",     "OutAll",      "OutSwtch", "OutFmt",    "OutSFmt",
                "NMOutputs",   "NJOutputs", "JOutLst",     "HstMod",   "NBodyMod",  "NExctnHdg",
                "PtfmYCutOff", "RdtnDT",    "RdtnTMax",    "PotFile",  "WAMITULEN", "PtfmVol0",
                "PtfmCOBxt",   "PtfmCOByt", "RdtnMod",     "ExctnMod", "NBody",     "PtfmRefxt",

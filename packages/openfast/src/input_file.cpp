@@ -24,6 +24,12 @@ std::string key_of(const std::string& keyword) {
   return key;
 }
 
+// Rows of tables end with such words, too.
+bool is_value(const std::string& word) {
+  const std::string text = to_lower(word);
+  return text == "true" || text == "false" || text == "default";
+}
+
 // Whether a keyword at this place ends an entry: a comment follows, or nothing. In the latter case
 // the value must look like one, because headers of tables are words, too.
 bool ends_entry(const std::vector<Word>& words, std::size_t at) {
@@ -31,8 +37,8 @@ bool ends_entry(const std::vector<Word>& words, std::size_t at) {
     const char next = words[at + 1].text.empty() ? ' ' : words[at + 1].text.front();
     return next == '-' || next == '(' || next == '!';
   }
-  const std::string value = to_lower(words.front().text);
-  return words.front().quoted || find_number(value) || value == "true" || value == "false";
+  const std::string& value = words.front().text;
+  return words.front().quoted || find_number(value) || is_value(value);
 }
 
 std::vector<std::string> read_lines_of(const std::filesystem::path& path) {
@@ -70,7 +76,8 @@ void InputFile::read_lines() {
     while (at < words.size() && (words[at].quoted || find_number(words[at].text))) {
       entry.values.push_back(words[at++].text);
     }
-    if (at == words.size() || !is_keyword(words[at]) || !ends_entry(words, at)) continue;
+    if (at == words.size() || !is_keyword(words[at]) || is_value(words[at].text) ||
+        !ends_entry(words, at)) continue;
     entry.keyword = words[at].text;
     entry.key = key_of(entry.keyword);
     entries_.push_back(std::move(entry));
