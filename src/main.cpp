@@ -409,6 +409,14 @@ int show_model(const CheckArguments& check, int code) {
   return code == 0 ? drawn : code;
 }
 
+// What was printed may be what was asked for, as with 'reference', and a full disk has no room for
+// it.
+int check_printed(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  print_lines("standard output cannot be written");
+  return code == 0 ? file_error : code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -418,7 +426,7 @@ int main(int argc, char** argv) {
   Arguments arguments;
   bool is_root = false;
   int code = run_verb(argc, argv, arguments, launcher.is_inside(), is_root);
-  code = show_model(arguments.check, code);
+  code = check_printed(show_model(arguments.check, code));
   std::filesystem::path folder = arguments.partners().started;
   if (code == 0 && arguments.partners().needs_launcher) {
     const culm::app::Verdict verdict = launch(launcher, words, arguments.partners());

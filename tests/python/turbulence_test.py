@@ -36,6 +36,12 @@ class Turbulence(unittest.TestCase):
             # the first point follows one set of phases: its variance is exact
             self.assertAlmostEqual(box(1)[0][:, 0, 0, component].var() / (power.sum() / 100.0), 1.0, delta=1e-12)
 
+    def test_a_scaled_box_has_what_was_asked_for(self):
+        arguments = turbulence.parser().parse_args(["x", *OPTIONS, "--scaled"])
+        found = turbulence.fluctuations(arguments)[:, 0, 0].std(axis=0)
+        self.assertLess(np.abs(found / (1.5 * np.array(turbulence.DEVIATIONS)) - 1.0).max(), 1e-12)
+        self.assertLess(turbulence.deviations_held(arguments)[0], 0.8)
+
     def test_pairs_are_as_coherent_as_asked(self):
         seeds = 60
         frequency = np.arange(1, 200) / 100.0

@@ -312,11 +312,12 @@ void report_rest_of_hydrodyn(InputFile& file, Report& report) {
        {"ExctnDisp", 0.0, "waves act on the body of potential flow at its place in the reference"},
        {"ExctnCutOff", 0.0, "waves act at the place without a filter"}},
       report);
-  file.ignore({"AddF0", "AddCLin", "AddBLin", "AddBQuad", "Echo",        "HDSum",     "OutAll",      "OutSwtch", "OutFmt",    "OutSFmt",
-               "NMOutputs",   "NJOutputs", "JOutLst",     "HstMod",   "NBodyMod",  "NExctnHdg",
-               "PtfmYCutOff", "RdtnDT",    "RdtnTMax",    "PotFile",  "WAMITULEN", "PtfmVol0",
-               "PtfmCOBxt",   "PtfmCOByt", "RdtnMod",     "ExctnMod", "NBody",     "PtfmRefxt",
-               "PtfmRefyt",   "PtfmRefzt", "PtfmRefztRot"});
+  file.ignore({"AddF0",       "AddCLin",  "AddBLin",   "AddBQuad",  "Echo",        "HDSum",
+               "OutAll",      "OutSwtch", "OutFmt",    "OutSFmt",   "NMOutputs",   "NJOutputs",
+               "JOutLst",     "HstMod",   "NBodyMod",  "NExctnHdg", "PtfmYCutOff", "RdtnDT",
+               "RdtnTMax",    "PotFile",  "WAMITULEN", "PtfmVol0",  "PtfmCOBxt",   "PtfmCOByt",
+               "RdtnMod",     "ExctnMod", "NBody",     "PtfmRefxt", "PtfmRefyt",   "PtfmRefzt",
+               "PtfmRefztRot"});
   if (file.number("WaveDisp", 1.0) == 0.0) {
     report.add(assumed, to_string(file.where("WaveDisp")) +
                             ": waves at the place without displacement; in the deck at the place "

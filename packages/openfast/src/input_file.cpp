@@ -77,7 +77,8 @@ void InputFile::read_lines() {
       entry.values.push_back(words[at++].text);
     }
     if (at == words.size() || !is_keyword(words[at]) || is_value(words[at].text) ||
-        !ends_entry(words, at)) continue;
+        !ends_entry(words, at))
+      continue;
     entry.keyword = words[at].text;
     entry.key = key_of(entry.keyword);
     entries_.push_back(std::move(entry));

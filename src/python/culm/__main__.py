@@ -19,6 +19,10 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}\n")
 
 
+def _print_no_more():
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def main():
     parser = Parser(prog="culm")
     verbs = parser.add_subparsers(dest="verb", required=True)
@@ -34,15 +38,21 @@ def main():
     from .program import Program
 
     try:
-        return module.main(arguments, Program(os.environ["CULM_PROGRAM"]))
+        code = module.main(arguments, Program(os.environ["CULM_PROGRAM"]))
+        sys.stdout.flush()
+        return code
     except CulmError as error:
         print(f"culm {arguments.verb}: {error}", file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:  # who reads what is printed has seen enough, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _print_no_more()
         return 0
+    except OSError as error:  # a full disk, a folder that may not be written
+        _print_no_more()
+        print(f"culm {arguments.verb}: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
+        return 6
 
 
 sys.exit(main())

@@ -4,6 +4,8 @@ import base64
 import html
 import io
 
+from .whole_file import write_whole
+
 STYLE = """
 body{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.6rem;margin-bottom:.2rem}h2{font-size:1.2rem;margin-top:2rem}
@@ -63,10 +65,10 @@ class Page:
 
     def write(self, path):
         body = "\n".join(self.parts)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(
-                '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-                '<meta name="viewport" content="width=device-width">'
-                f"<title>{html.escape(self.title)}</title><style>{STYLE}</style></head>\n"
-                f"<body>\n{body}\n</body></html>\n"
-            )
+        write_whole(
+            path,
+            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            '<meta name="viewport" content="width=device-width">'
+            f"<title>{html.escape(self.title)}</title><style>{STYLE}</style></head>\n"
+            f"<body>\n{body}\n</body></html>\n",
+        )

@@ -80,7 +80,7 @@ class Program:
         @param settings   path=value, as --set takes them
         @param time_limit wall time [s] after which the run is killed
         """
-        command = [self.path, "run", str(deck), "--output", str(folder)]
+        command = [self.path, "run", _word(deck), "--output", _word(folder)]
         if not pictures:
             settings = [*settings, "Output/Pictures=false"]
         for setting in settings:
@@ -97,13 +97,13 @@ class Program:
     def resume(self, folder, walltime, time_limit=None):
         """Goes on from the checkpoint of a run for about `walltime` seconds; what the run wrote in
         its folder is continued."""
-        command = [self.path, "resume", str(folder), "--walltime", str(walltime)]
+        command = [self.path, "resume", _word(folder), "--walltime", str(walltime)]
         return self._call(command, folder, time_limit)
 
     def resolve(self, deck, path, settings=()):
         """Writes the deck as it is used, with all defaults, to `path`. Raises CulmError with what
         the program says of a deck that is wrong."""
-        command = [self.path, "check", str(deck), "--quiet", "--resolved", str(path)]
+        command = [self.path, "check", _word(deck), "--quiet", "--resolved", _word(path)]
         for setting in settings:
             command += ["--set", setting]
         done = subprocess.run(command, capture_output=True, text=True, env=_environment())
@@ -125,6 +125,11 @@ class Program:
             time.monotonic() - start,
             pathlib.Path(folder),
         )
+
+
+def _word(path):
+    """A path that is not taken for an option."""
+    return f"./{path}" if str(path).startswith("-") else str(path)
 
 
 def _wait(process, time_limit):

@@ -40,7 +40,7 @@ def main(arguments, program):
     try:
         write_page(Results(path), arguments.folder, output, arguments.window)
     except OSError as error:
-        raise CulmError(str(error), 6) from error
+        raise CulmError(f"{error.filename}: {error.strerror}" if error.filename else str(error), 6) from error
     if not arguments.quiet:
         print(output)
     return 0

@@ -59,7 +59,11 @@ def _deck(path, name, stations, points, twist, findings):
     kind = "full matrices" if stations.is_full else "values of Timoshenko's beam"
     findings.read[name] = f"{len(r)} stations, {kind}, {lengths[-1]:.6g} m, {mass:.6g} kg"
     findings.leave_out("damping, and what the body is joined to: it is clamped at its first end")
-    return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
+    # z of the system that HAWC2 has in space points down, and bodies that stand up go against it
+    up = 1.0 if points[-1][2] > points[0][2] else -1.0
+    if up < 0.0:
+        findings.assume("weight acts along z, against which the body goes from its first end")
+    return ReadyDeck(deck.finish((0.0, 0.0, -9.81 * up)), findings, deck.mass)
 
 
 def _section(row):

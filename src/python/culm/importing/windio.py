@@ -194,7 +194,9 @@ def _blade(root, parts, path, findings):
     findings.read["form"] = "windIO 2" if is_new else "windIO 1"
     findings.read["blade"] = f"{len(stations)} stations, {length:.6g} m, {weight:.6g} kg"
     findings.assume("axes and twist are those of BeamDyn: x to the suction side, z to the tip, twist about -z")
-    _tell_masses(blade, "blade", ("joint",), findings)
+    for part in (blade, blade.get("structure"), blade.get("internal_structure_2d_fem")):
+        if isinstance(part, dict):
+            _tell_masses(part, "blade", ("joint",), findings)
     for key, value in _elastic(blade, is_new).items():
         if key not in READ[is_new] and value:
             findings.leave_out(f"{key} of the blade's elastic properties")
@@ -251,6 +253,10 @@ def _tower(root, parts, path, findings):
             _tell_masses(parts["monopile"], "monopile", ("transition_piece_mass",), findings)
         _tell_masses(parts["monopile"], "monopile", ("gravity_foundation_mass",), findings)
     deck.clamp(f"{below or 'tower'}/first", "the foot: put springs of the soil in its place")
+    for name in ("jacket", "floating_platform"):
+        if name in parts:
+            findings.leave_out(f"the {name} below the tower, with its masses: the tower is clamped at its foot")
+            _tell_masses(parts[name], name, ("transition_piece_mass",), findings)
     findings.leave_out("nacelle and rotor, the soil and the water")
     return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
 
@@ -272,6 +278,8 @@ def _tube(root, parts, name, path, deck, findings):
     factor = inside.get("outfitting_factor", 1.0)
     if not isinstance(factor, (int, float)) or not 0.0 < factor < 100.0:
         refuse(Place(str(path), 1), f"{name} / outfitting_factor must be a number > 0, got {factor!r}")
+    if inside.get("elastic_properties"):
+        findings.leave_out(f"elastic_properties of the {name}, with their damping: its sections follow from diameter and wall")
     diameters = _table(shape, "outer_diameter", path, *where)
     walls = _table(layers[0], "thickness", path, *where, "layers")
     places, values = _stepped(diameters, walls)

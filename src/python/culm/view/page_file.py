@@ -2,11 +2,10 @@
 
 import html
 import json
-import os
 import pathlib
-import tempfile
 
 from ..errors import CulmError
+from ..whole_file import write_whole
 
 PARTS = pathlib.Path(__file__).parent / "page"
 THREE = pathlib.Path("/usr/share/javascript/three")
@@ -33,21 +32,7 @@ def write(path, scene, ghost):
     ):
         before, after = text.split(mark)
         text = before + part + after
-    with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, encoding="utf-8") as file:
-        try:
-            file.write(text)
-            file.close()
-            os.chmod(file.name, 0o666 & ~_umask())
-            os.replace(file.name, path)
-        except BaseException:
-            os.unlink(file.name)
-            raise
-
-
-def _umask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    write_whole(path, text)
 
 
 def _library():
