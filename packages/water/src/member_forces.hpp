@@ -102,36 +102,71 @@ class SegmentForces {
   void add_mantle() {
     Number off_axis(0.0);  // integral of the heights over the axis in wet slices
     const Cone outer = cone(&WetSection::diameter);
+    CutPlane plane;
     visit_wet<Number>(
         outer, immersion_, [&](const Number& share, const Number& weight, const Slice& slice) {
           const Number length = weight * Number(segment_.length);
           const Vector<Number> force = force_per_length(share, slice, outer.radius(share));
           add(share, length * force);
           off_axis += length * slice.first;
-          if (model_.buoyancy) add_cut_off(share, value_of(length), slice);
+          see(share, weight, slice, outer, plane);
         });
     if (!model_.buoyancy) return;
     add_righting(outer, off_axis);
-    add_upright_cut_off(outer);
+    add_cut_off(outer, plane);
+  }
+
+  // The plane in which the surface cuts a segment: wide by the chord of a slice, and long by the
+  // length over the sine.
+  struct CutPlane {
+    double area = 0.0, shares = 0.0;  // and its integral with the share of the axis
+    // What slices gain in area and first moment by the growth of radii along the axis, where they
+    // are wet.
+    double grown_area = 0.0, grown_first = 0.0;
+  };
+  void see(const Number& share, const Number& weight, const Slice& slice, const Cone& cone,
+           CutPlane& plane) const {
+    const double at = value_of(share), radius = cone.radius(at);
+    const double growth = value_of(weight) * (cone.radii[1] - cone.radii[0]);
+    const double sine = value_of(immersion_.sine);
+    const bool is_cut = slice.chord > 0.0 && sine > 0.0;
+    const double depth =
+        std::lerp(value_of(immersion_.depths[0]), value_of(immersion_.depths[1]), at);
+    const double angle =
+        is_cut ? std::acos(std::clamp(-depth / (sine * radius), -1.0, 1.0)) : std::numbers::pi;
+    plane.grown_area += 2.0 * radius * angle * growth;
+    plane.grown_first -= radius * slice.chord * growth;
+    if (!is_cut) return;
+    const double area = value_of(weight) * segment_.length * slice.chord / sine;
+    plane.area += area;
+    plane.shares += at * area;
   }
 
   // Where waves are counted up to still water only, the volume ends at a plane on which their
   // pressure would act, and there is no face: it is taken back, as is what vertical stretching
-  // leaves in troughs. The plane is wide by the chord of a slice, and long by the length over the
-  // sine. @param sign  -1 for water inside
-  void add_cut_off(const Number& share, double length, const Slice& slice, double sign = 1.0) {
-    if (slice.chord <= 0.0) return;
-    add_cut_off(share, sign * length * slice.chord / value_of(immersion_.sine));
-  }
-  void add_upright_cut_off(const Cone& cone, double sign = 1.0) {
+  // leaves in troughs. Of members that stand the plane is what is lost of the area of slices from
+  // one end to the other; where it crosses a joint, its parts and those of the dry faces there
+  // change quickly with the tilt, and their sum does not, nor may its derivative.
+  // @param sign  -1 for water inside
+  void add_cut_off(const Cone& cone, const CutPlane& plane, double sign = 1.0) {
+    constexpr double standing = 0.5;  // sine of the inclination
     const double h0 = value_of(immersion_.depths[0]), h1 = value_of(immersion_.depths[1]);
-    if (value_of(immersion_.sine) > 0.0 || (h0 > 0.0) == (h1 > 0.0)) return;
-    const double share = h0 / (h0 - h1), radius = cone.radius(share);
-    add_cut_off(Number(share), sign * std::numbers::pi * radius * radius);
-  }
-  void add_cut_off(const Number& share, double area) {
-    const double height = std::lerp(cut_off_[0], cut_off_[1], value_of(share));
-    if (height != 0.0) add(share, Number(specific_weight() * height * area) * up_);
+    const bool is_upright = !(value_of(immersion_.sine) > 0.0);
+    if (is_upright ? (h0 > 0.0) == (h1 > 0.0) : plane.area <= 0.0) return;
+    const double share = is_upright ? h0 / (h0 - h1) : plane.shares / plane.area;
+    const double height = sign * std::lerp(cut_off_[0], cut_off_[1], share);
+    if (height == 0.0) return;
+    const Number pressure(specific_weight() * height);
+    const Slice first = slice_at<Number>(cone, immersion_, Number(0.0));
+    const Slice last = slice_at<Number>(cone, immersion_, Number(1.0));
+    const bool stands = std::abs(value_of(rise_)) > standing;
+    const Number area = stands ? Number((first.area - last.area + Number(plane.grown_area)) / rise_)
+                               : Number(plane.area);
+    add(Number(share), pressure * area * up_);
+    if (is_upright) return;
+    // about its middle on the axis, as in take_back_pressure
+    const Number lever = first.first - last.first + Number(plane.grown_first);
+    add_couple(Number(-pressure * lever / immersion_.sine) * across_up_);
   }
 
   // Water inside that is open to that outside: its pressure is the same, and it moves along across
@@ -140,6 +175,7 @@ class SegmentForces {
     const Cone inner = cone(&WetSection::flooded_diameter);
     if (inner.radii[0] <= 0.0 && inner.radii[1] <= 0.0) return;
     Number off_axis(0.0);
+    CutPlane plane;
     visit_wet<Number>(
         inner, immersion_, [&](const Number& share, const Number& weight, const Slice& slice) {
           const Number mass = weight * Number(segment_.length * density()) * slice.area;
@@ -150,14 +186,14 @@ class SegmentForces {
             const Vector<Number> water = water_at(share).push.template cast<Number>();
             force -= dot<Number>(water, tangent_) * tangent_;
             force -= Number(sea_.site().gravity) * up_;
-            add_cut_off(share, value_of(weight) * segment_.length, slice, -1.0);
           }
+          see(share, weight, slice, inner, plane);
           add(share, mass * force);
           off_axis -= weight * Number(segment_.length) * slice.first;
         });
     if (!model_.buoyancy) return;
     add_righting(inner, off_axis, -1.0);
-    add_upright_cut_off(inner, -1.0);
+    add_cut_off(inner, plane, -1.0);
   }
 
   // The moment of wet slices that are not wet as a whole. Where the axis is upright it is what
