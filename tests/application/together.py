@@ -346,7 +346,94 @@ HANGING = [
          says=["The equations are singular at level 0, before the first step.\nLikely cause: a mechanism."]),
 ]
 
+# --- piles of one piece and of pieces that meet at still water, in one crest: the same side force bends both
+
+PIECES = {"whole": (-30, 15), "cut": (-30, -2.5, 0, 2.5, 5, 15)}
+
+
+def pile_in_pieces(name, y):
+    heights = PIECES[name]
+    structures, constraints, loads = "", entry(f"{name} foot", Type="Rigid Support", Node=f"{name} 0/first"), ""
+    for number, (low, high) in enumerate(zip(heights, heights[1:])):
+        line = entry("Curve", Type="Line", From=f"{{0, {y}, {low}}}", To=f"{{0, {y}, {high}}}", Up="{1, 0, 0}",
+                     Elements=str(max(1, round((high - low) / 5))))
+        structures += entry(f"{name} {number}", Type="Beam", Section="pile").replace("</ParameterList>", f"{line}</ParameterList>")
+        loads += entry(f"{name} {number}", Type="Morison", Structure=f"{name} {number}", Flow="sea", Diameter="10",
+                       Dry_Ends="{first, last}", Segments="20")
+        if number > 0:
+            constraints += entry(f"{name} {number}", Type="Rigid Connection", Node=f"{name} {number}/first",
+                                 Master=f"{name} {number - 1}/last")
+    loads += entry(f"{name} wind", Type="Force", Node=f"{name} {len(heights) - 2}/last", Force="{3e6, 0, 0}")
+    return structures, constraints, loads
+
+
+def has_one_bending(folder, _):
+    row = last_row(folder)
+    whole, cut = row["whole My [N m]"], row["cut My [N m]"]
+    return "" if abs(whole - cut) < 1e-4 * abs(whole) else f"the foot of the whole pile bends by {whole}, of the cut one by {cut}"
+
+
+AT_STILL_WATER = Case(
+    "a pile with a joint at still water", 0, args=RUN, leaves=["out"], check=has_one_bending,
+    deck=deck(
+        listed("Sections", entry("pile", Type="Tube", Young_Modulus="2e11", Shear_Modulus="7.93e10", Density="7850",
+                                 Outer_Radius="5", Wall_Thickness="0.0553")),
+        listed("Flows", entry("sea", Type="Regular Waves", Depth="30", Height="8", Period="9.45", Stretching="None")),
+        *(listed(title, *parts) for title, parts in zip(
+            ("Structures", "Constraints", "Loads"), zip(pile_in_pieces("whole", 0), pile_in_pieces("cut", 100)))),
+        listed("Analyses", entry("crest", Type="Static", Steps="2")),
+        listed("Output", listed("History", *(entry(name, Type="Reaction", Node=f"{name} 0/first") for name in PIECES)))))
+
+# --- a column that is bent by 1e-3 in its own shape, with a cap on which its load of 0.8 times the critical one acts
+
+
+def bent_column(*structures, constraints, loaded, root="c/first"):
+    values = {"EA": "1e5", "GA1": "1e5", "GA2": "1e5", "EI1": "1", "EI2": "2", "GIp": "1", "rhoA": "1", "rhoI1": "1e-6", "rhoI2": "1e-6"}
+    return deck(
+        listed("Materials", entry("soft", Type="Isotropic", Young_Modulus="1e6", Poisson_Ratio="0.3")),
+        listed("Sections", entry("bar", Type="Stiffness Values", **values)),
+        listed("Structures", *structures), listed("Constraints", *constraints), GROWS,
+        listed("Loads", entry("P", Type="Force", Node=loaded, Force="{0, 0, -1}", Function="grows")),
+        listed("Imperfections", entry("bow", Analysis="buckling", Amplitude="1e-3")),
+        listed("Analyses", entry("buckling", Type="Buckling", Modes="1"),
+               entry("load", Type="Static", Start_From="Reference", Final_Level="1.97392", Steps="8")),
+        listed("Output", listed("History", entry("top", Type="Displacement", Node=loaded), entry("root", Type="Reaction", Node=root))))
+
+
+COLUMN = entry("c", Type="Beam", Section="bar").replace("</ParameterList>", entry(
+    "Curve", Type="Line", From="{0, 0, 0}", To="{0, 0, 1}", Elements="12", Up="{1, 0, 0}") + "</ParameterList>")
+TUBE = entry("c", Type="Tube", Model="Shell", From="{0, 0, 0}", To="{0, 0, 1}", Up="{1, 0, 0}", Material="soft",
+             Outer_Radius="0.0212", Wall_Thickness="0.0046", Elements="{8, 8}")
+FOOT = entry("foot", Type="Rigid Support", Node="c/first")
+CAP = entry("cap", Type="Rigid Body", Position="{0, 0, 1}", Mass="1", Inertia="{0.1, 0.1, 0.1}")
+CAPPED = entry("cap", Type="Rigid Connection", Node="cap", Master="c/last")
+
+
+def bends_further(folder, _):
+    """By a share of the load over what is left of it, whatever the direction."""
+    row = last_row(folder)
+    share = 1.97392 / 2.4674011
+    sway, expected = math.hypot(row["top ux [m]"], row["top uy [m]"]), 1e-3 * share / (1 - share)
+    return "" if abs(sway - expected) < 2e-3 * expected else f"the cap sways by {sway}, not {expected}"
+
+
+def has_its_lever(folder, _):
+    """The moment at the foot is the load by what the end of the tube is beside its axis."""
+    row = last_row(folder)
+    sway, moment = (math.hypot(row[one], row[other]) for one, other in (("top ux [m]", "top uy [m]"), ("root Mx [N m]", "root My [N m]")))
+    return "" if abs(moment - 0.02 * (sway + 1e-3)) < 1e-3 * moment else f"the end sways by {sway}, the moment is {moment}"
+
+
+BENT = [
+    Case("a bent column with a cap", 0, args=RUN, leaves=["out"], check=bends_further,
+         deck=bent_column(COLUMN, CAP, constraints=[FOOT, CAPPED], loaded="cap")),
+    Case("a bent tube of shells", 0, args=f"{RUN} --set Loads/P/Force={{0,0,-1e-2}}", leaves=["out"], check=has_its_lever,
+         deck=bent_column(TUBE, constraints=[FOOT], loaded="c/last").replace("1.97392", "2")),
+]
+
 CASES = [
+    *BENT,
+    AT_STILL_WATER,
     *TURNING,
     *HANGING,
     *FALLS,

@@ -35,6 +35,9 @@ void build(const Options& options, const Inertia& inertia, structure::StructureC
   model::NodeSlots slots;
   slots << model::vector(options, "Position"), nearest_rotation(triad);
   model::Model& model = context.model;
+  if (context.imperfection != nullptr) {
+    slots = context.imperfection->moved(options.name(), slots);
+  }
   const int node = model.nodes().add(slots);
   model::Structure& structure = model.add_structure(options.name());
   structure.nodes = {node};

@@ -136,12 +136,15 @@ void add_as_beam(const Options& tube, structure::StructureContext& context) {
 
 // A node at an end of the shell, which the ring of nodes there follows.
 void add_end(const Options& tube, const char* end, const char* edge, const Mat3& triad,
-             model::Model& model) {
+             structure::StructureContext& context) {
+  model::Model& model = context.model;
+  const std::string name = tube.name() + " " + end;
   const std::vector<int> ring = model.find_structure(tube.name())->sets.at(edge);
   model::NodeSlots slots;
   slots << model::vector(tube, std::string(end) == "first" ? "From" : "To"), triad;
+  if (context.imperfection != nullptr) slots = context.imperfection->moved(name, slots);
   const int node = model.nodes().add(slots);
-  model::Structure& structure = model.add_structure(tube.name() + " " + end);
+  model::Structure& structure = model.add_structure(name);
   structure.nodes = {node};
   structure.sets = {{"first", {node}}, {"last", {node}}, {"all", {node}}};
   structure.cells.push_back({{node}, nullptr, 0});
@@ -153,6 +156,7 @@ void add_end(const Options& tube, const char* end, const char* edge, const Mat3&
       model::Constraint joint = joint::soft_transition(model.nodes(), follower, node);
       joint.name = structure.name;
       joint.type = "Soft Transition";
+      joint.is_structural = true;
       joint.where = tube.where();
       model.add_constraint(std::move(joint));
     }
@@ -180,8 +184,8 @@ void add_as_shell(const Options& tube, structure::StructureContext& context) {
       .set("Rotation", numbers_of(log_rotation(triad)));
   list.add_list(std::move(mesh));
   shell::add_shell(list, context);
-  add_end(tube, "first", "v0", triad, context.model);
-  add_end(tube, "last", "v1", triad, context.model);
+  add_end(tube, "first", "v0", triad, context);
+  add_end(tube, "last", "v1", triad, context);
 }
 
 void add_tube(const Options& tube, structure::StructureContext& context) {

@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/math/rotation.hpp>
 #include <culm/model/imperfection.hpp>
 
 #include <fmt/format.h>
@@ -27,6 +28,15 @@ const std::vector<Vec6>& Imperfection::of(const std::string& structure, std::siz
                                  found->second.motions.size(), structure, nodes));
   }
   return found->second.motions;
+}
+
+NodeSlots Imperfection::moved(const std::string& structure, const NodeSlots& node) const {
+  const std::vector<Vec6>& motions = of(structure, 1);
+  if (motions.empty()) return node;
+  NodeSlots result = node;
+  result.col(0) += motions.front().head<3>();
+  result.rightCols<3>() = exp_rotation(motions.front().tail<3>()) * node.rightCols<3>();
+  return result;
 }
 
 }  // namespace culm::model

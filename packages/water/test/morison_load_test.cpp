@@ -137,6 +137,33 @@ TEST(MorisonLoad, OfWavesOnCylindersWithDryFacesIsAcrossThem) {
   }
 }
 
+// Two pieces whose dry faces meet close to still water, one of them tilted a little: what waves
+// press on the plane where the theory ends is nobody's, in whichever of them it lies.
+TEST(MorisonLoad, OfWavesOnPiecesThatMeetAtStillWaterKnowsNoJoint) {
+  const auto sea = waves("None", 0.0);  // 2 m at the crest
+  const auto q = MovedMember::placed(Vec3::Zero(), Mat3::Identity());
+  const double pressed = 1025.0 * 9.80665 * 2.0 * 0.25 * pi * 36.0;
+  const auto stand = [&](double height, double tilt) {
+    const Vec3 joint(0, 0, height), top = joint + 5.0 * Vec3(tilt, 0.0, 1.0);
+    std::vector<Segment> pile = member({0, 0, -20}, joint, smooth(6.0), smooth(6.0), 40);
+    const std::vector<Segment> above = member(joint, top, smooth(6.0), smooth(6.0), 10);
+    pile.front().faces[0] = pile.back().faces[1] = Face::dry;
+    pile.insert(pile.end(), above.begin(), above.end());
+    pile[40].faces[0] = pile.back().faces[1] = Face::dry;
+    return MovedMember(pile, sea).stand(q);
+  };
+  const auto straight = stand(0.0, 0.0);
+  for (const double tilt : {1e-6, 2e-5, 1e-4, 1e-2}) {
+    for (const double height : {0.0, 1e-7, 0.4 * tilt * 3.0, -0.7 * tilt * 3.0}) {
+      const auto found = stand(height, tilt);
+      const double rest = 1e-7 + tilt;
+      EXPECT_NEAR(found.force[2], straight.force[2], rest * pressed) << tilt << " " << height;
+      EXPECT_NEAR(found.moment[1], straight.moment[1], 10.0 * rest * pressed)
+          << tilt << " " << height;
+    }
+  }
+}
+
 TEST(MorisonLoad, OfWavesUnderAFloatingCylinderIsThatOfThePressureOnItsFace) {
   for (const char* stretching : {"None", "Vertical", "Wheeler"}) {
     for (const double phase : {0.0, pi}) {

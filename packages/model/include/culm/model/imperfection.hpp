@@ -3,6 +3,7 @@
 
 #include <culm/base/issue.hpp>
 #include <culm/math/types.hpp>
+#include <culm/model/node_table.hpp>
 
 #include <map>
 #include <string>
@@ -23,6 +24,8 @@ class Imperfection {
   /// @param nodes  how many it has. Throws InputError if the imperfection was made for another
   /// number
   const std::vector<Vec6>& of(const std::string& structure, std::size_t nodes) const;
+  /// The only node of a structure, moved and turned; with place and triad.
+  NodeSlots moved(const std::string& structure, const NodeSlots& node) const;
 
  private:
   struct Entry {
