@@ -10,6 +10,7 @@ import zipfile
 
 from .errors import CulmError
 from .resolved_deck import ResolvedDeck
+from .whole_file import refuse_to_replace
 
 PLATFORM = "x86_64-linux"
 PER_PORT = 16  # value references, as src/fmi/fmu.cpp counts them
@@ -36,6 +37,7 @@ def declare(parser):
 
 def main(arguments, program):
     output = arguments.output or pathlib.Path(arguments.deck.stem + ".fmu")
+    refuse_to_replace(output, b"PK", "FMU")
     library = pathlib.Path(program.path).resolve().parents[1] / "share/culm/fmu/culm_fmu.so"
     if not library.exists():
         raise CulmError(f"there is no '{library}': culm was built without it", 6)

@@ -3,13 +3,13 @@
 import dataclasses
 import pathlib
 
-import h5py
 import numpy
 import pandas
 
 from .errors import CulmError
 from .history import owners_of
 from .results import Results, _text, _without_escapes
+from .run_file import RunFile
 from .state_tables import read_field
 
 
@@ -48,7 +48,7 @@ class State:
         place x y z [m], force Fx Fy Fz [N] and moment about the node Mx My Mz [N m], all in space; where
         Output / Constraint Forces asks for them, and of states that a step led to."""
         prefix = "constraint forces: "
-        with h5py.File(self.path) as file:
+        with RunFile(self.path).open() as file:
             group = file[f"steps/{self.index:06}"].get("%arrays", {})
             found = {_without_escapes(link): link for link in group}
             if prefix + name not in found:
@@ -62,12 +62,12 @@ class State:
 
     def resultants(self, structure):
         """A frame with the stress resultants of the elements, in the directors of their sections."""
-        with h5py.File(self.path) as file:
+        with RunFile(self.path).open() as file:
             names = [_text(name) for name in _group(file["mesh"], structure).attrs["resultant_names"]]
         return pandas.DataFrame(self._array(structure, "resultants"), columns=names)
 
     def _array(self, structure, name):
-        with h5py.File(self.path) as file:
+        with RunFile(self.path).open() as file:
             values = read_field(file[f"steps/{self.index:06}"], _group(file["mesh"], structure), name)
         if values is None:
             raise KeyError(f"'{structure}' has no {name}")
@@ -153,7 +153,7 @@ class Run:
         return frame.set_index(["analysis", "step", "time"])
 
     def _read_states(self):
-        with h5py.File(self._path) as file:
+        with RunFile(self._path).open() as file:
             states = [
                 State(self._path, int(s["index"]), float(s["time"]), self.analyses[int(s["analysis"])], int(s["step"]))
                 for s in (group.attrs for group in file["steps"].values())

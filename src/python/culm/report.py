@@ -13,6 +13,7 @@ from .page import Page
 from .quantities import begins_unsolved
 from .resolved_deck import ResolvedDeck
 from .results import Results, file_part
+from .whole_file import PAGE, refuse_to_replace
 
 
 MOST_ROWS = 40  # of a table
@@ -37,8 +38,11 @@ def main(arguments, program):
     if not path.exists():
         raise CulmError(f"there is no run.h5 in '{arguments.folder}'", 6)
     output = arguments.output or arguments.folder / "report.html"
+    refuse_to_replace(output, PAGE, "page")
     try:
         write_page(Results(path), arguments.folder, output, arguments.window)
+    except (KeyError, RuntimeError) as error:  # h5py raises what it likes where a file is damaged
+        raise CulmError(f"cannot read '{path}', which is damaged or incomplete: {error}", 6) from error
     except OSError as error:
         raise CulmError(f"{error.filename}: {error.strerror}" if error.filename else str(error), 6) from error
     if not arguments.quiet:

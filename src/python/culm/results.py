@@ -1,6 +1,7 @@
 """The result file of a run, run.h5."""
 
 import dataclasses
+import pathlib
 import re
 import urllib.parse
 import xml.etree.ElementTree as ElementTree
@@ -8,6 +9,7 @@ import xml.etree.ElementTree as ElementTree
 import h5py
 import numpy
 
+from .run_file import RunFile
 from .state_tables import read_field
 
 
@@ -79,36 +81,37 @@ class Results:
     """What stands in the file; parts that a killed run did not write are empty."""
 
     def __init__(self, path):
-        self.path = path
+        self.path = pathlib.Path(path)
+        self._run = RunFile(self.path)
 
     def title(self):
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return _text(file["deck"].attrs["title"])
 
     def version(self):
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return _text(file["deck"].attrs["version"])
 
     def deck(self):
         """The deck as it was used, XML."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return _text(file["deck/xml"][()])
 
     def report(self):
         """The text of the report."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return _text(file["report/text"][()]) if "report/text" in file else ""
 
     def scalars(self):
         """The numbers of the report by name."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             if "report/scalars" not in file:
                 return {}
             return {name: float(data[()]) for name, data in file["report/scalars"].items()}
 
     def effects(self):
         """What the run contained and what it cost."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             if "report/effects" not in file:
                 return []
             data = file["report/effects"]
@@ -119,7 +122,7 @@ class Results:
 
     def findings(self):
         """Broken promises and warnings in the order in which they were found."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return [
                 Finding(
                     _text(one.attrs["grade"]) == "broken",
@@ -131,17 +134,17 @@ class Results:
 
     def history(self):
         """Rows of time, quantities, number of the analysis and step; None where a quantity does not exist."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return _rows(file["history/values"])
 
     def states(self):
         """Numbers of the recorded states."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return sorted(int(step.attrs["index"]) for step in file["steps"].values())
 
     def steps(self):
         """The accepted steps."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             if "report/steps" not in file:
                 return []
             return [
@@ -151,12 +154,12 @@ class Results:
 
     def meshes(self):
         """Structures by name."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             return {_text(g.attrs["name"]): _mesh(g) for g in file["mesh"].values()}
 
     def last_state(self):
         """Time of the last recorded state, and positions by structure."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             last = file["steps"][max(file["steps"])]
             return float(last.attrs["time"]), {
                 _text(group.attrs["name"]): read_field(last, group, "position") for group in file["mesh"].values()
@@ -166,7 +169,7 @@ class Results:
         """Of the last recorded state: by structure whether it is a surface, and of each field of its cells the columns
         and the values (cells, columns)."""
         fields = {}
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             last = file["steps"][max(file["steps"])]
             for group in file["mesh"].values():
                 tables = {}
@@ -193,7 +196,7 @@ class Results:
 
     def shapes(self, analysis):
         """Shapes that an analysis found, by structure: (shapes, nodes, 6), complex where they are."""
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             for link, group in file.get("analyses", {}).items():
                 if _without_escapes(link) == analysis:
                     imaginary = group.get("shapes_imaginary", {})
@@ -206,7 +209,7 @@ class Results:
     def tables(self):
         """Tables of analyses."""
         tables = []
-        with h5py.File(self.path) as file:
+        with self._run.open() as file:
             for link, group in file.get("analyses", {}).items():
                 for name, data in group.items():
                     if isinstance(data, h5py.Dataset) and data.ndim == 2:

@@ -4,6 +4,7 @@ import pathlib
 
 from ..errors import CulmError
 from ..option_types import at_least_one
+from ..whole_file import PAGE, refuse_to_replace
 from . import page_file
 from .recording import Recording
 from .scene import scene_of
@@ -43,6 +44,7 @@ def main(arguments, program):
         with Recording(arguments.other) as other:
             ghost = scene_of(other, arguments.states, with_fields=False)
     output = arguments.output or folder / "view.html"
+    refuse_to_replace(output, PAGE, "page")
     try:
         page_file.write(output, scene, ghost)
     except OSError as error:

@@ -4,12 +4,12 @@ import dataclasses
 import pathlib
 import urllib.parse
 
-import h5py
 import numpy
 
 from ..errors import CulmError
 from ..resolved_deck import ResolvedDeck
 from ..results import Results
+from ..run_file import RunFile
 from ..state_tables import read_field
 
 
@@ -97,7 +97,7 @@ class Recording:
 
     def __enter__(self):
         try:
-            self._file = h5py.File(self.path)
+            self._file = RunFile(self.path).open()
             if _text(self._file.attrs.get("format", "")) != "culm run":
                 raise CulmError(f"'{self.path}' is not the result file of a run", 6)
             self._steps = sorted(self._file["steps"].values(), key=lambda step: int(step.attrs["index"]))
