@@ -40,8 +40,9 @@ struct Instance {
   std::string results;
   culm_simulation* simulation = nullptr;
   Values now;
-  double last = 0.0;  // time at which the deck ends [s]
+  double last = 0.0;  // time at which the deck ends, or its importer wants it to [s]
   bool has_begun = false;
+  bool is_ready = false;  // initialized
 
   fmi3Status say(fmi3Status status, const std::string& text) const {
     if (log != nullptr) log(environment, status, "culm", text.c_str());
@@ -101,7 +102,7 @@ bool open(Instance& it) {
 void close(Instance& it) {
   culm_close(it.simulation);
   it.simulation = nullptr;
-  it.has_begun = false;
+  it.has_begun = it.is_ready = false;
 }
 
 bool read(Instance& it, Port& port, int quantity, std::vector<double>& values) {
@@ -260,10 +261,15 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3F
     return it.say(fmi3Error, "it shall stop at " + std::to_string(stop) +
                                  " s, and its deck ends at " + std::to_string(it.last) + " s");
   }
-  return read(it, true) ? fmi3OK : fmi3Error;
+  if (has_stop) it.last = stop;
+  it.is_ready = read(it, true);
+  return it.is_ready ? fmi3OK : fmi3Error;
 }
 
-fmi3Status fmi3ExitInitializationMode(fmi3Instance) { return fmi3OK; }
+fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
+  const Instance& it = *of(instance);
+  return it.is_ready ? fmi3OK : it.say(fmi3Error, "the initialization has failed");
+}
 
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step, fmi3Boolean,
                       fmi3Boolean* event, fmi3Boolean* terminate, fmi3Boolean* early,
@@ -273,14 +279,15 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
   if (terminate != nullptr) *terminate = false;
   if (early != nullptr) *early = false;
   if (last_time != nullptr) *last_time = it.now.time;
-  if (!it.has_begun) return it.say(fmi3Error, "a step comes after the initialization");
-  if (!(step > 0.0) || std::abs(time - it.now.time) > 1e-9 * std::max(step, std::abs(time))) {
+  if (!it.is_ready) return it.say(fmi3Error, "a step comes after the initialization");
+  if (!(step > 0.0) || !std::isfinite(step) ||
+      std::abs(time - it.now.time) > 1e-9 * std::max(step, std::abs(time))) {
     return it.say(fmi3Error, "a step of " + std::to_string(step) + " s from " +
                                  std::to_string(time) + " s: the structure is at " +
                                  std::to_string(it.now.time) + " s");
   }
   if (time + step > it.last + 1e-9 * std::max(step, std::abs(it.last))) {
-    return it.say(fmi3Error, "a step to " + std::to_string(time + step) + " s: its deck ends at " +
+    return it.say(fmi3Error, "a step to " + std::to_string(time + step) + " s: it ends at " +
                                  std::to_string(it.last) + " s");
   }
   for (const Port& port : it.now.ports) {
@@ -312,7 +319,7 @@ fmi3Status fmi3Terminate(fmi3Instance instance) {
     return fmi3Error;
   }
   const std::string promises = broken;
-  it.has_begun = false;
+  it.has_begun = it.is_ready = false;
   if (!it.results.empty() && !it.holds(culm_close_results(it.simulation))) return fmi3Error;
   return promises.empty() ? fmi3OK : it.say(fmi3Warning, promises);
 }

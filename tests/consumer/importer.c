@@ -144,7 +144,8 @@ int main(int argc, char **argv) {
   }
   EXPECT(fmi3GetFloat64_(mast, &position_of, 1, position, 3 * POINTS), fmi3OK, "");
   EXPECT(fmi3GetFloat64_(mast, &work_of, 1, &done, 1), fmi3OK, "");
-  EXPECT(fmi3DoStep_(mast, time, 0.5, false, &event, &over, &early, &last), fmi3Error, "its deck ends at 1.0");
+  EXPECT(fmi3DoStep_(mast, time, 0.5, false, &event, &over, &early, &last), fmi3Error, "it ends at 1.0");
+  EXPECT(fmi3DoStep_(mast, time, INFINITY, false, &event, &over, &early, &last), fmi3Error, "a step of inf s");
   EXPECT(fmi3FreeFMUState_(mast, &start), fmi3OK, "");
   if (start != NULL) return 6;
   EXPECT(fmi3Terminate_(mast), fmi3OK, "");

@@ -80,7 +80,7 @@ def _describe(deck, identifier, name, program):
     stepper = simulation.begin()
     root = ElementTree.Element(
         "fmiModelDescription", fmiVersion="3.0", modelName=name, variableNamingConvention="flat",
-        instantiationToken=hashlib.sha256(deck.read_bytes()).hexdigest(), generationTool=program.call("--version").stdout.splitlines()[0],
+        instantiationToken=hashlib.sha256(deck.read_bytes()).hexdigest(), generationTool=f"culm {program.call('--version').stdout.splitlines()[0]}",
         generationDateAndTime=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
     )
     ElementTree.SubElement(
