@@ -22,8 +22,9 @@ struct SegmentMotion {
 /// Water that moves slower than this past a section brings no drag: its direction has no meaning
 /// [m/s].
 constexpr double no_flow = 1e-12;
-/// Tilts below this count as upright: what they change is far below the rest [rad].
-constexpr double upright = 1e-5;
+/// Tilts below this count as upright: of what slices that are cut would add their square is left
+/// [rad].
+constexpr double upright = 1e-3;
 
 /// The sum of what acts on a segment, as forces on its two ends. Water is asked for its motion at
 /// places without their derivatives. @source fluids B7

@@ -420,6 +420,9 @@ void make_morison(const Options& options, flow::FluidContext& context) {
     load->add(std::move(segment));
   }
   flow::refuse_rotating_frame(options, nodes, context);
+  for (const auto& batch : build.model.loads()) {
+    if (auto* other = dynamic_cast<MorisonLoad*>(batch.get())) load->join(*other);
+  }
   build.model.add_load(std::move(load));
 }
 

@@ -68,12 +68,7 @@ void MorisonLoad::add(Segment segment) {
       item.factors[place].col(static_cast<int>(end)) += factors;
     }
   }
-  Vec<2> heights = Vec<2>::Zero();
-  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
-    const Ends places =
-        model::NodeTable::slots(nodes_.reference(), item.nodes[a]) * item.factors[a];
-    for (int end = 0; end < 2; ++end) heights[end] += sea_->site().up.dot(places.col(end));
-  }
+  const Vec<2> heights = reference_ends(item).transpose() * sea_->site().up;
   // half a wave below still water there is little of it left
   const double top = heights.maxCoeff() - sea_->site().level;
   const double bottom = heights.minCoeff() - sea_->site().level;
@@ -251,6 +246,49 @@ std::string MorisonLoad::range_warning(double used) const {
       "{}: the water stands {:.3g} m above the upper end of 'Range', beyond which the member goes "
       "on and nothing acts: let 'Range' reach higher",
       effect().quoted(), used - 1.0);
+}
+
+Ends MorisonLoad::reference_ends(const Item& item) const {
+  Ends places = Ends::Zero();
+  for (std::size_t a = 0; a < item.nodes.size(); ++a) {
+    places += model::NodeTable::slots(nodes_.reference(), item.nodes[a]) * item.factors[a];
+  }
+  return places;
+}
+
+std::vector<MorisonLoad::DryFace> MorisonLoad::dry_faces() {
+  std::vector<DryFace> found;
+  for (Item& item : items_) {
+    const Ends places = reference_ends(item);
+    const Vec3 along = (places.col(1) - places.col(0)).normalized();
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (item.segment.faces[end] != Face::dry) continue;
+      found.push_back({&item.segment.faces[end], &item.segment.sections[end],
+                       places.col(static_cast<int>(end)), end == 0 ? Vec3(-along) : along});
+    }
+  }
+  return found;
+}
+
+void MorisonLoad::join(MorisonLoad& other) {
+  constexpr double same = 1e-6;
+  const bool act_alike = sea_ == other.sea_ && model_.buoyancy == other.model_.buoyancy &&
+                         amplitude_.is_constant() && other.amplitude_.is_constant() &&
+                         amplitude_.at(0.0) == other.amplitude_.at(0.0);
+  if (!act_alike) return;
+  for (const DryFace& one : dry_faces()) {
+    const double width = one.section->diameter;
+    const auto is_as_wide = [&](double a, double b) { return std::abs(a - b) <= same * width; };
+    for (const DryFace& facing : other.dry_faces()) {
+      const bool meet = (one.place - facing.place).norm() <= same * width &&
+                        (one.outward + facing.outward).norm() <= same &&
+                        is_as_wide(facing.section->diameter, width) &&
+                        is_as_wide(facing.section->flooded_diameter, one.section->flooded_diameter);
+      if (!meet) continue;
+      *one.face = *facing.face = Face::none;
+      break;
+    }
+  }
 }
 
 bool MorisonLoad::meets(const MorisonLoad& other) const {

@@ -49,6 +49,11 @@ class MorisonLoad final : public model::MemorylessBatch,
   /// Whether another load acts on a part of the same.
   bool meets(const MorisonLoad& other) const;
 
+  /// Where a dry face of this load and one of another meet in line and are as wide, there is none:
+  /// no water presses on either, and what one would take back the other would give again. Like
+  /// neighbours along one member they then lean on nothing that a tilt between them could change.
+  void join(MorisonLoad& other);
+
   const Sea& sea() const { return *sea_; }
 
   int size() const override { return static_cast<int>(items_.size()); }
@@ -82,6 +87,14 @@ class MorisonLoad final : public model::MemorylessBatch,
     double swamped = 0.0, trial_swamped = 0.0;
   };
   struct Evaluation;
+  /// A face to which no water comes, in the reference.
+  struct DryFace {
+    Face* face = nullptr;
+    const WetSection* section = nullptr;
+    Vec3 place, outward;
+  };
+  std::vector<DryFace> dry_faces();
+  Mat<3, 2> reference_ends(const Item& item) const;
 
   template <class Number>
   Evaluation evaluate(const Item& item, const model::State& state, const Stencil& stencil,
