@@ -58,7 +58,9 @@ TEST(Buoyancy, OfAnUprightCylinderIsThatOfATiltThatVanishes) {
     const double along = 0.5 * length + std::pow(2.0 * std::tan(tilt), 2) / (8.0 * length);
     const double beside = 4.0 * std::tan(tilt) / (4.0 * length);
     const double x = along * std::sin(tilt) + beside * std::cos(tilt);
-    EXPECT_NEAR(-found.moment[1] / (weight * 4.0 * pi * length), x, 1e-9 * tilt);
+    // what counts as upright lacks the square of the tilt
+    EXPECT_NEAR(-found.moment[1] / (weight * 4.0 * pi * length), x,
+                (1e-9 + 0.2 * tilt * tilt) * tilt);
   }
 }
 
