@@ -254,10 +254,15 @@ std::optional<Member> member_on_node(const Options& options, model::BuildContext
   return Member{piece, (to - from).norm()};
 }
 
-// Ends of segments: equal parts of the range, and the positions within.
-std::vector<double> divide(const Options& options) {
+// Ends of segments: equal parts of the range, and the positions within. What is flat as a disk has
+// as much of the water as a few of it: moments of pressure act by pairs of forces on the ends,
+// which would shear thin ones apart.
+std::vector<double> divide(const Options& options, double length, double diameter) {
+  constexpr double flat = 0.01;  // of the diameter
   const std::vector<double>& range = options.numbers("Range");
-  const int count = options.integer("Segments");
+  const double most = (range[1] - range[0]) * length / (flat * diameter);
+  const int count = most < options.integer("Segments") ? std::max(1, static_cast<int>(most))
+                                                       : options.integer("Segments");
   std::vector<double> ends;
   for (int i = 0; i <= count; ++i) ends.push_back(std::lerp(range[0], range[1], double(i) / count));
   if (options.has("Positions")) {
@@ -310,7 +315,10 @@ std::array<Face, 2> read_faces(const Options& options) {
 
 std::vector<Segment> segments_of(const Options& options, const Member& member) {
   const Sections sections(options);
-  const std::vector<double> ends = divide(options);
+  const std::vector<double>& range = options.numbers("Range");
+  const double middle_of_all = 0.5 * (range[0] + range[1]);
+  const std::vector<double> ends =
+      divide(options, member.length, sections.at(middle_of_all, middle_of_all).diameter);
   std::vector<Segment> segments;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double middle = 0.5 * (ends[i] + ends[i + 1]);
