@@ -38,12 +38,18 @@ class MemberWriter {
     }
   }
 
-  // @return whether there is anything above the bed
+  // @return whether there is anything above the bed and of any length
   bool write(const std::string& name, DeckWriter& deck) {
     const double bed = hydro_.sea.level - hydro_.sea.depth;
     const std::optional<std::array<double, 2>> range = above(bed);
     if (!range) {
       report_.add(assumed, name + ": is below the bed, and not in the deck");
+      return false;
+    }
+    if (is_slice()) {
+      report_.add(assumed, name +
+                               ": is a slice of less than a hundredth of its diameter between "
+                               "others, on which no water acts in the deck");
       return false;
     }
     make_sections();
@@ -79,6 +85,14 @@ class MemberWriter {
     return std::lerp(carrier_.of_member[0], carrier_.of_member[1], s);
   }
   double height(double s) const { return std::lerp(place_[0].z(), place_[1].z(), s); }
+
+  // Nothing but a place where other members meet.
+  bool is_slice() const {
+    const Vec3 &from = hydro_.joints[member_.joints[0]].place,
+               &to = hydro_.joints[member_.joints[1]].place;
+    const double width = std::max(member_.diameters[0], member_.diameters[1]);
+    return (to - from).norm() < 0.01 * width && free_share(0, 2) == 0.0 && free_share(1, 2) == 0.0;
+  }
 
   // The part that is not below a height.
   std::optional<std::array<double, 2>> above(double bed) const {

@@ -23,7 +23,7 @@ struct MemberCarrier {
 };
 
 /// Writes its Morison load inside an open list Loads; of a member that is left to potential flow
-/// the drag. @return whether there is anything above the bed
+/// the drag. @return whether there is anything above the bed and of any length
 bool write_member(const HydroDyn& hydro, const HydroMember& member, const MemberCarrier& carrier,
                   const std::string& name, DeckWriter& deck, Report& report);
 

@@ -214,6 +214,25 @@ TEST_F(OffshoreFiles, FacesHaveWhatOtherMembersLeaveOfThem) {
   EXPECT_THAT(imported.deck, HasSubstr(parameter("End Added Masses", "{0.875, 0}")));
 }
 
+// As where a tower begins a millimetre above its base.
+TEST_F(OffshoreFiles, SlicesHaveNoWater) {
+  std::string text = hydrodyn_file;
+  text = change(text, "6         NJoints", "8         NJoints");
+  text = change(text, "  5       30.0     0.0   -15.0      1         0",
+                "  7       10.0     6.03   -3.96     1         0\n"
+                "  8       10.0    12.0     4.0      1         0\n"
+                "  5       30.0     0.0   -15.0      1         0");
+  text = change(text, "3         NMembers", "5         NMembers");
+  text = change(text, "  3          5         6         1 ",
+                "  4          4         7         2           2         0.5       1        1     "
+                "FALSE\n"
+                "  5          7         8         2           2         0.5       1        1     "
+                "FALSE\n  3          5         6         1 ");
+  const Imported imported = import(text);
+  EXPECT_THAT(imported.report, HasSubstr("member 4: is a slice of less than a hundredth"));
+  EXPECT_THAT(imported.deck, HasSubstr("\"member 5\""));
+}
+
 TEST_F(OffshoreFiles, LinesOfMoorDynLeadFromAnchorsToTheVessel) {
   const Imported imported = import(moordyn_file);
   const double chain = (120.0 - 1025.0 * 0.25 * std::numbers::pi * 0.0064) * 9.81;

@@ -272,6 +272,7 @@ std::vector<MorisonLoad::DryFace> MorisonLoad::dry_faces() {
 
 void MorisonLoad::join(MorisonLoad& other) {
   constexpr double same = 1e-6;
+  constexpr double near = 0.01;  // a slice of a member may be between them
   const bool act_alike = sea_ == other.sea_ && model_.buoyancy == other.model_.buoyancy &&
                          amplitude_.is_constant() && other.amplitude_.is_constant() &&
                          amplitude_.at(0.0) == other.amplitude_.at(0.0);
@@ -280,7 +281,7 @@ void MorisonLoad::join(MorisonLoad& other) {
     const double width = one.section->diameter;
     const auto is_as_wide = [&](double a, double b) { return std::abs(a - b) <= same * width; };
     for (const DryFace& facing : other.dry_faces()) {
-      const bool meet = (one.place - facing.place).norm() <= same * width &&
+      const bool meet = (one.place - facing.place).norm() <= near * width &&
                         (one.outward + facing.outward).norm() <= same &&
                         is_as_wide(facing.section->diameter, width) &&
                         is_as_wide(facing.section->flooded_diameter, one.section->flooded_diameter);
