@@ -219,7 +219,7 @@ TEST_F(OffshoreFiles, SlicesHaveNoWater) {
   std::string text = hydrodyn_file;
   text = change(text, "6         NJoints", "8         NJoints");
   text = change(text, "  5       30.0     0.0   -15.0      1         0",
-                "  7       10.0     6.03   -3.96     1         0\n"
+                "  7       10.0     6.006  -3.992    1         0\n"
                 "  8       10.0    12.0     4.0      1         0\n"
                 "  5       30.0     0.0   -15.0      1         0");
   text = change(text, "3         NMembers", "5         NMembers");
