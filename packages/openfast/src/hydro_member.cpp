@@ -86,12 +86,13 @@ class MemberWriter {
   }
   double height(double s) const { return std::lerp(place_[0].z(), place_[1].z(), s); }
 
-  // Nothing but a place where other members meet.
+  // Nothing but a place where others meet: members, or beams that carry one of them.
   bool is_slice() const {
-    const Vec3 &from = hydro_.joints[member_.joints[0]].place,
-               &to = hydro_.joints[member_.joints[1]].place;
     const double width = std::max(member_.diameters[0], member_.diameters[1]);
-    return (to - from).norm() < 0.01 * width && free_share(0, 2) == 0.0 && free_share(1, 2) == 0.0;
+    const auto meets = [this](std::size_t end) {
+      return goes_on(end) || free_share(end, 2) == 0.0;
+    };
+    return (place_[1] - place_[0]).norm() < 0.01 * width && meets(0) && meets(1);
   }
 
   // The part that is not below a height.
