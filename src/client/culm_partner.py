@@ -309,6 +309,8 @@ def _loads(loads, points):
         raise TypeError(f"loads returned nothing instead of an array of shape {(points, 6)}")
     if numpy.ma.is_masked(loads):  # what lies under the mask would act
         raise ValueError("loads have masked values: say what stands there, as with filled(0.0)")
+    if numpy.iscomplexobj(loads):
+        raise ValueError("loads are complex numbers: say which part acts, as with .real")
     loads = numpy.ascontiguousarray(loads, "<f8")
     if loads.shape != (points, 6):
         raise ValueError(f"loads have the shape {loads.shape} instead of {(points, 6)}")

@@ -39,8 +39,6 @@ def main():
 
     try:
         code = module.main(arguments, Program(os.environ["CULM_PROGRAM"]))
-        sys.stdout.flush()
-        return code
     except CulmError as error:
         print(f"culm {arguments.verb}: {error}", file=sys.stderr)
         return error.exit_code
@@ -50,9 +48,17 @@ def main():
         _print_no_more()
         return 0
     except OSError as error:  # a full disk, a folder that may not be written
+        name = error.filename or "a file that is written, or standard output"
+        print(f"culm {arguments.verb}: {name}: {error.strerror}", file=sys.stderr)
         _print_no_more()
-        print(f"culm {arguments.verb}: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
         return 6
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        _print_no_more()
+        print(f"culm {arguments.verb}: standard output: {error.strerror}", file=sys.stderr)
+        return 6
+    return code
 
 
 sys.exit(main())

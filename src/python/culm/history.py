@@ -2,6 +2,9 @@
 
 import csv
 import math
+import pathlib
+
+from .errors import CulmError
 
 
 def name_of(column):
@@ -58,14 +61,33 @@ def _named(name, number, quantities):
     return (name, "") if number is None else (quantities[number], name[len(quantities[number]) :].strip())
 
 
+def _is_number(cell):
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
 class History:
     """Columns of history.csv by name, such as 'tip ux [m]', and of its rows the levels, the numbers of analyses in the deck
     and their steps, from 1; 0 is the start of an analysis. Where a cell is empty, because the quantity does not exist there, stands
     nan; whether all numbers that were written are finite says is_finite."""
 
     def __init__(self, path):
-        with open(path, newline="") as file:
-            rows = list(csv.reader(file))
+        try:
+            with open(path, newline="") as file:
+                lines = file.readlines()
+            if lines and not lines[-1].endswith("\n") and pathlib.Path(path).with_name("run.lock").exists():
+                lines.pop()  # the run that goes on is about to write the rest
+            rows = [row for row in csv.reader(lines) if row]
+        except (UnicodeDecodeError, csv.Error) as error:
+            raise CulmError(f"'{path}' is no table of a history: {error}", 6) from error
+        if not rows:
+            raise CulmError(f"'{path}' is no table of a history: it is empty", 6)
+        for number, row in enumerate(rows[1:], 2):
+            if len(row) != len(rows[0]) or not row[0] or not all(_is_number(cell) for cell in row if cell):
+                raise CulmError(f"'{path}', line {number}: not {len(rows[0])} numbers, as the first line has names", 6)
         tells_places = rows[0][-2:] == ["analysis", "step"]  # a reference from elsewhere need not
         self.names = rows[0][1:-2] if tells_places else rows[0][1:]
         self.levels = [float(row[0]) for row in rows[1:]]

@@ -134,11 +134,12 @@ def _add_histories(page, results, history, parts, drawing):
 def _add_statistics(page, history, parts, window, deck):
     """Of all columns of all motions, over a window of time."""
     begin, end = window or (-math.inf, math.inf)
+    rounding = 1e-9 * (end - begin) if window else 0.0  # of times, which are sums of steps
     owners = owners_of(history.names, deck.names_in("Output/History"))
     tables = []
     skipped = set()
     for name, kind, rows in parts:
-        kept = [row for row in range(*rows.indices(len(history.levels))) if begin <= history.levels[row] <= end]
+        kept = [row for row in range(*rows.indices(len(history.levels))) if begin - rounding <= history.levels[row] <= end + rounding]
         if kind != "Dynamic" or len(kept) < 2:
             continue
         times = [history.levels[row] for row in kept]
