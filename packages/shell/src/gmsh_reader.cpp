@@ -203,20 +203,39 @@ class Reader {
     if (type == type_quad) {
       std::array<int, 4> quad{};
       for (int& point : quad) point = read_point();
+      // MSH 2 writes an element once for each physical group that it is in
+      std::array<int, 4> points = quad;
+      std::sort(points.begin(), points.end());
+      const auto [known, is_new] =
+          quads_.try_emplace(points, static_cast<int>(facets_.quads.size()));
+      if (is_new) facets_.quads.push_back(quad);
       for (const std::string& group : groups) {
-        facets_.parts[group].push_back(static_cast<int>(facets_.quads.size()));
+        std::vector<int>& part = facets_.parts[group];
+        if (part.empty() || part.back() != known->second) part.push_back(known->second);
       }
-      facets_.quads.push_back(quad);
     } else if (type == type_line || type == type_point) {
       std::vector<int> points{read_point()};
       if (type == type_line) points.push_back(read_point());
-      for (const std::string& group : groups) traces_.push_back({group, points});
+      for (const std::string& group : groups) {
+        refuse_other_dimension(group, type);
+        traces_.push_back({group, points});
+      }
     } else {
       words_.fail(
           fmt::format("element {} is of type {}; shells are made of four-node "
                       "quadrilaterals (type 3): recombine triangles, order 1",
                       element, type));
     }
+  }
+
+  // Loads and supports name both in one way, and Gmsh counts physical points and curves each
+  // from 1.
+  void refuse_other_dimension(const std::string& group, int type) {
+    if (types_.try_emplace(group, type).first->second == type) return;
+    words_.fail(
+        fmt::format("a physical point and a physical curve are both called '{0}': give "
+                    "them names of their own, as in Physical Curve(\"side {0}\")",
+                    group));
   }
 
   void read_elements_2() {
@@ -284,7 +303,9 @@ class Reader {
   std::map<DimensionAndTag, std::string> names_;
   std::map<DimensionAndTag, std::vector<std::string>> groups_;  // of entities
   std::unordered_map<Tag, int> points_;
+  std::map<std::array<int, 4>, int> quads_;  // numbers by their points, which rise
   std::vector<Trace> traces_;
+  std::map<std::string, int> types_;  // of the elements in groups of points and curves
   Facets facets_;
 };
 

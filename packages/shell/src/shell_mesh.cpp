@@ -135,6 +135,9 @@ std::vector<int> partners_along(const std::vector<Corner>& edge) {
   return partners;
 }
 
+// Between neighbours in a smooth surface, or one and the reverse of the other.
+constexpr double flat_cosine = 0.7;
+
 ShellMesh make_mesh(const Facets& facets, double fold_angle) {
   const std::vector<int> point = join_points(facets.points, 1e-6 * shortest_edge(facets));
   const auto at = [&](std::size_t quad, std::size_t corner) {
@@ -177,6 +180,20 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
   }
 
   ShellMesh mesh;
+  for (const auto& [ends, users] : sides) {
+    if (users.size() != 2) continue;
+    const auto [first, its] = users[0];
+    const auto [second, other] = users[1];
+    const Vec3& normal = facets.normals[first][its];
+    // walls that meet at a corner may have their outer sides where they like
+    const bool is_flat = std::abs(normal.dot(facets.normals[second][other])) > flat_cosine;
+    if (at(first, its) == at(second, other) && is_flat) {
+      mesh.turned.push_back(static_cast<int>(std::max(first, second)));
+    }
+  }
+  std::ranges::sort(mesh.turned);
+  const auto again = std::ranges::unique(mesh.turned);
+  mesh.turned.erase(again.begin(), again.end());
   std::unordered_map<std::size_t, int> node_of;
   std::map<int, std::vector<int>> nodes_at;
   for (std::size_t q = 0; q < facets.quads.size(); ++q) {
@@ -228,7 +245,6 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
 MeshQuality mesh_quality(const ShellMesh& mesh) {
   MeshQuality quality;
   quality.smallest_angle = std::numeric_limits<double>::max();
-  std::map<std::pair<int, int>, int> directed;
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const auto& quad = mesh.quads[q];
     std::array<Vec3, 4> points;
@@ -250,9 +266,6 @@ MeshQuality mesh_quality(const ShellMesh& mesh) {
         quality.largest_warp =
             std::max(quality.largest_warp, angle_between(normals[c], normals[other]));
       }
-      const auto [found, is_new] =
-          directed.try_emplace({quad[c], quad[(c + 1) % 4]}, static_cast<int>(q));
-      if (!is_new) quality.turned.push_back(static_cast<int>(q));
     }
     quality.largest_aspect = std::max(quality.largest_aspect, longest / shortest);
   }

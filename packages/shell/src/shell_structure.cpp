@@ -72,11 +72,13 @@ void check_quality(const ShellMesh& mesh, const Options& options, const Log& log
                     "elements or a larger 'Fold Angle'",
                     options.name(), mesh.smallest_fold_angle / degree));
   }
-  if (!quality.turned.empty()) {
-    log.warning(
-        fmt::format("{}: element {} and {} others have their normal on the other side than "
-                    "a neighbour",
-                    where, quality.turned.front(), quality.turned.size() - 1));
+  if (!mesh.turned.empty()) {
+    log.warning(fmt::format(
+        "{}: element {}{} its normal on the other side than a neighbour: pressure, offsets and the "
+        "order of layers change sides there",
+        where, mesh.turned.front(),
+        mesh.turned.size() > 1 ? fmt::format(" and {} others have each", mesh.turned.size() - 1)
+                               : " has"));
   }
   if (quality.largest_aspect > poor_aspect || quality.smallest_angle < poor_angle) {
     log.warning(

@@ -1,6 +1,7 @@
 #include <culm/base/error.hpp>
 #include <culm/shell/gmsh_reader.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -122,6 +123,29 @@ TEST(GmshReader, GroupsWithoutNameHaveTheirNumber) {
   EXPECT_EQ(read_gmsh(text, "a.msh").parts.at("5"), std::vector{2});
 }
 
+// MSH 2 writes an element once for each of its groups.
+TEST(GmshReader, AnElementOfTwoGroupsIsOne) {
+  std::string text = version_2;
+  text.replace(text.find("$Elements\n7"), 11, "$Elements\n8");
+  text.replace(text.find("$EndElements"), 0, "8 3 2 9 1 2 3 6 5\n");
+  const Facets facets = read_gmsh(text, "a.msh");
+  EXPECT_EQ(facets.quads.size(), 3u);
+  EXPECT_EQ(facets.parts.at("the floor"), (std::vector{0, 1}));
+  EXPECT_EQ(facets.parts.at("9"), std::vector{1});
+}
+
+TEST(GmshReader, NeighboursWithTheirNormalOnTheOtherSideAreTold) {
+  std::string text = version_2;
+  const std::string floor = "2 3 6 5\n";
+  text.replace(text.find(floor), floor.size(), "5 6 3 2\n");
+  const ShellMesh mesh = make_mesh(read_gmsh(text, "a.msh"), 0.3);
+  EXPECT_TRUE(mesh.turned.empty()) << "a wall stands on the seam: which is the other side there?";
+  const std::string wall = "7 3 2 5 2 2 5 18 17\n";
+  text.erase(text.find(wall), wall.size());
+  text.replace(text.find("$Elements\n7"), 11, "$Elements\n6");
+  EXPECT_EQ(make_mesh(read_gmsh(text, "a.msh"), 0.3).turned, std::vector{1});
+}
+
 std::string message(std::string text, const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
   try {
@@ -142,6 +166,8 @@ TEST(GmshReader, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message(version_2, "1 2 5 4", "1 2 5 9"), "a.msh: line 29: there is no node 9");
   EXPECT_EQ(message(version_4, "1 0 1 0.5 0.5", "1 O 1 0.5 0.5"),
             "a.msh: line 38: expected a number, found 'O'");
+  EXPECT_THAT(message(version_2, "1 2 \"front\"", "1 2 \"tip\""),
+              testing::HasSubstr("a physical point and a physical curve are both called 'tip'"));
   EXPECT_EQ(message(version_2, "$EndElements", ""), "a.msh: line 33: the file ends too early");
 }
 

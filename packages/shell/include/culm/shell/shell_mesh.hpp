@@ -49,6 +49,9 @@ struct ShellMesh {
   std::vector<std::vector<int>> folds;
   int fold_lines = 0;              ///< lines of edges along them that hang together
   double smallest_fold_angle = 0;  ///< between normals at a folded edge [rad]; 0 without folds
+  /// Elements, by number, whose only neighbour at an edge runs it in the same direction: one of
+  /// them has its normal on the other side.
+  std::vector<int> turned;
 
   int size() const { return static_cast<int>(positions.size()); }
   /// x, d of the nodes of an element
@@ -69,9 +72,6 @@ struct MeshQuality {
   double smallest_angle = 0.0;  ///< inner angle of a corner [rad]
   double largest_angle = 0.0;   ///< [rad]
   double largest_warp = 0.0;    ///< between the normals at the corners of an element [rad]
-  /// Elements, by number, whose neighbour runs the common edge in the same direction: one of them
-  /// has its normal on the other side.
-  std::vector<int> turned;
 };
 
 MeshQuality mesh_quality(const ShellMesh& mesh);
