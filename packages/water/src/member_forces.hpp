@@ -283,6 +283,7 @@ class SegmentForces {
 
   // Drag and added mass of a plate or a blunt end.
   void add_wet_face(std::size_t end, const Slice& slice, double radius) {
+    if (segment_.goes_on[end]) return;  // a cut, and no end
     if (model_.end_drag[end] == 0.0 && model_.end_added_mass[end] == 0.0) return;
     const WaterMotion water = water_at(Number(static_cast<double>(end)));
     const Vector<Number> relative = water.velocity.template cast<Number>() - motion_.velocity[end];

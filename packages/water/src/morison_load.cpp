@@ -122,7 +122,8 @@ MorisonLoad::Evaluation MorisonLoad::evaluate(const Item& item, const model::Sta
     put(found.forces()[static_cast<std::size_t>(end)], end, result.forces, result.derivative);
   }
   for (int end = 0; end < 2; ++end) {
-    if (!item.segment.goes_on[static_cast<std::size_t>(end)]) continue;
+    const auto at = static_cast<std::size_t>(end);
+    if (!item.segment.goes_on[at] || item.segment.has_next[at]) continue;
     const Vec3 place = middle.col(end);
     if (sea_->site().up.dot(place - middle.col(1 - end)) <= 0.0) continue;
     result.swamped = std::max(result.swamped, sea_->wet_to(place, time) - sea_->height(place));
@@ -271,6 +272,18 @@ std::vector<MorisonLoad::DryFace> MorisonLoad::dry_faces() {
 }
 
 void MorisonLoad::join(MorisonLoad& other) {
+  constexpr double rounding = 1e-9;
+  if (member_ == other.member_) {
+    const auto touch = [](const MorisonLoad& before, const MorisonLoad& behind) {
+      return std::abs(before.end_ - behind.begin_) < rounding;
+    };
+    if (touch(*this, other)) {
+      items_.back().segment.has_next[1] = other.items_.front().segment.has_next[0] = true;
+    }
+    if (touch(other, *this)) {
+      other.items_.back().segment.has_next[1] = items_.front().segment.has_next[0] = true;
+    }
+  }
   constexpr double same = 1e-6;
   constexpr double near = 0.01;  // a slice of a member may be between them
   const bool act_alike = sea_ == other.sea_ && model_.buoyancy == other.model_.buoyancy &&

@@ -114,6 +114,17 @@ TEST_F(MorisonDeck, RangeShouldReachAboveTheWater) {
   EXPECT_THAT(load->range_warning(6.0), HasSubstr("5 m above the upper end of 'Range'"));
 }
 
+// Where the next load goes on there is no end, and nothing is missing.
+TEST_F(MorisonDeck, PartsOfAMemberHaveNoFacesBetweenThem) {
+  EXPECT_THAT(build(column({{"Diameter", 2.0}, {"Range", std::vector{0.0, 0.5}}})), ElementsAre());
+  auto* lower = dynamic_cast<MorisonLoad*>(model_.loads().back().get());
+  EXPECT_THAT(build(column({{"Diameter", 2.0}, {"Range", std::vector{0.5, 1.0}}})), ElementsAre());
+  force();
+  model::State state = model_.initial_state();
+  lower->accept(state);
+  EXPECT_LT(lower->range_used(), 1.0);
+}
+
 TEST_F(MorisonDeck, MistakesAreNamed) {
   EXPECT_THAT(mistakes({}), Contains(HasSubstr("give one of 'Diameter' and 'Diameters'")));
   EXPECT_THAT(mistakes({{"Diameter", 1.0}, {"Structure", std::string("pile")}}),

@@ -164,6 +164,24 @@ TEST(MorisonLoad, OfWavesOnPiecesThatMeetAtStillWaterKnowsNoJoint) {
   }
 }
 
+// Drag and added mass of faces are those of ends, not of cuts where the member goes on.
+TEST(MorisonLoad, CutsHaveNoDrag) {
+  const double step = 0.1, speed = 2.0;
+  const auto from = MovedMember::placed(Vec3::Zero(), Mat3::Identity());
+  const auto to = MovedMember::placed(Vec3(0.0, 0.0, step * speed), Mat3::Identity());
+  const auto velocity = MovedMember::placed(Vec3(0.0, 0.0, speed), Mat3::Zero());
+  const auto drag_of = [&](bool goes_on) {
+    std::vector<Segment> parts = member({0, 0, -15}, {0, 0, -5}, smooth(3.0), smooth(3.0), 2);
+    for (Segment& part : parts) part.faces = {Face::wet, Face::wet};
+    parts[0].goes_on[1] = parts[1].goes_on[0] = goes_on;
+    const MorisonModel model{.buoyancy = false, .end_drag = {1.0, 1.0}};
+    return MovedMember(parts, still_water(), model).move(from, to, velocity, 0.0, step).force[2];
+  };
+  const double face = 0.5 * 1025.0 * 0.25 * pi * 9.0 * speed * speed;
+  EXPECT_NEAR(drag_of(true), -2.0 * face, 1e-9 * face);
+  EXPECT_NEAR(drag_of(false), -4.0 * face, 1e-9 * face);
+}
+
 TEST(MorisonLoad, OfWavesUnderAFloatingCylinderIsThatOfThePressureOnItsFace) {
   for (const char* stretching : {"None", "Vertical", "Wheeler"}) {
     for (const double phase : {0.0, pi}) {

@@ -31,7 +31,8 @@ struct Segment {
   double length = 0.0;                ///< of the reference [m]
   std::array<WetSection, 2> sections;
   std::array<Face, 2> faces = {Face::none, Face::none};
-  std::array<bool, 2> goes_on = {false, false};  ///< the member does, beyond what the load acts on
+  std::array<bool, 2> goes_on = {false, false};   ///< the member does, beyond what the load acts on
+  std::array<bool, 2> has_next = {false, false};  ///< there another load of the water acts on it
 };
 
 /// What holds for all segments of a load.

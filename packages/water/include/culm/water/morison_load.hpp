@@ -52,6 +52,7 @@ class MorisonLoad final : public model::MemorylessBatch,
   /// Where a dry face of this load and one of another meet in line and are as wide, there is none:
   /// no water presses on either, and what one would take back the other would give again. Like
   /// neighbours along one member they then lean on nothing that a tilt between them could change.
+  /// Where both act on parts of one member that touch, both know that the other is there.
   void join(MorisonLoad& other);
 
   const Sea& sea() const { return *sea_; }
