@@ -130,6 +130,12 @@ double PathCondition::watched_part(const Motion& motion) const {
   return watched_ ? watched_->direction.dot(motion.col(watched_->node).head<3>()) : 0.0;
 }
 
+double PathCondition::watched_by_level(const model::State& state, const Vector& flexibility) const {
+  Motion motion;
+  read_slots(system_.linear_motion(state, flexibility, 1.0), motion);
+  return watched_part(motion);
+}
+
 double PathCondition::watched_displacement(const model::Coordinates& q) const {
   if (!watched_) return 0.0;
   Vec3 displacement = Vec3::Zero();

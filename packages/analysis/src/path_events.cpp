@@ -22,13 +22,21 @@ struct Cubic {
     const double u = 1.0 - t;
     return 6.0 * t * u * (v1 - v0) / h + u * (1.0 - 3.0 * t) * s0 - t * (2.0 - 3.0 * t) * s1;
   }
+  // Where the slope, a parabola, has its extreme; within the ends if it turns twice.
+  double steepest() const {
+    const double mean = (v1 - v0) / h;
+    return h * std::clamp((3.0 * mean - 2.0 * s0 - s1) / (3.0 * (2.0 * mean - s0 - s1)), 0.0, 1.0);
+  }
   bool turns() const { return s0 * s1 < 0.0; }
+  // there and back between the ends
+  bool turns_twice() const { return s0 * s1 > 0.0 && (v1 - v0) * s0 < 0.0; }
   // where it turns, by bisection
-  double turning_point() const {
-    double low = 0.0, high = h;
+  double turning_point() const { return turning_point(0.0, h); }
+  double turning_point(double low, double high) const {
+    const double first = slope(low);
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (slope(middle) * s0 > 0.0 ? low : high) = middle;
+      (slope(middle) * first > 0.0 ? low : high) = middle;
     }
     return 0.5 * (low + high);
   }
@@ -53,6 +61,12 @@ std::vector<PathEvent> find_events(const PathPoint& from, const PathPoint& to, d
   const Cubic watched{from.watched, to.watched, from.tangent.watched, to.tangent.watched, length};
   std::vector<std::pair<double, PathEventKind>> found;
   if (level.turns()) found.emplace_back(level.turning_point(), PathEventKind::limit_point);
+  if (level.turns_twice()) {
+    // between them the slope is that of the secant at least once
+    const double middle = level.steepest();
+    found.emplace_back(level.turning_point(0.0, middle), PathEventKind::limit_point);
+    found.emplace_back(level.turning_point(middle, length), PathEventKind::limit_point);
+  }
   if (watched.turns()) found.emplace_back(watched.turning_point(), PathEventKind::turning_point);
   const solver::Determinant &d0 = from.determinant, &d1 = to.determinant;
   const bool are_known = d0.sign != 0 && d1.sign != 0;

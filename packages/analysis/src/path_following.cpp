@@ -222,7 +222,7 @@ StepReport PathFollowing::do_attempt(double size) {
   if (!known_.is_examined && condition_.tangent()) {
     if (examine(*condition_.tangent(), report.outcome.first_determinant)) {
       system().discard(state());
-      locate_crossing();
+      locate_zero();
       std::optional<solver::StepOutcome> found;
       if (is_to_branch()) found = branch_off();
       is_on_branch_ = found.has_value();
@@ -234,6 +234,27 @@ StepReport PathFollowing::do_attempt(double size) {
   return report;
 }
 
+std::optional<Vector> PathFollowing::find_flexibility() {
+  const Stencil stencil = Stencil::statics();
+  system().evaluate(state(), stencil, Want::residual_and_tangent);
+  Vector gradient(system().layout().rows()), flexibility(system().layout().rows());
+  system().level_gradient(state(), stencil, condition_.level_difference(), gradient);
+  if (!context().linear.factor()) return {};
+  if (!context().linear.solve(gradient, flexibility).is_sound()) return {};
+  flexibility.scale(-1.0);
+  return flexibility;
+}
+
+bool PathFollowing::leaps() {
+  if (settings_.control != PathControl::displacement || !condition_.tangent()) return false;
+  const double moved = condition_.watched_displacement(state().next) - known_.here.watched;
+  const double rise = state().time - state().time_prev;
+  const PathTangent& start = *condition_.tangent();
+  if (rise * moved * start.level * start.watched >= 0.0) return false;
+  const std::optional<Vector> flexibility = find_flexibility();
+  return flexibility && rise * moved * condition_.watched_by_level(state(), *flexibility) < 0.0;
+}
+
 solver::StepOutcome PathFollowing::go_on(double size) {
   const Stencil stencil = Stencil::statics();
   condition_.begin(size);
@@ -241,7 +262,7 @@ solver::StepOutcome PathFollowing::go_on(double size) {
   solver::StepOutcome outcome = newton().solve(state(), stencil, &condition_);
   refuse_idle_level();
   const auto keep_to_path = [&] {
-    if (outcome.converged() && condition_.straightness(state()) < least_straightness) {
+    if (outcome.converged() && (condition_.straightness(state()) < least_straightness || leaps())) {
       outcome.end = StepEnd::off_path;
     }
   };
@@ -259,18 +280,24 @@ bool PathFollowing::examine(const PathTangent& tangent, const solver::Determinan
   known_.here.determinant = determinant;
   known_.is_examined = true;
   if (!known_.has_behind) return false;
-  bool crosses = false;
   for (const PathEvent& event : find_events(known_.behind, known_.here, last_length_)) {
     known_.events.push_back(event);
-    crosses = crosses || event.kind == PathEventKind::bifurcation;
   }
-  if (crosses && settings_.at_bifurcation == AtBifurcation::stop) known_.is_ended = true;
+  if (crosses() && settings_.at_bifurcation == AtBifurcation::stop) known_.is_ended = true;
   if (passed_limit_points()) known_.is_ended = true;
-  return crosses;
+  const int before = known_.behind.determinant.sign, now = known_.here.determinant.sign;
+  return crosses() || (before != 0 && now != 0 && before != now);
+}
+
+bool PathFollowing::crosses() const {
+  return std::any_of(known_.events.begin() + static_cast<std::ptrdiff_t>(before_.events.size()),
+                     known_.events.end(), [](const PathEvent& event) {
+                       return event.kind == PathEventKind::bifurcation;
+                     });
 }
 
 bool PathFollowing::is_to_branch() const {
-  return settings_.at_bifurcation == AtBifurcation::follow && !known_.has_branched &&
+  return crosses() && settings_.at_bifurcation == AtBifurcation::follow && !known_.has_branched &&
          !known_.is_ended;
 }
 
@@ -285,10 +312,13 @@ std::optional<solver::Determinant> PathFollowing::go_back(double length) {
   return context().linear.determinant();
 }
 
-void PathFollowing::locate_crossing() {
-  PathEvent& crossing = *std::find_if(
-      known_.events.rbegin(), known_.events.rend(),
-      [](const PathEvent& event) { return event.kind == PathEventKind::bifurcation; });
+void PathFollowing::locate_zero() {
+  const auto kind = crosses() ? PathEventKind::bifurcation : PathEventKind::limit_point;
+  const auto begin = known_.events.begin() + static_cast<std::ptrdiff_t>(before_.events.size());
+  const auto found = std::find_if(begin, known_.events.end(),
+                                  [kind](const PathEvent& event) { return event.kind == kind; });
+  if (found == known_.events.end()) return;
+  PathEvent& crossing = *found;
   const auto look_at = [&](double length) {
     const std::optional<solver::Determinant> determinant = go_back(length);
     if (determinant) {
@@ -405,7 +435,7 @@ AnalysisReport PathFollowing::do_finish() {
   if (!known_.is_examined) {
     before_ = known_;
     if (examine(tangent, determinant)) {
-      locate_crossing();
+      locate_zero();
       compute_tangent();
     }
   }

@@ -71,6 +71,8 @@ class PathCondition final : public solver::LevelCondition {
   const std::optional<PathTangent>& tangent() const { return tangent_; }
   /// Finds the tangent from d_f at an equilibrium.
   void compute_tangent(const model::State& state, const assembly::Vector& flexibility);
+  /// How the watched displacement changes with the level, from d_f at an equilibrium [m].
+  double watched_by_level(const model::State& state, const assembly::Vector& flexibility) const;
   /// The watched displacement from the reference [m]; 0 without one.
   double watched_displacement(const model::Coordinates& q) const;
 

@@ -66,15 +66,23 @@ class PathFollowing final : public Stepper {
   solver::StepOutcome go_on(double size);
   /// Where an attempt went beyond the end of the path, goes back to it.
   void land(solver::StepOutcome& outcome);
+  /// Whether an attempt by the watched displacement has left the path: at both ends the level grows
+  /// with it, and yet it fell, or the other way round.
+  bool leaps();
+  /// Change of the state with the level at state.next, where a step has begun; nothing if it is not
+  /// to be had.
+  std::optional<assembly::Vector> find_flexibility();
   /// Looks for events between the last two points once the tangent of the later one is known.
-  /// @return whether another path crosses there; locate_crossing() is to follow
+  /// @return whether the determinant changes its sign there; locate_zero() is to follow
   bool examine(const PathTangent& tangent, const solver::Determinant& determinant);
   /// Solves on the path at a `length` [m] of arc before the last accepted point. @return the
   /// determinant there; nothing if no solution is found
   std::optional<solver::Determinant> go_back(double length);
   /// Finds where the determinant changes its sign between the last two points, and corrects the
-  /// event that was found there.
-  void locate_crossing();
+  /// event that was found there: the crossing of another path, or else the limit point.
+  void locate_zero();
+  /// Whether another path crosses between the last two points.
+  bool crosses() const;
   /// Tells the events that were found since the last step was accepted or failed.
   void tell_events();
   /// Whether the path that crosses behind the last accepted point is to be taken.
