@@ -431,7 +431,23 @@ BENT = [
          deck=bent_column(TUBE, constraints=[FOOT], loaded="c/last").replace("1.97392", "2")),
 ]
 
+# --- a pole in a current of 2 m/s, half of it above the water
+
+POLE = Case(
+    "a strip above the water", 0, args=RUN, leaves=["out"], check=ends_with("foot Fx [N]", -0.5 * 1025 * 2.0**2 * 5, 1.0),
+    deck=deck(
+        listed("Sections", entry("bar", Type="Rectangle", Young_Modulus="2e11", Poisson_Ratio="0.3", Density="7800", Width="1", Height="1")),
+        listed("Structures", beam("pole", "bar", 0, 0).replace("To\" value=\"{2, 0, 0}", "To\" value=\"{0, 0, 10}").replace(
+            "Up\" value=\"{0, 0, 1}", "Up\" value=\"{1, 0, 0}")),
+        listed("Constraints", entry("foot", Type="Rigid Support", Node="pole/first")),
+        listed("Flows", entry("sea", Type="Still Water", Depth="50", Level="5").replace(
+            "</ParameterList>", entry("Current", Type="Uniform", Speed="2") + "</ParameterList>")),
+        listed("Loads", entry("drag", Type="Strip Drag", Structure="pole", Flow="sea", Diameter="1", Drag="1", Stations="20")),
+        listed("Analyses", entry("stand", Type="Static", Steps="1")),
+        listed("Output", listed("History", entry("foot", Type="Reaction", Node="pole/first")))))
+
 CASES = [
+    POLE,
     *BENT,
     AT_STILL_WATER,
     *TURNING,

@@ -117,6 +117,14 @@ void make_potential_flow(const Options& options, flow::FluidContext& context) {
     build.issues.add(options.where("Flow"), "must be a sea with 'Up' = {0, 0, 1}");
     return;
   }
+  for (const auto& batch : build.model.loads()) {
+    const auto* other = dynamic_cast<const PotentialLoad*>(batch.get());
+    if (other == nullptr || other->node() != nodes.front()) continue;
+    build.issues.add(options.where("Node"),
+                     fmt::format("{} acts on this body: two loads would carry the water twice",
+                                 other->effect().quoted()));
+    return;
+  }
   FloatingBody body;
   const Where file = options.where("File Name");
   const auto path = std::filesystem::path(file.file).parent_path() / options.text("File Name");

@@ -115,4 +115,15 @@ void Sea::velocities(std::span<const Vec3> places, double time, std::span<Vec3> 
                          [&](const Vec3& place) { return motion(place, time).velocity; });
 }
 
+double Sea::share_within(const Vec3& place, const Vec3& extent, double time) const {
+  constexpr double flat = 0.1;
+  const double reach = std::max(std::abs(site_.up.dot(extent)), flat * extent.norm());
+  const double z = height(place);
+  if (z + reach <= -highest_ && z - reach >= -site_.depth) return 1.0;
+  const auto share = [reach](double inside) {
+    return std::clamp(0.5 + 0.5 * inside / reach, 0.0, 1.0);
+  };
+  return std::max(share(wet_to(place, time) - z) + share(z + site_.depth) - 1.0, 0.0);
+}
+
 }  // namespace culm::water

@@ -95,6 +95,24 @@ TEST(Airy, StretchingTakesTheSurfaceOfTheTheoryUp) {
   EXPECT_EQ(wheeler->wet_to(still, t), eta);
 }
 
+// Pieces of 2 m: across the surface and the bed, at a crest and lying.
+TEST(Airy, PiecesAreWetBetweenBedAndSurface) {
+  const auto still = test::make_sea("Still Water", {{"Depth", 20.0}, {"Level", 3.0}});
+  const auto share = [&](double z, const Vec3& extent) {
+    return still->share_within(Vec3(1.0, 2.0, z), extent, 0.0);
+  };
+  EXPECT_EQ(share(0.0, Vec3::UnitZ()), 1.0);
+  EXPECT_NEAR(share(3.0, Vec3::UnitZ()), 0.5, 1e-15);
+  EXPECT_NEAR(share(3.5, -Vec3::UnitZ()), 0.25, 1e-15);
+  EXPECT_NEAR(share(3.2, Vec3(0.8, 0.0, 0.6)), 1.0 / 3.0, 1e-14);
+  EXPECT_EQ(share(4.1, Vec3::UnitZ()), 0.0);
+  EXPECT_NEAR(share(-17.0, Vec3::UnitZ()), 0.5, 1e-15);
+  EXPECT_EQ(share(3.11, Vec3::UnitX()), 0.0);
+  const auto waves = test::make_sea(
+      "Regular Waves", {{"Depth", 20.0}, {"Height", 2.0}, {"Period", 8.0}, {"Phase", 0.0}});
+  EXPECT_NEAR(waves->share_within(Vec3(0.0, 0.0, 1.0), Vec3::UnitZ(), 0.0), 0.5, 1e-12);
+}
+
 TEST(Airy, PushIsTheGradientOfThePressure) {
   const double t = 0.4, h = 1e-4;
   for (const char* stretching : {"None", "Vertical", "Wheeler"}) {

@@ -32,6 +32,12 @@ class Flow {
   /// Whether a place is where the flow is: not below the ground, where winds by their height
   /// vanish.
   virtual bool is_above_ground(const Vec3& /*place*/) const { return true; }
+  /// Which part of a piece is in the fluid, as of one that pierces the surface of water.
+  /// @param extent  from the middle of the piece to one of its ends [m]
+  virtual double share_within(const Vec3& /*place*/, const Vec3& /*extent*/,
+                              double /*time*/) const {
+    return 1.0;
+  }
   /// The structure that the flow stands about; empty: none.
   virtual std::string stands_about() const { return {}; }
   /// The flow as it is without that structure; null where there is none.

@@ -37,6 +37,9 @@ class PotentialLoad final : public model::MemorylessBatch,
   PotentialLoad(model::Effect effect, const model::NodeTable& nodes, model::Amplitude amplitude,
                 std::shared_ptr<const Sea> sea, int node, FloatingBody body);
 
+  /// Of the body.
+  int node() const { return motion_.node(); }
+
   int size() const override { return 1; }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
   bool has_tangent() const override { return true; }
