@@ -88,7 +88,8 @@ struct Crossing {
   std::optional<double> below, above = {};  // levels between which it happens
   double rate_below = 0.0, rate_above = 0.0;
   Growth at_above = {};
-  bool is_within = false;  // no equilibrium is found between these levels
+  bool is_within = false;                  // no equilibrium is found between these levels
+  std::optional<double> early_until = {};  // it happens from the first level to this one at least
 
   void begin(const ModeSet& first) {
     if (!by_stiffness) return;
@@ -107,7 +108,7 @@ struct Crossing {
     return found;
   }
   void see(double level, const ModeSet& set) {
-    if (above) return;
+    if (happens()) return;
     const Growth found = measure(set);
     const double rate = found.rate;
     if (rate > 0.0) {
@@ -115,21 +116,39 @@ struct Crossing {
       rate_above = rate;
       at_above = found;
     } else {
+      if (above) early_until = above;
+      above.reset();
       below = level;
       rate_below = rate;
     }
   }
   bool happens() const { return below && above; }
+  /// What grows at levels below those at which it is looked for; empty if nothing does.
+  std::string early() const {
+    if (early_until) return fmt::format("{} up to level {:.6g} at least", name, *early_until);
+    return above && !below ? fmt::format("{} below the first level", name) : "";
+  }
   std::string text(const std::optional<Growth>& growth, const std::vector<double>& levels) const {
-    if (!above) return fmt::format("no {} up to level {:.6g}", name, levels.back());
-    if (!growth) return fmt::format("{} below the first level, {:.6g}", name, levels.front());
+    if (!growth) {
+      const std::string found = early();
+      if (above) return fmt::format("{}, {:.6g}", found, levels.front());
+      return fmt::format("{}no {} up to level {:.6g}", found.empty() ? "" : found + ", above it ",
+                         name, levels.back());
+    }
+    const std::string before = early_until ? early() + ", and " : "";
     const double frequency = growth->mode.frequency();
     const std::string with = frequency > 0.0 ? fmt::format(", with {:.6g} Hz", frequency) : "";
     const std::string within =
         is_within
             ? fmt::format("; between {:.7g} and {:.7g} no equilibrium was found", *below, *above)
             : "";
-    return fmt::format("{} from level {:.7g} on{}{}", name, *above, with, within);
+    return fmt::format("{}{} from level {:.7g} on{}{}", before, name, *above, with, within);
+  }
+  std::string remark(const std::optional<Growth>& growth, const model::Model& model) const {
+    const std::string before = early();
+    if (!growth) return before.empty() ? fmt::format("no {}", name) : before;
+    return fmt::format("{}{}: {}", before.empty() ? "" : before + ", and ", name,
+                       describe(growth->mode, model));
   }
 };
 
@@ -260,9 +279,7 @@ AnalysisReport Flutter::inspect(Context& context, model::State& state) {
     report.text += crossing.text(growth, settings_.levels) + '\n';
     onset.rows.push_back(
         {growth ? *crossing.above : absent, growth ? growth->mode.frequency() : absent});
-    onset.remarks.push_back(growth ? fmt::format("{}: {}", crossing.name,
-                                                 describe(growth->mode, context.system.model()))
-                                   : fmt::format("no {}", crossing.name));
+    onset.remarks.push_back(crossing.remark(growth, context.system.model()));
   }
   report.tables.push_back(std::move(onset));
   diagram.find(state, settings_.levels.back());
