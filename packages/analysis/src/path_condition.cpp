@@ -131,7 +131,7 @@ double PathCondition::watched_part(const Motion& motion) const {
 }
 
 double PathCondition::watched_by_level(const model::State& state, const Vector& flexibility) const {
-  Motion motion;
+  Motion motion = way_;
   read_slots(system_.linear_motion(state, flexibility, 1.0), motion);
   return watched_part(motion);
 }

@@ -165,7 +165,7 @@ GridStep LatticeLoad::step_to(const model::State& state) const {
 const FluidResult& LatticeLoad::result_at(const model::State& state) const {
   if (std::ranges::equal(evaluated_, state.next)) return result_;
   if (step_ == 0.0) {
-    result_ = lattice_.steady(grid(state.next), state.time);
+    result_ = lattice_.steady(grid(state.next), lattice_.flow().time_at_level(state.time));
   } else {
     result_ = lattice_.step(accepted_, coming_, step_to(state));
   }
@@ -179,8 +179,9 @@ void LatticeLoad::accept(model::State& state) {
   accepted_forces_ = result.forces;
   if (step_ == 0.0) {
     resultant_ = resultant_of(result.forces, end);
-    range_used_ = used_at(end, Points(end.size()), state.time);
-    accepted_ = lattice_.steady_state(result, end, state.time);
+    const double time = lattice_.flow().time_at_level(state.time);
+    range_used_ = used_at(end, Points(end.size()), time);
+    accepted_ = lattice_.steady_state(result, end, time);
     return;
   }
   Points middle = start_, velocity = start_;

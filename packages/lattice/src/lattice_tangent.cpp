@@ -99,8 +99,9 @@ const LaggedAir& LatticeLoad::air_at(const model::State& state) const {
   if (std::ranges::equal(linearised_, state.next) && linearised_at_ == state.time) return air_;
   refuse_large_linearisation();
   const SlotMotions moving = motions_of_slots();
-  air_ = fit_lags(
-      lattice_.small_motions(result_at(state), grid(state.next), state.time, moving.motions));
+  air_ =
+      fit_lags(lattice_.small_motions(result_at(state), grid(state.next),
+                                      lattice_.flow().time_at_level(state.time), moving.motions));
   const auto size = 12 * static_cast<Eigen::Index>(carriers_.size());
   const auto spread = [&](Eigen::MatrixXd& matrix) {
     Eigen::MatrixXd between_all = Eigen::MatrixXd::Zero(size, size);

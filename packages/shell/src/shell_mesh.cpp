@@ -222,11 +222,15 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
   mesh.fold_lines = static_cast<int>(fold_lines.size());
   for (const auto& [name, along] : facets.edges) {
     std::vector<int>& nodes = mesh.edges[name];
+    const bool is_points = facets.points_only.contains(name);
+    std::set<int> places;
     for (const Corner& c : along) {
+      // what acts at a point of a fold acts once, on one of the nodes that are joined there
+      if (is_points && !places.insert(at(index(c.quad), index(c.corner))).second) continue;
       const int node = mesh.quads[index(c.quad)][index(c.corner)];
       if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
     }
-    if (facets.points_only.contains(name)) continue;
+    if (is_points) continue;
     const std::vector<int> partners = partners_along(along);
     std::set<std::pair<int, int>> known;
     for (std::size_t i = 0; i < along.size(); ++i) {

@@ -115,6 +115,11 @@ void put(const Vector<Dual>& force, int column, Columns& values, Mat<9, 9>& deri
 
 }  // namespace
 
+double StripLoad::time_of_flow(const model::State& state, const Stencil& stencil) const {
+  const double time = load::time_of(state, stencil);
+  return stencil.step > 0.0 && stencil.inertia > 0.0 ? time : flow_->time_at_level(time);
+}
+
 StationFlow StripLoad::flow_at(int number, const model::State& state,
                                const Stencil& stencil) const {
   const Station& station = stations_[static_cast<std::size_t>(number)];
@@ -137,7 +142,7 @@ StationFlow StripLoad::flow_at(int number, const model::State& state,
     found.velocity += velocity.col(0) + eta * velocity.col(1);
     found.turning += lever * velocity.col(1);
   }
-  found.wind = flow_->velocity(found.place, load::time_of(state, stencil));
+  found.wind = flow_->velocity(found.place, time_of_flow(state, stencil));
   return found;
 }
 
@@ -182,7 +187,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
                                         station.behind(station.angle_at)};
   const std::array<Vec3, 2> places = {middle.col(0) + behind[0] * middle.col(1),
                                       middle.col(0) + behind[1] * middle.col(1)};
-  const double time = load::time_of(state, stencil);
+  const double time = time_of_flow(state, stencil);
   std::array<Vec3, 2> winds;
   flow_->velocities(places, time, winds);
   std::array<Mat3, 2> gradients = {Mat3::Zero(), Mat3::Zero()};

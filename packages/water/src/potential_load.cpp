@@ -87,6 +87,9 @@ PotentialLoad::Evaluation PotentialLoad::evaluate(const model::State& state, con
       result.force -= (residue * (accepted_[k] + trial[k])).real();
       result.derivative -= (residue / denominator).real();
     }
+  } else if (!stencil.frees_states) {
+    // at rest for so long that the waves it has made are gone
+    for (auto& one : trial) one.setZero();
   }
   const double factor = amplitude_.in_step(state, stencil);
   result.force *= factor;

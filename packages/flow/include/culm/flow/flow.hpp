@@ -32,6 +32,8 @@ class Flow {
   /// Whether a place is where the flow is: not below the ground, where winds by their height
   /// vanish.
   virtual bool is_above_ground(const Vec3& /*place*/) const { return true; }
+  /// At which time statics and linearisations see the flow, by their level: winds grow with it.
+  virtual double time_at_level(double level) const { return level; }
   /// Which part of a piece is in the fluid, as of one that pierces the surface of water.
   /// @param extent  from the middle of the piece to one of its ends [m]
   virtual double share_within(const Vec3& /*place*/, const Vec3& /*extent*/,

@@ -184,6 +184,8 @@ class StripLoad final : public model::MemorylessBatch,
   /// The flow that a station meets in the step from state.prev to state.next, before anything is
   /// induced; of any station of the model, if all ranks know all nodes.
   StationFlow flow_at(int station, const model::State& state, const Stencil& stencil) const;
+  /// When a step, or statics, sees the flow [s].
+  double time_of_flow(const model::State& state, const Stencil& stencil) const;
   const flow::Flow& flow() const { return *flow_; }
   const StripModel& kind() const { return model_; }
   /// Sets what others induce at a station, such as a rotor: it adds to the wind of both of its

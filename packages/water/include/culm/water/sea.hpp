@@ -69,6 +69,8 @@ class Sea final : public flow::Flow {
   WaterMotion motion(const Vec3& place, double time) const;
   void velocities(std::span<const Vec3> places, double time,
                   std::span<Vec3> velocities) const override;
+  /// Waves stand as they are when time begins, whatever the level.
+  double time_at_level(double) const override { return 0.0; }
   /// Between the bed and the surface; of a piece that lies at the surface it grows within a tenth
   /// of its length.
   double share_within(const Vec3& place, const Vec3& extent, double time) const override;
