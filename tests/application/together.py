@@ -446,7 +446,29 @@ POLE = Case(
         listed("Analyses", entry("stand", Type="Static", Steps="1")),
         listed("Output", listed("History", entry("foot", Type="Reaction", Node="pole/first")))))
 
+# --- a body that has moved, stood and may move again: at rest in still water
+
+CYLINDER = (INPUTS / "water/potential_cylinder.xml").read_text().replace('value="cylinder.1"', f'value="{INPUTS}/water/cylinder.1"')
+RESTED = CYLINDER.replace('name="Height" value="1"', 'name="Height" value="0"').replace(
+    '<ParameterList name="Analyses">', '<ParameterList name="Analyses">' + entry("before", Type="Dynamic", End_Time="3", Step="step")
+    + entry("rest", Type="Static", Steps="1"))
+AT_REST = Case("a body at rest after a motion and statics", 0, args=f"{RUN} --set end=1 --set 'Analyses/motion/Start Time=0'", leaves=["out"],
+               deck=RESTED, check=ends_with("body ux [m]", 0.0, 1e-12))
+
+# --- a wing that flutters below the first level
+
+def tells_early_flutter(folder, printed):
+    table = (folder / "out/analyses/flutter/onset.csv").read_text()
+    told = "flutter below the first level" in table and "flutter below the first level, 30" in printed
+    return "" if told else f"onset.csv has {table!r}"
+
+
+EARLY = Case("flutter below the first level", 0, args="run deck.xml --output out --set Analyses/flutter/Levels={30,34}", silent=False,
+             leaves=["out"], deck=(INPUTS / "air/flutter.xml").read_text(), check=tells_early_flutter)
+
 CASES = [
+    AT_REST,
+    EARLY,
     POLE,
     *BENT,
     AT_STILL_WATER,
