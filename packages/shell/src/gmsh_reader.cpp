@@ -231,6 +231,8 @@ class Reader {
   // Loads and supports name both in one way, and Gmsh counts physical points and curves each
   // from 1.
   void refuse_other_dimension(const std::string& group, int type) {
+    if (group == "all")
+      words_.fail("a physical group is called 'all', as all nodes are: rename it");
     if (types_.try_emplace(group, type).first->second == type) return;
     words_.fail(
         fmt::format("a physical point and a physical curve are both called '{0}': give "

@@ -145,7 +145,8 @@ void add_sets(const ShellMesh& mesh, const std::vector<int>& nodes, model::Struc
       for (int node : one) {
         if (std::find(other.begin(), other.end(), node) != other.end()) common.push_back(node);
       }
-      if (!common.empty()) structure.sets[first + " " + second] = common;
+      // a group of the mesh that has this name keeps it
+      if (!common.empty()) structure.sets.try_emplace(first + " " + second, common);
     }
   }
   structure.sets["all"] = structure.nodes;
