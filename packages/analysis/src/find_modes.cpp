@@ -238,8 +238,13 @@ class Finder {
       std::ranges::fill(none->values(), 0.0);
       damping = none;
     }
-    solver_.shift =
-        settings_.near ? 2.0 * std::numbers::pi * *settings_.near : std::sqrt(-lowest_shift());
+    if (settings_.near) {
+      throw NumericalError(
+          "Modes next to a frequency are looked for among undamped ones only. Here damping, forces "
+          "that follow, spin or air make them complex.\n"
+          "Try: leave 'Near' out, with so many 'Modes' that the lowest ones reach there.");
+    }
+    solver_.shift = std::sqrt(-lowest_shift());
     auto pairs = solver::solve_quadratic({linear_.stiffness, damping, linear_.mass}, solver_,
                                          context_.system.comm());
     if (relaxes_) follow_branches(*damping, pairs);
@@ -332,8 +337,7 @@ class Finder {
         context_.findings.warn(
             "relaxation",
             fmt::format("two modes of the lasting stiffness became the one at {:.6g} Hz; another "
-                        "next to it is missing: leave it out with 'Near', or look at the modes "
-                        "without 'Damping'",
+                        "next to it is missing: look at the modes without 'Damping'",
                         std::abs(modes[i].value.imag()) / (2.0 * std::numbers::pi)),
             state_.time);
       }

@@ -113,8 +113,9 @@ Schema& add_mode_fields(Schema& schema) {
   const ModalSettings defaults;
   return schema
       .add(integer("Modes", "How many modes to find.").between(1, 100'000).optional(defaults.modes))
-      .add(number("Near", "Hz",
-                  "Frequency next to which modes are looked for; the lowest ones if absent.")
+      .add(number(
+               "Near", "Hz",
+               "Frequency next to which undamped modes are looked for; the lowest ones if absent.")
                .positive()
                .optional())
       .add(choice("Solver", solver::eigen_solver_names(),

@@ -52,11 +52,11 @@ Eigen::VectorXcd derivative(const RelaxingPencil& pencil, Complex lambda,
 }
 
 [[noreturn]] void give_up(Complex start) {
-  throw NumericalError(
-      fmt::format("The mode at {:.6g} Hz of the lasting stiffness was not found with its branches "
-                  "of 'Relaxation'.\nTry: other modes ('Near'), or 'Damping' = false, which leaves "
-                  "branches out.",
-                  std::abs(start) / (2.0 * std::numbers::pi)));
+  throw NumericalError(fmt::format(
+      "The mode at {:.6g} Hz of the lasting stiffness was not found with its branches "
+      "of 'Relaxation'.\nTry: more or fewer 'Modes', or 'Damping' = false, which leaves "
+      "branches out.",
+      std::abs(start) / (2.0 * std::numbers::pi)));
 }
 
 // x^H of all branches x
