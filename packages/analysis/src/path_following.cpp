@@ -22,6 +22,8 @@ using solver::StepEnd;
 
 // A step that bends more than this may have reached another piece of the path.
 constexpr double least_straightness = 0.5;
+// Of what the tangent promises for a change of the watched displacement.
+constexpr double longest_way = 3.0;
 // For derivatives by the level, over the first change of the level: exact where loads are linear.
 constexpr double level_difference = 1e-3;
 
@@ -250,6 +252,9 @@ bool PathFollowing::leaps() {
   const double moved = condition_.watched_displacement(state().next) - known_.here.watched;
   const double rise = state().time - state().time_prev;
   const PathTangent& start = *condition_.tangent();
+  if (condition_.length(state()) * std::abs(start.watched) > longest_way * std::abs(moved)) {
+    return true;
+  }
   if (rise * moved * start.level * start.watched >= 0.0) return false;
   const std::optional<Vector> flexibility = find_flexibility();
   return flexibility && rise * moved * condition_.watched_by_level(state(), *flexibility) < 0.0;

@@ -66,8 +66,9 @@ class PathFollowing final : public Stepper {
   solver::StepOutcome go_on(double size);
   /// Where an attempt went beyond the end of the path, goes back to it.
   void land(solver::StepOutcome& outcome);
-  /// Whether an attempt by the watched displacement has left the path: at both ends the level grows
-  /// with it, and yet it fell, or the other way round.
+  /// Whether an attempt by the watched displacement has left the path: the structure moved much
+  /// more than the tangent promised, or at both ends the level grows with this displacement, and
+  /// yet it fell, or the other way round.
   bool leaps();
   /// Change of the state with the level at state.next, where a step has begun; nothing if it is not
   /// to be had.
