@@ -466,7 +466,25 @@ def tells_early_flutter(folder, printed):
 EARLY = Case("flutter below the first level", 0, args="run deck.xml --output out --set Analyses/flutter/Levels={30,34}", silent=False,
              leaves=["out"], deck=(INPUTS / "air/flutter.xml").read_text(), check=tells_early_flutter)
 
+# --- the foot of a tube of shells whose ends may widen carries its load; modes that damping makes complex
+
+def carries_the_load(folder, _):
+    held = last_row(folder)["root Fz [N]"]
+    return "" if abs(held - 0.02) < 1e-6 else f"the foot carries {held} N of 0.02"
+
+
+SOFT = Case("the foot of a tube with soft ends", 0, args=RUN, leaves=["out"], check=carries_the_load,
+            deck=bent_column(TUBE.replace('name="Model"', 'name="Ends" value="Soft"/><Parameter name="Model"'), constraints=[FOOT],
+                             loaded="c/last").replace("{0, 0, -1}", "{0, 0, -1e-2}").replace("1.97392", "2"))
+NEAR = Case("complex modes next to a frequency", 4, args=RUN, leaves=["out"],
+            deck=hinged("1").replace("Revolute Support", "Rigid Support").replace('<Parameter name="Axis" value="{0, 1, 0}"/>', "").replace(
+                'name="Section" value="rod"/>', 'name="Section" value="rod"/><Parameter name="Damping" value="1e-4"/>').replace(
+                '<ParameterList name="Analyses">', '<ParameterList name="Analyses">' + entry("all", Type="Modal", Near="50", Damping="true")),
+            says=["Modes next to a frequency are looked for among undamped ones only."])
+
 CASES = [
+    SOFT,
+    NEAR,
     AT_REST,
     EARLY,
     POLE,
