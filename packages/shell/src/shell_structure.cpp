@@ -73,12 +73,11 @@ void check_quality(const ShellMesh& mesh, const Options& options, const Log& log
                     options.name(), mesh.smallest_fold_angle / degree));
   }
   if (!mesh.turned.empty()) {
-    log.warning(fmt::format(
-        "{}: element {}{} its normal on the other side than a neighbour: pressure, offsets and the "
-        "order of layers change sides there",
-        where, mesh.turned.front(),
-        mesh.turned.size() > 1 ? fmt::format(" and {} others have each", mesh.turned.size() - 1)
-                               : " has"));
+    log.warning(
+        fmt::format("{}: the normals of {} elements, {} the first of them, are on the other side "
+                    "than that of a neighbour: pressure, offsets and the order of layers change "
+                    "sides there",
+                    where, mesh.turned.size(), mesh.turned.front()));
   }
   if (quality.largest_aspect > poor_aspect || quality.smallest_angle < poor_angle) {
     log.warning(

@@ -127,6 +127,7 @@ class SegmentForces {
   };
   void see(const Number& share, const Number& weight, const Slice& slice, const Cone& cone,
            CutPlane& plane) const {
+    if (cut_off_[0] == 0.0 && cut_off_[1] == 0.0) return;  // nothing presses there
     const double at = value_of(share), radius = cone.radius(at);
     const double growth = value_of(weight) * (cone.radii[1] - cone.radii[0]);
     const double sine = value_of(immersion_.sine);

@@ -1,5 +1,6 @@
 """run.h5, also of a run that goes on."""
 
+import fcntl
 import io
 import time
 
@@ -7,7 +8,7 @@ import h5py
 
 from .errors import CulmError
 
-TRIALS = 50
+TRIALS = 100
 PAUSE = 0.02  # s
 
 
@@ -21,17 +22,27 @@ class RunFile:
     def open(self):
         """The file of h5py, to read. While a run writes, the file is that of one moment, the same each time. Raises
         CulmError where there was no such moment, and what h5py raises."""
-        if self._copy is None and self.path.with_name("run.lock").exists():
+        if self._copy is None and _is_held(self.path.with_name("run.lock")):
             self._copy = self._steady()
         return h5py.File(self.path if self._copy is None else io.BytesIO(self._copy), "r")
 
     def _steady(self):
         """Commits change places all over the file, each in microseconds: what is the same twice lies between two."""
-        before = self.path.read_bytes()
         for _ in range(TRIALS):
-            again = self.path.read_bytes()
-            if again == before:
-                return again
-            before = again
+            found = self.path.read_bytes()
+            if self.path.read_bytes() == found:
+                return found
             time.sleep(PAUSE)
         raise CulmError(f"'{self.path}' changes faster than it can be read: the run goes on; try again", 6)
+
+
+def _is_held(lock):
+    """Whether a run owns the folder; one that was killed leaves the file, and nobody holds it."""
+    try:
+        with open(lock, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except FileNotFoundError:
+        return False
+    except OSError:  # held, or on a file system without locks
+        return True
+    return False

@@ -256,7 +256,8 @@ def _tower(root, parts, path, findings):
     for name in ("jacket", "floating_platform"):
         if name in parts:
             findings.leave_out(f"the {name} below the tower, with its masses: the tower is clamped at its foot")
-            _tell_masses(parts[name], name, ("transition_piece_mass",), findings)
+            if isinstance(parts[name], dict):
+                _tell_masses(parts[name], name, ("transition_piece_mass",), findings)
     findings.leave_out("nacelle and rotor, the soil and the water")
     return ReadyDeck(deck.finish((0.0, 0.0, -9.81)), findings, deck.mass)
 

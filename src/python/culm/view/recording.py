@@ -96,6 +96,7 @@ class Recording:
         self.folder = path.parent
 
     def __enter__(self):
+        self._file = None
         try:
             self._file = RunFile(self.path).open()
             if _text(self._file.attrs.get("format", "")) != "culm run":
@@ -103,7 +104,8 @@ class Recording:
             self._steps = sorted(self._file["steps"].values(), key=lambda step: int(step.attrs["index"]))
             self.deck = ResolvedDeck(_text(self._file["deck/xml"][()]))
         except CulmError:
-            self._file.close()
+            if self._file is not None:
+                self._file.close()
             raise
         except Exception as error:
             raise self._broken(error) from error
