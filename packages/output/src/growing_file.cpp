@@ -36,8 +36,10 @@ void GrowingFile::replace(const std::vector<std::string>& entries) {
 }
 
 bool GrowingFile::is_due() const {
-  return entries_ > written_entries_ + written_entries_ / 8 ||
-         Clock::now() - written_at_ > std::chrono::seconds(10);
+  const auto waited = Clock::now() - written_at_;
+  const bool lacks_many = entries_ > written_entries_ + written_entries_ / 8;
+  return waited > std::chrono::seconds(10) ||
+         (lacks_many && waited > std::chrono::milliseconds(100));
 }
 
 void GrowingFile::write() {

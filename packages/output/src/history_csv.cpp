@@ -11,10 +11,14 @@
 #include <iterator>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace culm::output {
 
 namespace {
+
+constexpr std::chrono::milliseconds longest_wait(100);
+constexpr std::size_t most_at_once = 1 << 20;  // bytes
 
 // Quoted as in RFC 4180 if the text would otherwise break the line into other fields.
 std::string field(const std::string& text) {
@@ -36,16 +40,14 @@ std::string header(const std::vector<HistoryColumn>& columns) {
   return line + ",analysis,step\n";
 }
 
-std::string line(const HistoryRow& row) {
-  fmt::memory_buffer line;
+void add_line(const HistoryRow& row, std::string& text) {
   // as few digits as give the same number back
-  fmt::format_to(std::back_inserter(line), "{}", row.time);
+  fmt::format_to(std::back_inserter(text), "{}", row.time);
   for (const double value : row.values) {
-    line.push_back(',');
-    if (value != absent) fmt::format_to(std::back_inserter(line), "{}", value);
+    text.push_back(',');
+    if (value != absent) fmt::format_to(std::back_inserter(text), "{}", value);
   }
-  fmt::format_to(std::back_inserter(line), ",{},{}\n", row.analysis, row.step);
-  return fmt::to_string(line);
+  fmt::format_to(std::back_inserter(text), ",{},{}\n", row.analysis, row.step);
 }
 
 }  // namespace
@@ -57,28 +59,44 @@ HistoryCsv::HistoryCsv(std::filesystem::path path, const std::vector<HistoryColu
   const std::filesystem::path name = rows.empty() ? path_ : temporary_name(path_);
   file_.reset(std::fopen(name.c_str(), "w"));
   if (!file_) give_up();
-  write(header(columns));
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  pending_ = header(columns);
   for (; !rows.empty(); rows = rows.subspan(history_width(column_count_))) {
-    write(line(unpack_history(rows.first(history_width(column_count_)))));
+    add_line(unpack_history(rows.first(history_width(column_count_))), pending_);
+    if (pending_.size() > most_at_once) put_pending();
   }
-  flush();
+  put_pending();
   if (name != path_) move_into_place(name, path_);
   identity_.emplace(path_);
 }
 
+HistoryCsv::~HistoryCsv() {
+  // Without a file this is what is left of a moved history.
+  if (!file_) return;
+  try {
+    write();
+  } catch (const Error&) {
+    // The file keeps its last lines; a destructor has nobody to tell.
+  }
+}
+
 void HistoryCsv::add(const HistoryRow& row) {
   internal_check(row.values.size() == column_count_, "one value per history column");
-  write(line(row));
-  flush();
+  add_line(row, pending_);
+  if (Clock::now() - written_at_ > longest_wait) write();
+}
+
+void HistoryCsv::write() {
+  if (pending_.empty()) return;
   identity_->check(path_);
+  put_pending();
 }
 
-void HistoryCsv::write(std::string_view text) {
+// At once, so that whoever reads meanwhile finds whole lines; and but once, also where that fails.
+void HistoryCsv::put_pending() {
+  const std::string text = std::exchange(pending_, {});
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) give_up();
-}
-
-void HistoryCsv::flush() {
-  if (std::fflush(file_.get()) != 0) give_up();
+  written_at_ = Clock::now();
 }
 
 void HistoryCsv::give_up() const {

@@ -8,10 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <thread>
+#include <utility>
 
 namespace culm::output {
 namespace {
@@ -29,6 +32,7 @@ TEST(HistoryCsv, NumbersReadBackExactlyWhileTheFileIsOpen) {
   const double values[] = {0.1, 1.0 / 3.0, -std::numeric_limits<double>::denorm_min(),
                            std::numeric_limits<double>::max(), 123456789.123456789};
   for (const double value : values) history.add({value, std::array{-value}, 0, 7});
+  history.write();
   std::string text = read_text_file(folder / "h.csv");
   const char* cursor = text.c_str() + text.find('\n') + 1;
   for (const double value : values) {
@@ -61,6 +65,7 @@ TEST(HistoryCsv, AnEarlierHistoryGoesOn) {
   const std::string earlier = "time,x [m],analysis,step\n0,0.1,0,0\n1,-0,0,1\n";
   EXPECT_EQ(read_text_file(folder / "h.csv"), earlier);
   history.add({2.0, std::array{3.0}, 1, 12});
+  history.write();
   EXPECT_EQ(read_text_file(folder / "h.csv"), earlier + "2,3,1,12\n");
 }
 
@@ -69,6 +74,7 @@ TEST(HistoryCsv, WhatIsAbsentIsAnEmptyCell) {
   HistoryCsv history(folder / "h.csv", {{"x", "m"}, {"F", "N"}},
                      std::array{0.0, 1.0, absent, 0.0, 0.0});
   history.add({1.0, std::array{absent, 2.0}, 0, 1});
+  history.write();
   EXPECT_EQ(read_text_file(folder / "h.csv"),
             "time,x [m],F [N],analysis,step\n0,1,,0,0\n1,,2,0,1\n");
 }
@@ -82,6 +88,7 @@ TEST(HistoryCsv, AFileThatVanishesOrIsReplacedIsAFileError) {
     change();
     try {
       history.add({1.0, std::array{2.0}});
+      history.write();
     } catch (const FileError& error) {
       return error.what();
     }
@@ -95,6 +102,25 @@ TEST(HistoryCsv, AFileThatVanishesOrIsReplacedIsAFileError) {
             }),
             path.string() + ": was replaced by another file while the run was writing it");
   EXPECT_EQ(read_text_file(path), "mine");
+}
+
+TEST(HistoryCsv, LinesDoNotWaitLongWhileOthersFollow) {
+  const TemporaryFolder folder;
+  HistoryCsv history(folder / "h.csv", {});
+  history.add({0.0, {}, 0, 0});
+  std::this_thread::sleep_for(std::chrono::milliseconds(101));
+  history.add({1.0, {}, 0, 1});
+  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,analysis,step\n0,0,0\n1,0,1\n");
+}
+
+TEST(HistoryCsv, LinesThatWaitAreWrittenAtTheEnd) {
+  const TemporaryFolder folder;
+  {
+    HistoryCsv history(folder / "h.csv", {});
+    history.add({0.0, {}, 0, 0});
+    const HistoryCsv moved = std::move(history);
+  }
+  EXPECT_EQ(read_text_file(folder / "h.csv"), "time,analysis,step\n0,0,0\n");
 }
 
 TEST(HistoryCsv, FullDiskIsAFileError) {

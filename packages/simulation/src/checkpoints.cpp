@@ -17,7 +17,8 @@ constexpr int due = 1;
 constexpr int time_over = 2;
 constexpr int signalled = 100;
 
-constexpr double largest_share = 0.01;  // of the time of a run, for writing checkpoints
+constexpr double longest_deafness = 0.05;  // s
+constexpr double largest_share = 0.01;     // of the time of a run, for writing checkpoints
 
 }  // namespace
 
@@ -49,7 +50,10 @@ Checkpoints::Demand Checkpoints::demand() {
   // the clock of one rank counts
   if (comm_.is_root() && active_ && now >= due_) found = due;
   if (comm_.is_root() && request_.is_time_over(longest_step_)) found = time_over;
-  StopRequest::listen();
+  if (now - listened_ > longest_deafness) {
+    listened_ = now;
+    StopRequest::listen();  // a controller or a partner's library may have taken the signals
+  }
   if (request_.signal() != 0) found = signalled + request_.signal();
   found = comm_.max(found);
   if (found > due) reason_ = found;

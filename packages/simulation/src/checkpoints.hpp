@@ -45,6 +45,7 @@ class Checkpoints {
   int reason_ = 0;          ///< why to stop: a signal, or that the time is over
   double last_step_ = 0.0;  ///< when the last step ended [s]
   double longest_step_ = 0.0;
+  double listened_ = 0.0;  ///< when signals were last made sure of [s]
   bool is_early_ = false;
   double begun_;  ///< when the run began [s]
   double due_;    ///< when the next checkpoint is due [s]

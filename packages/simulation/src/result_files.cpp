@@ -142,6 +142,7 @@ void ResultFiles::save(Snapshot& snapshot) const {
   snapshot.set_text("run/model", settings_.info.model);
   if (files_ != nullptr) {
     save_mark(files_->recorder.commit(), snapshot);
+    files_->history.write();
     if (files_->pictures) files_->pictures->secure();
   }
   snapshot.set(memories_key, memories_of(*watched_));
@@ -278,6 +279,7 @@ void ResultFiles::finish(const std::string& report, const std::vector<output::Na
   on_root(system_->comm(), [&] {
     files_->recorder.write_report(report, scalars, tables, findings);
     files_->recorder.close();
+    files_->history.write();
     files_->xdmf.write();
     if (files_->pictures) files_->pictures->write();
     if (files_->fluid) files_->fluid->write();
