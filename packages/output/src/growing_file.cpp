@@ -38,8 +38,9 @@ void GrowingFile::replace(const std::vector<std::string>& entries) {
 bool GrowingFile::is_due() const {
   const auto waited = Clock::now() - written_at_;
   const bool lacks_many = entries_ > written_entries_ + written_entries_ / 8;
+  const bool lacks_all = written_entries_ == 0;
   return waited > std::chrono::seconds(10) ||
-         (lacks_many && waited > std::chrono::milliseconds(100));
+         (lacks_many && (lacks_all || waited > std::chrono::milliseconds(100)));
 }
 
 void GrowingFile::write() {

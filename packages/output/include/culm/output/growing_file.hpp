@@ -12,8 +12,9 @@
 namespace culm::output {
 
 /// A text file of head, entries and tail that is complete and readable at any time. It is rewritten
-/// through a temporary file, but not for every entry, which would take quadratic time: only when it
-/// lacks an eighth of its entries and a tenth of a second, or ten seconds.
+/// through a temporary file, but not for every entry, which would take quadratic time: for the
+/// first one, and then when it lacks an eighth of its entries and a tenth of a second, or ten
+/// seconds.
 class GrowingFile {
  public:
   /// Writes the file without entries. Throws FileError.
