@@ -34,6 +34,7 @@ MASS = 20.0  # of the deck, at each point
 TIME_LIMIT = 120  # s
 FAILED_PARTNER = 9
 OPTIONS = None
+one_process_shows = unittest.skipIf("--ranks" in sys.argv, "the root alone talks with partners, and other tests fail on ranks, too")
 
 
 def children_of(pid):
@@ -394,6 +395,7 @@ class Programs(CouplingTest):
         self.assertEqual(partner.wait(TIME_LIMIT), 0, partner.stderr.read())
         self.same("here", "there")
 
+    @one_process_shows
     def test_with_a_partner_in_c(self):
         self.culm("run", self.deck, "--output", "here", "--quiet")
         partner = self.start_partner_in_c()
@@ -440,6 +442,7 @@ class Programs(CouplingTest):
         errors = self.culm("replay", self.deck, self.deck, "--output", "none", "--quiet", code=6)
         self.assertIn("is no record of a coupling: what came is no frame of culm", errors)
 
+    @one_process_shows
     def test_replay_of_several_partners(self):
         self.culm("run", DECK, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
         self.culm("replay", self.folder / "here", DECK, "--output", "again", "--quiet")
@@ -464,6 +467,7 @@ class Programs(CouplingTest):
         self.culm("resume", "killed", "--quiet")
         self.same("here", "killed")
 
+    @one_process_shows
     def test_replay_of_a_partner(self):
         self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
         record = self.folder / "here/coupling_water.record"
@@ -479,6 +483,7 @@ class Programs(CouplingTest):
             partner.wait(TIME_LIMIT)
         self.assertIn("either a deck", self.culm("replay", record, code=2))
 
+    @one_process_shows
     def test_replay_of_what_couple_recorded(self):
         """The deck that was coupled by words of the command line has no list of partners."""
         bare = self.write("bare.xml", re.sub(r'  <ParameterList name="Coupling">.*?\n  </ParameterList>\n', "",
@@ -493,6 +498,7 @@ class Programs(CouplingTest):
         self.assertIn("the structure moves differently, in window", errors)
         self.assertIn("holds no record of a coupling", self.culm("replay", self.folder, bare, "--output", "no", code=6))
 
+    @one_process_shows
     def test_replay_compares_the_steps_within_windows(self):
         """A load that comes and goes within a window moves the structure there and hardly at its end."""
         self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
@@ -504,6 +510,7 @@ class Programs(CouplingTest):
         errors = self.culm("replay", damaged, self.deck, "--output", "again", "--quiet", code=8)
         self.assertIn("the structure moves differently, in window 3", errors)
 
+    @one_process_shows
     def test_replay_of_one_way(self):
         one_way = ["--quiet", "--set", "Coupling/Scheme=One Way", "--set", "Coupling/Partners/water/Type=Random",
                    "--set", "Coupling/Partners/water/Force=100"]
@@ -516,6 +523,7 @@ class Programs(CouplingTest):
                            code=8)
         self.assertIn("the structure moves differently", errors)
 
+    @one_process_shows
     def test_replay_in_other_windows(self):
         self.culm("run", self.deck, "--output", "here", "--quiet", "--set", "Coupling/Record=true")
         record = self.folder / "here/coupling_water.record"
@@ -568,6 +576,7 @@ class Partners(CouplingTest):
                 self.dies(way, SAID_IN_PYTHON[way], errors)
                 partner.kill()
 
+    @one_process_shows
     def test_whose_books_come_and_go(self):
         for way, (_, said) in BOOKS.items():
             with self.subTest(way=way):
@@ -577,6 +586,7 @@ class Partners(CouplingTest):
                           errors)
                 partner.kill()
 
+    @one_process_shows
     def test_that_want_what_is_not_there(self):
         partner = self.start_partner("wants")
         errors = self.culm("run", self.remote, "--output", "wants", "--quiet", code=FAILED_PARTNER)
@@ -610,9 +620,11 @@ class Partners(CouplingTest):
     def test_that_save_nothing(self):
         self.save_nothing(self.start_partner)
 
+    @one_process_shows
     def test_in_c_that_save_nothing(self):
         self.save_nothing(self.start_partner_in_c)
 
+    @one_process_shows
     def test_in_c_that_hear_nonsense(self):
         """A greeting that has no room for its points."""
         for payload in (b"", b"\1\0", struct.pack("<I", 5) + bytes(96)):
@@ -628,8 +640,9 @@ class Partners(CouplingTest):
             address.unlink()
             self.assertEqual((partner.returncode, errors.strip()), (1, "a frame has another length than it must"))
 
+    @one_process_shows
     def test_in_c_that_die(self):
-        for way in SAID if OPTIONS.ranks == 1 else ("leave", "infinite"):
+        for way in SAID:
             with self.subTest(way=way):
                 partner = self.start_partner_in_c(way)
                 said = SAID[way].replace("RuntimeError: ", "")
@@ -740,6 +753,7 @@ class Partners(CouplingTest):
                 if sent == signal.SIGTERM:
                     self.assertFalse((self.folder / name / "run.h5.journal").exists())
 
+    @one_process_shows
     def test_that_lie_about_their_energy(self):
         """Nobody can tell a lie from a coupling that is too loose: a broken promise, after whole results."""
         partner = self.start_partner_in_c("energy")
@@ -748,6 +762,7 @@ class Partners(CouplingTest):
         partner.wait(TIME_LIMIT)
         self.assertEqual(self.rows("lie"), 25)
 
+    @one_process_shows
     def test_that_are_slow_and_alive(self):
         """Signs of life keep a partner that takes longer than 'Patience'."""
         partner = self.start_partner("slow")
@@ -776,6 +791,7 @@ class Partners(CouplingTest):
                            "Coupling/Partners/water/Patience=0.5", code=FAILED_PARTNER)
         self.assertIn("nobody came to", errors)
 
+    @one_process_shows
     def test_whose_port_is_where_a_support_drives(self):
         settings = ["Ports/top/Points={mast/first}", "Coupling/Partners/damper/Type=Oscillator",
                     "Coupling/Partners/damper/Port=top", "Coupling/Partners/damper/Mass=10",
@@ -798,6 +814,7 @@ class Partners(CouplingTest):
         self.culm("resume", "killed", "--quiet")
         self.same("whole", "killed")
 
+    @one_process_shows
     def test_with_other_points(self):
         partner = subprocess.Popen([sys.executable, "-c", f"""
 import struct, sys
@@ -885,6 +902,7 @@ class Leaders(CouplingTest):
         self.finish(process)
         self.same("here", "there")
 
+    @one_process_shows
     def test_in_c(self):
         process = self.serve()
         leader = subprocess.run([os.path.abspath(OPTIONS.socket_leader), self.address], timeout=TIME_LIMIT)
@@ -924,6 +942,7 @@ class Leaders(CouplingTest):
         self.fails("gone without a word", leave)
         self.fails("no more wind", give_up)
 
+    @one_process_shows
     def test_that_ask_what_makes_no_sense(self):
         def go_forward(mast):
             mast.save(1)
@@ -944,6 +963,7 @@ class Leaders(CouplingTest):
         self.fails("said nothing", lambda mast: (mast._connection.ended.set(), time.sleep(3), mast.accept()),
                    "--patience", "1.5")
 
+    @one_process_shows
     def test_of_decks_that_cannot_be_led(self):
         for words, said in ((("--port", "wett"), "did you mean 'wet'"), ((), "the deck has 2 ports: say which by --port")):
             errors = self.culm("serve", self.led, "--at", self.address, *words, "--output", "no", code=2)
