@@ -31,6 +31,7 @@ std::optional<std::vector<Slider>> sliders_of(const Curve& curve) {
 SliderResponse slide(std::span<const Slider> sliders, const Vec3& prev, const Vec3& next,
                      double theta, std::span<Vec3> slips) {
   constexpr double rounding = 1e-13;
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   SliderResponse response;
   for (std::size_t i = 0; i < sliders.size(); ++i) {
     const auto& [k, limit] = sliders[i];
@@ -39,7 +40,9 @@ SliderResponse slide(std::span<const Slider> sliders, const Vec3& prev, const Ve
     const double size = trial.norm();
     Vec3 after = trial;
     Mat3 derivative = Mat3::Identity();
-    if (k * size > limit * (1.0 + rounding)) {
+    // the elastic way is a small difference of large ones where much has slid
+    const double lost = 4.0 * epsilon * (next.norm() + slips[i].norm());
+    if (k * (size - lost) > limit * (1.0 + rounding)) {
       const Vec3 n = trial / size;
       after = limit / k * n;
       derivative = limit / (k * size) * (Mat3::Identity() - n * n.transpose());

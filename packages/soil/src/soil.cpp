@@ -184,6 +184,8 @@ bool add_stations(const PileLine& line, const Options& options, SoilLoad& load,
     const auto grip = ground.at(line.depth(s), pile);
     if (!grip) continue;
     Station station{line.point(s), line.along(s), length, grip->lateral, grip->axial};
+    station.begin = s * line.length() - 0.5 * length;
+    station.end = station.begin + length;
     if (options.flag("Hysteresis")) {
       const std::string objection = make_remember(station);
       if (!objection.empty()) {
@@ -198,9 +200,30 @@ bool add_stations(const PileLine& line, const Options& options, SoilLoad& load,
   if (!options.has_list("Tip")) return true;
   const Options& list = options.list("Tip");
   const ShaftTable table = tip(pile.diameter);
-  load.add({line.point(deep), line.along(deep), 1.0, nullptr,
-            fractions_curve(list, table.displacements, table.fractions, list.number("Resistance"),
-                            TableCurve::Sides::positive)});
+  Station station{line.point(deep), line.along(deep), 1.0, nullptr,
+                  fractions_curve(list, table.displacements, table.fractions,
+                                  list.number("Resistance"), TableCurve::Sides::positive)};
+  station.begin = station.end = deep * line.length();
+  load.add(std::move(station));
+  return true;
+}
+
+// Whether no other load of soil holds the same part of the pile; an issue if one does.
+bool is_alone(const SoilLoad& load, const PileLine& line, const Options& options,
+              model::BuildContext& context) {
+  for (const auto& batch : context.model.loads()) {
+    const auto* other = dynamic_cast<const SoilLoad*>(batch.get());
+    const Station* shared = other == nullptr ? nullptr : load.meets(*other);
+    if (shared == nullptr) continue;
+    const double middle = 0.5 * (shared->begin + shared->end) / line.length();
+    context.issues.add(
+        options.where("Structure"),
+        fmt::format("{} holds the same pile {} as well, at a depth of {:.4g} m and elsewhere: two "
+                    "loads would be twice the ground; name all layers in one",
+                    other->effect().quoted(), shared->holds_across() ? "across" : "along",
+                    line.depth(middle)));
+    return false;
+  }
   return true;
 }
 
@@ -223,6 +246,8 @@ void build(const Options& options, model::BuildContext& context) {
   auto load =
       std::make_unique<SoilLoad>(model::Effect("Soil", options.name()), context.model.nodes());
   if (!add_stations(line, options, *load, context.issues)) return;
+  load->set_pile(structure->name);
+  if (!is_alone(*load, line, options, context)) return;
   if (options.flag("Hysteresis")) load->book_under("soil");
   if (load->size() == 0) {
     context.issues.add(options.list("Layers").where(),

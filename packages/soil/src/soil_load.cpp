@@ -74,6 +74,23 @@ void SoilLoad::add(Station station) {
   stations_.push_back(std::move(station));
 }
 
+const Station* SoilLoad::meets(const SoilLoad& other) const {
+  if (pile_ != other.pile_) return nullptr;
+  const auto is_tip = [](const Station& station) { return station.begin == station.end; };
+  const auto both_hold = [&](const Station& one, const Station& two) {
+    const double rounding = 1e-9 * std::max(one.end, two.end);
+    const bool share_length = one.begin < two.end - rounding && two.begin < one.end - rounding;
+    if (!share_length && !(is_tip(one) && is_tip(two))) return false;
+    return (one.holds_across() && two.holds_across()) || (one.holds_along() && two.holds_along());
+  };
+  for (const Station& one : stations_) {
+    for (const Station& two : other.stations_) {
+      if (both_hold(one, two)) return &one;
+    }
+  }
+  return nullptr;
+}
+
 std::vector<int> SoilLoad::blocks(int item, const model::UnknownTable& unknowns) const {
   return blocks_of(stations_[static_cast<std::size_t>(item)].point.nodes, unknowns);
 }

@@ -70,6 +70,19 @@ TEST(Sliders, WorkIsStoredOrSlid) {
   EXPECT_GT(path.slid, 0.5 * path.work);
 }
 
+// The elastic way is then a small difference of large slips.
+TEST(Sliders, SoilThatHasSlidFarIsElasticAboutItsState) {
+  for (const double way : {0.5, 3.0, 40.0}) {
+    Path path(sand_curve);
+    path.go(way * Vec3(0.6, 0.8, 0.0));
+    std::vector<Vec3> slips = path.slips;
+    const SliderResponse about = slide(path.sliders, path.place, path.place, 1.0, slips);
+    double stiffness = 0.0;
+    for (const Slider& slider : path.sliders) stiffness += slider.stiffness;
+    EXPECT_LT((about.derivative - stiffness * Mat3::Identity()).norm(), 1e-12 * stiffness) << way;
+  }
+}
+
 TEST(Sliders, LinesNeverSlide) {
   Path path(LinearCurve(3.0));
   path.go(7.0 * Vec3::UnitX());

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct Station {
   SharedCurve axial = {};      ///< by how far it moves along; none if null
   /// Instead of a curve, where soil remembers.
   std::vector<Slider> lateral_sliders = {}, axial_sliders = {};
+  /// The part of the pile's length that it stands for; a tip begins where it ends [m].
+  double begin = 0.0, end = 0.0;
+
+  bool holds_across() const { return lateral != nullptr || !lateral_sliders.empty(); }
+  bool holds_along() const { return axial != nullptr || !axial_sliders.empty(); }
 };
 
 /// Soil as springs: with the displacement u of a station, in space,
@@ -40,6 +46,11 @@ class SoilLoad final : public model::MemorylessBatch, public model::Booked {
 
   void add(Station station);
   const std::vector<Station>& stations() const { return stations_; }
+  /// Names the pile, once it is known.
+  void set_pile(std::string name) { pile_ = std::move(name); }
+  /// The first station of this load that holds the pile where one of another load does so in the
+  /// same direction; null if there is none.
+  const Station* meets(const SoilLoad& other) const;
 
   int size() const override { return static_cast<int>(stations_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;
@@ -80,6 +91,7 @@ class SoilLoad final : public model::MemorylessBatch, public model::Booked {
                         bool tangent, model::Target& target) const;
 
   const model::NodeTable& nodes_;
+  std::string pile_;
   std::vector<Station> stations_;
   std::vector<Vec3> reference_;
   std::vector<std::size_t> first_slip_;  ///< by station
