@@ -40,8 +40,11 @@ double turning_share(double tip_speed, double wind) {
 class Turned {
  public:
   // @param downwind  across the chord, downwind
-  Turned(const strip::Station& station, const strip::StationFlow& flow, const Vec3& downwind)
+  // @param share     of the forces that act, by the function of the strip
+  Turned(const strip::Station& station, const strip::StationFlow& flow, const Vec3& downwind,
+         double share)
       : station_(station),
+        share_(share),
         mirror_(flow.across.dot(downwind) < 0.0 ? -1.0 : 1.0),
         speed_(flow.relative().norm()),
         along_(-flow.turning.dot(flow.along)),
@@ -56,7 +59,8 @@ class Turned {
     const strip::Coefficients c = station_.coefficients(mirror_ * std::atan2(across, along), slope);
     const double turn =
         speed_ * (along * cosine + across * sine) / (along * along + across * across);
-    return {mirror_ * c[0], c[1], turn * slope[0], mirror_ * turn * slope[1]};
+    return {share_ * mirror_ * c[0], share_ * c[1], share_ * turn * slope[0],
+            share_ * mirror_ * turn * slope[1]};
   }
   // What would have to be added to alpha for the same change of angle: by the speed, and by the
   // turning along and across the chord, downwind.
@@ -69,6 +73,7 @@ class Turned {
 
  private:
   const strip::Station& station_;
+  double share_;
   double mirror_;
   double speed_, along_, across_;  // [m/s]
 };
@@ -184,7 +189,7 @@ double RotorLoad::share_of(const RotorState& rotor) const {
 // A rotation w of the section turns the span s by w x s, whose parts along normal n and `against`
 // t are p and r. With the axis m n + k s:  dn = -k/m r t - p s,  dt = k/m r n - r s.
 RotorLoad::Balanced RotorLoad::balance(const Element& element, const strip::StationFlow& flow,
-                                       const RotorState& rotor, double near) const {
+                                       const RotorState& rotor, double near, double acting) const {
   const Vec3 span = flow.along.cross(flow.across);
   const Vec3 normal = across(rotor.axis, span);
   Balanced found;
@@ -204,7 +209,7 @@ RotorLoad::Balanced RotorLoad::balance(const Element& element, const strip::Stat
   const double along = flow.along.dot(found.against), lead = flow.along.dot(found.normal);
   const Vec3 downwind = along * found.normal - lead * found.against;
   const Turned airfoil(element.strip->stations()[static_cast<std::size_t>(element.station)], flow,
-                       downwind);
+                       downwind, acting);
   const Section section = [&airfoil](double alpha) { return airfoil.at(alpha); };
   const AnnulusPlace place{static_cast<int>(blades_.size()), element.radius, element.hub_radius,
                            element.tip_radius};
@@ -307,7 +312,8 @@ void RotorLoad::induce(const model::State& state, const Stencil& stencil) {
   trial_.unbalanced = 0;
   trial_.turning = induces ? share_of(rotor) : 0.0;
   for (std::size_t i = 0; i < elements_.size() && induces; ++i) {
-    balances_[i] = balance(elements_[i], flows_[i], rotor, trial_.angles[i]);
+    balances_[i] = balance(elements_[i], flows_[i], rotor, trial_.angles[i],
+                           elements_[i].strip->amplitude().in_step(state, stencil));
     trial_.angles[i] = balances_[i].angle;
     rotor.induction += elements_[i].area / area * balances_[i].induction;
     trial_.unbalanced += balances_[i].found ? 0 : 1;

@@ -29,7 +29,7 @@ constexpr double h = 1e-4, omega = 6.0;  // the turn in a step is so small that 
 // the other way. Anywhere in space.
 class Turbine {
  public:
-  explicit Turbine(RotorModel kind, double sense = 1.0) : sense_(sense) {
+  explicit Turbine(RotorModel kind, double sense = 1.0, double acting = 1.0) : sense_(sense) {
     slots_ = kit::random_node(7);
     model_.nodes().add(slots_);
     std::vector<strip::StripLoad*> blades;
@@ -38,7 +38,7 @@ class Turbine {
       const Mat3 turn =
           Eigen::AngleAxisd(2.0 * pi * b / num_blades, Vec3::UnitX()).toRotationMatrix();
       auto blade = std::make_unique<strip::StripLoad>(
-          "strips", model_.nodes(), model::Amplitude::constant(), wind_, strip::StripModel{});
+          "strips", model_.nodes(), model::Amplitude::constant(acting), wind_, strip::StripModel{});
       for (int i = 0; i < num_stations; ++i) {
         strip::Station station{model::marker_at(0), width(), chord, 0.25};
         station.point.offset = turn * Vec3(0.0, 0.0, radius(i));
@@ -92,7 +92,7 @@ class Turbine {
     return {u[0], sense_ * u[1]};
   }
   // What the balance gives by itself.
-  Induced balance(int station, double wind, const Losses& losses = {}) const {
+  Induced balance(int station, double wind, const Losses& losses = {}, double acting = 1.0) const {
     const double r = radius(station);
     const auto section = [](double alpha) {
       strip::Coefficients slope;
@@ -100,7 +100,7 @@ class Turbine {
       return LiftDrag{c[0], c[1]};
     };
     const Induction found = solve_induction(
-        {{num_blades, r, root, tip}, losses, chord, twist, wind, omega * r}, section);
+        {{num_blades, r, root, tip}, losses, acting * chord, twist, wind, omega * r}, section);
     return {-found.axial * wind, found.tangential * omega * r};
   }
 
@@ -131,6 +131,15 @@ TEST(RotorLoad, InducesWhatTheBalanceOfEachStationAsksFor) {
       }
     }
     EXPECT_LT(turbine.induced(2)[0], -1.0);
+  }
+}
+
+// As if the chord were so long.
+TEST(RotorLoad, InducesByTheShareOfTheForcesThatActs) {
+  for (const double acting : {0.5, 0.0}) {
+    Turbine turbine({Follow::steady}, 1.0, acting);
+    turbine.attempt(omega);
+    EXPECT_LT((turbine.induced(2) - turbine.balance(2, 8.0, {}, acting)).norm(), tolerance);
   }
 }
 

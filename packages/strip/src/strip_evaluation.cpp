@@ -219,7 +219,7 @@ StripLoad::Evaluation StripLoad::evaluate(std::size_t station_number, const mode
   put(loads.forces.normal, 2, result.forces, result.derivative);
   const Vec3 span = Vec3(middle.col(1)).cross(Vec3(middle.col(2))).normalized();
   const double within = flow_->share_within(places[0], 0.5 * station.length * span, time);
-  const double factor = within * station.length * (mass ? 1.0 : amplitude_.in_step(state, stencil));
+  const double factor = within * station.length * amplitude_.in_step(state, stencil);
   result.forces *= factor;
   result.derivative *= factor;
   result.end = {loads.memory, loads.seen};

@@ -148,8 +148,9 @@ class RotorLoad final : public model::MemorylessBatch,
 
   void add_blade(strip::StripLoad& blade, const model::NodeTable& nodes);
   RotorState motion(const model::State& state, const Stencil& stencil) const;
+  // @param acting  share of the forces of the strip that acts
   Balanced balance(const Element& element, const strip::StationFlow& flow, const RotorState& rotor,
-                   double near) const;
+                   double near, double acting) const;
   InflowTimes times_of(const Element& element, const RotorState& rotor) const;
   Felt follow(std::size_t element, const Induced& quasi_steady, const RotorState& rotor,
               const Stencil& stencil);
