@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace culm::water {
 
@@ -17,6 +18,10 @@ double wave_number(double frequency, double depth, double gravity) {
     if (std::abs(change) <= rounding * k) break;
   }
   return k;
+}
+
+double breaking_height(double number, double depth) {
+  return 0.142 * 2.0 * std::numbers::pi / number * std::tanh(number * depth);
 }
 
 }  // namespace culm::water

@@ -1,5 +1,7 @@
+#include <culm/base/text.hpp>
 #include <culm/joint/triad_nodes.hpp>
 #include <culm/water/morison_load.hpp>
+#include <culm/water/potential_load.hpp>
 #include <culm/water/register_water.hpp>
 
 #include "distribution.hpp"
@@ -396,6 +398,34 @@ bool is_alone(const MorisonLoad& load, const Options& options, model::BuildConte
   return true;
 }
 
+// Adds an issue where linear potential flow acts on a body that carries the member, unless the deck
+// says what of the water the member has all the same, as one that the files do not know.
+void refuse_unsaid_beside_bodies(const Options& options, const std::vector<int>& nodes,
+                                 flow::FluidContext& context) {
+  std::vector<std::string> unsaid;
+  const bool presses = options.flag("Buoyancy");
+  if (presses && !options.given("Buoyancy")) unsaid.emplace_back("'Buoyancy'");
+  if (options.flag("Pull") && !options.given("Pull") && !(presses && unsaid.empty())) {
+    unsaid.emplace_back("'Pull'");
+  }
+  if (!options.has("Added Masses") && !options.given("Added Mass")) {
+    unsaid.emplace_back("'Added Mass'");
+  }
+  if (unsaid.empty()) return;
+  context.after_all_loads([&options, nodes, unsaid, &context] {
+    for (const auto& batch : context.build.model.loads()) {
+      const auto* body = dynamic_cast<const PotentialLoad*>(batch.get());
+      if (body == nullptr || std::ranges::count(nodes, body->node()) == 0) continue;
+      context.build.issues.add(
+          options.where(),
+          fmt::format("{} acts on the body that carries this member: say {}; false and 0 where its "
+                      "files know the member, whose water would act twice",
+                      body->effect().quoted(), join(unsaid, ", ")));
+      return;
+    }
+  });
+}
+
 // What the first and the last face of a member have.
 std::array<double, 2> of_faces(const char* one, const char* several, const Options& options) {
   if (!options.has(several)) return {options.number(one), options.number(one)};
@@ -428,6 +458,7 @@ void make_morison(const Options& options, flow::FluidContext& context) {
     load->add(std::move(segment));
   }
   flow::refuse_rotating_frame(options, nodes, context);
+  refuse_unsaid_beside_bodies(options, nodes, context);
   for (const auto& batch : build.model.loads()) {
     if (auto* other = dynamic_cast<MorisonLoad*>(batch.get())) load->join(*other);
   }

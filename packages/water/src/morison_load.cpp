@@ -128,7 +128,7 @@ MorisonLoad::Evaluation MorisonLoad::evaluate(const Item& item, const model::Sta
     if (sea_->site().up.dot(place - middle.col(1 - end)) <= 0.0) continue;
     result.swamped = std::max(result.swamped, sea_->wet_to(place, time) - sea_->height(place));
   }
-  const double factor = mass ? 1.0 : amplitude_.in_step(state, stencil);
+  const double factor = amplitude_.in_step(state, stencil);
   result.forces *= factor;
   result.derivative *= factor;
   result.resultant.force = result.forces.rowwise().sum();
@@ -309,6 +309,18 @@ bool MorisonLoad::meets(const MorisonLoad& other) const {
   constexpr double rounding = 1e-9;
   return member_ == other.member_ && begin_ < other.end_ - rounding &&
          other.begin_ < end_ - rounding;
+}
+
+bool MorisonLoad::acts_on(int node) const {
+  return std::ranges::any_of(
+      items_, [node](const Item& item) { return std::ranges::count(item.nodes, node) > 0; });
+}
+
+bool MorisonLoad::has_drag() const {
+  return std::ranges::any_of(items_, [](const Item& item) {
+    return std::ranges::any_of(item.segment.sections,
+                               [](const WetSection& section) { return section.drag > 0.0; });
+  });
 }
 
 void MorisonLoad::save(model::Items items, std::span<double> numbers) const {

@@ -63,7 +63,7 @@ PotentialLoad::Evaluation PotentialLoad::evaluate(const model::State& state, con
                                                   Want want, States& trial) const {
   Evaluation result;
   if (want == Want::mass) {
-    result.derivative = -body_.flow.infinite_mass;
+    result.derivative = -amplitude_.in_step(state, stencil) * body_.flow.infinite_mass;
     return result;
   }
   const bool moves = stencil.step > 0.0 && stencil.inertia > 0.0;

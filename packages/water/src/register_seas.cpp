@@ -106,12 +106,10 @@ Wave wave_of(double amplitude, double period, double phase) {
   return {amplitude, turn / period, 0.0, phase};
 }
 
-// Waves higher than this share of their length, or of the depth, have broken.
-// @source Miche (1944): H < 0.142 L tanh kd
 std::string breaking(double height, double period, const Options& options) {
   const double depth = options.number("Depth");
-  const double k = wave_number(turn / period, depth, options.number("Gravity"));
-  const double limit = 0.142 * turn / k * std::tanh(k * depth);
+  const double limit =
+      breaking_height(wave_number(turn / period, depth, options.number("Gravity")), depth);
   if (std::abs(height) <= limit) return {};
   return fmt::format("waves of this period break above {:.4g} m, got {:g} m", limit, height);
 }

@@ -1,3 +1,4 @@
+#include <culm/water/dispersion.hpp>
 #include <culm/water/sea.hpp>
 
 #include <algorithm>
@@ -36,6 +37,14 @@ double Sea::main_length() const {
   const auto main = std::ranges::max_element(
       waves_, {}, [](const Wave& wave) { return std::abs(wave.amplitude); });
   return 2.0 * std::numbers::pi / main->number;
+}
+
+double Sea::breaking_height() const {
+  double highest = 0.0;
+  for (const Wave& wave : waves_) {
+    highest = std::max(highest, water::breaking_height(wave.number, site_.depth));
+  }
+  return highest;
 }
 
 double Sea::growth(double time) const {

@@ -8,5 +8,8 @@ namespace culm::water {
 /// @param depth      d [m]          @pre > 0
 /// @param gravity    g [m/s^2]      @pre > 0
 double wave_number(double frequency, double depth, double gravity);
+/// Waves of a number k that are higher than this have broken [m].
+/// @source Miche (1944): H < 0.142 L tanh kd
+double breaking_height(double number, double depth);
 
 }  // namespace culm::water

@@ -56,6 +56,12 @@ class MorisonLoad final : public model::MemorylessBatch,
   void join(MorisonLoad& other);
 
   const Sea& sea() const { return *sea_; }
+  /// Whether the member is carried by a node, among others.
+  bool acts_on(int node) const;
+  /// Whether any of it has drag across its axis.
+  bool has_drag() const;
+  /// One of those that carry the member.
+  int first_node() const { return items_.front().nodes.front(); }
 
   int size() const override { return static_cast<int>(items_.size()); }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;

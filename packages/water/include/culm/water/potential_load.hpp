@@ -39,6 +39,7 @@ class PotentialLoad final : public model::MemorylessBatch,
 
   /// Of the body.
   int node() const { return motion_.node(); }
+  const Sea& sea() const { return *sea_; }
 
   int size() const override { return 1; }
   std::vector<int> blocks(int item, const model::UnknownTable& unknowns) const override;

@@ -61,6 +61,10 @@ class Sea final : public flow::Flow {
   double pressed_at_surface(const Vec3& place, double time) const;
   /// No surface is farther from still water [m].
   double highest() const { return highest_; }
+  const Current& current() const { return current_; }
+  /// Height above which the longest of the waves breaks, which is the highest that it can have; 0
+  /// where there are none [m].
+  double breaking_height() const;
   /// Length of the highest wave; infinite where there are none [m].
   double main_length() const;
   double shown() const { return shown_; }
