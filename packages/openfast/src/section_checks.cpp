@@ -52,9 +52,13 @@ double asymmetry(const Mat6& matrix, const Check& check) {
 double definiteness(const Mat6& matrix, const Check& check) {
   for (int i = 0; i < 6; ++i) {
     if (!(matrix(i, i) > 0.0)) {
-      throw InputError(check.where(), fmt::format("must be positive definite, but entry ({0}, {0}) "
-                                                  "is {1:g}",
-                                                  i + 1, matrix(i, i)));
+      const bool is_zero = matrix.isZero(0.0);
+      throw InputError(
+          check.where(),
+          is_zero ? std::string("must be positive definite, but is zero: put in what the section "
+                                "has, or as little of it as does no harm")
+                  : fmt::format("must be positive definite, but entry ({0}, {0}) is {1:g}", i + 1,
+                                matrix(i, i)));
     }
   }
   const Vec6 scale = matrix.diagonal().cwiseSqrt().cwiseInverse();

@@ -76,12 +76,14 @@ class SubDeck {
     for (std::size_t joint = 0; joint < ends_.size(); ++joint) write_joint(joint);
     write_rigid_links();
     write_interface();
-    for (const SubSupport& support : sub_.supports) write_support(support);
+    for (const SubSupport& support : sub_.supports) {
+      if (!is_place(support.joint)) write_support(support);
+    }
   }
 
   void write_ground() {
     for (const SubSupport& support : sub_.supports) {
-      if (!support.is_soft()) continue;
+      if (!support.is_soft() || is_place(support.joint)) continue;
       deck_.open(body_at(sub_, support.joint) + ", ground", "Restoring");
       deck_.set("Node", node_at(support.joint));
       deck_.set_triangle("Stiffness", support.stiffness);
@@ -95,9 +97,7 @@ class SubDeck {
       if (member.kind != SubMember::Kind::cable) continue;
       const SubLink& cable = sub_.cables[member.properties[0]];
       const double free = length_of(sub_, member) / (1.0 + cable.tension / cable.stiffness);
-      deck_.open(name_of(member), "Spring");
-      deck_.set("First", node_at(member.joints[0]));
-      deck_.set("Second", node_at(member.joints[1]));
+      write_cable_ends(member);
       deck_.set("Stiffness", cable.stiffness / free);
       deck_.set("Free Length", free);
       deck_.close();
@@ -119,6 +119,7 @@ class SubDeck {
     for (const SubSupport& support : sub_.supports) {
       const bool holds =
           std::find(support.held.begin(), support.held.end(), true) != support.held.end();
+      if (is_place(support.joint)) continue;
       show(body_at(sub_, support.joint), holds ? "Reaction" : "Displacement", support.joint);
     }
     if (sub_.interface.empty() && sub_.supports.empty()) show("first joint", "Displacement", 0);
@@ -184,10 +185,40 @@ class SubDeck {
       }
     }
     for (std::size_t joint = 0; joint < ends_.size(); ++joint) {
-      if (!ends_[joint].empty()) continue;
+      if (!ends_[joint].empty() || anchors_cables(joint)) continue;
       throw InputError({sub_.path.string(), 0, body_at(sub_, joint)},
-                       "no beam and no mass is there, so that nothing gives it inertia");
+                       "no beam and no mass is there, so that nothing gives it inertia; only where "
+                       "its supports hold it in all directions may cables alone end at it");
     }
+  }
+
+  // Whether a joint is nothing but a fixed place, as where cables are anchored.
+  bool is_place(std::size_t joint) const { return ends_[joint].empty(); }
+  bool anchors_cables(std::size_t joint) const {
+    const bool is_held = std::ranges::any_of(sub_.supports, [joint](const SubSupport& support) {
+      return support.joint == joint && support.held[0] && support.held[1] && support.held[2];
+    });
+    const bool joins_cables = std::ranges::none_of(sub_.members, [joint](const SubMember& member) {
+      return member.kind != SubMember::Kind::cable && std::ranges::count(member.joints, joint) > 0;
+    });
+    return is_held && joins_cables && std::ranges::count(sub_.interface, joint) == 0;
+  }
+
+  void write_cable_ends(const SubMember& cable) {
+    const auto [first, second] = cable.joints;
+    if (!is_place(first) && !is_place(second)) {
+      deck_.open(name_of(cable), "Spring");
+      deck_.set("First", node_at(first));
+      deck_.set("Second", node_at(second));
+      return;
+    }
+    if (is_place(first) && is_place(second)) {
+      throw InputError({sub_.path.string(), 0, name_of(cable)},
+                       "a cable between two joints that are held moves nothing: leave it out");
+    }
+    deck_.open(name_of(cable), "Ground Spring");
+    deck_.set("Node", node_at(is_place(first) ? second : first));
+    deck_.set("Anchor", sub_.joints[is_place(first) ? first : second].place);
   }
 
   static bool is_point(const SubMass& mass) {
@@ -251,6 +282,11 @@ class SubDeck {
     if (!(mass.mass > 0.0)) {
       throw InputError({sub_.path.string(), 0, fmt::format("concentrated mass {}", i + 1)},
                        "has inertia or stands alone, and must have a mass > 0");
+    }
+    if (is_point(mass)) {
+      throw InputError({sub_.path.string(), 0, fmt::format("concentrated mass {}", i + 1)},
+                       "stands alone and has no inertia, so that nothing resists its rotation: "
+                       "give it JMXX, JMYY and JMZZ > 0, small ones if it hangs in cables only");
     }
     const Mat3& J = mass.inertia;
     deck_.open(name, "Rigid Body");

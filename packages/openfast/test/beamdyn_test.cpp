@@ -253,6 +253,13 @@ TEST_F(BeamDynFiles, ImpossibleInputIsRefusedWithItsPlace) {
   EXPECT_THAT(
       with_blade("  0 0 0 0 4E5 1E4\n  0 0 0 0 1E4 3E5", "  0 0 0 0 4E5 9E5\n  0 0 0 0 9E5 3E5"),
       HasSubstr("station 1, stiffness: must be positive definite, but the smallest"));
+  EXPECT_THAT(
+      with_blade("  10  0  0  0  0  0\n   0 10  0  0  0  0\n   0  0 10  0  0  0\n"
+                 "   0  0  0  2  0  0\n   0  0  0  0  1  0\n   0  0  0  0  0  3\n",
+                 "  0 0 0 0 0 0\n  0 0 0 0 0 0\n  0 0 0 0 0 0\n  0 0 0 0 0 0\n  0 0 0 0 0 0\n  0 0 "
+                 "0 0 0 0\n"),
+      EndsWith("station 2, mass: must be positive definite, but is zero: put in what the section "
+               "has, or as little of it as does no harm"));
   EXPECT_THAT(with_blade("2     station_total", "3     station_total"),
               HasSubstr("blade.inp:4: station_total: announces 3 stations of 13 lines"));
   EXPECT_THAT(with_blade(" 1.0\n", " 0.9\n"),

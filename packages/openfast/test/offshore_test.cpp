@@ -58,6 +58,33 @@ TEST_F(OffshoreFiles, MembersOfSubDynBecomeBeamsJoinedAtTheirJoints) {
   EXPECT_THAT(imported.report, HasSubstr("member 5: a cable becomes a spring"));
 }
 
+// An anchor at (5, 8, -30), to which a cable leads from the top of the frame.
+TEST_F(OffshoreFiles, CablesOfSubDynMayEndAtFixedPlaces) {
+  std::string text = change(subdyn_file, "5            NJoints", "6            NJoints");
+  text = change(
+      text, " 15        5.0       8.0       10.0       4         0         0         0         0\n",
+      " 15        5.0       8.0       10.0       4         0         0         0         0\n"
+      " 16        5.0       8.0      -30.0       1         0         0         0         0\n");
+  text = change(text, "2            NReact", "3            NReact");
+  text = change(text, " 12        1        1        1        0        0        0       \"\"\n",
+                " 12        1        1        1        0        0        0       \"\"\n"
+                " 16        1        1        1        1        1        1       \"\"\n");
+  text = change(text, "6            NMembers", "7            NMembers");
+  text = change(text, " 6          15        12         2           2         1     -1\n",
+                " 6          15        12         2           2         1     -1\n"
+                " 7          16        13         9           9         2     -1\n");
+  const Imported imported = import(text);
+  std::string cable = imported.deck.substr(imported.deck.find(R"("member 7")"));
+  cable.resize(cable.find("</ParameterList>"));
+  EXPECT_THAT(cable, HasSubstr(parameter("Type", "Ground Spring")));
+  EXPECT_THAT(cable, HasSubstr(parameter("Anchor", "{5, 8, -30}")));
+  EXPECT_THAT(cable, HasSubstr(parameter("Node", "member 1/last")));
+  EXPECT_THAT(imported.deck, Not(HasSubstr("joint 16")));
+  EXPECT_THAT(message_of(change(text, " 16        1        1        1 ",
+                                " 16        1        1        0 ")),
+              HasSubstr("joint 16: no beam and no mass is there"));
+}
+
 TEST_F(OffshoreFiles, MassesOfSubDynAreThoseOfItsTables) {
   Report report;
   const SubDyn sub = read_subdyn(write("sub.dat", subdyn_file), report);
