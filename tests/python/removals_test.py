@@ -137,6 +137,12 @@ class Removals(unittest.TestCase):
         )
         self.assertEqual(settings(found, "wake of the tower"), [["Flows/a/Tower Influence/Downstream=None"]])
 
+    def test_winds_lose_their_shear(self):
+        flows = entry("power", {"Type": "Power Law", "Exponent": "0.14"}) + entry("even", {"Type": "Power Law", "Exponent": "0"})
+        flows += entry("log", {"Type": "Log Law", "Roughness": "0.03"})
+        found = removals.find(deck(entry("Flows", {}, flows)))
+        self.assertEqual(settings(found, "shear of the wind"), [["Flows/power/Exponent=0"], ["Flows/log/Roughness=1e-300"]])
+
     def test_free_wakes_become_prescribed(self):
         lattice = entry("a", {"Type": "Vortex Lattice"}, entry("Wake", {"Motion": "Free"}))
         lattice += entry("b", {"Type": "Vortex Lattice"}, entry("Wake", {"Motion": "Prescribed"}))

@@ -4,6 +4,7 @@ import numpy as np
 
 from .removal import LIGHT, Removal, array, inactive, of_types, parameters, same, words
 
+SMOOTH = 1e-300  # height at which a wind by the logarithm vanishes [m]
 HIGH = 1e6  # factor on a yield stress that is never reached
 
 
@@ -31,6 +32,9 @@ def shear_of_the_wind(deck):
         for key in ("Exponent", "Horizontal Shear", "Vertical Shear"):
             if float(flow.get(key) or 0.0) != 0.0:
                 yield Removal("shear of the wind", name, [f"Flows/{name}/{key}=0"], key)
+        if flow.get("Type") == "Log Law":
+            # over so smooth a ground the logarithm hardly grows with the height any more
+            yield Removal("shear of the wind", name, [f"Flows/{name}/Roughness={SMOOTH:g}"], f"Roughness {SMOOTH:g} m")
 
 
 def influence_of_towers(deck):
