@@ -1,5 +1,7 @@
 #include "doubts.hpp"
 
+#include <culm/water/doubts.hpp>
+
 #include "contact_findings.hpp"
 #include "ended_ramps.hpp"
 #include "gravity_and_sea.hpp"
@@ -91,6 +93,7 @@ void warn_before(const Options& deck, const Options& analysis, const model::Mode
   const auto warn = [&](const char* kind, const std::vector<std::string>& sentences) {
     for (const std::string& sentence : sentences) findings.warn(kind, sentence, state.time);
   };
+  warn("left out", water::left_out_of_bodies(model));
   warn("gravity", weights_that_miss_seas(deck, analysis));
   warn("width", widths_that_differ(deck, analysis, model));
   warn("ended ramp", levels_beyond_ramp(deck, analysis));

@@ -17,6 +17,9 @@ namespace {
 
 // What is less of a load than this is rounding.
 constexpr double negligible = 1e-12;
+// A partner that answers with less than this, over what rounding leaves out of balance, has seen
+// nothing else.
+constexpr double echo = 10.0;
 
 // A partner may act on what is driven, as a flow on a body that is made to oscillate.
 bool is_of_partner(const model::Batch& load) {
@@ -27,6 +30,9 @@ bool is_of_partner(const model::Batch& load) {
 bool is_set_from_outside(const model::Batch& load) {
   return is_of_partner(load) || load.effect().type == "External";
 }
+
+// Elements that are heated are elements.
+bool is_temperature(const model::Batch& batch) { return batch.effect().type == "Temperature"; }
 
 }  // namespace
 
@@ -54,15 +60,21 @@ void LoadWatch::begin(const model::Model& model) {
   for (const auto& load : model.loads()) {
     if (is_given(*load)) loads_.push_back({load.get()});
   }
+  for (const auto& batch : model.element_batches()) {
+    if (is_temperature(*batch)) loads_.push_back({batch.get()});
+  }
 }
 
-void LoadWatch::step(const assembly::System& system, const model::State& state) {
+void LoadWatch::step(const assembly::System& system, const model::State& state, double rounding) {
   has_stepped_ = true;
   for (Load& load : loads_) {
     if (load.seen == Seen::moving) continue;
     const assembly::LoadShare share = system.share_of(*load.batch, state);
     if (share.whole == 0.0) continue;
-    load.seen = goes_into_supports(share) ? Seen::held : Seen::moving;
+    if (is_of_partner(*load.batch) && share.whole <= echo * rounding) continue;
+    // what is heated between supports is strained all the same
+    const bool is_lost = goes_into_supports(share) && !is_temperature(*load.batch);
+    load.seen = is_lost ? Seen::held : Seen::moving;
   }
 }
 

@@ -18,14 +18,16 @@ bool goes_into_supports(const assembly::LoadShare& share);
 /// What to say of such a load.
 std::string idle_warning(const model::Batch& load);
 
-/// Looks at the dead and follower loads of an analysis, and at those of ports, until each has moved
-/// something. A load that never did although it acted went straight into the supports.
+/// Looks at the dead and follower loads of an analysis, at temperatures, and at loads of ports,
+/// until each has moved something. A load that never did although it acted went straight into the
+/// supports.
 class LoadWatch {
  public:
   /// Starts anew with the loads of a model, which must outlive this.
   void begin(const model::Model& model);
   /// After an accepted step. Collective; costs nothing once all loads have moved something.
-  void step(const assembly::System& system, const model::State& state);
+  /// @param rounding  force that rounding left out of balance, to which a partner may answer [N]
+  void step(const assembly::System& system, const model::State& state, double rounding);
   /// Whether any of them acted at all.
   bool any_acted() const;
   /// At the end of an analysis: adds a finding for each load that moved nothing; at the end of the

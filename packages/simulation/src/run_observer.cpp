@@ -67,6 +67,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   findings_.begin(name_);
   loads_.begin(context.system.model());
   ranges_.begin(context.system.model());
+  waves_.begin(context.system.model());
   strips_.begin(context.system.model());
   balance_ = {};
   context_ = &context;
@@ -81,6 +82,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
 void RunObserver::resume(const Snapshot& snapshot) {
   loads_.restore(snapshot);
   ranges_.restore(snapshot);
+  waves_.restore(snapshot);
   const std::span<const double> balance = snapshot.numbers("run/balance", 3);
   balance_.scale = balance[0];
   balance_.residual = balance[1];
@@ -231,6 +233,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   findings_.save(snapshot);
   loads_.save(snapshot);
   ranges_.save(snapshot);
+  waves_.save(snapshot);
   snapshot.set("run/balance", {balance_.scale, balance_.residual, balance_.time});
   snapshot.set_text("run/balance row", balance_.row);
   earlier_.save(snapshot);
@@ -335,10 +338,11 @@ std::string RunObserver::free_prefix() const {
 void RunObserver::watch_loads(const analysis::StepReport& report, model::State& state) {
   const double accepted = state.time_prev;
   state.time_prev = report.time - report.increment;
-  loads_.step(context_->system, state);
+  loads_.step(context_->system, state, balance_.residual);
   strips_.step(state, findings_);
   state.time_prev = accepted;
   ranges_.step(context_->system);
+  waves_.step(state);
 }
 
 // Positions are right to the last digit then, forces are not.
@@ -372,6 +376,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
   progress_.end();
   report_turns(state.time);
   ranges_.report(state.time, findings_);
+  waves_.report(findings_);
   if (!has_history_) start(state);  // also where a run fails before its first step
   // a run that fails leaves its last accepted state
   if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state, false);

@@ -14,6 +14,7 @@
 #include "load_watch.hpp"
 #include "range_watch.hpp"
 #include "strip_watch.hpp"
+#include "wave_watch.hpp"
 
 #include <optional>
 
@@ -130,6 +131,7 @@ class RunObserver final : public analysis::Observer {
   bool has_history_ = false;    // the history has a row
   LoadWatch loads_;
   RangeWatch ranges_;
+  WaveWatch waves_;
   StripWatch strips_;
   Balance balance_;
   std::string certificates_;
