@@ -482,7 +482,23 @@ NEAR = Case("complex modes next to a frequency", 4, args=RUN, leaves=["out"],
                 '<ParameterList name="Analyses">', '<ParameterList name="Analyses">' + entry("all", Type="Modal", Near="50", Damping="true")),
             says=["Modes next to a frequency are looked for among undamped ones only."])
 
+# --- a mast at rest beside a partner that answers to its rounding
+
+STANDING_MAST = deck(
+    listed("Sections", entry("pole", Type="Stiffness Values", EA="1e7", GA1="4e6", GA2="4e6", EI1="1e5", EI2="1e5", GIp="8e4", rhoA="5",
+                             rhoI1="0.05", rhoI2="0.05")),
+    listed("Structures", '<ParameterList name="mast"><Parameter name="Type" value="Beam"/><Parameter name="Section" value="pole"/>'
+           + entry("Curve", Type="Line", Elements="5", From="{0, 0, 0}", To="{0, 0, 10}") + "</ParameterList>"),
+    listed("Constraints", entry("ground", Type="Rigid Support", Node="mast/first")),
+    listed("Ports", entry("skin", Type="Stations", Structure="mast", Number="6", Offset="{0.1, 0, 0}")),
+    listed("Analyses", entry("calm", Type="Dynamic", Step="0.02", End_Time="0.2")))
+COUPLED = [
+    Case("a coupled model at rest is in balance", 0, leaves=["out"], deck=STANDING_MAST, never=["out of balance"],
+         args="couple deck.xml --partner oscillator --mass 5 --stiffness 100 --output out --quiet"),
+]
+
 CASES = [
+    *COUPLED,
     SOFT,
     NEAR,
     AT_REST,
