@@ -65,8 +65,10 @@ class MemberWriter {
     const double first = on_carrier((*range)[0]), last = on_carrier((*range)[1]);
     if (first > 0.0 || last < 1.0) deck.set("Range", std::vector<double>{first, last});
     write_sections(deck);
-    if (!member_.has_buoyancy || is_drag_only()) deck.set("Buoyancy", "false");
-    if (is_drag_only()) deck.set("Pull", "false");
+    const bool presses = member_.has_buoyancy && !is_drag_only();
+    // beside potential flow a member has to say what it has of the water
+    if (!presses || hydro_.potential) deck.set("Buoyancy", presses ? "true" : "false");
+    if (is_drag_only() || hydro_.potential) deck.set("Pull", is_drag_only() ? "false" : "true");
     write_ends(*range, bed, deck);
     deck.close();
     report_coefficients(name);

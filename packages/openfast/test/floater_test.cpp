@@ -104,6 +104,7 @@ TEST_F(Floaters, FloatInTheWaterOnTheirLines) {
         parameter("Centre", "{0.5, 0, 0}"), parameter("Centre", "{0, 0, -8}"),
         parameter("Preload", "{7, 0, 0, 0, 0, 0}"), parameter("Anchor", "{400, 0, -200}"),
         parameter("Offset", "{20, 0, -14}"), parameter("Rise", "10"), parameter("Pull", "false"),
+        parameter("Buoyancy", "true"), parameter("Pull", "true"),  // of members beside the hull
         std::string("name=\"no sway\""), std::string("name=\"platform motion\""),
         std::string("It floats on the platform of")}) {
     EXPECT_THAT(imported.deck, HasSubstr(part));
