@@ -2,7 +2,65 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+
 namespace culm::joint {
+namespace {
+
+// Nodes of a side that belong to one element, two by two.
+std::set<std::pair<int, int>> neighbours(const std::vector<int>& side, const model::Model& model) {
+  const std::set<int> members(side.begin(), side.end());
+  std::set<const model::Structure*> structures;
+  for (const int node : side) structures.insert(model.structure_of(node));
+  structures.erase(nullptr);
+  std::set<std::pair<int, int>> pairs;
+  for (const model::Structure* structure : structures) {
+    for (const model::Cell& cell : structure->cells) {
+      for (const int a : cell.nodes) {
+        for (const int b : cell.nodes) {
+          if (a < b && members.contains(a) && members.contains(b)) pairs.emplace(a, b);
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+// Whether a place is where two others are seen in opposite directions; on the arc of a circle
+// between two places up to 50 degrees apart, too.
+bool lies_between(const Vec3& at, const Vec3& one, const Vec3& other) {
+  constexpr double opposite = -0.9;
+  const Vec3 a = one - at;
+  const Vec3 b = other - at;
+  return a.dot(b) < opposite * a.norm() * b.norm();
+}
+
+// Sides whose meshes do not fit would part where nodes of the first have no partner.
+void refuse_gaps(const std::vector<int>& first, const std::vector<int>& second,
+                 const std::vector<std::pair<int, int>>& pairs, const PlaceOfNode& place,
+                 const Options& options, model::BuildContext& context) {
+  std::set<int> free(first.begin(), first.end());
+  for (const auto& [joined, partner] : pairs) free.erase(joined);
+  if (free.empty()) return;
+  const auto sides = neighbours(second, context.model);
+  std::vector<int> gaps;
+  std::ranges::copy_if(free, std::back_inserter(gaps), [&](int node) {
+    const Vec3 at = place(node, 0);
+    return std::ranges::any_of(sides, [&](const auto& side) {
+      return lies_between(at, place(side.first, 1), place(side.second, 1));
+    });
+  });
+  if (gaps.empty()) return;
+  context.issues.add(
+      options.where("First"),
+      fmt::format("{} of {} nodes, '{}' the first of them, lie between nodes of Second and have no "
+                  "partner there, so that the shells would part; take meshes whose nodes meet",
+                  gaps.size(), first.size(), context.model.node_name(gaps.front())));
+}
+
+}  // namespace
 
 Schema pairs_schema(const std::string& type, const std::string& doc) {
   Schema schema(type, doc);
@@ -49,6 +107,7 @@ std::vector<std::pair<int, int>> select_pairs(const Options& options, model::Bui
     }
     pairs.emplace_back(nearest, node);
   }
+  refuse_gaps(first, second, pairs, place, options, context);
   return pairs;
 }
 

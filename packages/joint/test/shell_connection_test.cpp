@@ -45,6 +45,11 @@ class ShellConnections : public testing::Test {
     }
     edge.faces.push_back({{edge.nodes[0], edge.nodes[1], edge.nodes[2], edge.nodes[2]}, 0.2});
   }
+  // A node at the place of another one.
+  int copy_of(int node) {
+    const model::NodeSlots slots = NodeTable::slots(model.nodes().reference(), node);
+    return model.nodes().add(slots, NodeKind::node6);
+  }
   void build(const std::string& type, const kit::GivenValues& values) {
     const Schema schema = registry.variants().at(type);
     const Options options = kit::deck_list(schema, values, "seam");
@@ -246,6 +251,22 @@ TEST_F(ShellConnections, MistakesAreNamed) {
                   "node 'left/1' is one of First as well", "node 'body/0' is not one of a shell",
                   HasSubstr("node 'left/0' is one of a shell and has no triad to follow"),
                   "node 'body/0' is not one of a shell"));
+}
+
+TEST_F(ShellConnections, NodesOfTheFirstBetweenThoseOfTheSecondAreRefused) {
+  make(Vec3::UnitZ());
+  model::Structure& coarse = model.add_structure("coarse");
+  for (const int node : {1, 2}) coarse.nodes.push_back(copy_of(node));
+  coarse.cells.push_back({{coarse.nodes[0], coarse.nodes[1]}, nullptr, 0});
+  build("Smooth Connection", {{"First", std::string("left")}, {"Second", std::string("coarse")}});
+  EXPECT_THAT(messages(), ElementsAre());  // what lies beyond its end is free
+
+  model::Structure& both = model.add_structure("both");
+  for (const int node : {0, 2}) both.nodes.push_back(copy_of(node));
+  both.cells.push_back({{both.nodes[0], both.nodes[1]}, nullptr, 0});
+  build("Smooth Connection", {{"First", std::string("left")}, {"Second", std::string("both")}});
+  EXPECT_THAT(messages(),
+              ElementsAre(HasSubstr("1 of 3 nodes, 'left/1' the first of them, lie between")));
 }
 
 TEST_F(ShellConnections, TypesThatNeedATriadRefuseShells) {
