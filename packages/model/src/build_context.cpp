@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace culm::model {
 namespace {
@@ -25,6 +28,40 @@ std::string unknown_node(const std::string& name, const Model& model) {
   return "unknown node '" + name + "'" + did_you_mean(name, model.selectable_names());
 }
 
+// Nodes of walls that meet at a fold, each with those that it is joined to at its place.
+std::map<int, std::vector<int>> nodes_at_folds(const Model& model) {
+  std::map<int, std::vector<int>> joined;
+  for (const Constraint& c : model.constraints()) {
+    const bool is_fold =
+        c.is_structural && c.nodes.size() == 2 && std::ranges::all_of(c.nodes, [&](int node) {
+          return model.nodes().kind(node) == NodeKind::node6;
+        });
+    if (!is_fold) continue;
+    joined[c.nodes[0]].push_back(c.nodes[1]);
+    joined[c.nodes[1]].push_back(c.nodes[0]);
+  }
+  return joined;
+}
+
+// Of the nodes of a list at one place of a fold the first remains.
+void keep_one_at_folds(const Model& model, std::vector<int>& nodes) {
+  if (nodes.size() < 2) return;
+  auto joined = nodes_at_folds(model);
+  std::set<int> taken;  // all nodes at the places of those that remain
+  std::erase_if(nodes, [&](int node) {
+    if (taken.contains(node)) return true;
+    std::vector<int> place{node};
+    while (!place.empty()) {
+      const int next = place.back();
+      place.pop_back();
+      const auto found = joined.find(next);
+      if (found == joined.end() || !taken.insert(next).second) continue;
+      place.insert(place.end(), found->second.begin(), found->second.end());
+    }
+    return false;
+  });
+}
+
 }  // namespace
 
 Field node_field(std::string name, std::string doc) {
@@ -42,13 +79,13 @@ std::vector<int> select_loaded_nodes(const Options& options, const std::string& 
   const auto& structures = context.model.structures();
   const bool is_refined = std::any_of(structures.begin(), structures.end(),
                                       [](const Structure& s) { return !s.deck.nodes.empty(); });
-  if (!is_refined) return nodes;
   std::erase_if(nodes, [&](int node) {
-    const Structure* structure = context.model.structure_of(node);
+    const Structure* structure = is_refined ? context.model.structure_of(node) : nullptr;
     if (structure == nullptr) return false;
     const std::vector<int>& numbered = structure->numbered_nodes();
     return std::find(numbered.begin(), numbered.end(), node) == numbered.end();
   });
+  keep_one_at_folds(context.model, nodes);
   return nodes;
 }
 
