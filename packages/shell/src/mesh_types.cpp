@@ -4,9 +4,13 @@
 #include <culm/shell/mesh_types.hpp>
 #include <culm/shell/surfaces.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 namespace culm::shell {
@@ -34,7 +38,16 @@ Schema with_sweep(Schema schema) {
       .add(number("From", "rad", "Angle about z at which the surface starts, from x towards y.")
                .optional(0.0))
       .add(number("To", "rad", "Angle at which it ends; a full turn closes the surface.")
-               .optional(6.283185307179586));
+               .optional(6.283185307179586))
+      .check([](const Options& options, InputIssues& issues) {
+        constexpr double turn = 2.0 * std::numbers::pi;
+        const double swept = std::abs(options.number("To") - options.number("From"));
+        if (swept <= turn * (1.0 + 1e-9)) return;
+        issues.add(options.where("To"),
+                   fmt::format("the surface sweeps {:.6g} rad from 'From' = {:g} and lies upon "
+                               "itself; it must sweep a full turn, {:.10g} rad, at most",
+                               swept, options.number("From"), turn));
+      });
 }
 
 Sweep sweep(const Options& options) { return {options.number("From"), options.number("To")}; }

@@ -249,6 +249,8 @@ ShellMesh make_mesh(const Facets& facets, double fold_angle) {
 MeshQuality mesh_quality(const ShellMesh& mesh) {
   MeshQuality quality;
   quality.smallest_angle = std::numeric_limits<double>::max();
+  double area = 0.0;
+  double missing_area = 0.0;
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const auto& quad = mesh.quads[q];
     std::array<Vec3, 4> points;
@@ -272,7 +274,16 @@ MeshQuality mesh_quality(const ShellMesh& mesh) {
       }
     }
     quality.largest_aspect = std::max(quality.largest_aspect, longest / shortest);
+    const double size = 0.5 * normal.norm();
+    area += size;
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (normals[c].isZero()) continue;  // at a pole
+      // 1 - cos x sin x / x is 4/3 (1 - cos x) up to x^4
+      const double cosine = std::abs(mesh.directors[index(quad[c])].dot(normals[c]));
+      missing_area += 0.25 * size * 4.0 / 3.0 * (1.0 - cosine);
+    }
   }
+  if (area > 0.0) quality.missing_volume = missing_area / area;
   return quality;
 }
 

@@ -31,6 +31,7 @@ constexpr double degree = 0.017453292519943295;
 // Beyond these, elements still work but are poor.
 constexpr double poor_aspect = 20.0;
 constexpr double poor_angle = 20.0 * degree;
+constexpr double notable_volume = 0.01;  // that is missing
 // Thickness over size below which rounding shows in bending: a pinched hemisphere is off by 1e-6 at
 // 2e-6, 4e-4 at 6e-7 and 1 % at 2e-7; a cantilever by 4e-11 at 1e-6, and fails at 1e-7.
 constexpr double thinnest = 1e-6;
@@ -78,6 +79,14 @@ void check_quality(const ShellMesh& mesh, const Options& options, const Log& log
                     "than that of a neighbour: pressure, offsets and the order of layers change "
                     "sides there",
                     where, mesh.turned.size(), mesh.turned.front()));
+  }
+  if (quality.missing_volume > notable_volume) {
+    log.warning(fmt::format(
+        "{}: flat elements on a curved surface leave the wall about {:.2g} % less volume than it "
+        "has, and as much less mass and weight; take {:.2g} times as many elements along the "
+        "curves ({:g} %)",
+        where, 100.0 * quality.missing_volume, std::sqrt(quality.missing_volume / notable_volume),
+        100.0 * notable_volume));
   }
   if (quality.largest_aspect > poor_aspect || quality.smallest_angle < poor_angle) {
     log.warning(

@@ -72,6 +72,9 @@ struct MeshQuality {
   double smallest_angle = 0.0;  ///< inner angle of a corner [rad]
   double largest_angle = 0.0;   ///< [rad]
   double largest_warp = 0.0;    ///< between the normals at the corners of an element [rad]
+  /// Estimate of the share of the volume that elements lack of a curved wall: at an angle x between
+  /// directors and the normals of elements, which are chords, 1 - cos x sin x / x.
+  double missing_volume = 0.0;
 };
 
 MeshQuality mesh_quality(const ShellMesh& mesh);
