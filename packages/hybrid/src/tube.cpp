@@ -38,7 +38,8 @@ Schema tube_schema() {
       .add(number("Wall Thickness", "m", "Thickness of the wall.").positive())
       .add(integers("Elements", "Around, for shells, and along.").at_least(1).size(2))
       .add(integer("Order", "Order of the elements of the beam.").between(1, 3).optional(2))
-      .add(choice("Fidelity", {"Full", "Kirchhoff", "Linear", "Rigid"}, "Of the beam, see there.")
+      .add(choice("Fidelity", {"Full", "Kirchhoff", "Linear", "Rigid"},
+                  "Of the beam or the shell, see there; shells are Full or Linear.")
                .optional("Full"))
       .add(choice(
                "Ends", {"Rigid", "Soft"},
@@ -46,6 +47,14 @@ Schema tube_schema() {
                "lets it widen and its wall stretch.")
                .optional("Rigid"))
       .check([](const Options& tube, InputIssues& issues) {
+        const std::string& fidelity = tube.text("Fidelity");
+        if (tube.text("Model") == "Shell" && fidelity != "Full" && fidelity != "Linear") {
+          issues.add(
+              tube.where("Fidelity"),
+              fmt::format("'{}' is one of beams; a tube of shells is Full or Linear. What is "
+                          "rigid may be a beam with Fidelity = Rigid",
+                          fidelity));
+        }
         if (tube.number("Wall Thickness") > tube.number("Outer Radius")) {
           issues.add(tube.where("Wall Thickness"), "must be <= the outer radius");
         }
@@ -173,6 +182,7 @@ void add_as_shell(const Options& tube, structure::StructureContext& context) {
   Options list = default_list(schema, tube.name(), tube.where());
   list.set("Material", tube.text("Material"))
       .set("Thickness", wall)
+      .set("Fidelity", tube.text("Fidelity"))
       .set("Reference Axis", numbers_of(axis));
   const std::string cylinder = "Cylinder";
   Options mesh = default_list(*schema.find_slot("Mesh")->find(cylinder), "Mesh", tube.where());
