@@ -1,6 +1,7 @@
 #include <culm/analysis/element_turns.hpp>
 #include <culm/analysis/post_mortem.hpp>
 #include <culm/base/error.hpp>
+#include <culm/model/limited_hold.hpp>
 
 #include "softest_direction.hpp"
 #include "turns.hpp"
@@ -46,6 +47,15 @@ CoarseMesh judge_mesh(const assembly::System& system, const model::State& state,
                       state.time, turn.name(), model::TurnLaw(turn.kind.order).greatest_moment(),
                       turn.cure()),
           true};
+}
+
+// Names what holds the model by friction, if anything does.
+std::string friction_in(const model::Model& model) {
+  for (const auto& load : model.loads()) {
+    const auto* hold = dynamic_cast<const model::LimitedHold*>(load.get());
+    if (hold != nullptr && hold->may_slide()) return load->effect().quoted();
+  }
+  return {};
 }
 
 // Whether a direction of unit maximum norm is resisted by more than rounding of the matrix.
@@ -241,6 +251,17 @@ std::string PostMortem::cause(model::State& state, const Stencil& stencil) {
   if (attempts_.back().outcome.end == solver::StepEnd::out_of_range) {
     return "Likely cause: an element turns too far, or inside out.\n"
            "Try: smaller steps, 'Line Search' = Backtrack, more elements.";
+  }
+  if (const std::string friction = friction_in(context_.system.model()); !friction.empty()) {
+    return fmt::format(
+        "Likely cause: the friction of {} is at its limit, and nothing else holds what slides; "
+        "or\n"
+        "a bifurcation or a sudden change of the load is near. The structure keeps {:.1f} % of its "
+        "stiffness.\n"
+        "Try: a support or a spring along the way, a load that stays below what friction holds, a "
+        "displacement\n"
+        "that is prescribed, or 'Dynamic', in which it slides; else more steps.",
+        friction, 100.0 * remaining);
   }
   return fmt::format(
       "Likely cause: the iteration does not find the next equilibrium although the structure "

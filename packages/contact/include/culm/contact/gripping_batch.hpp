@@ -1,6 +1,7 @@
 /// What batches share whose points remember the friction that holds them.
 #pragma once
 
+#include <culm/model/limited_hold.hpp>
 #include <culm/model/memoryless_batch.hpp>
 
 #include <cstddef>
@@ -12,12 +13,13 @@ namespace culm::contact {
 
 /// A vector per item, the friction on it at the end of the last step that was accepted, from which
 /// the next step of statics goes on. Without friction there is none.
-class GrippingBatch : public model::MemorylessBatch {
+class GrippingBatch : public model::MemorylessBatch, public model::LimitedHold {
  public:
   void prepare(const model::State&, const Stencil& stencil) override { stencil_ = stencil; }
   std::size_t memory_size() const override { return 3 * grips_.size(); }
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;
+  bool may_slide() const override { return has_grips(); }
 
  protected:
   explicit GrippingBatch(model::Effect effect) : MemorylessBatch(std::move(effect)) {}
