@@ -1,6 +1,7 @@
 #include <culm/analysis/buckling.hpp>
 #include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
+#include <culm/solver/asymmetry.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
 #include "even_growth.hpp"
@@ -238,7 +239,8 @@ AnalysisReport Buckling::inspect(Context& context, model::State& state) {
   require_load(*step_, *change, *linear.stiffness, level, state.time);
   system.prepare(state, Stencil::statics());  // back from the other level, for results
   const bool is_symmetric = linear.asymmetry <= largest_asymmetry &&
-                            solver::asymmetry(change, system.comm()) <= largest_asymmetry_of_change;
+                            solver::asymmetry_within(change, linear.stiffness, system.comm()) <=
+                                largest_asymmetry_of_change;
   if (!is_symmetric) {
     context.findings.warn(
         "unsymmetric",
