@@ -30,6 +30,20 @@ Range range_of(const Panelling& surface, const Points& grid, const Vec3& normal)
   return range;
 }
 
+// A half whose root is not normal to the plane, as with dihedral, has parts of a cambered or
+// twisted root on the other side.
+std::string cure_of_crossing(const Range& range) {
+  constexpr double little = 0.1;
+  const double beyond = std::min(-range.low, range.high);
+  if (beyond > little * std::max(-range.low, range.high)) {
+    return "of a whole wing and its image one half is meant";
+  }
+  return fmt::format(
+      "a half whose root is inclined to the plane leads across it by its camber or twist; begin it "
+      "{:.2g} m further out, which matters little beside a panel's span",
+      beyond);
+}
+
 std::optional<Misplaced> find_beyond_mirror(const BoundLattice& lattice, const Points& grid,
                                             const std::vector<std::string>& names) {
   double side = 0.0;  // the sign of that on which the first surface stands
@@ -39,10 +53,9 @@ std::optional<Misplaced> find_beyond_mirror(const BoundLattice& lattice, const P
     if (range.low >= -tolerance && range.high <= tolerance)
       return Misplaced{s, "lies in the plane of symmetry, where it meets its own image"};
     if (range.low < -tolerance && range.high > tolerance) {
-      return Misplaced{s,
-                       fmt::format("crosses the plane of symmetry, from {:.4g} to {:.4g} m along "
-                                   "its normal: of a whole wing and its image one half is meant",
-                                   range.low, range.high)};
+      return Misplaced{s, fmt::format("crosses the plane of symmetry, from {:.4g} to {:.4g} m "
+                                      "along its normal: {}",
+                                      range.low, range.high, cure_of_crossing(range))};
     }
     const double here = range.high > tolerance ? 1.0 : -1.0;
     if (side != 0.0 && here != side) {

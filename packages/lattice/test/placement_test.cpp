@@ -31,6 +31,7 @@ TEST(Placement, SurfacesStandOnOneSideOfTheirMirror) {
   EXPECT_EQ(misplaced({{0.0, 0.0, 1e-3}}, z), "");
   EXPECT_THAT(misplaced({{0.0, -1.0, 0.0}}, y), HasSubstr("one: crosses the plane of symmetry, "
                                                           "from -1 to 1 m"));
+  EXPECT_THAT(misplaced({{0.0, -0.01, 0.0}}, y), HasSubstr("begin it 0.01 m further out"));
   EXPECT_THAT(misplaced({Vec3::Zero()}, z), HasSubstr("one: lies in the plane of symmetry"));
   EXPECT_THAT(misplaced({{0.0, 0.0, 1.0}, {0.0, 0.0, -2.0}}, z),
               HasSubstr("two: stands on the other side of the plane of symmetry than 'one'"));
