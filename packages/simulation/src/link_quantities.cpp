@@ -76,8 +76,16 @@ class JointAngle final : public Quantity {
     const Mat3 d2 = model::NodeTable::slots(state.next, second_).rightCols<3>();
     const Eigen::Vector2d y = (d1 * first_axes_).transpose() * (d2 * second_axis_);
     const double full = 2.0 * std::numbers::pi;
-    angle_ += std::remainder(std::atan2(y[1], y[0]) - angle_, full);
+    change_ = std::remainder(std::atan2(y[1], y[0]) - angle_, full);
+    angle_ += change_;
     numbers.push_back(turns_ ? angle_ : angle_ - full * std::floor(angle_ / full));
+  }
+  // Within half a turn the way is told by the places; as much as a quarter may have been more than
+  // half.
+  std::string doubt() const override {
+    if (!turns_ || std::abs(change_) <= 0.5 * std::numbers::pi) return {};
+    return "changes by more than a quarter of a turn from one step to the next: beyond half a turn "
+           "whole turns are lost; take smaller steps";
   }
   std::vector<double> memory() const override { return {angle_}; }
   void restore(std::span<const double> memory) override { angle_ = memory.front(); }
@@ -89,7 +97,8 @@ class JointAngle final : public Quantity {
   bool turns_;
   Eigen::Matrix<double, 3, 2> first_axes_;
   Vec3 second_axis_;
-  mutable double angle_ = 0.0;  // of the state before
+  mutable double angle_ = 0.0;   // of the state before
+  mutable double change_ = 0.0;  // to the last one
 };
 
 std::optional<std::array<int, 2>> select_turning_nodes(const Options& options,

@@ -34,6 +34,20 @@ bool is_set_from_outside(const model::Batch& load) {
 // Elements that are heated are elements.
 bool is_temperature(const model::Batch& batch) { return batch.effect().type == "Temperature"; }
 
+// Whether there are bodies alone.
+bool is_rigid(const model::Model& model) {
+  return std::ranges::none_of(model.structures(), [](const model::Structure& structure) {
+    return std::ranges::any_of(structure.cells,
+                               [](const model::Cell& cell) { return cell.source != nullptr; });
+  });
+}
+
+// In how many ways supports and joints let the nodes move.
+int free_motions(const model::Model& model) {
+  const model::UnknownTable& unknowns = model.unknowns();
+  return unknowns.num_unknowns() - unknowns.num_signals() - 2 * unknowns.num_forces();
+}
+
 }  // namespace
 
 bool is_given(const model::Batch& load) {
@@ -55,6 +69,7 @@ std::string idle_warning(const model::Batch& load) {
 void LoadWatch::begin(const model::Model& model) {
   loads_.clear();
   has_stepped_ = false;
+  hangs_ = is_rigid(model) && free_motions(model) > 0;
   is_driven_ = std::ranges::any_of(model.constraints(),
                                    [](const model::Constraint& c) { return c.is_driven(); });
   for (const auto& load : model.loads()) {
@@ -122,9 +137,9 @@ void LoadWatch::report_held(const model::State& state, Findings& findings) const
                       "{} loads, {} the first of them, move nothing: all of them act where "
                       "supports hold the model and go straight into them",
                       held, first->batch->effect().quoted());
-  // what is driven has its weight all the same
+  // what is driven has its weight all the same, and a body that hangs is where it belongs
   const bool all_expected = std::ranges::all_of(loads_, [&](const Load& load) {
-    return load.seen != Seen::held || is_of_partner(*load.batch) ||
+    return load.seen != Seen::held || hangs_ || is_of_partner(*load.batch) ||
            (is_driven_ && load.batch->effect().type == "Gravity");
   });
   // shares that consistent loads have at supports belong to loads that act

@@ -50,6 +50,7 @@ class LoadWatch {
 
   std::vector<Load> loads_;
   bool is_driven_ = false;             // supports move the model
+  bool hangs_ = false;                 // bodies alone, which may move
   bool has_stepped_ = false;           // in this analysis
   std::map<std::string, bool> acted_;  // whether it did in an analysis that is over, by its name
 };

@@ -35,4 +35,13 @@ std::vector<double> evaluate(const std::vector<WatchedQuantity>& watched,
   return numbers;
 }
 
+std::vector<std::string> doubts_of(const std::vector<WatchedQuantity>& watched) {
+  std::vector<std::string> doubts;
+  for (const WatchedQuantity& one : watched) {
+    const std::string doubt = one.quantity->doubt();
+    if (!doubt.empty()) doubts.push_back("'" + one.name + "' " + doubt);
+  }
+  return doubts;
+}
+
 }  // namespace culm::simulation

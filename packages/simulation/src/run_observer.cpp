@@ -115,6 +115,9 @@ void RunObserver::add_history(double time, int step, model::State& state) {
                     : fmt::format("in step {} of '{}', at {:.8g}", step, name_, time);
       refuse_infinite(files_.columns(), numbers, when);
     }
+    if (step > 0) {
+      for (const std::string& doubt : files_.doubts()) findings_.warn("history", doubt, time);
+    }
   }
   const Ledger::Scope scope(ledger_, history_effect_);
   shown_ = numbers;
@@ -154,6 +157,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   pass(report);
   if (report.accepted) {
     watch_turns(report.time, state);
+    shells_.step(context_->system, state, name_);
     watch_loads(report, state);
     is_recorded_ = files_.is_due(accepted_ - passed_, accepted_) || report.is_last;
     passed_ = 0;
@@ -234,6 +238,7 @@ void RunObserver::save(Snapshot& snapshot) const {
   loads_.save(snapshot);
   ranges_.save(snapshot);
   waves_.save(snapshot);
+  shells_.save(snapshot);
   snapshot.set("run/balance", {balance_.scale, balance_.residual, balance_.time});
   snapshot.set_text("run/balance row", balance_.row);
   earlier_.save(snapshot);
@@ -293,6 +298,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
   certificates_ = snapshot.text("run/certificates");
   turn_.restore(snapshot);
   has_told_turn_ = snapshot.has("run/has told turn");
+  shells_.restore(snapshot);
   const std::span<const double> steps = snapshot.numbers("run/steps");
   const std::size_t columns = steps_.columns.size();
   for (std::size_t i = 0; i + columns <= steps.size(); i += columns) {
@@ -308,6 +314,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
 void RunObserver::finish(const analysis::AnalysisReport& report, const model::State& state) {
   refuse_infinite(name_, report);
   loads_.report(state, is_last_, findings_);
+  ranges_.report(state.time, findings_);
   strips_.step(state, findings_);  // of an analysis that makes no steps
   report_rounding();
   {
@@ -377,6 +384,7 @@ void RunObserver::end(model::State& state, const std::string& outcome) {
   report_turns(state.time);
   ranges_.report(state.time, findings_);
   waves_.report(findings_);
+  shells_.report(state.time, findings_);
   if (!has_history_) start(state);  // also where a run fails before its first step
   // a run that fails leaves its last accepted state
   if (!is_recorded_) record(state.time, static_cast<int>(steps_.rows.back().back()), state, false);

@@ -8,6 +8,7 @@
 #include <culm/simulation/result_files.hpp>
 #include <culm/solver/linear_solver.hpp>
 
+#include "bent_shells.hpp"
 #include "checkpoints.hpp"
 #include "earlier_states.hpp"
 #include "imperfections.hpp"
@@ -133,6 +134,7 @@ class RunObserver final : public analysis::Observer {
   RangeWatch ranges_;
   WaveWatch waves_;
   StripWatch strips_;
+  BentShells shells_;
   Balance balance_;
   std::string certificates_;
   std::optional<analysis::ElementTurns> turns_;  // of the analysis

@@ -29,6 +29,9 @@ class Quantity {
   virtual std::vector<double> memory() const { return {}; }
   /// Takes it back.
   virtual void restore(std::span<const double> /*memory*/) {}
+  /// What is doubtful about the numbers given last, to follow the name of the quantity; empty if
+  /// nothing is.
+  virtual std::string doubt() const { return {}; }
   /// Why a model whose unknowns are known does not have it; empty if it does.
   virtual std::string objection(const model::Model&) const { return {}; }
 };
@@ -46,6 +49,9 @@ std::optional<std::vector<int>> nodes_of(const std::vector<WatchedQuantity>& wat
 /// The numbers of all, of a state where what they read is up to date on all ranks.
 std::vector<double> evaluate(const std::vector<WatchedQuantity>& watched,
                              const assembly::System& system, const model::State& state);
+
+/// What is doubtful about the numbers given last, a sentence for each quantity concerned.
+std::vector<std::string> doubts_of(const std::vector<WatchedQuantity>& watched);
 
 /// Makers report mistakes as issues and may then return nothing.
 using QuantityRegistry = Registry<std::unique_ptr<Quantity>, model::BuildContext&>;

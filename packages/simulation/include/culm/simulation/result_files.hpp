@@ -75,6 +75,8 @@ class ResultFiles {
   std::vector<output::HistoryColumn> columns() const;
   /// The watched quantities of a state.
   std::vector<double> evaluate(model::State& state) const;
+  /// What is doubtful about these numbers, in sentences.
+  std::vector<std::string> doubts() const { return doubts_of(*watched_); }
   /// Adds a row to the history.
   void add_history(const output::HistoryRow& row);
   /// Whether one of the accepted steps behind `before`, up to `step`, is to be recorded.
