@@ -403,7 +403,7 @@ def bent_column(*structures, constraints, loaded, root="c/first"):
 COLUMN = entry("c", Type="Beam", Section="bar").replace("</ParameterList>", entry(
     "Curve", Type="Line", From="{0, 0, 0}", To="{0, 0, 1}", Elements="12", Up="{1, 0, 0}") + "</ParameterList>")
 TUBE = entry("c", Type="Tube", Model="Shell", From="{0, 0, 0}", To="{0, 0, 1}", Up="{1, 0, 0}", Material="soft",
-             Outer_Radius="0.0212", Wall_Thickness="0.0046", Elements="{8, 8}")
+             Outer_Radius="0.0212", Wall_Thickness="0.0046", Elements="{26, 16}")
 FOOT = entry("foot", Type="Rigid Support", Node="c/first")
 CAP = entry("cap", Type="Rigid Body", Position="{0, 0, 1}", Mass="1", Inertia="{0.1, 0.1, 0.1}")
 CAPPED = entry("cap", Type="Rigid Connection", Node="cap", Master="c/last")
