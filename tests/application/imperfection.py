@@ -26,6 +26,26 @@ def watch(node):
     return ["Output/History/tip/Type=Displacement", f"Output/History/tip/Node={node}"]
 
 
+def displacements(program, folder):
+    """Where imperfections of the same run bend later analyses, states and history count from the same geometry."""
+    words = ["Analyses/straight/Final Level=0.2", "Analyses/bent/Final Level=0.2"]
+    run = program.run(ROOT / "inputs/sequence/bent_column.xml", folder, words)
+    if not run.succeeded:
+        return [run.errors]
+    complaints = []
+    history = dict(zip(zip(run.history.analyses, run.history.steps), run.history.column("tip ux [m]")))
+    sways = dict(zip(history, run.history.column("tip uy [m]")))
+    with h5py.File(folder / "run.h5") as file:
+        for state in file["steps"].values():
+            key = int(state.attrs["analysis"]), int(state.attrs["step"])
+            if key not in history:
+                continue
+            there = state["displacement"][-1]
+            if abs(there[0] - history[key]) > 1e-12 or abs(there[1] - sways[key]) > 1e-12:
+                complaints.append(f"displacement of the tip in {key}: history {history[key]}, {sways[key]}, state {there}")
+    return complaints
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--culm", required=True)
@@ -55,6 +75,7 @@ def main():
             run = program.run(deck, loaded, settings)
             if run.exit != exit_code or words not in run.errors:
                 complaints.append(f"{settings}: exit {run.exit}, {run.errors}")
+        complaints += displacements(program, pathlib.Path(folder) / "both")
         file = shapes / "run.h5"
         whole = file.read_bytes()
         with h5py.File(file) as run:

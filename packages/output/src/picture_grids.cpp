@@ -62,7 +62,7 @@ std::vector<VtuArray> cell_data(const StructureMesh& mesh, const StructureState&
 
 std::vector<VtuArray> node_data(const StructureMesh& mesh, const StructureState& state) {
   std::vector<VtuArray> arrays{
-      {"displacement", 3, flatten_difference(state.positions, mesh.positions)}};
+      {"displacement", 3, flatten_difference(state.positions, reference_of(mesh, state))}};
   for (const int number : director_numbers(mesh.directors)) {
     arrays.push_back(
         {"director" + std::to_string(number), 3, flatten_director(state.triads, number)});

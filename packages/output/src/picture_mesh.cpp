@@ -69,6 +69,9 @@ void check_picture(const std::vector<StructureMesh>& meshes, const Picture& pict
     const std::size_t nodes = mesh.positions.size();
     demand(state.positions.size() == nodes, "one position per node");
     demand(mesh.directors == Directors::none || state.triads.size() == nodes, "one triad per node");
+    demand(reference_of(mesh, state).size() == nodes &&
+               state.reference_triads.size() == state.reference_positions.size(),
+           "one place and one triad per node in a geometry of its own");
     demand(state.resultants.size() == mesh.cells.size() * mesh.resultant_names.size(),
            "one number per cell and resultant name");
     demand(state.node_values.size() == mesh.node_arrays.size(), "values for each node array");
@@ -82,6 +85,10 @@ void check_picture(const std::vector<StructureMesh>& meshes, const Picture& pict
              "columns per cell in a cell array");
     }
   }
+}
+
+const std::vector<Vec3>& reference_of(const StructureMesh& mesh, const StructureState& state) {
+  return state.reference_positions.empty() ? mesh.positions : state.reference_positions;
 }
 
 std::vector<int> director_numbers(Directors directors) {

@@ -26,7 +26,7 @@ bool have_same_fields(const StructureFields& a, const StructureFields& b) {
 std::vector<double> field_values(std::size_t field, const StructureMesh& mesh,
                                  const StructureState& state) {
   if (field == 0) return flatten(state.positions);
-  if (field == 1) return flatten_difference(state.positions, mesh.positions);
+  if (field == 1) return flatten_difference(state.positions, reference_of(mesh, state));
   field -= 2;
   const std::vector<int> directors = director_numbers(mesh.directors);
   if (field < directors.size()) return flatten_director(state.triads, directors[field]);

@@ -205,8 +205,12 @@ void Pictures::write_files(const Picture& picture, Step& step) {
       centres.push_back(centre_grid(meshes_[s], picture.structures[s], static_cast<int>(s)));
     }
     for (const std::size_t s : group.skinned) {
-      skins.push_back(skin_grid(meshes_[s], picture.structures[s], static_cast<int>(s), skins_[s],
-                                reference_skins_[s]));
+      const StructureState& state = picture.structures[s];
+      skins.push_back(
+          skin_grid(meshes_[s], state, static_cast<int>(s), skins_[s],
+                    state.reference_positions.empty()
+                        ? reference_skins_[s]
+                        : skins_[s].points(state.reference_positions, state.reference_triads)));
     }
     const std::string file = stem(group, picture.index);
     write_picture(file + ".vtu", merge(std::move(centres)), picture.time);

@@ -186,6 +186,14 @@ output::Picture picture_of(const assembly::System& system, const LayerSettings& 
   return picture;
 }
 
+void add_reference(const model::Model& model, output::Picture& picture) {
+  for (std::size_t i = 0; i < picture.structures.size(); ++i) {
+    output::StructureState& s = picture.structures[i];
+    read_nodes(model.structures()[i], model.nodes().reference(), s.reference_positions,
+               s.reference_triads);
+  }
+}
+
 void show_velocities(std::vector<output::StructureMesh>& meshes) {
   for (output::StructureMesh& mesh : meshes) {
     mesh.node_arrays.push_back({"velocity", 3});

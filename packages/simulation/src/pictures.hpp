@@ -16,6 +16,10 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
 output::Picture picture_of(const assembly::System& system, const LayerSettings& layers,
                            const model::Coordinates& q);
 
+/// Lets displacements of a picture start from the geometry of this model, which imperfections may
+/// have bent against that of the mesh.
+void add_reference(const model::Model& model, output::Picture& picture);
+
 /// Makes velocities of nodes [m/s], and angular velocities of those with triads [rad/s], part of
 /// what is shown of the structures.
 void show_velocities(std::vector<output::StructureMesh>& meshes);

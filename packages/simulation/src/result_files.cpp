@@ -224,7 +224,7 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
   ++rows_;
 }
 
-void ResultFiles::record(double time, int analysis, int step, model::State& state,
+void ResultFiles::record(double time, int analysis, int step, const model::State& state,
                          bool was_solved) {
   model::State whole;
   if (settings_.velocities || settings_.constraint_forces || shows_fluid_) {
@@ -234,6 +234,7 @@ void ResultFiles::record(double time, int analysis, int step, model::State& stat
   }
   output::Picture f = picture_of(*system_, settings_.layers, whole.next);
   on_root(system_->comm(), [&] {
+    if (&system_->model() != drawn_) add_reference(system_->model(), f);
     if (settings_.velocities) add_velocities(system_->model(), whole, f);
     if (settings_.constraint_forces && was_solved) f.arrays = constraint_forces(*system_, whole);
     f.index = static_cast<int>(frames_);

@@ -127,6 +127,8 @@ def _structure(run, one, part, states, with_fields, pack):
         return numpy.array([run.values(state, one, name)[rows] for state in states])
 
     is_thinned = len(part.cells) < len(one.ends)
+    displacement = over_states("displacement", numpy.zeros_like(one.position), part.nodes)
+    bend = _bend(over_states("position", one.position, part.nodes), one.position[part.nodes], displacement)
     numbers = sorted(one.directors)
     directors = [over_states(f"director{k}", one.directors[k], part.nodes) for k in numbers]
     reference = [one.directors[k][part.nodes] for k in numbers]
@@ -138,7 +140,8 @@ def _structure(run, one, part, states, with_fields, pack):
         "ends": packing.integers(part.ends),
         "nodes": packing.integers(part.nodes) if is_thinned else None,
         "cells": packing.integers(part.cells) if is_thinned else None,
-        "displacement": pack(over_states("displacement", numpy.zeros_like(one.position), part.nodes)),
+        "displacement": pack(displacement),
+        "bend": pack(bend) if bend is not None else None,
         "directors": numbers,
         "triads": pack(numpy.stack(directors, axis=3)) if numbers else None,
         "referenceTriads": packing.floats(numpy.stack(reference, axis=2)) if numbers else None,
@@ -150,6 +153,13 @@ def _structure(run, one, part, states, with_fields, pack):
         if with_fields and states
         else [],
     }
+
+
+def _bend(positions, reference, displacement):
+    """How far imperfections bend the reference of each state against the mesh; None where they bend none."""
+    bend = positions - displacement - reference
+    rounding = 1e-12 * max(numpy.abs(positions).max(initial=0.0), numpy.abs(reference).max(initial=0.0))
+    return bend if numpy.abs(bend).max(initial=0.0) > rounding else None
 
 
 def _outlines(outlines, nodes):

@@ -107,6 +107,9 @@ struct StructureState {
   std::vector<std::vector<double>> node_values;
   /// Per CellArray all its numbers, cell after cell; shape (cells * columns).
   std::vector<std::vector<double>> cell_values = {};
+  /// Per node the stress-free geometry that displacements start from; empty: that of the mesh.
+  std::vector<Vec3> reference_positions = {};
+  std::vector<Mat3> reference_triads = {};
 };
 
 /// A named table of numbers that belongs to no node or cell.
@@ -152,6 +155,9 @@ void check_meshes(const std::vector<StructureMesh>& meshes);
 
 /// Throws InternalError if the sizes of a picture are not those of the meshes.
 void check_picture(const std::vector<StructureMesh>& meshes, const Picture& picture);
+
+/// Where displacements of a state start from [m].
+const std::vector<Vec3>& reference_of(const StructureMesh& mesh, const StructureState& state);
 
 /// Numbers of the directors that are written, of 1, 2, 3.
 std::vector<int> director_numbers(Directors directors);

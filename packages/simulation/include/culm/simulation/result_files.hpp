@@ -49,7 +49,7 @@ struct ResultSettings {
 /// FileError on all of them; record() and add_results() NonFiniteError, too.
 class ResultFiles {
  public:
-  /// @param drawn  has the geometry that displacements in pictures start from
+  /// @param drawn  is the geometry of the mesh in the files
   /// @param from   checkpoint of an earlier run, to go on with its files as they were then
   ResultFiles(assembly::System& system, const model::Model& drawn, ResultSettings settings,
               const std::vector<WatchedQuantity>& watched, const Snapshot* from);
@@ -87,7 +87,7 @@ class ResultFiles {
   /// @param analysis, step  as in output::HistoryRow
   /// @param was_solved      whether the last evaluation was that of this state, so that forces of
   ///                        constraints are known
-  void record(double time, int analysis, int step, model::State& state, bool was_solved);
+  void record(double time, int analysis, int step, const model::State& state, bool was_solved);
   /// Records what an analysis says at its end; its pictures and tables go to a folder of its name.
   void add_results(const std::string& name, const analysis::AnalysisReport& report,
                    const model::State& state);

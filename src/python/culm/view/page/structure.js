@@ -11,6 +11,7 @@ class Structure {
     this.nodeNumbers = unpack(data.nodes);
     this.cellNumbers = unpack(data.cells);
     this.displacements = new Numbers(data.displacement);
+    this.bends = unpack(data.bend);
     this.directors = data.directors;
     this.triads = unpack(data.triads);
     const referenceTriads = unpack(data.referenceTriads);
@@ -24,9 +25,10 @@ class Structure {
     this.held = data.held;
     this.loaded = data.loaded.map((load) => ({ ...load, actions: new Numbers(load.actions).values }));
     this.fields = data.fields.map((field) => ({ ...field, values: new Numbers(field.values) }));
-    // of what is shown: places, displacements, directors d1 d2 d3 of each node
+    // of what is shown: places, displacements, what imperfections bend, directors d1 d2 d3 of each node
     this.position = new Float32Array(3 * this.count);
     this.displacement = new Float32Array(3 * this.count);
+    this.bend = new Float32Array(3 * this.count);
     this.triad = new Float32Array(9 * this.count);
     this.packedTriad = new Float32Array(3 * this.directors.length * this.count);
     if (referenceTriads) referenceTriads.copy(0, this.packedTriad);
@@ -54,7 +56,10 @@ class Structure {
 
   showState(state) {
     this.displacements.copy(state * this.displacement.length, this.displacement);
-    for (let i = 0; i < this.position.length; i++) this.position[i] = this.reference[i] + this.displacement[i];
+    if (this.bends) this.bends.copy(state * this.bend.length, this.bend);
+    for (let i = 0; i < this.position.length; i++) {
+      this.position[i] = this.reference[i] + this.bend[i] + this.displacement[i];
+    }
     if (this.triads === null) return;
     this.triads.copy(state * this.packedTriad.length, this.packedTriad);
     this.spreadTriads();
