@@ -114,6 +114,14 @@ class Findings(StudyTest):
         self.assertEqual(errors[-1], 0.0)
         self.assertAlmostEqual(errors[0] / errors[1], 15.0 / 3.0, delta=0.5)
 
+    def test_reference_of_another_kind(self):
+        """A history of a motion would go as one of levels."""
+        run = self.folder / "statics"
+        words = [CULM, "run", str(ROLL_UP), "--output", str(run), "--quiet"]
+        subprocess.run(words, check=True, env={**os.environ, **MPI_ENVIRONMENT})
+        errors = self.study(FLIGHT, "--vary", "step=0.05,0.025", "--watch", "other end", "--reference", str(run), exit_code=2)
+        self.assertIn("it ends with an analysis of type Static or Path, that of the deck is of type Dynamic", errors)
+
     def test_target_that_was_not_reached(self):
         words = ["--vary", "step=0.1,0.05", "--watch", "other end", "--repeat", "1"]
         self.study(FLIGHT, *words, "--target", "0.02")

@@ -103,6 +103,12 @@ class Sweeps(SweepTest):
         output = self.sweep("--cases", cases, *SHORT, exit_code=2)
         self.assertIn(f"both '{STIFFNESS}' and '{STIFFNESS}' set {STIFFNESS}: only the last one would count", output)
 
+    def test_what_is_set_and_varies_is_refused(self):
+        words = ["--set", f"{STIFFNESS}=300", *SHORT]
+        said = f"--set {STIFFNESS}=300: '{STIFFNESS}' varies {STIFFNESS}, so that this counts for nothing"
+        self.assertIn(said, self.sweep("--vary", f"{STIFFNESS}=400,500", *words, exit_code=2))
+        self.assertIn(said, self.sweep("--cases", self.cases(STIFFNESS, "400", "500"), *words, exit_code=2))
+
     def test_a_case_that_is_listed_twice_is_run_once(self):
         self.sweep("--cases", self.cases(STIFFNESS, "400", "500", "400", "400"), *SHORT, "--jobs", "4")
         self.assertEqual([row["outcome"] for row in self.rows()], ["done"] * 4)

@@ -66,6 +66,20 @@ bool is_misspelt(const std::string& name, const std::vector<Item>& items,
   });
 }
 
+bool is_of_deck(const std::string& file) { return file != command_line; }
+
+// A list that --set makes though it would only set something in one of almost the same name.
+std::string misspelt_by_override(const RawList& list, const RawList& parent) {
+  if (is_of_deck(list.file) || find(list.parameters, "Type")) return {};
+  std::vector<std::string> others;
+  for (const RawList& other : parent.lists) {
+    if (is_of_deck(other.file)) others.push_back(other.name);
+  }
+  if (nearest_name(list.name, others).empty()) return {};
+  return "there is no list '" + list.name + "', and a new one needs a 'Type'" +
+         did_you_mean(list.name, others);
+}
+
 }  // namespace
 
 Options Validator::root(const RawList& raw, const Schema& schema) {
@@ -180,6 +194,12 @@ void Validator::read_lists(const Place& place, const Schema& schema, const Scope
   const std::vector<std::string> fixed = schema.list_names();
   for (const RawList& raw : place.raw.lists) {
     if (schema.find_field(raw.name) || std::ranges::find(fixed, raw.name) != fixed.end()) continue;
+    const std::string misspelt =
+        schema.entries()->by_type() ? misspelt_by_override(raw, place.raw) : std::string();
+    if (!misspelt.empty()) {
+      report({raw, join_path(place.path, raw.name), scope}, misspelt);
+      continue;
+    }
     options.add_entry(
         list_of_slot({raw, join_path(place.path, raw.name), scope}, *schema.entries()));
   }
@@ -213,9 +233,15 @@ void Validator::report_unknown(const Place& place, const Schema& schema, bool ha
     if (raw.name.empty() || parameters.knows(raw.name)) continue;
     if (lists.knows(raw.name)) {
       report(raw, place.path, "must be a <ParameterList>, found a <Parameter>");
+    } else if (find(place.raw.lists, raw.name)) {
+      report(raw, place.path, "is a list: name what to set in it, as '" + raw.name + "/…'");
     } else {
-      issues_.add({raw.file, raw.line, path}, "unknown name '" + raw.name + "'" +
-                                                  did_you_mean(raw.name, parameters.of(raw.name)));
+      std::vector<std::string> meant = parameters.of(raw.name);
+      if (!is_of_deck(raw.file)) {  // variables are set as parameters are
+        for (const RawParameter& variable : place.raw.variables) meant.push_back(variable.name);
+      }
+      issues_.add({raw.file, raw.line, path},
+                  "unknown name '" + raw.name + "'" + did_you_mean(raw.name, meant));
     }
   }
   if (schema.entries()) return;

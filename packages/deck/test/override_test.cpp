@@ -42,6 +42,18 @@ TEST(Override, ValuesMayContainEqualsSigns) {
   EXPECT_EQ(read(deck_around(body()), {"Title=a=b"}).text("Title"), "a=b");
 }
 
+TEST(Override, ANameThatIsNotThereIsTakenForTheNearestOne) {
+  const std::string deck = deck_around("<Variable name=\"L\" value=\"2\"/>" + body());
+  EXPECT_EQ(
+      mistakes(deck, {"Structures/tap/Mass=1"}),
+      "command line: Structures / tap: there is no list 'tap', and a new one needs a 'Type' – "
+      "did you mean 'top'?");
+  EXPECT_EQ(mistakes(deck, {"Structures/l=5"}),
+            "command line: Structures: unknown name 'l' – did you mean 'L'?");
+  EXPECT_EQ(mistakes(deck, {"Structures/top=5"}),
+            "command line: Structures / top: is a list: name what to set in it, as 'top/…'");
+}
+
 TEST(Override, MistakesAreReportedAtTheCommandLine) {
   EXPECT_EQ(mistakes(deck_around(body()), {"Structures/top/Mass=-1", "Structures/top/Mas=1"}),
             "command line: Structures / top / Mass: must be > 0 kg, got -1\n"

@@ -78,8 +78,9 @@ def _cases(arguments, deck):
     if arguments.cases and arguments.vary:
         raise CulmError("--cases and --vary exclude each other", 2)
     if arguments.cases:
-        return _listed(arguments.cases, deck)
+        return _listed(arguments, deck)
     axes = variation.pair([variation.parse(text, deck) for text in arguments.vary], arguments.paired)
+    variation.refuse_set(arguments.set, [(axis.name, axis.paths()) for axis in axes])
     names = [axis.name for axis in axes]
     cases = []
     for index in itertools.product(*(range(len(axis.values)) for axis in axes)):
@@ -88,7 +89,8 @@ def _cases(arguments, deck):
     return names, cases if axes else []
 
 
-def _listed(path, deck):
+def _listed(arguments, deck):
+    path = arguments.cases
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:  # spreadsheets begin with a mark
             rows = list(csv.reader(file))
@@ -99,6 +101,7 @@ def _listed(path, deck):
     names = [name.strip() for name in rows[0]]
     places = [variation.places(name, deck) for name in names]
     variation.refuse_overlaps(f"--cases {path}", list(zip(names, places)))
+    variation.refuse_set(arguments.set, list(zip(names, places)))
     cases = []
     for number, row in enumerate(rows[1:], 2):
         if not row:

@@ -11,6 +11,7 @@ from ..errors import CulmError
 from ..history import History
 from ..option_types import at_least_one, positive
 from ..resolved_deck import ResolvedDeck
+from ..results import Results
 from . import advice, variation
 from .judgement import Judgement, Plan
 from .runs import StudyRuns
@@ -62,6 +63,7 @@ def main(arguments, program):
     # without --set: a path that a variation opens may not be there yet
     deck = ResolvedDeck.of(program, arguments.deck, arguments.set)
     axes = variation.pair([variation.parse(text, deck) for text in arguments.vary], arguments.paired)
+    variation.refuse_set(arguments.set, [(axis.name, axis.paths()) for axis in axes])
     _check_values(program, arguments, axes)
     folder = arguments.output or pathlib.Path("studies") / arguments.deck.stem
     runs = StudyRuns(program, arguments.deck, deck, folder, arguments.time_limit, _say)
@@ -96,6 +98,7 @@ def _plan(arguments, deck, axes):
         path = reference / "history.csv" if reference.is_dir() else reference
         if not path.is_file():
             raise CulmError(f"--reference {reference}: there is no such history", 6)
+        _refuse_other_kind(path, deck)
         reference = History(path)
     return Plan(
         watched=watched,
@@ -110,9 +113,28 @@ def _plan(arguments, deck, axes):
     )
 
 
+def _refuse_other_kind(path, deck):
+    """A motion has times where statics have levels, and both are numbers. A history without its run does not tell."""
+    run = path.parent / "run.h5"
+    if path.name != "history.csv" or not run.is_file():
+        return
+    there, here = (_last_kind(kinds) for kinds in ([kind for _, kind in Results(run).analyses()], _kinds(deck)))
+    if there != here:
+        raise CulmError(f"--reference {path}: it ends with an analysis of type {there}, that of the deck is of type {here}", 2)
+
+
+def _last_kind(kinds):
+    """Of the last analysis that makes steps, as histories have them: statics and paths go by levels alike."""
+    steps = [kind for kind in kinds if kind in ("Static", "Path", "Dynamic")]
+    return "none" if not steps else "Dynamic" if steps[-1] == "Dynamic" else "Static or Path"
+
+
+def _kinds(deck):
+    return [deck.parameters[f"Analyses/{name}/Type"] for name in deck.names_in("Analyses")]
+
+
 def _usual_norm(deck):
-    kinds = [deck.parameters[f"Analyses/{name}/Type"] for name in deck.names_in("Analyses")]
-    return "rms" if "Dynamic" in kinds else "end"
+    return "rms" if "Dynamic" in _kinds(deck) else "end"
 
 
 def _usual(axis, deck):

@@ -251,6 +251,15 @@ def refuse_overlaps(option, named):
                 raise CulmError(f"{option}: both '{named[first][0]}' and '{name}' set {path}: only the last one would count", 2)
 
 
+def refuse_set(settings, named):
+    """An error where --set gives what varies: it would count for nothing."""
+    given = {setting.partition("=")[0].strip(): setting for setting in settings}
+    for name, paths in named:
+        for path in paths:
+            if path in given:
+                raise CulmError(f"--set {given[path]}: '{name}' varies {path}, so that this counts for nothing; leave one of them out", 2)
+
+
 def places(name, deck):
     """The paths that a name stands for. Other paths are left to the program to judge."""
     if name in SHORT_NAMES:
