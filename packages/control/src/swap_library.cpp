@@ -2,8 +2,11 @@
 #include <culm/control/swap_library.hpp>
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace culm::control {
@@ -12,6 +15,42 @@ namespace {
 std::string reason() {
   const char* text = dlerror();
   return text != nullptr ? text : "no reason is given";
+}
+
+void* open_file(const std::string& path, int more) { return dlopen(path.c_str(), RTLD_NOW | more); }
+
+// A file under a name of its own, which goes with this.
+class Copy {
+ public:
+  explicit Copy(const std::string& path)
+      : name_((std::filesystem::temp_directory_path() / "culm-XXXXXX").string()) {
+    const int file = mkstemp(name_.data());
+    if (file < 0) throw FileError(name_, "a copy of '" + path + "' cannot be written");
+    close(file);
+    std::error_code failure;
+    std::filesystem::copy_file(path, name_, std::filesystem::copy_options::overwrite_existing,
+                               failure);
+    if (failure) {
+      unlink(name_.c_str());
+      throw FileError(name_, "a copy of '" + path + "' cannot be written: " + failure.message());
+    }
+  }
+  Copy(const Copy&) = delete;
+  Copy& operator=(const Copy&) = delete;
+  ~Copy() { unlink(name_.c_str()); }
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+// The system loads a file once, with one memory for all who name it: whoever comes later has a
+// copy.
+void* load_alone(const std::string& path) {
+  void* const other = open_file(path, RTLD_LOCAL | RTLD_NOLOAD);
+  if (other == nullptr) return open_file(path, RTLD_LOCAL);
+  dlclose(other);
+  return open_file(Copy(path).name(), RTLD_LOCAL);
 }
 
 // A text that the library may read, with the zero that ends it.
@@ -28,7 +67,7 @@ void SwapLibrary::Close::operator()(void* handle) const { dlclose(handle); }
 SwapLibrary::SwapLibrary(const std::string& path, const std::string& procedure, std::string input,
                          std::string name)
     : path_(path), input_(std::move(input)), name_(std::move(name)), swap_(records, 0.0F) {
-  handle_.reset(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL));
+  handle_.reset(load_alone(path));
   if (handle_ == nullptr) throw FileError(path, "cannot be loaded: " + reason());
   void* found = dlsym(handle_.get(), procedure.c_str());
   if (found == nullptr) throw FileError(path, "has no procedure '" + procedure + "': " + reason());

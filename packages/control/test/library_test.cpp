@@ -40,6 +40,20 @@ TEST(SwapLibrary, AnswersThroughItsRecords) {
   EXPECT_EQ(library.get(count), 2.0);
 }
 
+// One counts its calls though another one of the same file is called, and begins, in between.
+TEST(SwapLibrary, KeepsItsMemoryToItself) {
+  const InputFile input("1.5 3 4 10 20");
+  SwapLibrary one(path, "DISCON", input.name(), "one");
+  one.call(SwapLibrary::Status::first, 0.1, 0.1);
+  one.call(SwapLibrary::Status::later, 0.2, 0.1);
+  SwapLibrary other(path, "DISCON", input.name(), "other");
+  other.call(SwapLibrary::Status::first, 0.1, 0.1);
+  one.call(SwapLibrary::Status::later, 0.3, 0.1);
+  EXPECT_EQ(one.get(count), 3.0);
+  EXPECT_NEAR(one.get(torque), 3.0 * 1.5 + 4.0 * 1.5 * 0.3, 1e-6);
+  EXPECT_EQ(other.get(count), 1.0);
+}
+
 TEST(SwapLibrary, FailsWithTheMessageOfTheLibrary) {
   const InputFile input("1.5 3 4 10 20");
   SwapLibrary library(path, "DISCON", input.name(), "test");

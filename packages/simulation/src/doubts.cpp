@@ -14,8 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
 #include <numbers>
 
 namespace culm::simulation {
@@ -29,26 +27,6 @@ bool has_entry_of(const Options& list, const std::string& type) {
 bool has_lost_velocities(const Options& deck) {
   return has_entry_of(deck.list("Initial Conditions"), "Velocity") &&
          !has_entry_of(deck.list("Analyses"), "Dynamic");
-}
-
-// The system loads a file once, with one memory, however often it is named.
-std::vector<std::string> libraries_with_one_memory(const Options& deck) {
-  std::vector<std::string> sentences;
-  std::map<std::filesystem::path, std::string> first;
-  for (const Options& signal : deck.list("Signals").entries()) {
-    if (signal.text("Type") != "Library") continue;
-    const Where where = signal.where("File Name");
-    std::error_code failure;
-    const std::filesystem::path file = std::filesystem::weakly_canonical(
-        std::filesystem::path(where.file).parent_path() / signal.text("File Name"), failure);
-    const auto [other, is_new] = first.emplace(file, signal.name());
-    if (is_new) continue;
-    sentences.push_back(fmt::format(
-        "{}: signals '{}' and '{}' call one library, so they share what it remembers from call to "
-        "call; give one of them a copy of the file under another name",
-        to_string(where), other->second, signal.name()));
-  }
-  return sentences;
 }
 
 // A place does not tell full turns.
@@ -74,9 +52,6 @@ std::vector<std::string> starts_beyond_half_turn(const Options& deck) {
 
 void tell_of_deck(const Options& deck, Findings& findings, const Log& log) {
   for (const std::string& sentence : weightless_structures(deck)) log.info("note: " + sentence);
-  for (const std::string& sentence : libraries_with_one_memory(deck)) {
-    findings.warn("shared library", sentence, 0.0);
-  }
   for (const std::string& sentence : starts_beyond_half_turn(deck)) {
     findings.warn("memory", sentence, 0.0);
   }

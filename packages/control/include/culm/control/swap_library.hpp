@@ -49,7 +49,8 @@ class SwapLibrary {
   /// What the library is told of a call.
   enum class Status { first = 0, later = 1, last = -1 };
 
-  /// Loads it. Throws FileError if there is no such library or no such procedure in it.
+  /// Loads it, with a memory of its own. Throws FileError if there is no such library or no such
+  /// procedure in it.
   /// @param input  a file that the library may read; empty for none
   /// @param name   what the library may call its own files
   SwapLibrary(const std::string& path, const std::string& procedure, std::string input,
