@@ -23,6 +23,7 @@ using output::HistoryColumn;
 // What is watched.
 struct Watched : Place {
   std::string constraint;  // whose reaction; all if empty
+  bool is_fixed = false;   // by that constraint, which takes unknowns away
 };
 
 // A quantity that is a function of one node.
@@ -112,15 +113,18 @@ void rotation(const assembly::System& system, const model::State& state, const W
 
 void reaction(const assembly::System& system, const model::State& state, const Watched& place,
               std::vector<double>& numbers) {
-  const Vec6 r = place.constraint.empty() ? system.reaction(place.node, state)
-                                          : system.reaction_of(place.constraint, place.node, state);
+  Vec6 r = Vec6::Zero();
+  if (!place.constraint.empty()) r = system.reaction_of(place.constraint, place.node, state);
+  if (place.constraint.empty() || place.is_fixed) r += system.reaction(place.node, state);
+  if (place.is_fixed) r -= system.reaction_of("", place.node, state);  // all equations
   numbers.insert(numbers.end(), r.data(), r.data() + 6);
 }
 
 // The force of a connection that takes the unknowns of a node away is in no equation.
 std::string object_to_reaction(const model::Model& model, const Watched& place) {
   const model::NodeTable& nodes = model.nodes();
-  if (!place.constraint.empty() || !nodes.is_slave(place.node)) return {};
+  const bool is_equation = !place.constraint.empty() && !place.is_fixed;
+  if (is_equation || !nodes.is_slave(place.node)) return {};
   std::string connection = "a rigid connection";
   for (const model::Constraint& c : model.constraints()) {
     if (c.link && c.link->slave == place.node) connection = c.type + " '" + c.name + "'";
@@ -133,7 +137,15 @@ std::string object_to_reaction(const model::Model& model, const Watched& place) 
          "Solver / Form = Multipliers";
 }
 
-// False, and an issue, if there is no such constraint there or it has no multipliers of its own.
+// Another constraint that takes unknowns of a node away; empty if there is none.
+std::string other_support(const model::Model& model, const model::Constraint& one, int node) {
+  for (const model::Constraint& c : model.constraints()) {
+    if (c.fix && c.fix->node == node && c.name != one.name) return c.name;
+  }
+  return {};
+}
+
+// False, and an issue, if there is no such constraint there or its share is not known.
 bool read_constraint(const Options& options, model::BuildContext& context, Watched& place) {
   if (!options.has("Constraint")) return true;
   place.constraint = options.text("Constraint");
@@ -142,11 +154,13 @@ bool read_constraint(const Options& options, model::BuildContext& context, Watch
     if (std::find(c.nodes.begin(), c.nodes.end(), place.node) == c.nodes.end()) continue;
     names.push_back(c.name);
     if (c.name != place.constraint) continue;
-    if (!c.fix && !c.link) return true;
+    const std::string other = c.fix ? other_support(context.model, c, place.node) : std::string();
+    place.is_fixed = c.fix.has_value();
+    if (!c.link && other.empty()) return true;
+    const std::string beside = other.empty() ? "" : ", and '" + other + "' holds the node as well";
     context.issues.add(options.where("Constraint"),
-                       c.type + " '" + c.name +
-                           "' is no equation, so its share of the reactions of the node is not "
-                           "known");
+                       c.type + " '" + c.name + "' is no equation" + beside +
+                           ", so its share of the reactions of the node is not known");
     return false;
   }
   context.issues.add(options.where("Constraint"), "no constraint '" + place.constraint +

@@ -116,18 +116,25 @@ bool go_on(const model::Cell& cell, const model::Cell& next) {
   return cell.nodes[cell.nodes.size() - 1] == next.nodes.front();
 }
 
-// The two elements whose centres lie about the station, or nearest to it, and their weights; none
-// is beyond a kink.
-std::vector<SectionLoads::Source> find_sources(const model::Structure& beam, double station) {
+// Of which elements about a station.
+enum class Side { both, before, after };
+
+// The two elements whose centres lie about the station, or nearest to it on a side of it, and their
+// weights; none is beyond a kink.
+std::vector<SectionLoads::Source> find_sources(const model::Structure& beam, double station,
+                                               Side side) {
   const std::vector<double> ends = ends_of(beam);
   const auto centre = [&](std::size_t i) { return 0.5 * ((i == 0 ? 0.0 : ends[i - 1]) + ends[i]); };
   const auto source = [&](std::size_t i, double weight) {
     return SectionLoads::Source{beam.cells[i], *marker_at_fraction(beam, centre(i)), weight};
   };
+  const double sought = station + (side == Side::after ? 1e-12 : -1e-12);
   const auto here = static_cast<std::size_t>(
-      std::lower_bound(ends.begin(), ends.end() - 1, station - 1e-12) - ends.begin());
-  const bool has_before = here > 0 && go_on(beam.cells[here - 1], beam.cells[here]);
-  const bool has_next = here + 1 < ends.size() && go_on(beam.cells[here], beam.cells[here + 1]);
+      std::lower_bound(ends.begin(), ends.end() - 1, sought) - ends.begin());
+  const bool has_before =
+      side != Side::after && here > 0 && go_on(beam.cells[here - 1], beam.cells[here]);
+  const bool has_next = side != Side::before && here + 1 < ends.size() &&
+                        go_on(beam.cells[here], beam.cells[here + 1]);
   if (!has_before && !has_next) return {source(here, 1.0)};
   const bool is_behind = has_before && (!has_next || station <= centre(here));
   const std::size_t i = is_behind ? here : here + 1;
@@ -156,7 +163,9 @@ std::unique_ptr<Quantity> make_section_loads(const Options& options, model::Buil
     axes = SectionLoads::Axes::frame;
   }
   const double station = options.number("Station");
-  return std::make_unique<SectionLoads>(find_sources(*beam, station),
+  const std::string& named = options.text("Side");
+  const Side side = named == "Before" ? Side::before : named == "After" ? Side::after : Side::both;
+  return std::make_unique<SectionLoads>(find_sources(*beam, station, side),
                                         *marker_at_fraction(*beam, station), axes, frame);
 }
 
@@ -172,6 +181,10 @@ void register_section_loads(QuantityRegistry& registry) {
                   "Place of the section as a fraction of the length: 0 at the first node, 1 at the "
                   "last.")
                .between(0.0, 1.0))
+      .add(choice("Side", {"Both", "Before", "After"},
+                  "Of which elements: those about the section, or, where a force, mass or joint at "
+                  "a node makes a jump, those on one side of it.")
+               .optional("Both"))
       .add(choice("Axes", {"Section", "Space"}, "The directors of the section, or space.")
                .optional("Section"))
       .add(text("Frame", "Or a node whose directors are the axes.").optional())

@@ -117,6 +117,25 @@ TEST(SectionLoads, AtTheEndsAreReactionAndLoadToSecondOrder) {
   EXPECT_LT(coarse / fine, 6.0);
 }
 
+// A force at an inner node makes a jump: each side has its own.
+TEST(SectionLoads, OfOneSideJumpByTheForceAtANode) {
+  std::string watched;
+  for (const char* side : {"Before", "After", "Both"}) {
+    watched += section(side, "0.5", set("Axes", "Space") + set("Side", side));
+  }
+  std::string deck = bent(8, watched);
+  const std::string loads = "<ParameterList name=\"Loads\">";
+  deck.insert(deck.find(loads) + loads.size(),
+              typed("inner", "Force", set("Node", "beam/8") + set("Force", "{0, 0, 5}")));
+  Watching run(deck);
+  run.run("bend", [] {});
+  const Vec3 force = run.vector("Before", "F", "xyz") - run.vector("After", "F", "xyz");
+  EXPECT_NEAR(force.z(), 5.0, 0.05);
+  EXPECT_NEAR(run.vector("Both", "F", "xyz").z(), run.vector("After", "F", "xyz").z() + 2.5, 0.05);
+  const Vec3 moment = run.vector("Before", "M", "xyz") - run.vector("After", "M", "xyz");
+  EXPECT_LT(moment.norm(), 0.1);
+}
+
 TEST(SectionLoads, AxesOfSectionAndFrameAreTurnsOfThoseInSpace) {
   const std::string watched = section("own", "1", "") +
                               section("tip", "1", set("Frame", "beam/last")) +
@@ -134,6 +153,37 @@ TEST(SectionLoads, AxesOfSectionAndFrameAreTurnsOfThoseInSpace) {
 }
 
 // What a rigid connection exerts on the node that follows, and not what it hands to its master.
+// A support takes unknowns away, a spring joint beside it is an equation: each has its own share.
+TEST(Reaction, OfASupportBesideAJoint) {
+  const auto watch = [](const std::string& name, const std::string& constraint) {
+    return typed(
+        name, "Reaction",
+        set("Node", "one/first") + (constraint.empty() ? "" : set("Constraint", constraint)));
+  };
+  const std::string deck = list(
+      "culm",
+      list("Sections", bar) +
+          list("Structures", beam("one", "{0, 0, 0}", "{1, 0, 0}", 2) +
+                                 beam("two", "{0, 0, 0}", "{0, 1, 0}", 2)) +
+          list("Constraints", typed("clamp", "Rigid Support", set("Node", "one/first")) +
+                                  typed("pin", "Spherical Joint",
+                                        set("First", "one/first") + set("Second", "two/first")) +
+                                  typed("end", "Rigid Support", set("Node", "two/last"))) +
+          list("Loads",
+               typed("on one", "Force", set("Node", "one/last") + set("Force", "{0, 0, 7}")) +
+                   typed("on two", "Force", set("Node", "two/2") + set("Force", "{0, 0, 6}"))) +
+          list("Analyses", typed("bend", "Static", set("Steps", "1"))) +
+          list("Output",
+               list("History", watch("all", "") + watch("clamp", "clamp") + watch("pin", "pin"))));
+  Watching run(deck);
+  run.run("bend", [] {});
+  const Vec3 clamp = run.vector("clamp", "F", "xyz");
+  const Vec3 pin = run.vector("pin", "F", "xyz");
+  EXPECT_LT(pin.z(), -0.1);
+  EXPECT_LT((run.vector("all", "F", "xyz") - clamp - pin).norm(), 1e-9);
+  EXPECT_NEAR(run["all Fz"], -7.0, 1e-6);
+}
+
 TEST(Reaction, OfARigidConnectionIsThatOnTheNodeThatFollows) {
   const std::string plate =
       typed("plate", "Rigid Body",
