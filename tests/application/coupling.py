@@ -21,6 +21,7 @@ import time
 import unittest
 import zlib
 
+import h5py
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -753,6 +754,31 @@ class Partners(CouplingTest):
                 if sent == signal.SIGTERM:
                     self.assertFalse((self.folder / name / "run.h5.journal").exists())
 
+    def test_that_let_a_run_wait_that_is_stopped(self):
+        """Whoever stops a run does not wait for a partner: the state of the last window is there at once."""
+        if OPTIONS.ranks > 1:
+            self.skipTest("a launcher ends its programs by itself")
+        for way in ("silence", "alive"):
+            with self.subTest(way=way):
+                self.start_partner(way)
+                process = self.start("run", self.remote, "--output", way, "--quiet", "--set", "Output/Checkpoint Interval=0",
+                                     "--set", "Coupling/Partners/water/Patience=100")
+                self.wait_until(lambda: (self.folder / way / "run.checkpoint").exists())
+                time.sleep(1.0)
+                began = time.monotonic()
+                process.send_signal(signal.SIGTERM)
+                errors = self.finish(process, 7)
+                self.assertLess(time.monotonic() - began, 30.0)
+                self.assertIn("stopped: signal SIGTERM, while a partner had not answered yet", errors)
+                self.assertIn("Go on with: culm resume", errors)
+                self.assertEqual(self.rows(way), 5)
+                self.assertFalse((self.folder / way / "run.h5.journal").exists())
+        process = self.start("run", self.remote, "--output", "alone", "--quiet")
+        self.wait_until(lambda: (self.folder / "alone" / "run.h5").exists())
+        time.sleep(0.5)
+        process.send_signal(signal.SIGUSR1)
+        self.assertIn("stopped: signal SIGUSR1, before a partner came", self.finish(process, 7))
+
     @one_process_shows
     def test_that_lie_about_their_energy(self):
         """Nobody can tell a lie from a coupling that is too loose: a broken promise, after whole results."""
@@ -958,6 +984,37 @@ class Leaders(CouplingTest):
         self.fails("the deck wants no checkpoints", lambda mast: mast.keep(1), "--set", "Output/Checkpoints=false")
         self.fails("it answered nan for component 0 at point 0", lambda mast: mast.attempt(numpy.full((5, 6), numpy.nan), 1.0))
         self.fails("cannot end at 0 s", lambda mast: mast.attempt(numpy.zeros((5, 6)), 0.0))
+        for end in (0.51, numpy.inf, numpy.nan):
+            self.fails(f"a step cannot end at {end} s, the motion of the deck ends at 0.5 s",
+                       lambda mast, end=end: mast.attempt(numpy.zeros((5, 6)), end))
+
+    def test_that_leave_early(self):
+        """The last state is recorded as every other one, though it is not due."""
+        process = self.serve(*(word for one in ("Every=2", "Constraint Forces=true", "Velocities=true")
+                               for word in ("--set", f"Output/{one}")))
+        with culm_partner.Structure(self.address, patience=20.0) as mast:
+            loads, velocity = numpy.zeros((5, 6)), mast.velocity[:, :3].copy()
+            for _ in range(3):
+                loads, velocity = self.step(mast, loads, velocity)
+        self.finish(process)
+        with h5py.File(self.folder / "there" / "run.h5") as file:
+            last = file["steps"][max(file["steps"])]
+            self.assertEqual(last.attrs["step"], 3)
+            self.assertIn("%arrays", last)
+            self.assertIn("velocity", last)
+
+    def test_that_die_in_an_attempt(self):
+        """Which belongs to no state: the last one is that of the step before, though it is not due."""
+        process = self.serve("--set", "Output/Every=2")
+        with self.assertRaises(KeyboardInterrupt):
+            with culm_partner.Structure(self.address, patience=20.0) as mast:
+                self.step(mast, numpy.zeros((5, 6)), mast.velocity[:, :3].copy())
+                mast.attempt(numpy.full((5, 6), 100.0), mast.proposal)
+                raise KeyboardInterrupt("no more wind")
+        self.finish(process, FAILED_PARTNER)
+        with h5py.File(self.folder / "there" / "run.h5") as file:
+            last = file["steps"][max(file["steps"])]
+            self.assertEqual((last.attrs["step"], last.attrs["time"]), (1, mast.time))
 
     def test_that_are_silent(self):
         self.fails("said nothing", lambda mast: (mast._connection.ended.set(), time.sleep(3), mast.accept()),
@@ -992,6 +1049,11 @@ class Decks(CouplingTest):
                   "Coupling/Partners/more/Damping=1")
         self.says("port 'wet' has a partner already", self.deck, "Coupling/Partners/more/Type=Dashpot",
                   "Coupling/Partners/more/Damping=1", "Coupling/Partners/more/Port=wet")
+        other, address = "Coupling/Partners/air/", str(self.address).removeprefix("unix:")
+        self.says("partner 'water' comes to 'unix:", self.remote, other + "Type=Socket", other + "Port=top",
+                  f"{other}Address=unix:{pathlib.Path(address).parent}/./{pathlib.Path(address).name}")
+        self.says("partner 'water' comes to 'tcp:127.0.0.1:5000' already", self.remote, partner + "Address=tcp:5000",
+                  other + "Type=Socket", other + "Port=top", other + "Address=tcp:127.0.0.1:5000")
 
     def test_whose_partners_cannot_serve(self):
         self.says("'nowhere' is no address: 'unix:PATH'", self.remote, "Coupling/Partners/water/Address=nowhere")

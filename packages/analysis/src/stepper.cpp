@@ -40,7 +40,7 @@ const StepReport& Stepper::attempt(double target) {
   if (stage_ == Stage::tried) discard();
   require(stage_ == Stage::resting, "be attempted");
   if (!std::isfinite(target)) throw NonFiniteError("a step cannot be attempted to no number");
-  is_exhausted_ = false;
+  is_exhausted_ = has_reactions_ = is_outdated_ = false;
   stage_ = Stage::tried;
   try {
     report_ = do_attempt(target);
@@ -60,9 +60,15 @@ void Stepper::accept() {
     throw UsageError("an attempt cannot be accepted that did not converge: " +
                      solver::describe(report_.outcome.end));
   }
+  if (is_outdated_) {
+    throw UsageError(
+        "an attempt cannot be accepted under loads or signals that were set after it: attempt "
+        "again");
+  }
   ++steps_;
   post_mortem().record(report_);
   do_accept(report_);
+  has_reactions_ = true;
   system().sample(state_);
   report_.is_last = reaches_end();
   newton().keep();
@@ -84,6 +90,10 @@ void Stepper::discard() {
   go_back();
   do_discard();
   newton().go_back();
+}
+
+void Stepper::abandon() {
+  if (stage_ == Stage::tried) discard();
 }
 
 void Stepper::fail() {
@@ -132,6 +142,7 @@ void Stepper::restore(const Snapshot& snapshot) {
   if (observer_ != nullptr && snapshot.is_for_memory()) observer_->go_back(snapshot);
   system().restore(snapshot, state_);
   steps_ = snapshot.integer("steps");
+  has_reactions_ = false;
   do_restore(snapshot);
   newton_->restore(snapshot);
   newton_->keep();

@@ -51,6 +51,7 @@ Frame Conversation::hear() {
       throw PartnerError(
           fmt::format("it says that it is alive, and has not answered for {:g} s", time_limit_));
     }
+    channel_->heed_signal(waited.count());
     frame = decode(channel_->receive(patience_));
   }
   listens_ = false;
@@ -75,6 +76,7 @@ void Conversation::pose(const Frame& question) {
 }
 
 Frame Conversation::answer(const Frame& question, FrameKind expected) {
+  channel_->heed_signals(question.kind != FrameKind::save);
   Frame frame = listen();
   if (frame.kind != expected) {
     throw PartnerError(fmt::format("it answered '{}' with '{}' instead of '{}'",

@@ -1,3 +1,4 @@
+#include <culm/coupling/channel.hpp>
 #include <culm/coupling/channel_flow.hpp>
 #include <culm/coupling/point_partner.hpp>
 #include <culm/coupling/pressure_partner.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -191,6 +193,29 @@ void register_partners(PartnerRegistry& registry) {
   });
 }
 
+namespace {
+
+// Where a partner is met; empty for one in process.
+std::string place_of(const Options& partner) {
+  const std::string& type = partner.text("Type");
+  if (type == "MPI") return "rank " + std::to_string(partner.integer("Rank"));
+  return type == "Socket" ? "'" + complete_address(partner.text("Address")) + "'" : std::string();
+}
+
+void refuse_one_place_for_two(const Options& coupling, InputIssues& issues) {
+  std::map<std::string, std::string> first;
+  for (const Options& partner : coupling.list("Partners").entries()) {
+    const std::string place = place_of(partner);
+    if (place.empty()) continue;
+    const auto [other, is_new] = first.emplace(place, partner.name());
+    if (is_new) continue;
+    issues.add(partner.where(partner.text("Type") == "MPI" ? "Rank" : "Address"),
+               "partner '" + other->second + "' comes to " + place + " already");
+  }
+}
+
+}  // namespace
+
 Schema coupling_schema(const PartnerRegistry& partners) {
   Schema schema("Coupling",
                 "Partners that answer the motion of ports with loads, in all analyses of type "
@@ -210,7 +235,8 @@ Schema coupling_schema(const PartnerRegistry& partners) {
                .optional())
       .add(flag("Record", "Write all that is said into 'coupling_NAME.record'.").optional(false))
       .list("Partners",
-            Schema("Partners", "Who answers, by name.").entries_by_type(partners.variants()));
+            Schema("Partners", "Who answers, by name.").entries_by_type(partners.variants()))
+      .check(refuse_one_place_for_two);
 }
 
 }  // namespace culm::coupling

@@ -1,3 +1,4 @@
+#include <culm/base/stop_signal.hpp>
 #include <culm/coupling/channel.hpp>
 #include <culm/coupling/frame.hpp>
 #include <culm/coupling/partner_error.hpp>
@@ -18,6 +19,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -53,17 +55,25 @@ class Socket {
   int handle_;
 };
 
+// For how long to wait at once [ms]: a signal may wake another thread.
+constexpr long long slice = 200;
+
+// @param heed  called now and then, throws where the wait is to end
 // @return whether something can be read before the deadline
-bool wait(int handle, Clock::time_point deadline) {
+template <class Heed>
+bool wait(int handle, Clock::time_point deadline, Heed heed) {
   for (;;) {
+    heed();
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return false;
     pollfd entry{handle, POLLIN, 0};
-    const int found = ::poll(&entry, 1, static_cast<int>(std::min<long long>(left, 1000)));
+    const int found = ::poll(&entry, 1, static_cast<int>(std::min<long long>(left, slice)));
     if (found > 0) return true;
     if (found < 0 && errno != EINTR) throw PartnerError("cannot wait: " + reason());
   }
 }
+
+void stop_if_nobody_came() { stop_if_asked(0.0, "before a partner came"); }
 
 // A partner that is quick answers before a thread has gone to sleep and been woken again.
 constexpr auto wakeful = std::chrono::microseconds(50);
@@ -90,6 +100,7 @@ class SocketChannel final : public Channel {
   }
 
   std::string receive(double patience) override {
+    begun_ = Clock::now();
     const auto deadline = after(patience);
     std::string frame(frame_header, '\0');
     is_in_frame_ = false;
@@ -129,6 +140,9 @@ class SocketChannel final : public Channel {
   // What is there, at least one byte.
   std::size_t fetch(char* to, std::size_t size, Clock::time_point deadline, double patience) {
     const auto sleep = std::min(Clock::now() + wakeful, deadline);
+    const auto heed = [this] {
+      heed_signal(std::chrono::duration<double>(Clock::now() - begun_).count());
+    };
     for (;;) {
       const ssize_t n = ::recv(socket_.get(), to, size, MSG_DONTWAIT);
       if (n > 0) return static_cast<std::size_t>(n);
@@ -142,7 +156,7 @@ class SocketChannel final : public Channel {
       }
       if (Clock::now() < sleep) {
         std::this_thread::yield();
-      } else if (!wait(socket_.get(), deadline)) {
+      } else if (!wait(socket_.get(), deadline, heed)) {
         throw PartnerError(fmt::format("it said nothing for {:g} s", patience));
       }
     }
@@ -153,6 +167,7 @@ class SocketChannel final : public Channel {
   std::size_t ahead_begin_ = 0;
   std::size_t ahead_end_ = 0;
   bool is_in_frame_ = false;
+  Clock::time_point begun_;  // to wait for the present frame
 };
 
 // A place in the network or on this machine.
@@ -184,11 +199,16 @@ Address unix_address(const std::string& text) {
   return address;
 }
 
-Address tcp_address(const std::string& text) {
+// Of 'tcp:PORT' or 'tcp:ADDRESS:PORT'.
+std::pair<std::string, std::string> host_and_port(const std::string& text) {
   const std::string place = text.substr(4);
   const std::size_t colon = place.rfind(':');
-  const std::string host = colon == std::string::npos ? "127.0.0.1" : place.substr(0, colon);
-  const std::string port = colon == std::string::npos ? place : place.substr(colon + 1);
+  if (colon == std::string::npos) return {"127.0.0.1", place};
+  return {place.substr(0, colon), place.substr(colon + 1)};
+}
+
+Address tcp_address(const std::string& text) {
+  const auto [host, port] = host_and_port(text);
   addrinfo hints = {};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
@@ -236,6 +256,14 @@ std::string objection_to_address(const std::string& text) {
   return {};
 }
 
+std::string complete_address(const std::string& text) {
+  if (text.starts_with("unix:")) {
+    return "unix:" + std::filesystem::absolute(text.substr(5)).lexically_normal().string();
+  }
+  const auto [host, port] = host_and_port(text);
+  return "tcp:" + host + ":" + port;
+}
+
 std::unique_ptr<Channel> listen(const std::string& text, double patience) {
   const Address address = find_address(text);
   remove_old_socket(address.path);
@@ -246,7 +274,7 @@ std::unique_ptr<Channel> listen(const std::string& text, double patience) {
       ::listen(door.get(), 1) != 0) {
     throw FileError(text, "cannot be listened to: " + reason());
   }
-  const bool came = wait(door.get(), after(patience));
+  const bool came = wait(door.get(), after(patience), stop_if_nobody_came);
   Socket guest(came ? ::accept4(door.get(), nullptr, nullptr, SOCK_CLOEXEC) : -1);
   if (!address.path.empty()) ::unlink(address.path.c_str());  // one guest, and no second one
   if (guest.get() < 0) {
@@ -259,6 +287,7 @@ std::unique_ptr<Channel> connect(const std::string& text, double patience) {
   const Address address = find_address(text);
   const auto deadline = after(patience);
   do {
+    stop_if_nobody_came();
     Socket socket(::socket(address.family, SOCK_STREAM | SOCK_CLOEXEC, 0));
     if (::connect(socket.get(), address.get(), address.length) == 0) {
       return std::make_unique<SocketChannel>(std::move(socket));

@@ -179,6 +179,7 @@ void Simulation::set_load(const std::string& name, const std::vector<double>& va
     throw NonFiniteError(fmt::format("load '{}' got {} for component {} at node '{}'", name,
                                      values[i], i % 6, model().node_name(input.nodes()[i / 6])));
   }
+  if (parts_->stepper != nullptr) parts_->stepper->outdate();
   set_input(input, values);
   parts_->set_loads[name] = values;
   if (any_acts(values)) parts_->hear({"External", name});
@@ -197,6 +198,7 @@ void Simulation::set_signal(const std::string& name, double value) {
     throw NonFiniteError(fmt::format("signal '{}' got {}", name, value));
   }
   if (parts_->stepper == nullptr) throw UsageError("there is no state yet: 'begin' comes first");
+  parts_->stepper->outdate();
   const auto at = static_cast<std::size_t>(found->second.index);
   parts_->state.own[at] = parts_->state.own_prev[at] = value;
 }

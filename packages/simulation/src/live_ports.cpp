@@ -74,6 +74,7 @@ void Simulation::set_port(const std::string& name, std::span<const double> force
                           std::span<const double> moments) {
   port::Port& port = find_port(parts_->phases.of(parts_->present), name);
   port.set_loads(forces, moments);
+  if (parts_->stepper != nullptr) parts_->stepper->outdate();
   if (port.is_loaded()) parts_->hear({"Port", name});
 }
 

@@ -50,6 +50,7 @@ class MpiChannel final : public coupling::Channel {
         throw PartnerError(
             "the launcher ends all its programs, as it does when one of them has died");
       }
+      heed_signal(wait.waited());
       if (wait.waited() > patience) {
         throw PartnerError(fmt::format("it said nothing for {:g} s", patience));
       }

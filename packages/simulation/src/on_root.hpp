@@ -10,8 +10,8 @@
 
 namespace culm::simulation {
 
-/// Runs `work` on rank 0; an error that it has there with files, partners, numbers or usage is
-/// thrown on all ranks.
+/// Runs `work` on rank 0; an error that it has there with files, partners, numbers, usage or a
+/// signal is thrown on all ranks.
 template <class Work>
 void on_root(const parallel::Comm& comm, Work work) {
   std::string error;  // after its kind
@@ -28,6 +28,8 @@ void on_root(const parallel::Comm& comm, Work work) {
       error = std::string("u") + e.what();
     } catch (const NonFiniteError& e) {
       error = std::string("n") + e.what();
+    } catch (const Stopped& e) {
+      error = std::string("s") + e.what();
     }
   }
   if (comm.size() > 1) {
@@ -39,6 +41,7 @@ void on_root(const parallel::Comm& comm, Work work) {
   if (error.front() == 'f') throw FileError(text);
   if (error.front() == 'p') throw PartnerError(text);
   if (error.front() == 'u') throw UsageError(text);
+  if (error.front() == 's') throw Stopped(text);
   throw NonFiniteError(text);
 }
 

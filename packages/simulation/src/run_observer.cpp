@@ -124,7 +124,7 @@ void RunObserver::add_history(double time, int step, model::State& state) {
   files_.add_history({time, numbers, static_cast<int>(number_), step});
 }
 
-void RunObserver::record(double time, int step, model::State& state, bool was_solved) {
+void RunObserver::record(double time, int step, const model::State& state, bool was_solved) {
   const Ledger::Scope scope(ledger_, states_effect_);
   files_.record(time, static_cast<int>(number_), step, state, was_solved);
 }
@@ -170,7 +170,9 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   const bool ends = is_last_ && report.is_last;
   if (demand == Checkpoints::Demand::none && !ends) return;
   if (served_ == nullptr) write_checkpoint();
-  if (demand == Checkpoints::Demand::stop) throw Stopped(checkpoints_->farewell());
+  if (demand != Checkpoints::Demand::stop) return;
+  has_said_farewell_ = true;
+  throw Stopped(checkpoints_->farewell());
 }
 
 void RunObserver::add_held(const analysis::StepReport& report) {
@@ -313,6 +315,7 @@ void RunObserver::restore(const Snapshot& snapshot) {
 
 void RunObserver::finish(const analysis::AnalysisReport& report, const model::State& state) {
   refuse_infinite(name_, report);
+  record_early_end(state);
   loads_.report(state, is_last_, findings_);
   ranges_.report(state.time, findings_);
   strips_.step(state, findings_);  // of an analysis that makes no steps
@@ -325,6 +328,13 @@ void RunObserver::finish(const analysis::AnalysisReport& report, const model::St
   air_ = describe_air(context_->system.model());
   const std::string before = free_prefix();
   for (const auto& [name, value] : report.numbers) numbers_.push_back({before + name, "", value});
+}
+
+// Who makes the steps may end them before the last one, which is recorded whatever its number.
+void RunObserver::record_early_end(const model::State& state) {
+  if (stepper_ == nullptr || is_recorded_) return;
+  is_recorded_ = true;
+  record(state.time, stepper_->steps(), state, stepper_->has_reactions());
 }
 
 // What sets the numbers of an analysis apart from those before it, which may have had its name: a

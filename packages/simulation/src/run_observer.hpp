@@ -83,6 +83,8 @@ class RunObserver final : public analysis::Observer {
   const std::vector<double>& shown() const { return shown_; }
   /// How to go on from the last checkpoint, in a line that begins anew; empty if there is none.
   std::string way_on() const;
+  /// Whether step() stopped the run, with words on how to go on.
+  bool has_said_farewell() const { return has_said_farewell_; }
   void finish(const analysis::AnalysisReport& report, const model::State& state) override;
   /// Closes the files with a report of how the run ended.
   void end(model::State& state, const std::string& outcome);
@@ -101,7 +103,8 @@ class RunObserver final : public analysis::Observer {
   void watch_turns(double time, const model::State& state);
   void report_turns(double time);
   void add_history(double time, int step, model::State& state);
-  void record(double time, int step, model::State& state, bool was_solved);
+  void record(double time, int step, const model::State& state, bool was_solved);
+  void record_early_end(const model::State& state);
 
   Ledger& ledger_;
   Findings& findings_;
@@ -138,6 +141,7 @@ class RunObserver final : public analysis::Observer {
   Balance balance_;
   std::string certificates_;
   std::optional<analysis::ElementTurns> turns_;  // of the analysis
+  bool has_said_farewell_ = false;
   bool has_told_turn_ = false;  // that an element is turned so far that results mean nothing
   std::vector<output::NamedScalar> numbers_;
   // the accepted steps, for the report; analyses by number in the deck

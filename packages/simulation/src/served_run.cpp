@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -78,7 +79,12 @@ analysis::AnalysisReport ServedRun::run(analysis::Stepper& stepper, assembly::Sy
                                  [&](const auto& one) { return serves(one->name()); });
   Course course{stepper, system, **port, observer};
   greet(course);
-  while (follow(hear(), course)) {
+  try {
+    while (follow(hear(), course)) {
+    }
+  } catch (...) {
+    stepper.abandon();  // results end with the accepted state
+    throw;
   }
   was_left_ = was_left_ || !stepper.is_at_end();
   analysis::AnalysisReport report = stepper.finish();
@@ -187,6 +193,12 @@ bool ServedRun::follow(const Frame& asked, Course& course) {
 void ServedRun::attempt(const Frame& asked, Course& course) {
   VectorXd loads;
   speak([&] { loads = coupling::read_answer(asked, course.port.size()); });
+  const double last = course.stepper.final_time();
+  constexpr double rounding = 1e-9;
+  if (!(asked.end <= last + rounding * std::abs(last))) {
+    throw UsageError(fmt::format(
+        "a step cannot end at {:g} s, the motion of the deck ends at {:g} s", asked.end, last));
+  }
   loads.resize(6 * static_cast<Eigen::Index>(course.port.size()));
   if (comm_.size() > 1) comm_.broadcast({loads.data(), static_cast<std::size_t>(loads.size())});
   set_loads(course.port, loads);

@@ -267,6 +267,9 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   } catch (const PartnerError& error) {
     // it cannot save what it is any more: what counts is the checkpoint that it shares
     throw PartnerError(error.what() + observer.way_on());
+  } catch (const Stopped& error) {
+    if (observer.has_said_farewell()) throw;
+    throw Stopped(error.what() + observer.way_on());
   } catch (const Error& error) {
     // other tolerances or steps may find the way that these did not
     if (is_numerical(error) && served == nullptr) write_last_checkpoint(observer);

@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/base/stop_signal.hpp>
 #include <culm/base/text.hpp>
 #include <culm/deck/units.hpp>
 #include <culm/simulation/stop_request.hpp>
@@ -14,13 +15,12 @@ namespace {
 
 constexpr std::array signals = {SIGTERM, SIGUSR1};
 
-// The only way from a signal handler to the program.
-volatile std::sig_atomic_t received = 0;
+// Who sent the signal.
 volatile std::sig_atomic_t sender = 0;
 
 void note(int signal, siginfo_t* info, void* /*context*/) {
-  received = signal;
   sender = info->si_pid;
+  note_stop_signal(signal);
   StopRequest::listen();  // to a second one, too
 }
 
@@ -77,7 +77,7 @@ std::optional<double> find_duration(std::string_view text) {
 }  // namespace
 
 StopRequest::StopRequest(std::optional<double> walltime) : walltime_(walltime) {
-  received = 0;
+  note_stop_signal(0);
   sender = 0;
   listen();
 }
@@ -95,9 +95,9 @@ StopRequest::~StopRequest() {
   set_handlers(action);
 }
 
-int StopRequest::signal() const { return received; }
+int StopRequest::signal() const { return stop_signal(); }
 
-bool StopRequest::is_ended_by(int process) { return received == SIGTERM && sender == process; }
+bool StopRequest::is_ended_by(int process) { return stop_signal() == SIGTERM && sender == process; }
 
 double StopRequest::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

@@ -150,6 +150,9 @@ TEST(LiveSimulation, ASignalThatIsSetActsAsANumberOfTheDeck) {
     while (!two.is_at_end()) {
       set.simulation.set_signal("command", 3.0);
       ASSERT_TRUE(one.attempt(one.proposal()).accepted);
+      set.simulation.set_signal("command", 2.0);
+      EXPECT_THROW(one.accept(), UsageError) << "it was attempted with another value";
+      ASSERT_TRUE(one.attempt(one.proposal()).accepted);
       one.discard();
       set.simulation.set_signal("command", 0.5);
       for (analysis::Stepper* stepper : {&one, &two}) {

@@ -54,10 +54,17 @@ class Stepper {
   void accept();
   /// Goes back to the accepted state because the caller wants another attempt: teaches nothing.
   void discard();
+  /// The same where an attempt was made and nobody will judge it any more.
+  void abandon();
   /// Goes back because the attempt was not good: the next proposal is nearer.
   void fail();
   /// Whether an attempt has converged and waits for its verb.
   bool is_open() const { return stage_ == Stage::tried && report_.accepted; }
+  /// Tells that a load or signal was set from outside: an attempt that is open still shows what it
+  /// found, and cannot be accepted.
+  void outdate() { is_outdated_ = is_open(); }
+  /// Whether the last evaluation was that of the accepted state, so that reactions are its own.
+  bool has_reactions() const { return has_reactions_; }
   /// Whether nothing nearer than the last failure may be tried.
   bool is_exhausted() const { return is_exhausted_; }
   /// Throws NumericalError or NonFiniteError with a post-mortem of the attempts that failed.
@@ -138,6 +145,8 @@ class Stepper {
   model::State& state_;
   Stage stage_ = Stage::unbegun;
   bool is_exhausted_ = false;
+  bool has_reactions_ = false;
+  bool is_outdated_ = false;
   Observer* observer_ = nullptr;
   int steps_ = 0;
   StepReport report_;
