@@ -42,7 +42,15 @@ std::unique_ptr<Start>& start() {
   return kept;
 }
 
+bool has_ended = false;
+
+// MPI begins and ends once in a program.
+void refuse_after_end() {
+  if (has_ended) throw UsageError("'culm_end' was called: nothing can follow it in this program");
+}
+
 void begin_session() {
+  refuse_after_end();
   if (start() != nullptr) return;
   start() = std::make_unique<Start>();
   // before MPI's own library goes
@@ -139,7 +147,10 @@ int with(culm_simulation* simulation, Body body) noexcept {
     return guarded(error_without_simulation(),
                    [] { throw UsageError("there is no simulation: it is NULL"); });
   }
-  return guarded(simulation->error, [&] { body(*simulation); });
+  return guarded(simulation->error, [&] {
+    refuse_after_end();
+    body(*simulation);
+  });
 }
 
 void copy(const std::vector<double>& from, double* to, int size) {
@@ -193,10 +204,16 @@ int culm_open(int api, int comm, const char* deck, const char* const* overrides,
   });
 }
 
-void culm_close(culm_simulation* simulation) { delete simulation; }
+// What a simulation holds goes over MPI, which has ended with the session.
+void culm_close(culm_simulation* simulation) {
+  if (!has_ended) delete simulation;
+}
 
 void culm_end(void) {
-  guarded(error_without_simulation(), [] { start().reset(); });
+  guarded(error_without_simulation(), [] {
+    has_ended = has_ended || start() != nullptr;
+    start().reset();
+  });
 }
 
 int culm_write_results(culm_simulation* simulation, const char* folder) {

@@ -68,7 +68,7 @@ CULM_API int culm_open(int api, int comm, const char* deck, const char* const* o
 /* Ends a simulation; NULL is allowed. Snapshots of it are of no use afterwards. */
 CULM_API void culm_close(culm_simulation* simulation);
 /* Ends what culm_open started, after the last culm_close; for programs that end MPI themselves. Else
- * it happens when the program ends. */
+ * it happens when the program ends. Every call after it is refused. */
 CULM_API void culm_end(void);
 
 /* --- steps; the verbs of doc/developer/life_of_a_step.md ---------------------------------------- */

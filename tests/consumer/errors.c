@@ -80,6 +80,7 @@ int main(int argc, char **argv) {
     EXPECT(culm_port_set_pressure(mast, "net", corners, 0, NULL, NULL), CULM_OK, "");
     EXPECT(culm_port_set(mast, "net", force, moment, 2), CULM_OK, "");
   }
+  EXPECT(culm_accept(mast), CULM_USAGE, "set after it: attempt again");
   EXPECT(culm_discard(mast), CULM_OK, "");
   EXPECT(culm_attempt(mast, 0.5 * end, &converged), CULM_OK, "");
   EXPECT(culm_accept(mast), CULM_OK, "");
@@ -93,6 +94,8 @@ int main(int argc, char **argv) {
   if (strcmp(promises, "") != 0) return 9;
   culm_close(mast);
   culm_end();
+  mast = NULL;
+  EXPECT(culm_open(CULM_API_VERSION, CULM_WORLD, argv[1], overrides, 1, &mast), CULM_USAGE, "'culm_end' was called");
   printf("C: wrong calls are refused\n");
   return 0;
 }
