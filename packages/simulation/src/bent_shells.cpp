@@ -21,7 +21,8 @@ constexpr double notable_share = 0.2;    // of the largest strain
 constexpr double smallest_error = 1e-9;  // an error of strains that nothing comes of
 constexpr double notable_growth = 1.02;  // a turn that grows by less is not looked up
 
-const ShellBatch* linear_shell(const model::Structure& structure) {
+// None for other structures.
+const ShellBatch* batch_of(const model::Structure& structure) {
   if (structure.cells.empty()) return nullptr;
   return dynamic_cast<const ShellBatch*>(structure.cells.front().source);
 }
@@ -71,17 +72,23 @@ double largest_strain(const model::Structure& structure, const model::Coordinate
 
 }  // namespace
 
+void BentShells::begin(const model::Model& model) {
+  linear_.clear();
+  for (const model::Structure& structure : model.structures()) {
+    if (batch_of(structure) != nullptr) linear_.push_back(&structure);
+  }
+}
+
 void BentShells::step(const assembly::System& system, const model::State& state,
                       const std::string& analysis) {
   const model::Coordinates& reference = system.model().nodes().reference();
-  for (const model::Structure& structure : system.model().structures()) {
-    const ShellBatch* batch = linear_shell(structure);
-    if (batch == nullptr) continue;
-    const double error = system.comm().max(largest_error(structure, *batch, reference, state.next));
-    Worst& worst = shells_[structure.name];
+  for (const model::Structure* structure : linear_) {
+    const double error =
+        system.comm().max(largest_error(*structure, *batch_of(*structure), reference, state.next));
+    Worst& worst = shells_[structure->name];
     if (error <= std::max(smallest_error, notable_growth * worst.looked_at)) continue;
     worst.looked_at = error;
-    const double strain = system.comm().max(largest_strain(structure, state.next));
+    const double strain = system.comm().max(largest_strain(*structure, state.next));
     if (error <= worst.share() * strain) continue;
     worst = {error, error, strain, state.time, analysis};
   }

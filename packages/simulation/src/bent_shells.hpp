@@ -7,6 +7,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace culm::simulation {
 
@@ -15,6 +16,8 @@ namespace culm::simulation {
 /// are.
 class BentShells {
  public:
+  /// Starts anew with the shells of a model, which must outlive this; keeps what it found before.
+  void begin(const model::Model& model);
   /// After an accepted step. Collective; costs nothing without such shells.
   /// @param analysis  its name in the deck
   void step(const assembly::System& system, const model::State& state, const std::string& analysis);
@@ -37,6 +40,7 @@ class BentShells {
     double share() const { return strain > 0.0 ? error / strain : 0.0; }
   };
 
+  std::vector<const model::Structure*> linear_;
   std::map<std::string, Worst> shells_;
 };
 

@@ -68,6 +68,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   loads_.begin(context.system.model());
   ranges_.begin(context.system.model());
   waves_.begin(context.system.model());
+  shells_.begin(context.system.model());
   strips_.begin(context.system.model());
   balance_ = {};
   context_ = &context;
