@@ -3,7 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/model/branch_store.hpp>
 #include <culm/model/method_limits.hpp>
-#include <culm/solver/eigen_solver.hpp>
+#include <culm/solver/asymmetry.hpp>
 
 #include <fmt/format.h>
 

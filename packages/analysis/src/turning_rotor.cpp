@@ -1,7 +1,7 @@
 #include <culm/analysis/turning_rotor.hpp>
 #include <culm/base/error.hpp>
 #include <culm/model/steady_rotation.hpp>
-#include <culm/solver/eigen_solver.hpp>
+#include <culm/solver/asymmetry.hpp>
 
 #include "whole_matrix.hpp"
 

@@ -1,5 +1,4 @@
 #include <culm/solver/asymmetry.hpp>
-#include <culm/solver/eigen_solver.hpp>
 
 #include "rooted_matrix.hpp"
 

@@ -1,4 +1,5 @@
 #include <culm/base/error.hpp>
+#include <culm/solver/asymmetry.hpp>
 #include <culm/solver/eigen_solver.hpp>
 
 #include <Eigen/Dense>

@@ -102,8 +102,4 @@ bool is_zero(std::complex<double> value, double rounding);
 ComplexPairs solve_quadratic(const QuadraticPencil& pencil, const EigenSettings& settings,
                              const parallel::Comm& comm);
 
-/// Largest |A_ij - A_ji| over the root of the product of the largest entries of rows i and j: what
-/// is left of symmetry. Collective.
-double asymmetry(const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm);
-
 }  // namespace culm::solver
