@@ -7,7 +7,7 @@ namespace culm::coupling {
 
 void Channel::heed_signal(double waited) const {
   if (!heeds_signals_ || stop_signal() != SIGTERM) return;
-  constexpr double grace = 5.0;
+  constexpr double grace = 10.0;  // s
   if (waited >= grace) stop_if_asked(grace, "while a partner had not answered yet");
 }
 
