@@ -9,7 +9,11 @@ namespace culm::parallel {
 
 std::vector<int> partition(const Graph& graph, int ranks) {
   std::vector<int> owner(static_cast<std::size_t>(graph.size()), 0);
-  if (ranks == 1 || graph.size() == 0) return owner;
+  if (ranks == 1) return owner;
+  if (graph.size() <= ranks) {  // METIS wants a vertex for each part
+    std::iota(owner.begin(), owner.end(), 0);
+    return owner;
+  }
   static_assert(sizeof(idx_t) == sizeof(int), "METIS with 32-bit indices");
   idx_t vertices = graph.size();
   idx_t balance = 1;

@@ -90,6 +90,7 @@ analysis::Stepper& Simulation::begin(const std::string& analysis) {
     p.let_watch(p.results->files, entries[number], true);
     p.results->observer.begin(entries[number], number, false, *p.context, phase.linear);
     p.results->observer.follow(stepper.get(), nullptr, nullptr);
+    p.results->observer.show_each_step();
     stepper->tell(&p.results->observer);
   } else {
     p.let_remember(before, entries[number]);

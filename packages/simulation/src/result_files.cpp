@@ -224,6 +224,10 @@ void ResultFiles::add_history(const output::HistoryRow& row) {
   ++rows_;
 }
 
+void ResultFiles::show_history() {
+  on_root(system_->comm(), [&] { files_->history.write(); });
+}
+
 void ResultFiles::record(double time, int analysis, int step, const model::State& state,
                          bool was_solved) {
   model::State whole;

@@ -123,6 +123,7 @@ void RunObserver::add_history(double time, int step, model::State& state) {
   const Ledger::Scope scope(ledger_, history_effect_);
   shown_ = numbers;
   files_.add_history({time, numbers, static_cast<int>(number_), step});
+  if (shows_each_step_) files_.show_history();
 }
 
 void RunObserver::record(double time, int step, const model::State& state, bool was_solved) {

@@ -67,7 +67,11 @@ class RunObserver final : public analysis::Observer {
     stepper_ = stepper;
     coupled_ = coupled;
     served_ = served;
+    shows_each_step_ = coupled != nullptr || served != nullptr;
   }
+  /// Rows of the history are in their file after each step, because a program that makes the steps
+  /// may wait between them and read it. So it is beside partners anyway.
+  void show_each_step() { shows_each_step_ = true; }
   /// Goes on within an analysis that has begun before.
   void resume(const Snapshot& snapshot);
   /// Throws Stopped, on all ranks after the same step, when the run has to end.
@@ -124,6 +128,7 @@ class RunObserver final : public analysis::Observer {
   analysis::Stepper* stepper_ = nullptr;
   CoupledRun* coupled_ = nullptr;
   ServedRun* served_ = nullptr;
+  bool shows_each_step_ = false;
   analysis::Context* context_ = nullptr;  // of the analysis
   std::string name_;                      // of the analysis
   std::size_t number_ = 0;

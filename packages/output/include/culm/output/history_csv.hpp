@@ -16,8 +16,8 @@ namespace culm::output {
 
 /// History of a run as a text table: first line `time,<name> [unit],...,analysis,step`, then one
 /// line per row. Numbers have 17 digits and read back exactly; the cell of one that is `absent` is
-/// empty. The file has whole lines at any time, and lacks those of the last tenth of a second at
-/// most while lines are added: a small model makes thousands in that time.
+/// empty. The file has whole lines at any time. Lines that come within a tenth of a second wait for
+/// the next one or for write(): a small model makes thousands in that time.
 class HistoryCsv {
  public:
   /// Replaces a file of this name. Throws FileError.

@@ -79,6 +79,8 @@ class ResultFiles {
   std::vector<std::string> doubts() const { return doubts_of(*watched_); }
   /// Adds a row to the history.
   void add_history(const output::HistoryRow& row);
+  /// Brings history.csv up to date, which waits for more rows where they come fast.
+  void show_history();
   /// Whether one of the accepted steps behind `before`, up to `step`, is to be recorded.
   bool is_due(int before, int step) const {
     return step / settings_.every > before / settings_.every;
