@@ -92,8 +92,21 @@ TEST(MissedPulses, SinesOfFourStepsAndFormulasThatJumpAreNot) {
   for (const double period : {0.4, 0.5, 1.0, 7.0}) EXPECT_EQ(warnings(sine(period), 0.1), 0);
   EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return t < 1.02 ? 0.0 : 1.0; }), 0.1), 0);
   EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return t * t; }), 0.1), 0);
-  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return std::exp(-100.0 * t); }), 0.1), 0);
+  EXPECT_EQ(warnings(Amplitude::of_time([](double t) { return std::exp(-t); }), 0.1), 0);
   EXPECT_EQ(warnings(Amplitude::constant(), 0.1), 0);
+}
+
+TEST(MissedPulses, ImpulsesThatStepsLoseOrMakeAreTold) {
+  EXPECT_EQ(warnings(table({0.56, 0.6, 0.64}, {0.0, 1.0, 0.0}), 0.1),
+            1);  // about the end of a step
+  EXPECT_EQ(warnings(square(0.15), 0.1), 1);
+  EXPECT_EQ(warnings(table({0.0, 0.25, 0.250001}, {0.0, 1.0, 0.0}), 0.1), 1);
+  EXPECT_EQ(warnings(square(1.04), 0.1), 0);
+  for (const auto& pulse : {+[](double t) { return t > 0.57 && t < 0.63 ? 1.0 : 0.0; },
+                            +[](double t) { return std::exp(-1e4 * (t - 0.6) * (t - 0.6)); },
+                            +[](double t) { return std::exp(-100.0 * t); }}) {
+    EXPECT_EQ(warnings(Amplitude::of_time(pulse), 0.1), 1);
+  }
 }
 
 TEST(MissedPulses, PulsesOfFormulasAreTold) {

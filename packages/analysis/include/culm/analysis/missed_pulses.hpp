@@ -5,6 +5,7 @@
 #include <culm/base/snapshot.hpp>
 #include <culm/model/amplitude.hpp>
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,9 +15,19 @@ namespace culm::analysis {
 /// Warns once of each function that rises and falls within one step, so that a scheme that sees it
 /// at one time of the step takes a part of it or nothing. Functions without known corners, such as
 /// sines and formulas, are looked at in some points of each step: a sine is told where a period has
-/// two and a half steps or less.
+/// two and a half steps or less. And of each function that has come back to rest while a quarter of
+/// its impulse or more is lost, as of a pulse about the end of a step, or too much.
 class MissedPulses {
  public:
+  /// Of a function up to a time [s]: the factor of a load times how long it acts.
+  struct Impulse {
+    double given = 0.0;  ///< as the function has it
+    double taken = 0.0;  ///< by steps, from their middles
+    double size = 0.0;   ///< of the absolute value
+    double lost() const { return std::abs(given - taken); }
+    Impulse& operator+=(const Impulse& other);
+  };
+
   explicit MissedPulses(const std::map<std::string, model::Amplitude>& functions);
 
   /// Looks at the step from `start` to `end` [s]; the first call is for the first step of a motion.
@@ -31,6 +42,7 @@ class MissedPulses {
     std::string name;
     model::Amplitude function;
     double size;  // of the values at the corners, or of those seen so far
+    Impulse impulse;
     bool is_told = false;
   };
   std::vector<Candidate> candidates_;
