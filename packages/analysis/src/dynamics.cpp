@@ -5,6 +5,7 @@
 #include <culm/base/error.hpp>
 
 #include "mirrored_faces.hpp"
+#include "notable_corners.hpp"
 #include "turns.hpp"
 
 #include <fmt/format.h>
@@ -153,7 +154,9 @@ Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme
     : Stepper(context, state),
       settings_(std::move(settings)),
       scheme_(std::move(scheme)),
-      control_(context.system, settings_.steps, scheme_->error_constant()),
+      control_(context.system, settings_.steps, scheme_->error_constant(),
+               settings_.steps.adaptive ? notable_corners(context.system.model().functions())
+                                        : std::vector<double>()),
       predictor_(context.system),
       certificate_(context.system, scheme_->conserves()),
       pulses_(context.system.model().functions()) {
@@ -199,7 +202,24 @@ void Dynamics::measure_hidden_constraints() {
         if (!sound) x.fill(0.0);
       },
       fitted);
-  if (sound) certificate_.finish(fit.change, system().comm().max(largest(fitted)));
+  if (!sound) return;
+  const double fastest = system().comm().max(largest(fitted));
+  certificate_.finish(fit.change, fastest);
+  constexpr double notable = 0.1;
+  constexpr double smallest = 1e-9;  // way in a step over the length of the model
+  if (fit.change <= notable * fastest ||
+      fit.change * settings_.steps.step <= smallest * system().model().length()) {
+    return;
+  }
+  context().findings.warn(
+      "alternating velocities",
+      fmt::format(
+          "constraints do not allow {:.3g} of the velocities at the end, of which the largest is "
+          "{:.3g}{}: behind a corner of a prescribed motion, or where steps are too long, "
+          "velocities, kinetic energies and reactions alternate from step to step about their "
+          "means; take functions without corners, or shorter steps",
+          fit.change, fastest, describe_place(system().model(), fit)),
+      state().time);
 }
 
 // Where momenta are kept at all; what is carried moves stiff parts a little more than rounding
@@ -295,6 +315,10 @@ StepReport Dynamics::do_attempt(double end) {
   predictor_.predict(state, report.increment);
   report.outcome = newton().solve(state, stencil_);
   if (report.outcome.converged()) report.outcome.end = control_.judge(state, stencil_);
+  if (report.outcome.converged() && settings_.steps.adaptive &&
+      pulses_.are_lost(state.time_prev, end, settings_.steps.step)) {
+    report.outcome.end = solver::StepEnd::inaccurate;
+  }
   refuse_mirrored(context(), state, report.outcome);
   refuse_missed_turns(context(), state, stencil_, report.outcome);
   return report;

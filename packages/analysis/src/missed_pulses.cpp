@@ -143,6 +143,18 @@ MissedPulses::MissedPulses(const std::map<std::string, model::Amplitude>& functi
   }
 }
 
+bool MissedPulses::are_lost(double start, double end, double usual) const {
+  if (end - start <= usual) return false;
+  return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
+    if (!candidate.function.corners().empty()) return false;
+    const Samples values = sample(candidate.function, start, end);
+    double size = candidate.size;
+    for (const double value : values) size = std::max(size, std::abs(value));
+    return impulse_of(values, candidate.function, start, end).lost() >
+           notable_height * size * usual;
+  });
+}
+
 void MissedPulses::check(double start, double end, Findings& findings) {
   for (Candidate& candidate : candidates_) {
     if (candidate.is_told) continue;

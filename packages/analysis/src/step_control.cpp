@@ -33,17 +33,27 @@ std::vector<double> error_scales(const assembly::System& system) {
 }  // namespace
 
 StepControl::StepControl(const assembly::System& system, const StepSettings& settings,
-                         double error_constant)
-    : system_(system), settings_(settings), error_constant_(error_constant) {
+                         double error_constant, std::vector<double> stops)
+    : system_(system),
+      settings_(settings),
+      error_constant_(error_constant),
+      stops_(std::move(stops)) {
   memory_.next = settings_.adaptive ? start * settings_.step : settings_.step;
   if (settings_.adaptive) slot_scale_ = error_scales(system);
+}
+
+double StepControl::next_stop(double time) const {
+  constexpr double sliver = 1e-9;  // of 'Step': rounding of the time
+  const auto stop = std::ranges::upper_bound(stops_, time + sliver * settings_.step);
+  return stop == stops_.end() ? settings_.end_time : std::min(*stop, settings_.end_time);
 }
 
 double StepControl::end_of_step(double time) const {
   const double step = settings_.step;
   if (settings_.adaptive) {
-    const double left = settings_.end_time - time;
-    if (memory_.next > 0.99 * left) return settings_.end_time;
+    const double stop = next_stop(time);
+    const double left = stop - time;
+    if (memory_.next > 0.99 * left) return stop;
     return time + (memory_.next > 0.5 * left ? 0.5 * left : memory_.next);  // no sliver at the end
   }
   // the next multiple of the step

@@ -105,6 +105,17 @@ TEST(StepControl, FixedStepsReturnToTheirGrid) {
   EXPECT_EQ(control.end_of_step(0.2), 0.25);
 }
 
+TEST(StepControl, AdaptiveStepsEndAtStops) {
+  Motion top(build_top);
+  const StepControl control(*top.system, adaptive(1.6e-3, 1.0, 1e-6), top.error_constant,
+                            {2e-4, 0.5});
+  EXPECT_DOUBLE_EQ(control.end_of_step(0.0), 1e-4);
+  EXPECT_DOUBLE_EQ(control.end_of_step(1.2e-4), 2e-4);
+  EXPECT_DOUBLE_EQ(control.end_of_step(2e-4), 3e-4);
+  EXPECT_DOUBLE_EQ(control.end_of_step(0.5 - 1e-5), 0.5);
+  EXPECT_DOUBLE_EQ(control.end_of_step(0.5), 0.5 + 1e-4);
+}
+
 TEST(StepControl, AdaptiveStepsMeetTheEndWithoutASliver) {
   const Motion top(build_top);
   const auto next = [&](double end) {

@@ -45,7 +45,7 @@ void add_shapes(Registry<Amplitude>& registry) {
   add_shape(registry, "Linear Then Zero", "t / Duration, 0 after it (legacy: linear0).", duration(),
             [](double t, double t0) { return t <= t0 ? t / t0 : 0.0; }, {0.0, 1.0});
   add_shape(registry, "Linear Then Constant", "t / Duration, 1 after it (legacy: linearC).",
-            duration(), [](double t, double t0) { return std::fmin(t / t0, 1.0); });
+            duration(), [](double t, double t0) { return std::fmin(t / t0, 1.0); }, {1.0});
   add_shape(registry, "Triangle",
             "Up to 1 at half the Duration, down to 0 at its end (legacy: triangle).", duration(),
             [](double t, double t0) { return std::fmax(1.0 - std::abs(2.0 * t / t0 - 1.0), 0.0); },
@@ -54,7 +54,7 @@ void add_shapes(Registry<Amplitude>& registry) {
             [](double t, double t0) { return t <= t0 ? 1.0 : 0.0; }, {0.0, 1.0});
   add_shape(registry, "Heaviside", "0 before Start, 1 from there on (legacy: heaviside).",
             number("Start", "s", "Time of the jump."),
-            [](double t, double t0) { return t < t0 ? 0.0 : 1.0; });
+            [](double t, double t0) { return t < t0 ? 0.0 : 1.0; }, {1.0});
   add_shape(registry, "Sinusoidal", "sin(2 pi t / Period) (legacy: sinusoidal).",
             number("Period", "s", "Length of one cycle.").positive(),
             [](double t, double t0) { return std::sin(2.0 * std::numbers::pi * t / t0); });
@@ -99,8 +99,9 @@ void add_delta(Registry<Amplitude>& registry) {
         const double a = options.number("Intensity");
         const double t0 = options.number("Time");
         return Amplitude::of_step([=](double start, double end) {
-          return start <= t0 && t0 < end ? a / (end - start) : 0.0;
-        });
+                 return start <= t0 && t0 < end ? a / (end - start) : 0.0;
+               })
+            .with_corners({t0});
       });
 }
 

@@ -179,7 +179,7 @@ TEST(Reaction, OfASupportBesideAJoint) {
   run.run("bend", [] {});
   const Vec3 clamp = run.vector("clamp", "F", "xyz");
   const Vec3 pin = run.vector("pin", "F", "xyz");
-  EXPECT_LT(pin.z(), -0.1);
+  EXPECT_NEAR(pin.z(), 5.0 / 16.0 * 6.0, 0.03);  // of a propped beam; shear adds a little
   EXPECT_LT((run.vector("all", "F", "xyz") - clamp - pin).norm(), 1e-9);
   EXPECT_NEAR(run["all Fz"], -7.0, 1e-6);
 }

@@ -49,7 +49,10 @@ class StepControl {
   static constexpr double most_turn = 160.0 / 180.0 * std::numbers::pi;
 
   /// @param error_constant c of a scheme whose local error is c h^3 q'''
-  StepControl(const assembly::System& system, const StepSettings& settings, double error_constant);
+  /// @param stops          times that no adaptive step passes, rising [s]: what begins there would
+  ///                       show in no estimate before
+  StepControl(const assembly::System& system, const StepSettings& settings, double error_constant,
+              std::vector<double> stops = {});
 
   /// End of the step that starts at `time`; the end of the analysis is met exactly.
   double end_of_step(double time) const;
@@ -83,10 +86,12 @@ class StepControl {
   void remember(const model::State& state, double h);
   double largest_turn(const model::State& state) const;
   double growth() const;
+  double next_stop(double time) const;
 
   const assembly::System& system_;
   StepSettings settings_;
   double error_constant_;
+  std::vector<double> stops_;
   StepMemory memory_;
   std::optional<double> error_;
   double turn_ = 0.0;  ///< |tau| = 2 tan(angle / 2) of the last judged step, the largest of a node
