@@ -23,7 +23,7 @@ def motion(function, step, end, *loads, adaptive="", constraints=""):
 
 def switched_on(name, **function):
     """At 9 s, for the last second on a spring, while steps have grown for as long as all rested."""
-    return Case(f"adaptive steps see a load that begins: {name}", 0, args=RUN, leaves=["out"],
+    return Case(f"adaptive steps see a load that begins: {name}", 0, args=RUN, leaves=["out"], ranks=True,
                 deck=motion(entry("f", **function), 0.1, 10, SPRING, FORCE, adaptive=entry("Adaptive", Tolerance="1e-6")),
                 check=ends_with("place ux [m]", 1 - math.cos(1), 2e-3))
 
