@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 
 #include <hdf5.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,8 +20,12 @@ namespace culm::output {
 void survive_reading(const std::filesystem::path& path, const std::function<void()>& read) {
   std::array<int, 2> channel{};
   if (::pipe(channel.data()) != 0) return;
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) {
+    // it has the lock of the folder as well, which must not outlive who took it
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(0);
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) ::signal(signal, SIG_DFL);
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_CORE, &none);
