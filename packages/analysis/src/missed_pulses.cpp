@@ -22,6 +22,10 @@ constexpr std::array<double, 9> points = {0.07, 0.19, 0.28, 0.41, 0.52, 0.63, 0.
 
 // Of an impulse; four steps per period of a sine take 0.11 too much of half a period.
 constexpr double notable_loss = 0.25;
+// Of adaptive steps: a change between samples that is none of a function which steps follow, and
+// what may be lost of an impulse there, over a usual step.
+constexpr double notable_leap = 0.3;
+constexpr double loss_at_jump = 0.01;
 
 // On both sides of a time: functions may jump there.
 std::pair<double, double> values_beside(const model::Amplitude& function, double time) {
@@ -144,14 +148,19 @@ MissedPulses::MissedPulses(const std::map<std::string, model::Amplitude>& functi
 }
 
 bool MissedPulses::are_lost(double start, double end, double usual) const {
-  if (end - start <= usual) return false;
   return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
     if (!candidate.function.corners().empty()) return false;
     const Samples values = sample(candidate.function, start, end);
     double size = candidate.size;
-    for (const double value : values) size = std::max(size, std::abs(value));
+    double leap = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      size = std::max(size, std::abs(values[i]));
+      if (i > 0) leap = std::max(leap, std::abs(values[i] - values[i - 1]));
+    }
+    const bool jumps = leap > notable_leap * size;
+    if (!jumps && end - start <= usual) return false;
     return impulse_of(values, candidate.function, start, end).lost() >
-           notable_height * size * usual;
+           (jumps ? loss_at_jump : notable_height) * size * usual;
   });
 }
 

@@ -33,9 +33,9 @@ class MissedPulses {
   /// Looks at the step from `start` to `end` [s]; the first call is for the first step of a motion.
   void check(double start, double end, Findings& findings);
 
-  /// Whether a step that is longer than `usual` [s] takes another impulse of a function without
-  /// known corners than that has, by a tenth of its largest value over a usual step: adaptive steps
-  /// see what begins in them only there. Remembers nothing.
+  /// Whether a step takes another impulse of a function without known corners than that has: by a
+  /// hundredth of its largest value over a usual step [s] where it jumps, by a tenth where the step
+  /// is longer than that. Adaptive steps see what begins in them only there. Remembers nothing.
   bool are_lost(double start, double end, double usual) const;
 
   /// What was told already, under "pulses/".
