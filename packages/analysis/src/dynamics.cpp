@@ -116,17 +116,23 @@ assembly::System::Solve mass_solver(Context& context, const model::State& state)
   };
 }
 
-// Where velocities changed most, and what they did not fit: the equation that was violated most, or
-// the support that holds the node.
-std::string describe_place(const model::Model& model, const assembly::VelocityFit& fit) {
-  if (fit.node < 0) return {};
-  std::string text = fmt::format(" at '{}'", model.node_name(fit.node));
+// What velocities did not fit: the equation that was violated most, or the support that holds the
+// node where they changed most.
+const model::Constraint* find_cause(const model::Model& model, const assembly::VelocityFit& fit) {
   const model::Constraint* cause = nullptr;
   if (fit.equation >= 0) cause = &model.equations()[static_cast<std::size_t>(fit.equation)];
   for (const model::Constraint& c : model.constraints()) {
     if (cause == nullptr && c.fix && model.nodes().master(c.fix->node) == fit.node) cause = &c;
     if (c.link && c.link->slave == fit.node) cause = &c;
   }
+  return cause;
+}
+
+// Where velocities changed most, and what they did not fit.
+std::string describe_place(const model::Model& model, const assembly::VelocityFit& fit) {
+  if (fit.node < 0) return {};
+  std::string text = fmt::format(" at '{}'", model.node_name(fit.node));
+  const model::Constraint* cause = find_cause(model, fit);
   if (cause != nullptr && !cause->name.empty())
     text += fmt::format(", by {} '{}'", cause->type, cause->name);
   return text;
@@ -207,7 +213,8 @@ void Dynamics::measure_hidden_constraints() {
   certificate_.finish(fit.change, fastest);
   constexpr double notable = 0.1;
   constexpr double smallest = 1e-9;  // way in a step over the length of the model
-  if (fit.change <= notable * fastest ||
+  const model::Constraint* cause = find_cause(system().model(), fit);
+  if (cause == nullptr || !cause->is_driven() || fit.change <= notable * fastest ||
       fit.change * settings_.steps.step <= smallest * system().model().length()) {
     return;
   }
@@ -215,9 +222,9 @@ void Dynamics::measure_hidden_constraints() {
       "alternating velocities",
       fmt::format(
           "constraints do not allow {:.3g} of the velocities at the end, of which the largest is "
-          "{:.3g}{}: behind a corner of a prescribed motion, or where steps are too long, "
-          "velocities, kinetic energies and reactions alternate from step to step about their "
-          "means; take functions without corners, or shorter steps",
+          "{:.3g}{}: behind a corner of a prescribed motion velocities, kinetic energies and "
+          "reactions alternate from step to step about their means; take a function without "
+          "corners",
           fit.change, fastest, describe_place(system().model(), fit)),
       state().time);
 }

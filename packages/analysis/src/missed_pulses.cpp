@@ -178,13 +178,20 @@ void MissedPulses::check(double start, double end, Findings& findings) {
     };
     if (function.corners().empty()) {
       const Samples values = sample(function, start, end);
+      candidate.impulse += impulse_of(values, function, start, end);
       if (is_unresolved(values, candidate.size)) {
         tell("goes up and down",
              "what it does there is lost or taken for something slower; take shorter steps");
       }
-      candidate.impulse += impulse_of(values, function, start, end);
     } else {
       candidate.impulse += impulse_of(function, start, end);
+      // what begins with the motion, as a square does, has not acted before
+      const bool begins = is_first_ && start == function.corners().front();
+      const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -HUGE_VAL));
+      if (is_missed(function, candidate.size, at_start, start, end)) {
+        tell("has a pulse that begins and ends",
+             "it acts in part or not at all; take steps that are shorter than the pulse");
+      }
     }
     // as long as it acts, what comes may make up for what was lost
     const double rest = std::abs(values_beside(function, end).second);
@@ -194,14 +201,6 @@ void MissedPulses::check(double start, double end, Findings& findings) {
            fmt::format("its impulse so far is {:.4g} s, of which steps take {:.4g} s; take steps "
                        "that are much shorter than the pulse",
                        candidate.impulse.given, candidate.impulse.taken));
-    }
-    if (candidate.is_told || function.corners().empty()) continue;
-    // what begins with the motion, as a square does, has not acted before
-    const bool begins = is_first_ && start == function.corners().front();
-    const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -HUGE_VAL));
-    if (is_missed(function, candidate.size, at_start, start, end)) {
-      tell("has a pulse that begins and ends",
-           "it acts in part or not at all; take steps that are shorter than the pulse");
     }
   }
   is_first_ = false;

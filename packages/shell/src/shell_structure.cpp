@@ -31,7 +31,7 @@ constexpr double degree = 0.017453292519943295;
 // Beyond these, elements still work but are poor.
 constexpr double poor_aspect = 20.0;
 constexpr double poor_angle = 20.0 * degree;
-constexpr double notable_volume = 0.01;  // that is missing
+constexpr double notable_volume = 0.02;  // that is missing
 // Thickness over size below which rounding shows in bending: a pinched hemisphere is off by 1e-6 at
 // 2e-6, 4e-4 at 6e-7 and 1 % at 2e-7; a cantilever by 4e-11 at 1e-6, and fails at 1e-7.
 constexpr double thinnest = 1e-6;
