@@ -32,6 +32,7 @@ constexpr double degree = 0.017453292519943295;
 constexpr double poor_aspect = 20.0;
 constexpr double poor_angle = 20.0 * degree;
 constexpr double notable_volume = 0.02;  // that is missing
+constexpr double little_volume = 0.01;
 // Thickness over size below which rounding shows in bending: a pinched hemisphere is off by 1e-6 at
 // 2e-6, 4e-4 at 6e-7 and 1 % at 2e-7; a cantilever by 4e-11 at 1e-6, and fails at 1e-7.
 constexpr double thinnest = 1e-6;
@@ -85,8 +86,8 @@ void check_quality(const ShellMesh& mesh, const Options& options, const Log& log
         "{}: flat elements on a curved surface leave the wall about {:.2g} % less volume than it "
         "has, and as much less mass and weight; take {:.2g} times as many elements along the "
         "curves ({:g} %)",
-        where, 100.0 * quality.missing_volume, std::sqrt(quality.missing_volume / notable_volume),
-        100.0 * notable_volume));
+        where, 100.0 * quality.missing_volume, std::sqrt(quality.missing_volume / little_volume),
+        100.0 * little_volume));
   }
   if (quality.largest_aspect > poor_aspect || quality.smallest_angle < poor_angle) {
     log.warning(
