@@ -1,7 +1,8 @@
 // Preloaded into tests on several processes. A rank of Open MPI that waits asks for messages over and
-// over, with sched_yield in between. Where ranks and other tests are more than cores, the kernel still
-// gives it most of a time slice each time, and what takes a second alone took minutes. So a rank that
-// has done nothing else for a while sleeps: then those that work have the core at once, and a message
+// over, with sched_yield in between. Where ranks and other programs are more than cores, the kernel
+// gives the core to another one for a time slice and back to the rank that waits, and what takes a
+// second alone takes minutes. So where a yield took long, which shows that others want the core, a rank
+// sleeps between the questions that follow: then those that work have the core at once, and a message
 // comes a moment later.
 #define _GNU_SOURCE
 
@@ -10,17 +11,23 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { asks_before_sleep = 200, nanoseconds_of_sleep = 20000, nanoseconds_of_an_ask = 5000 };
+enum { nanoseconds_of_sleep = 20000, nanoseconds_of_long_yield = 200000, sleeps_after_long_yield = 500 };
+
+static long now(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * 1000000000L + time.tv_nsec;
+}
 
 int sched_yield(void) {
-  static __thread long last = 0;
-  static __thread int asks = 0;
-  struct timespec used;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-  const long now = used.tv_sec * 1000000000L + used.tv_nsec;
-  asks = now - last < nanoseconds_of_an_ask ? asks + 1 : 0;  // more: it has worked in between
-  last = now;
-  if (asks < asks_before_sleep) return (int)syscall(SYS_sched_yield);
-  const struct timespec sleep = {0, nanoseconds_of_sleep};
-  return nanosleep(&sleep, 0);
+  static __thread int sleeps = 0;
+  if (sleeps > 0) {
+    --sleeps;
+    const struct timespec sleep = {0, nanoseconds_of_sleep};
+    return nanosleep(&sleep, 0);
+  }
+  const long before = now();
+  const int result = (int)syscall(SYS_sched_yield);
+  if (now() - before > nanoseconds_of_long_yield) sleeps = sleeps_after_long_yield;
+  return result;
 }
