@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { nanoseconds_of_sleep = 20000, nanoseconds_of_long_yield = 200000, sleeps_after_long_yield = 500 };
+enum { nanoseconds_of_sleep = 20000, nanoseconds_of_long_yield = 1000000, sleeps_after_long_yield = 100 };
 
 static long now(void) {
   struct timespec time;
