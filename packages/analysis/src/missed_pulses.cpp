@@ -193,10 +193,11 @@ void MissedPulses::check(double start, double end, Findings& findings) {
              "it acts in part or not at all; take steps that are shorter than the pulse");
       }
     }
+    if (candidate.is_told || candidate.impulse.lost() <= notable_loss * candidate.impulse.size) {
+      continue;
+    }
     // as long as it acts, what comes may make up for what was lost
-    const double rest = std::abs(values_beside(function, end).second);
-    if (!candidate.is_told && rest <= notable_height * candidate.size &&
-        candidate.impulse.lost() > notable_loss * candidate.impulse.size) {
+    if (std::abs(values_beside(function, end).second) <= notable_height * candidate.size) {
       tell("has a pulse that ends",
            fmt::format("its impulse so far is {:.4g} s, of which steps take {:.4g} s; take steps "
                        "that are much shorter than the pulse",
