@@ -15,7 +15,8 @@ FORCE = entry("push", Type="Force", Node="body", Force="{1, 0, 0}", Function="f"
 def motion(function, step, end, *loads, adaptive="", constraints=""):
     analysis = (f'<ParameterList name="motion"><Parameter name="Type" value="Dynamic"/><Parameter name="End Time" value="{end}"/>'
                 f'<Parameter name="Step" value="{step}"/>{adaptive}</ParameterList>')
-    history = entry("place", Type="Displacement", Node="body") + entry("speed", Type="Velocity", Node="body")
+    history = (entry("place", Type="Displacement", Node="body") + entry("speed", Type="Velocity", Node="body") +
+               entry("held", Type="Reaction", Node="body"))
     return (f'<ParameterList name="culm">{listed("Structures", BODY)}{listed("Functions", function)}'
             f'{listed("Loads", *loads)}{listed("Constraints", constraints)}{listed("Analyses", analysis)}'
             f'{listed("Output", listed("History", history))}</ParameterList>')
@@ -36,15 +37,39 @@ def pulse(name, speed, impulse, **function):
                 check=ends_with("speed vx [m/s]", speed, 1e-9))
 
 
+FITS = ["initial velocities were made to fit the constraints"]
+
+
+def driven(name, step, end, way, speed, function="", says=FITS, **drive):
+    """A body of 1 kg, moved by 0.1 m times a function."""
+    constraint = entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", **drive)
+
+    checks = [ends_with("place ux [m]", way, 1e-9)]
+    if speed is not None:
+        checks += [ends_with("speed vx [m/s]", speed, 1e-9), ends_with("held Fx [N]", 0, 1e-6)]
+
+    def check(folder, output):
+        return next((found for found in (one(folder, output) for one in checks) if found), "")
+
+    return Case(f"a prescribed motion with corners: {name}", 0, args=RUN, leaves=["out"], says=says,
+                deck=motion(function, step, end, constraints=constraint), check=check)
+
+
+PIECES = entry("f", Type="Table", Times="{0, 0.5, 0.8, 1.4, 3}", Values="{0, 1, 0.2, 0.2, 1}")
+
 CASES = [
     switched_on("a jump", Type="Heaviside", Start="9"),
     switched_on("a table", Type="Table", Times="{0, 9, 9.001, 20}", Values="{0, 0, 1, 1}"),
     switched_on("a formula", Type="Expression", Expression="t > 9 ? 1 : 0"),
     pulse("about the end of a step", 0, 0.04, Type="Table", Times="{0, 0.56, 0.6, 0.64, 1}", Values="{0, 0, 1, 0, 0}"),
     pulse("of one step and a half", 0.1, 0.15, Type="Square", Duration="0.15"),
-    Case("a prescribed motion with a corner leaves velocities that alternate", 0, args=RUN, leaves=["out"],
-         deck=motion("", 0.01, 2, constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}")),
-         says=["of the velocities at the end", "is 0 at 'body/0', by Rigid Support 'drive'"], check=ends_with("place ux [m]", 0.1, 1e-9)),
+    driven("a ramp that ends with a step", 0.01, 2, 0.1, 0),
+    driven("a ramp that ends within a step", 0.03, 2.1, 0.1, 0),
+    driven("a table", 0.01, 2, 0.05, 0.05, PIECES, Function="f"),
+    driven("a jump", 0.01, 2, 0.1, 0, entry("f", Type="Heaviside", Start="0.5"), says=[], Function="f"),
+    driven("one that a formula hides leaves velocities that alternate", 0.01, 2, 0.09, None,
+           entry("f", Type="Expression", Expression="t &lt; 0.9 ? t : 0.9"), Function="f",
+           says=[*FITS, "of the velocities at the end", "is 0 at 'body/0', by Rigid Support 'drive'"]),
     Case("a prescribed motion without corners does not", 0, args=RUN, leaves=["out"], errors=[],
          deck=motion(entry("f", Type="Expression", Expression="t &lt; 1 ? (1 - cos(pi*t))/2 : 1"), 0.01, 2,
                      constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", Function="f")),

@@ -82,6 +82,11 @@ void Certificate::add_work(const model::State& state, const Stencil& stencil,
       std::max(largest_angular_, (first_momentum_.angular + angular_impulse_).norm());
 }
 
+void Certificate::add_blow(double work) {
+  work_.drives += work;
+  largest_work_ = std::max(largest_work_, std::abs(work_.external) + std::abs(work_.drives));
+}
+
 void Certificate::compare(const model::State& state) {
   if (steps_ % interval == 0) measure(state);
 }

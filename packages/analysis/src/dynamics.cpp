@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace culm::analysis {
 
@@ -165,7 +166,8 @@ Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme
                                         : std::vector<double>()),
       predictor_(context.system),
       certificate_(context.system, scheme_->conserves()),
-      pulses_(context.system.model().functions()) {
+      pulses_(context.system.model().functions()),
+      corners_(context.system) {
   state.in_motion = true;
 }
 
@@ -196,11 +198,9 @@ void Dynamics::fit_motion() {
   }
 }
 
-// The state keeps its velocity: its own energy would change.
-void Dynamics::measure_hidden_constraints() {
-  model::Coordinates fitted;
+std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& fitted) {
   solver::LinearSolver& linear = context().linear;
-  bool sound = true;  // a closed loop may just pass a singular position
+  bool sound = true;
   const assembly::VelocityFit fit = system().project_velocity(
       state(), 1e-4 * settings_.steps.step,
       [&](const assembly::Vector& b, assembly::Vector& x) {
@@ -208,7 +208,49 @@ void Dynamics::measure_hidden_constraints() {
         if (!sound) x.fill(0.0);
       },
       fitted);
-  if (!sound) return;
+  return sound ? std::optional(fit) : std::nullopt;
+}
+
+// A step mirrors velocities about its mean ones. Where the speed of a prescribed motion jumps they
+// would stay on one side in one step and on the other in the next, for ever. So the step behind the
+// jump takes it in, as a blow by the drive that acts over the step; all that is tied follows by its
+// inertia: v_next - v + v' - v = 2 (Dq / h - v), with v' that the constraints allow.
+void Dynamics::find_jump() {
+  model::State& state = this->state();
+  state.time = state.time_prev;
+  model::Coordinates fitted;
+  if (!find_fitting(fitted)) return;
+  const auto difference = [](double, double next, double now) { return next - now; };
+  jump_ = state.velocity;
+  model::combine(jump_, difference, fitted, state.velocity);
+  // old factors would be those of the mass
+  if (settings_.newton.refresh == solver::Refresh::on_slow_convergence) {
+    make_newton(settings_.newton);
+  }
+}
+
+// What the equations of such a step, tested with the increment, leave out of the change of the
+// kinetic energy: (v - v') M (v_next - v) / 2, by T of sums, as T is a square.
+double Dynamics::work_of_jump(const model::Coordinates& before) const {
+  const model::State& state = this->state();
+  const auto kinetic = [&](auto of) {
+    model::Coordinates v = before;
+    model::combine(v, of, state.velocity, jump_);
+    return system().momentum(state.next, v).kinetic_energy;
+  };
+  const double both = kinetic([](double v, double next, double jump) { return next - v - jump; });
+  const double change = kinetic([](double v, double next, double) { return next - v; });
+  const double blow = kinetic([](double, double, double jump) { return jump; });
+  return 0.5 * (both - change - blow);
+}
+
+// The state keeps its velocity: its own energy would change.
+void Dynamics::measure_hidden_constraints() {
+  if (is_behind_corner_) return;  // which the next motion makes fit
+  model::Coordinates fitted;
+  const std::optional<assembly::VelocityFit> found = find_fitting(fitted);
+  if (!found) return;
+  const assembly::VelocityFit& fit = *found;
   const double fastest = system().comm().max(largest(fitted));
   certificate_.finish(fit.change, fastest);
   constexpr double notable = 0.1;
@@ -222,9 +264,9 @@ void Dynamics::measure_hidden_constraints() {
       "alternating velocities",
       fmt::format(
           "constraints do not allow {:.3g} of the velocities at the end, of which the largest is "
-          "{:.3g}{}: behind a corner of a prescribed motion velocities, kinetic energies and "
-          "reactions alternate from step to step about their means; take a function without "
-          "corners",
+          "{:.3g}{}: behind a corner of a prescribed motion that its formula hides, velocities, "
+          "kinetic energies and reactions alternate from step to step about their means; take a "
+          "table, or a function without corners",
           fit.change, fastest, describe_place(system().model(), fit)),
       state().time);
 }
@@ -315,9 +357,16 @@ StepReport Dynamics::do_attempt(double end) {
   }
   StepReport report;
   report.increment = end - state.time_prev;
+  jump_ = {};
+  if (is_behind_corner_) find_jump();
   if (is_first_ && !scheme_->conserves()) scheme_->start(first_acceleration(report.increment));
   report.time = state.time = end;
   stencil_ = scheme_->begin(state, report.increment);
+  if (!jump_.empty()) {
+    const double h = report.increment;
+    const auto add = [h](double offset, double jump) { return offset - jump / h; };
+    model::combine(state.acceleration_offset, add, jump_);
+  }
   system().prepare(state, stencil_);
   predictor_.predict(state, report.increment);
   report.outcome = newton().solve(state, stencil_);
@@ -342,7 +391,10 @@ void Dynamics::do_accept(const StepReport& report) {
     const Ledger::Scope scope(context().ledger, certificate_effect_);
     certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
   }
+  is_behind_corner_ = scheme_->conserves() && corners_.in_step(state);
+  const model::Coordinates before = jump_.empty() ? model::Coordinates() : state.velocity;
   scheme_->finish(state, taken);
+  if (!jump_.empty()) certificate_.add_blow(work_of_jump(before));
   is_first_ = false;
   warn_of_short_step(taken);
   system().accept(state);
@@ -402,6 +454,7 @@ void Dynamics::do_save(Snapshot& snapshot) const {
   certificate_.save(snapshot);
   pulses_.save(snapshot);
   snapshot.set("dynamics/first", is_first_ ? 1 : 0);
+  snapshot.set("dynamics/behind corner", is_behind_corner_ ? 1 : 0);
 }
 
 void Dynamics::do_restore(const Snapshot& snapshot) {
@@ -412,6 +465,7 @@ void Dynamics::do_restore(const Snapshot& snapshot) {
   certificate_.restore(snapshot);
   pulses_.restore(snapshot);
   is_first_ = snapshot.integer("dynamics/first") != 0;
+  is_behind_corner_ = snapshot.integer("dynamics/behind corner") != 0;
 }
 
 }  // namespace culm::analysis

@@ -18,7 +18,8 @@ Amplitude Amplitude::of_step(OfStep function) {
 }
 
 Amplitude Amplitude::ramp() {
-  return of_time([](double time) { return std::clamp(time, 0.0, 1.0); });
+  Amplitude ramp = of_time([](double time) { return std::clamp(time, 0.0, 1.0); });
+  return ramp.with_corners({0.0, 1.0});
 }
 
 Amplitude Amplitude::level() {

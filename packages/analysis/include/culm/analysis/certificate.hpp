@@ -23,6 +23,9 @@ class Certificate {
   void start(const model::State& state);
   /// In each accepted step, before anything of it moves on: sums work and impulses.
   void add_work(const model::State& state, const Stencil& stencil, double constraint_violation);
+  /// What drives do beyond the work of the step, where a corner of a prescribed motion makes
+  /// velocities jump [J].
+  void add_blow(double work);
   /// After the step was accepted: compares balances in every tenth step.
   void compare(const model::State& state);
   /// Where the run stands at its end, wherever that is.

@@ -3,6 +3,7 @@
 
 #include <culm/analysis/certificate.hpp>
 #include <culm/analysis/cut_backs.hpp>
+#include <culm/analysis/driven_corners.hpp>
 #include <culm/analysis/missed_pulses.hpp>
 #include <culm/analysis/predictor.hpp>
 #include <culm/analysis/step_control.hpp>
@@ -61,6 +62,11 @@ class Dynamics final : public Stepper {
   void refuse_other_schemes() const;
   void fit_motion();
   model::Coordinates first_acceleration(double first_step);
+  /// @param fitted  becomes the velocity that constraints allow, see System::project_velocity
+  /// @return none where a closed loop just passes a singular position
+  std::optional<assembly::VelocityFit> find_fitting(model::Coordinates& fitted);
+  void find_jump();
+  double work_of_jump(const model::Coordinates& before) const;
   void measure_hidden_constraints();
   void keep_balance();
   void warn_of_short_step(double taken);
@@ -74,6 +80,9 @@ class Dynamics final : public Stepper {
   CutBacks cut_backs_;
   Certificate certificate_;
   MissedPulses pulses_;
+  DrivenCorners corners_;
+  bool is_behind_corner_ = false;  ///< of a prescribed motion: velocities jump in the next step
+  model::Coordinates jump_;        ///< from those of the state, in the last attempt; empty if not
   Ledger::Id certificate_effect_ = 0;
 };
 

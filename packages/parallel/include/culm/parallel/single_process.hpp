@@ -9,10 +9,10 @@ namespace culm::parallel {
 bool was_launched(const char* const* environment);
 
 /// To be called before MPI starts. Open MPI gives a process that was not launched a server of its
-/// own and looks for networks, which takes longer than a small run; alone it needs neither. Does
-/// nothing in a launched process, and nothing that the user's environment says otherwise, but for
-/// one thing: it never yields while it asks for messages, as MUMPS does, because nobody can send
-/// any.
+/// own and looks for networks and devices, which takes longer than a small run; alone it needs
+/// none. Does nothing in a launched process, and nothing that the user's environment says
+/// otherwise, but for one thing: it never yields while it asks for messages, as MUMPS does, because
+/// nobody can send any.
 void expect_single_process();
 
 }  // namespace culm::parallel

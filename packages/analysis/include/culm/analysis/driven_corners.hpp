@@ -1,0 +1,28 @@
+/// Corners of prescribed motions, where velocities jump.
+#pragma once
+
+#include <culm/assembly/system.hpp>
+
+#include <vector>
+
+namespace culm::analysis {
+
+/// Knows when the speed of a prescribed motion jumps. The conserving scheme mirrors velocities
+/// about the mean speed of a step, and would go on to do so behind a corner.
+class DrivenCorners {
+ public:
+  explicit DrivenCorners(const assembly::System& system);
+
+  /// Whether there is one within the step from state.time_prev to state.time or at its end, by more
+  /// than a hundredth of the speeds on both sides. Costs nothing where no function has a corner
+  /// there. Collective.
+  bool in_step(const model::State& state) const;
+
+ private:
+  bool is_corner(double time, double step, const model::State& state) const;
+
+  const assembly::System& system_;
+  std::vector<double> times_;  ///< corners of all functions, rising; none where nothing is driven
+};
+
+}  // namespace culm::analysis

@@ -1,0 +1,67 @@
+#include <culm/analysis/driven_corners.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace culm::analysis {
+namespace {
+
+constexpr double notable = 0.01;    // of the speeds on both sides
+constexpr double smallest = 1e-9;   // way in a step, over the length of the model
+constexpr double probe = 1e-4;      // of the step
+constexpr double same_time = 1e-6;  // of the step, by which sums of steps miss a time
+
+bool is_driven(const model::Constraint& constraint) { return static_cast<bool>(constraint.drive); }
+
+}  // namespace
+
+DrivenCorners::DrivenCorners(const assembly::System& system) : system_(system) {
+  const model::Model& model = system.model();
+  if (std::ranges::none_of(model.equations(), is_driven)) return;
+  times_ = model::Amplitude::ramp().corners();  // what has no function of its own
+  for (const auto& [name, function] : model.functions()) {
+    if (!function.is_function_of_time()) continue;
+    times_.insert(times_.end(), function.corners().begin(), function.corners().end());
+  }
+  std::ranges::sort(times_);
+}
+
+bool DrivenCorners::in_step(const model::State& state) const {
+  const double step = state.time - state.time_prev;
+  const double slack = same_time * step;
+  auto time = std::ranges::upper_bound(times_, state.time_prev + slack);
+  for (; time != times_.end() && *time <= state.time + slack; ++time) {
+    if (is_corner(*time, step, state)) return true;
+  }
+  return false;
+}
+
+// By the rows of all driven equations, which move while the nodes stay.
+bool DrivenCorners::is_corner(double time, double step, const model::State& state) const {
+  const model::Model& model = system_.model();
+  const double beside = probe * step;
+  double found = 0.0;
+  for (std::size_t e = 0; e < model.equations().size(); ++e) {
+    const model::Constraint& c = model.equations()[e];
+    const int block = model.unknowns().constraint_block(static_cast<int>(e));
+    const int owner = system_.layout().owners()[static_cast<std::size_t>(block)];
+    if (!is_driven(c) || owner != system_.comm().rank()) continue;
+    const Eigen::Matrix3Xd slots = model::slots_of(c, state.next);
+    auto before = c.rows, at = c.rows, after = c.rows;
+    c.drive(time - beside, before);
+    c.drive(time, at);
+    c.drive(time + beside, after);
+    for (std::size_t row = 0; row < c.rows.size(); ++row) {
+      const double value = model::row_value(at[row], slots);
+      const double left = (value - model::row_value(before[row], slots)) / beside;
+      const double right = (model::row_value(after[row], slots) - value) / beside;
+      const double jump = std::abs(right - left);
+      const bool counts = jump > notable * (std::abs(left) + std::abs(right)) &&
+                          jump * step > smallest * model.length();
+      if (counts) found = 1.0;
+    }
+  }
+  return system_.comm().max(found) > 0.0;
+}
+
+}  // namespace culm::analysis
