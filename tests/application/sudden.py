@@ -12,10 +12,10 @@ SPRING = entry("spring", Type="Directed Ground Spring", Node="body", Direction="
 FORCE = entry("push", Type="Force", Node="body", Force="{1, 0, 0}", Function="f")
 
 
-def motion(function, step, end, *loads, adaptive="", constraints=""):
+def motion(function, step, end, *loads, adaptive="", constraints="", watched="Velocity"):
     analysis = (f'<ParameterList name="motion"><Parameter name="Type" value="Dynamic"/><Parameter name="End Time" value="{end}"/>'
                 f'<Parameter name="Step" value="{step}"/>{adaptive}</ParameterList>')
-    history = (entry("place", Type="Displacement", Node="body") + entry("speed", Type="Velocity", Node="body") +
+    history = (entry("place", Type="Displacement", Node="body") + entry("speed", Type=watched, Node="body") +
                entry("held", Type="Reaction", Node="body"))
     return (f'<ParameterList name="culm">{listed("Structures", BODY)}{listed("Functions", function)}'
             f'{listed("Loads", *loads)}{listed("Constraints", constraints)}{listed("Analyses", analysis)}'
@@ -55,6 +55,15 @@ def driven(name, step, end, way, speed, function="", says=FITS, **drive):
                 deck=motion(function, step, end, constraints=constraint), check=check)
 
 
+def turned(name, at_end, says=(), **function):
+    """A body on a hinge whose speed is prescribed."""
+    pin = entry("pin", Type="Revolute Support", Node="body", Axis="{0, 0, 1}")
+    drive = entry("drive", Type="Angular Velocity", Node="body", Axis="{0, 0, 1}", Function="f", **{"Angular Velocity": "1"})
+    return Case(f"a prescribed angular velocity that jumps: {name}", 0, args=RUN, leaves=["out"], says=says,
+                deck=motion(entry("f", **function), 0.01, 1, constraints=pin + drive, watched="Angular Velocity"),
+                check=ends_with("speed wz [rad/s]", at_end, 1e-4))
+
+
 PIECES = entry("f", Type="Table", Times="{0, 0.5, 0.8, 1.4, 3}", Values="{0, 1, 0.2, 0.2, 1}")
 
 CASES = [
@@ -70,6 +79,10 @@ CASES = [
     driven("one that a formula hides leaves velocities that alternate", 0.01, 2, 0.09, None,
            entry("f", Type="Expression", Expression="t &lt; 0.9 ? t : 0.9"), Function="f",
            says=[*FITS, "of the velocities at the end", "is 0 at 'body/0', by Rigid Support 'drive'"]),
+    turned("at the end of a step", 1, Type="Heaviside", Start="0.5"),
+    turned("within a step", 1, Type="Heaviside", Start="0.505"),
+    turned("at the start, away from rest", 2, says=[*FITS, "at 'body/0', by Angular Velocity 'drive'"], Type="Table",
+           Times="{0, 0.5, 0.6, 2}", Values="{1, 1, 2, 2}"),
     Case("a prescribed motion without corners does not", 0, args=RUN, leaves=["out"], errors=[],
          deck=motion(entry("f", Type="Expression", Expression="t &lt; 1 ? (1 - cos(pi*t))/2 : 1"), 0.01, 2,
                      constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", Function="f")),

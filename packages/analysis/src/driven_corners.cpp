@@ -2,14 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace culm::analysis {
 namespace {
 
-constexpr double notable = 0.01;    // of the speeds on both sides
+constexpr double notable = 0.01;    // of the speeds on both sides, or of the largest one
 constexpr double smallest = 1e-9;   // way in a step, over the length of the model
 constexpr double probe = 1e-4;      // of the step
 constexpr double same_time = 1e-6;  // of the step, by which sums of steps miss a time
+
+std::vector<double> jumps_of(const model::Amplitude& function) {
+  std::vector<std::pair<double, double>> sizes;  // of jumps, with their times
+  double largest = 0.0;
+  for (const double time : function.corners()) {
+    const double before = function.at(std::nextafter(time, -HUGE_VAL));
+    const double after = function.at(std::nextafter(time, HUGE_VAL));
+    largest = std::max({largest, std::abs(before), std::abs(after)});
+    sizes.emplace_back(std::abs(after - before), time);
+  }
+  std::vector<double> times;
+  for (const auto& [size, time] : sizes) {
+    if (size > notable * largest) times.push_back(time);
+  }
+  return times;
+}
 
 bool is_driven(const model::Constraint& constraint) { return static_cast<bool>(constraint.drive); }
 
@@ -17,23 +34,33 @@ bool is_driven(const model::Constraint& constraint) { return static_cast<bool>(c
 
 DrivenCorners::DrivenCorners(const assembly::System& system) : system_(system) {
   const model::Model& model = system.model();
-  if (std::ranges::none_of(model.equations(), is_driven)) return;
-  times_ = model::Amplitude::ramp().corners();  // what has no function of its own
+  const bool drives_positions = std::ranges::any_of(model.equations(), is_driven);
+  const bool drives_speeds = std::ranges::any_of(
+      model.constraints(), [](const auto& c) { return !c.velocity_rows.empty(); });
+  // what has no function of its own
+  if (drives_positions) corners_ = model::Amplitude::ramp().corners();
   for (const auto& [name, function] : model.functions()) {
     if (!function.is_function_of_time()) continue;
-    times_.insert(times_.end(), function.corners().begin(), function.corners().end());
+    const std::vector<double>& corners = function.corners();
+    if (drives_positions) corners_.insert(corners_.end(), corners.begin(), corners.end());
+    if (!drives_speeds) continue;
+    const std::vector<double> jumps = jumps_of(function);
+    jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
   }
-  std::ranges::sort(times_);
+  std::ranges::sort(corners_);
+  std::ranges::sort(jumps_);
 }
 
 bool DrivenCorners::in_step(const model::State& state) const {
   const double step = state.time - state.time_prev;
   const double slack = same_time * step;
-  auto time = std::ranges::upper_bound(times_, state.time_prev + slack);
-  for (; time != times_.end() && *time <= state.time + slack; ++time) {
-    if (is_corner(*time, step, state)) return true;
-  }
-  return false;
+  const auto within = [&](const std::vector<double>& times) {
+    return std::ranges::subrange(std::ranges::upper_bound(times, state.time_prev + slack),
+                                 std::ranges::upper_bound(times, state.time + slack));
+  };
+  if (!within(jumps_).empty()) return true;
+  return std::ranges::any_of(within(corners_),
+                             [&](double time) { return is_corner(time, step, state); });
 }
 
 // By the rows of all driven equations, which move while the nodes stay.

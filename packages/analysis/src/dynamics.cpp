@@ -117,11 +117,18 @@ assembly::System::Solve mass_solver(Context& context, const model::State& state)
   };
 }
 
+// Of a step, by which sums of steps miss the time of a corner.
+constexpr double same_time = 1e-6;
+
 // What velocities did not fit: the equation that was violated most, or the support that holds the
 // node where they changed most.
 const model::Constraint* find_cause(const model::Model& model, const assembly::VelocityFit& fit) {
   const model::Constraint* cause = nullptr;
   if (fit.equation >= 0) cause = &model.equations()[static_cast<std::size_t>(fit.equation)];
+  for (const model::Constraint& c : model.constraints()) {
+    const bool drives_speed = !c.velocity_rows.empty() && c.nodes.front() == fit.node;
+    if (cause == nullptr && drives_speed) cause = &c;
+  }
   for (const model::Constraint& c : model.constraints()) {
     if (cause == nullptr && c.fix && model.nodes().master(c.fix->node) == fit.node) cause = &c;
     if (c.link && c.link->slave == fit.node) cause = &c;
@@ -217,7 +224,7 @@ std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& 
 // inertia: v_next - v + v' - v = 2 (Dq / h - v), with v' that the constraints allow.
 void Dynamics::find_jump() {
   model::State& state = this->state();
-  state.time = state.time_prev;
+  state.time = state.time_prev + same_time * settings_.steps.step;  // on the far side
   model::Coordinates fitted;
   if (!find_fitting(fitted)) return;
   const auto difference = [](double, double next, double now) { return next - now; };
@@ -256,7 +263,8 @@ void Dynamics::measure_hidden_constraints() {
   constexpr double notable = 0.1;
   constexpr double smallest = 1e-9;  // way in a step over the length of the model
   const model::Constraint* cause = find_cause(system().model(), fit);
-  if (cause == nullptr || !cause->is_driven() || fit.change <= notable * fastest ||
+  const bool is_driven = cause != nullptr && (cause->is_driven() || !cause->velocity_rows.empty());
+  if (!is_driven || fit.change <= notable * fastest ||
       fit.change * settings_.steps.step <= smallest * system().model().length()) {
     return;
   }

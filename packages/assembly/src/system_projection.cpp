@@ -265,8 +265,9 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   Vector rhs(layout_.rows());
   matrix_->multiply(velocity, rhs);
   const auto b = rhs.values();
+  const auto rates = std::as_const(residual_).values();  // by drives of angular velocities
   for (std::size_t row = 0; row < b.size(); ++row)
-    b[row] = is_force_row_[row] ? 0.0 : speed[row] - b[row];
+    b[row] = is_force_row_[row] ? 0.0 : speed[row] - rates[row] - b[row];
   Vector change(layout_.rows());
   solve_mass(rhs, change);
   velocity.update(1.0, change);

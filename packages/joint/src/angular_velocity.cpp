@@ -47,7 +47,12 @@ std::vector<int> AngularVelocity::blocks(int item, const model::UnknownTable& un
 
 Verdict AngularVelocity::assemble(const model::State& state, const Stencil& stencil, Want want,
                                   model::Target& target) {
-  if (want == Want::mass || stencil.step == 0.0) {
+  if (want == Want::mass) {
+    return assemble_items([&](auto space, std::size_t i) {
+      return assemble_border<decltype(space)>(i, state, target);
+    });
+  }
+  if (stencil.step == 0.0) {
     for (std::size_t i = 0; i < placement().items.size(); ++i) {
       assemble_rest(i, state, want, target);
     }
@@ -66,6 +71,23 @@ void AngularVelocity::assemble_rest(std::size_t i, const model::State& state, Wa
   placement().scatter.add_residual(i, 1, &lambda, target);
   if (want == Want::residual) return;
   placement().scatter.add_tangent(i, 1, 1, Mat<1, 1>(target.multiplier_scale), target);
+}
+
+// n . omega at the end of the step on both sides, as it borders a mass matrix, and what it is to
+// be.
+template <class Space>
+Verdict AngularVelocity::assemble_border(std::size_t i, const model::State& state,
+                                         model::Target& target) const {
+  const Item& item = items_[static_cast<std::size_t>(placement().items[i])];
+  const Mat3 d = directors(state.next, item.node);
+  const AxisTurn<Space> turn(item.axis, d, d, 1.0);
+  const double scale = target.multiplier_scale;
+  const double row = -scale * item.velocity.in_step(state, 1.0);
+  placement().scatter.add_residual(i, 1, &row, target);
+  placement().scatter.add_tangent(i, 0, 1, Vec<Space::width>(scale * turn.moment), target);
+  const Mat<1, Space::width> gradient = scale * turn.gradient.transpose();
+  placement().scatter.add_tangent(i, 1, 0, gradient, target);
+  return std::isfinite(row) ? Verdict::ok : Verdict::not_finite;
 }
 
 template <class Space>

@@ -22,7 +22,8 @@ class DrivenCorners {
   bool is_corner(double time, double step, const model::State& state) const;
 
   const assembly::System& system_;
-  std::vector<double> times_;  ///< corners of all functions, rising; none where nothing is driven
+  std::vector<double> corners_;  ///< of all functions, rising; none where no position is driven
+  std::vector<double> jumps_;    ///< likewise; none where no speed is driven
 };
 
 }  // namespace culm::analysis

@@ -53,6 +53,8 @@ class AngularVelocity final : public model::MemorylessBatch, public model::React
   void assemble_rest(std::size_t i, const model::State& state, Want want,
                      model::Target& target) const;
   template <class Space>
+  Verdict assemble_border(std::size_t i, const model::State& state, model::Target& target) const;
+  template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil, Want want,
                         model::Target& target) const;
 
