@@ -29,8 +29,8 @@ double relative(double drift, double scale) { return scale > 0.0 ? drift / scale
 
 }  // namespace
 
-Certificate::Certificate(const assembly::System& system, bool promises)
-    : system_(system), promises_(promises), books_(system) {}
+Certificate::Certificate(const assembly::System& system, bool promises, bool shows_work)
+    : system_(system), promises_(promises), shows_work_(shows_work), books_(system) {}
 
 void Certificate::start(const model::State& state) {
   first_momentum_ = momentum_ = system_.momentum(state.next, state.velocity);
@@ -199,6 +199,7 @@ bool Certificate::is_free() const {
 }
 
 std::vector<Certificate::Amount> Certificate::amounts() const {
+  if (!shows_work_) return {};
   const auto amount = [this](const char* name, double model::StepWork::*what) {
     Amount row{name, work_.*what, {}};
     const std::vector<std::string>& accounts = books_.accounts();
@@ -286,6 +287,9 @@ std::string Certificate::text() const {
     for (const auto& [account, value] : row.shares) {
       text += fmt::format("    {:<26} {:>41.9g} J\n", account, value);
     }
+  }
+  if (!shows_work_) {
+    text += "  work: not summed, as forces of this scheme do not act in the middle of steps\n";
   }
   for (const Line& one : lines()) {
     if (one.name == "constraints" && !is_free()) {

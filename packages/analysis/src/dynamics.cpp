@@ -161,6 +161,25 @@ void close_joints(Context& context, model::State& state) {
   }
 }
 
+// Leaves nothing of a solution but what it says of the forces of constraints.
+void keep_multipliers(const assembly::System& system, assembly::Vector& solution) {
+  const model::Model& model = system.model();
+  const auto u = solution.values();
+  for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
+    const model::Block& block = model.unknowns().block(local.block);
+    if (!local.owned || block.kind == model::BlockKind::multipliers) continue;
+    for (int i = 0; i < block.shape.width; ++i) {
+      const int at = block.shape.position[static_cast<std::size_t>(i)];
+      if (at < 0) continue;
+      const bool is_force = block.kind == model::BlockKind::own &&
+                            model.own_blocks()[static_cast<std::size_t>(block.owner)]
+                                    .unknowns[static_cast<std::size_t>(i)]
+                                    .kind == model::UnknownKind::multiplier;
+      if (!is_force) u[static_cast<std::size_t>(local.first_column + at)] = 0.0;
+    }
+  }
+}
+
 }  // namespace
 
 Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme, Context& context,
@@ -172,7 +191,7 @@ Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme
                settings_.steps.adaptive ? notable_corners(context.system.model().functions())
                                         : std::vector<double>()),
       predictor_(context.system),
-      certificate_(context.system, scheme_->conserves()),
+      certificate_(context.system, scheme_->conserves(), scheme_->shows_work()),
       pulses_(context.system.model().functions()),
       corners_(context.system) {
   state.in_motion = true;
@@ -205,7 +224,8 @@ void Dynamics::fit_motion() {
   }
 }
 
-std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& fitted) {
+std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& fitted,
+                                                            assembly::Vector& solution) {
   solver::LinearSolver& linear = context().linear;
   bool sound = true;
   const assembly::VelocityFit fit = system().project_velocity(
@@ -213,49 +233,43 @@ std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& 
       [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = linear.factor() && linear.solve(b, x).is_sound();
         if (!sound) x.fill(0.0);
+        solution = x;
       },
       fitted);
   return sound ? std::optional(fit) : std::nullopt;
 }
 
 // A step mirrors velocities about its mean ones. Where the speed of a prescribed motion jumps they
-// would stay on one side in one step and on the other in the next, for ever. So the step behind the
-// jump takes it in, as a blow by the drive that acts over the step; all that is tied follows by its
-// inertia: v_next - v + v' - v = 2 (Dq / h - v), with v' that the constraints allow.
-void Dynamics::find_jump() {
+// would stay on one side in one step and on the other in the next, for ever. So the drive strikes
+// where the step behind the jump begins: velocities become those that constraints allow, all that
+// is tied follows by its inertia, and momenta are kept. Reactions show the blow over that step.
+void Dynamics::strike() {
   model::State& state = this->state();
   state.time = state.time_prev + same_time * settings_.steps.step;  // on the far side
   model::Coordinates fitted;
-  if (!find_fitting(fitted)) return;
-  const auto difference = [](double, double next, double now) { return next - now; };
-  jump_ = state.velocity;
-  model::combine(jump_, difference, fitted, state.velocity);
+  assembly::Vector solution(system().layout().rows());
+  if (!find_fitting(fitted, solution)) return;
+  keep_multipliers(system(), solution);
+  const double kinetic = system().momentum(state.next, state.velocity).kinetic_energy;
+  blow_ = Blow{std::exchange(state.velocity, std::move(fitted)), std::move(solution), 0.0};
+  blow_->work = system().momentum(state.next, state.velocity).kinetic_energy - kinetic;
   // old factors would be those of the mass
   if (settings_.newton.refresh == solver::Refresh::on_slow_convergence) {
     make_newton(settings_.newton);
   }
 }
 
-// What the equations of such a step, tested with the increment, leave out of the change of the
-// kinetic energy: (v - v') M (v_next - v) / 2, by T of sums, as T is a square.
-double Dynamics::work_of_jump(const model::Coordinates& before) const {
-  const model::State& state = this->state();
-  const auto kinetic = [&](auto of) {
-    model::Coordinates v = before;
-    model::combine(v, of, state.velocity, jump_);
-    return system().momentum(state.next, v).kinetic_energy;
-  };
-  const double both = kinetic([](double v, double next, double jump) { return next - v - jump; });
-  const double change = kinetic([](double v, double next, double) { return next - v; });
-  const double blow = kinetic([](double, double, double jump) { return jump; });
-  return 0.5 * (both - change - blow);
+void Dynamics::take_blow_back() {
+  if (blow_) state().velocity = std::move(blow_->velocity);
+  blow_.reset();
 }
 
 // The state keeps its velocity: its own energy would change.
 void Dynamics::measure_hidden_constraints() {
   if (is_behind_corner_) return;  // which the next motion makes fit
   model::Coordinates fitted;
-  const std::optional<assembly::VelocityFit> found = find_fitting(fitted);
+  assembly::Vector solution(system().layout().rows());
+  const std::optional<assembly::VelocityFit> found = find_fitting(fitted, solution);
   if (!found) return;
   const assembly::VelocityFit& fit = *found;
   const double fastest = system().comm().max(largest(fitted));
@@ -365,16 +379,10 @@ StepReport Dynamics::do_attempt(double end) {
   }
   StepReport report;
   report.increment = end - state.time_prev;
-  jump_ = {};
-  if (is_behind_corner_) find_jump();
+  if (is_behind_corner_) strike();
   if (is_first_ && !scheme_->conserves()) scheme_->start(first_acceleration(report.increment));
   report.time = state.time = end;
   stencil_ = scheme_->begin(state, report.increment);
-  if (!jump_.empty()) {
-    const double h = report.increment;
-    const auto add = [h](double offset, double jump) { return offset - jump / h; };
-    model::combine(state.acceleration_offset, add, jump_);
-  }
   system().prepare(state, stencil_);
   predictor_.predict(state, report.increment);
   report.outcome = newton().solve(state, stencil_);
@@ -400,9 +408,12 @@ void Dynamics::do_accept(const StepReport& report) {
     certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
   }
   is_behind_corner_ = scheme_->conserves() && corners_.in_step(state);
-  const model::Coordinates before = jump_.empty() ? model::Coordinates() : state.velocity;
   scheme_->finish(state, taken);
-  if (!jump_.empty()) certificate_.add_blow(work_of_jump(before));
+  if (blow_) {
+    certificate_.add_blow(blow_->work);
+    system().move(state, blow_->multipliers, 1.0 / taken);
+    blow_.reset();
+  }
   is_first_ = false;
   warn_of_short_step(taken);
   system().accept(state);
@@ -426,7 +437,10 @@ void Dynamics::warn_of_short_step(double taken) {
       state().time);
 }
 
+void Dynamics::do_discard() { take_blow_back(); }
+
 bool Dynamics::do_fail(const StepReport& report) {
+  take_blow_back();
   control_.reject(report.outcome.end, report.increment);
   predictor_.reject();
   // an error that is too large is the business of adaptive steps

@@ -18,7 +18,8 @@ namespace culm::analysis {
 class Certificate {
  public:
   /// @param promises whether the scheme balances energy and momenta exactly
-  Certificate(const assembly::System& system, bool promises);
+  /// @param shows_work whether what its forces do in a step is their work
+  Certificate(const assembly::System& system, bool promises, bool shows_work);
 
   void start(const model::State& state);
   /// In each accepted step, before anything of it moves on: sums work and impulses.
@@ -88,6 +89,7 @@ class Certificate {
 
   const assembly::System& system_;
   bool promises_;
+  bool shows_work_;
   assembly::Energies first_, last_;
   model::Momentum first_momentum_, momentum_;
   Books books_;

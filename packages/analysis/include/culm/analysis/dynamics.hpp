@@ -54,6 +54,7 @@ class Dynamics final : public Stepper {
     return scheme_->end_velocity(state(), report.increment);
   }
   bool do_fail(const StepReport& report) override;
+  void do_discard() override;
   Stencil failed_stencil() const override { return stencil_; }
   AnalysisReport do_finish() override;
   const char* kind() const override { return "Dynamic"; }
@@ -63,10 +64,12 @@ class Dynamics final : public Stepper {
   void fit_motion();
   model::Coordinates first_acceleration(double first_step);
   /// @param fitted  becomes the velocity that constraints allow, see System::project_velocity
+  /// @param solution  becomes the change of unknowns, with impulses in the place of multipliers
   /// @return none where a closed loop just passes a singular position
-  std::optional<assembly::VelocityFit> find_fitting(model::Coordinates& fitted);
-  void find_jump();
-  double work_of_jump(const model::Coordinates& before) const;
+  std::optional<assembly::VelocityFit> find_fitting(model::Coordinates& fitted,
+                                                    assembly::Vector& solution);
+  void strike();
+  void take_blow_back();
   void measure_hidden_constraints();
   void keep_balance();
   void warn_of_short_step(double taken);
@@ -81,8 +84,13 @@ class Dynamics final : public Stepper {
   Certificate certificate_;
   MissedPulses pulses_;
   DrivenCorners corners_;
-  bool is_behind_corner_ = false;  ///< of a prescribed motion: velocities jump in the next step
-  model::Coordinates jump_;        ///< from those of the state, in the last attempt; empty if not
+  bool is_behind_corner_ = false;  ///< of a prescribed motion: velocities jump before the next step
+  struct Blow {
+    model::Coordinates velocity;   ///< before
+    assembly::Vector multipliers;  ///< impulses that made it jump
+    double work = 0.0;             ///< [J]
+  };
+  std::optional<Blow> blow_;  ///< with which the last attempt began
   Ledger::Id certificate_effect_ = 0;
 };
 

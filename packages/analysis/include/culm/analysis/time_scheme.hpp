@@ -17,6 +17,8 @@ class TimeScheme {
   virtual std::string name() const = 0;
   /// Whether energy and momenta obey exact balances.
   virtual bool conserves() const = 0;
+  /// Whether forces act in the middle of steps, so that force by way is their work.
+  virtual bool shows_work() const = 0;
   /// c of the error c h^3 q''' that a step adds to positions.
   virtual double error_constant() const = 0;
   /// Once, with the acceleration of the start [m/s^2, 1/s^2].
@@ -38,6 +40,7 @@ class ConservingScheme final : public TimeScheme {
  public:
   std::string name() const override { return "Conserving"; }
   bool conserves() const override { return true; }
+  bool shows_work() const override { return true; }
   double error_constant() const override { return 1.0 / 12.0; }
   void start(model::Coordinates) override {}
   Stencil begin(model::State& state, double h) override;
@@ -55,6 +58,7 @@ class GeneralisedAlphaScheme : public TimeScheme {
   explicit GeneralisedAlphaScheme(double spectral_radius);
   std::string name() const override { return "Generalised Alpha"; }
   bool conserves() const override { return false; }
+  bool shows_work() const override { return alpha_f_ == 0.5; }
   double error_constant() const override;
   void start(model::Coordinates acceleration) override;
   Stencil begin(model::State& state, double h) override;
