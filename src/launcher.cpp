@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/read_file.hpp>
+#include <culm/base/stop_signal.hpp>
 #include <culm/parallel/single_process.hpp>
 
 #include <fcntl.h>
@@ -119,6 +120,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   setpgid(0, 0);                     // Ctrl-C comes to the one outside, which says it once
   prctl(PR_SET_PDEATHSIG, SIGTERM);  // also where that one is killed
   setrlimit(RLIMIT_DATA, &memory);
+  for (const int signal : {SIGTERM, SIGUSR1}) ::signal(signal, SIG_DFL);  // none is for culm
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);  // whoever is in the background must not read from a terminal
   signals.give_back();
@@ -245,6 +247,7 @@ Verdict Launcher::run(const Launch& launch) const {
   const std::vector<char*> environment = pointers_to(variables);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const HeldSignals signals;
+  stop_if_asked(0.0, "before the partner was started");
   const pid_t launcher = fork();
   if (launcher < 0) throw FileError(CULM_MPIEXEC, "cannot be started");
   if (launcher == 0) become(command, environment, signals, memory_);

@@ -5,6 +5,7 @@
 #include <culm/coupling/partner_error.hpp>
 #include <culm/parallel/first_ranks.hpp>
 #include <culm/simulation/session.hpp>
+#include <culm/simulation/stop_request.hpp>
 
 #include "command.hpp"
 #include "command_line.hpp"
@@ -16,11 +17,13 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -385,6 +388,12 @@ int run_verb(int argc, char** argv, Arguments& arguments, bool is_inside, bool& 
   return end.code;
 }
 
+// Whether a verb stops where SIGTERM or SIGUSR1 asks for it, rather than to be ended by them.
+bool heeds_requests(const std::vector<std::string>& words) {
+  constexpr std::array verbs = {"run", "resume", "couple", "replay", "serve"};
+  return !words.empty() && std::ranges::find(verbs, words.front()) != verbs.end();
+}
+
 // Starts culm and its partner as the command line asks for it; culm tells its verdict.
 culm::app::Verdict launch(const culm::app::Launcher& launcher, std::vector<std::string> words,
                           const PartnerArguments& partners) {
@@ -422,6 +431,9 @@ int check_printed(int code) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (culm::app::is_for_python(words)) return culm::app::call_python(words);
+  // a request that comes while MPI starts is heeded as a later one
+  std::optional<culm::simulation::StopRequest> listening;
+  if (heeds_requests(words)) listening.emplace();
   const culm::app::Launcher launcher;
   Arguments arguments;
   bool is_root = false;
@@ -433,6 +445,7 @@ int main(int argc, char** argv) {
     code = verdict.code;
     folder = verdict.started;
   }
+  listening.reset();
   const RunArguments& run = arguments.any_run();
   // the folder may be that of another run, which this one has left alone
   if (!run.report || folder.empty() || code == file_error) return code;

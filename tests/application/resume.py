@@ -259,6 +259,30 @@ def signals_stop_within_a_step(program, folder, options):
             demand(b"stopped: signal" in file["report/text"][()], "the report does not say so")
 
 
+def signals_that_come_early_are_heard(program, folder, options):
+    """While MPI starts, which has threads of its own by then, as with a signal that a batch system sends to all."""
+    process = program.start("run", *LONG, "--output", "early")
+
+    def threads(pid):
+        with contextlib.suppress(OSError):
+            return len(list(pathlib.Path(f"/proc/{pid}/task").iterdir()))
+        return 0
+
+    def culm():
+        return ([process.pid] + children(process.pid))[-1]
+
+    def is_starting():
+        with contextlib.suppress(OSError):
+            return "culm" in os.readlink(f"/proc/{culm()}/exe") and threads(culm()) > 1
+        return False
+
+    wait_for(process, is_starting, "no threads")
+    os.kill(culm(), signal.SIGUSR1)
+    code, _, err = program.finish(process)
+    demand(code == 7, f"exit code {code}: {err}")
+    demand("stopped: signal SIGUSR1\n" in err, f"stderr is {err}")
+
+
 def time_allowed_is_kept(program, folder, options):
     before = cpu_seconds()
     _, _, err = program("run", *LONG, "--output", "out", "--walltime", "00:01", expect=(7,))
@@ -663,6 +687,7 @@ def tests(ranks):
 
 ALWAYS = [
     signals_stop_within_a_step,
+    signals_that_come_early_are_heard,
     time_allowed_is_kept,
     later_end,
     other_model_is_refused,

@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::array signals = {SIGTERM, SIGUSR1};
 
+// How many listen.
+int living = 0;
+
 // Who sent the signal.
 volatile std::sig_atomic_t sender = 0;
 
@@ -77,6 +80,7 @@ std::optional<double> find_duration(std::string_view text) {
 }  // namespace
 
 StopRequest::StopRequest(std::optional<double> walltime) : walltime_(walltime) {
+  if (living++ > 0) return;  // what came since the first one began counts
   note_stop_signal(0);
   sender = 0;
   listen();
@@ -90,6 +94,7 @@ void StopRequest::listen() {
 }
 
 StopRequest::~StopRequest() {
+  if (--living > 0) return;
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
   set_handlers(action);

@@ -54,6 +54,18 @@ TEST(StopRequest, HearsSignalsWhileItLives) {
   EXPECT_EQ(action.sa_handler, SIG_DFL);
 }
 
+// The program listens before it knows what to do.
+TEST(StopRequest, KnowsWhatCameSinceAnotherOneBegan) {
+  const StopRequest program;
+  std::raise(SIGUSR1);
+  {
+    const StopRequest run(3600.0);
+    EXPECT_EQ(run.signal(), SIGUSR1);
+  }
+  std::raise(SIGTERM);  // would end this program
+  EXPECT_EQ(program.signal(), SIGTERM);
+}
+
 TEST(StopRequest, KnowsWhoEndsTheProgram) {
   const StopRequest request;
   EXPECT_FALSE(StopRequest::is_ended_by(0));

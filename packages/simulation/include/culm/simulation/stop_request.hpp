@@ -8,13 +8,14 @@
 namespace culm::simulation {
 
 /// Listens to SIGTERM and SIGUSR1, which then no longer end the process, and watches the time that
-/// the run may take. One at a time.
+/// the run may take. One that begins while another one lives knows what came since that began: the
+/// program listens from its first moment on, and a run counts its time.
 class StopRequest {
  public:
   /// Begins to listen and to count.
   /// @param walltime [s]
   explicit StopRequest(std::optional<double> walltime = {});
-  /// Gives the signals back.
+  /// The last one gives the signals back.
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
