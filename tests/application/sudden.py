@@ -37,6 +37,7 @@ def pulse(name, speed, impulse, **function):
                 check=ends_with("speed vx [m/s]", speed, 1e-9))
 
 
+<<<<<<< HEAD
 FITS = ["initial velocities were made to fit the constraints"]
 
 
@@ -77,7 +78,42 @@ def flying_pair():
 
 PIECES = entry("f", Type="Table", Times="{0, 0.5, 0.8, 1.4, 3}", Values="{0, 1, 0.2, 0.2, 1}")
 
+=======
+def turned(name, angle, tolerance, **function):
+    """By an angular velocity of 2 rad/s times a function for a second, in steps of 0.1 s."""
+    turn = entry("f", **function)
+    drive = entry("drive", Type="Angular Velocity", Node="body", Axis="{0, 0, 1}", Angular_Velocity="2", Function="f")
+    hinge = entry("hinge", Type="Revolute Support", Node="body", Axis="{0, 0, 1}")
+    deck = motion(turn, 0.1, 1, constraints=hinge + drive)
+    deck = deck.replace('<ParameterList name="History">', '<ParameterList name="History">' + entry("turn", Type="Rotation", Node="body"))
+    return Case(f"an angular velocity turns by its integral: {name}", 0, args=RUN, leaves=["out"], deck=deck,
+                says=["a prescribed angular velocity takes all of it"] if "pulse" in name else [],
+                check=ends_with("turn rz [rad]", angle, tolerance))
+
+
+def impact(speed, share):
+    """Of a ball on a plane that takes energy, damping times speed 0.5 and 2."""
+    plane = entry("ground", Type="Plane Contact", Node="body", Radius="0.1", Area="1", Stiffness="1e5", Damping="0.5")
+    start = listed("Initial Conditions", entry("fall", Type="Velocity", Node="body", Velocity=f"{{0, 0, -{speed}}}"))
+    deck = motion("", 0.0001, 0.04, plane).replace('"{0, 0, 0}"/><Parameter name="Mass"', '"{0, 0, 0.11}"/><Parameter name="Mass"')
+    return Case(f"an impact with {speed} m/s leaves the speed of Hunt and Crossley", 0, args=RUN, leaves=["out"],
+                deck=deck[: -len("</ParameterList>")] + start + "</ParameterList>",
+                check=ends_with("speed vz [m/s]", share * speed, 1e-3 * speed))
+
+
+>>>>>>> c6d44d49 (Prescribed angular velocities turn by the integral of their function; pulses are told with what they are to prescribed motions; restitution of damped contact)
 CASES = [
+    turned("a formula", 2 / 3, 1e-12, Type="Expression", Expression="t^2"),
+    turned("a pulse about the end of a step", 0.08, 1e-10, Type="Table", Times="{0, 0.56, 0.6, 0.64, 1}", Values="{0, 0, 1, 0, 0}"),
+    turned("a jump", 0.9, 1e-12, Type="Heaviside", Start="0.55"),
+    turned("a jump of a formula", 0.9, 1e-4, Type="Expression", Expression="t &lt; 0.55 ? 0 : 1"),
+    impact(1, 0.7484),
+    impact(4, 0.4107),
+    Case("a pulse is told with what it is to a prescribed motion", 0, args=RUN, leaves=["out"],
+         deck=motion(entry("f", Type="Table", Times="{0, 0.58, 0.6, 0.62, 1}", Values="{0, 0, 1, 0, 0}"), 0.1, 1,
+                     constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", Function="f")),
+         says=["warning: function 'f' has a pulse that ends within the time step", "its impulse so far is 0.02 s, of which loads take 0 s",
+               "a prescribed position goes straight from its value at one end of a step to that at the other"]),
     switched_on("a jump", Type="Heaviside", Start="9"),
     switched_on("a table", Type="Table", Times="{0, 9, 9.001, 20}", Values="{0, 0, 1, 1}"),
     switched_on("a formula", Type="Expression", Expression="t > 9 ? 1 : 0"),

@@ -199,9 +199,13 @@ void MissedPulses::check(double start, double end, Findings& findings) {
     // as long as it acts, what comes may make up for what was lost
     if (std::abs(values_beside(function, end).second) <= notable_height * candidate.size) {
       tell("has a pulse that ends",
-           fmt::format("its impulse so far is {:.4g} s, of which steps take {:.4g} s; take steps "
-                       "that are much shorter than the pulse",
-                       candidate.impulse.given, candidate.impulse.taken));
+           fmt::format(
+               "its impulse so far is {:.4g} s, of which loads take {:.4g} s, by its values at the "
+               "middles of steps; a prescribed position goes straight from its value at one end of "
+               "a step to that at the other, and a prescribed angular velocity takes all of it; "
+               "take "
+               "steps that are much shorter than the pulse",
+               candidate.impulse.given, candidate.impulse.taken));
     }
   }
   is_first_ = false;

@@ -99,7 +99,7 @@ Verdict AngularVelocity::assemble_item(std::size_t i, const model::State& state,
   const AxisTurn<Space> turn(item.axis, directors(state.prev, item.node),
                              directors(state.next, item.node), stencil.theta);
   const double lambda = item.moment.in_step(state, 1.0);
-  const double half_angle = 0.5 * stencil.step * item.velocity.in_step(state, 0.5);
+  const double half_angle = 0.5 * item.velocity.integral(state, 1.0);
   const double h = turn.turn - 2.0 * std::tan(half_angle);
   const Vec<W> force = lambda * turn.moment;
   if (!std::isfinite(h + force.sum())) return Verdict::not_finite;
@@ -170,7 +170,7 @@ void register_angular_velocity_type(model::BuilderRegistry& registry, const std:
       constraint.where = options.where();
       constraint.turn.emplace().prescribed = [motion = *velocity](const model::State& state,
                                                                   double theta) {
-        return theta * (state.time - state.time_prev) * motion.in_step(state, 0.5);
+        return motion.integral(state, theta);
       };
       model.add_constraint(std::move(constraint));
       if (follows) axis = directors(model.nodes().reference(), node).transpose() * axis;

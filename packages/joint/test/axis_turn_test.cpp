@@ -8,6 +8,7 @@
 #include <culm_kit/no_heap.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 namespace culm::joint {
@@ -89,7 +90,7 @@ TEST_P(AxisTurns, RowAsksForTheAngleOfTheStep) {
   model::State state = model.initial_state();
   state.time_prev = 0.3;
   state.time = 0.7;
-  const double angle = 0.4 * 1.5 * 0.25;
+  const double angle = 1.5 * (std::pow(0.7, 3) - std::pow(0.3, 3)) / 3.0;
   const Mat3 D = triad(state.prev);
   const Vec3 n = GetParam() ? Vec3(D * oblique) : oblique;
   NodeTable::slots(state.next, 0).rightCols<3>() = exp_rotation(angle * n) * D;
@@ -163,6 +164,34 @@ TEST(JointAngle, FollowsASignalWithItsTangent) {
         model.add_constraint(std::move(joint));
       },
       "tested", 1e-3);
+}
+
+TEST(Prescribed, HasTheIntegralOfARate) {
+  const auto integral = [](const model::Amplitude& function, double start, double end,
+                           double theta = 1.0) {
+    model::State state;
+    state.time_prev = start;
+    state.time = end;
+    return Prescribed{2.0, function}.integral(state, theta);
+  };
+  const auto wave =
+      model::Amplitude::of_time([](double t) { return std::exp(-t) * std::sin(7.0 * t); });
+  const auto primitive = [](double t) {
+    return -std::exp(-t) * (std::sin(7.0 * t) + 7.0 * std::cos(7.0 * t)) / 50.0;
+  };
+  for (const double end : {0.01, 0.7, 5.0}) {
+    EXPECT_NEAR(integral(wave, 0.0, end), 2.0 * (primitive(end) - primitive(0.0)), round_off);
+  }
+  EXPECT_EQ(integral(wave, 1.0, 3.0, 0.0), 0.0);
+  EXPECT_EQ(integral(model::Amplitude::constant(3.0), 1.0, 3.0, 0.5), 6.0);
+  const auto square = [](double t) { return t <= 0.15 ? 1.0 : 0.0; };
+  const auto pulse = model::Amplitude::of_time(square).with_corners({0.0, 0.15});
+  EXPECT_NEAR(integral(pulse, 0.1, 0.2), 0.1, round_off);
+  // a jump and a corner that nobody knows
+  const auto jump = model::Amplitude::of_time([](double t) { return t < 1.0 / 3.0 ? 0.0 : 1.0; });
+  EXPECT_NEAR(integral(jump, 0.0, 1.0), 4.0 / 3.0, 2e-4);
+  const auto bend = model::Amplitude::of_time([](double t) { return std::abs(t - 1.0 / 3.0); });
+  EXPECT_NEAR(integral(bend, 0.0, 1.0), 5.0 / 9.0, 1e-8);
 }
 
 // A turn of both nodes, and of the second one further by the angle.

@@ -15,9 +15,10 @@ namespace culm::joint {
 
 /// Turns nodes about an axis with the angular velocity Omega(t). Nonholonomic: the row holds for
 /// the turn of a step,
-///   n . tau - 2 tan( dt Omega(t_1/2) / 2 ) = 0,     force: moment lambda n,
-/// so the angle after any number of steps is the sum of dt Omega(t_1/2) exactly, and the drive does
-/// the work -lambda n . tau. Statics knows no velocity: the row is lambda = 0 there.
+///   n . tau - 2 tan( alpha / 2 ) = 0,  alpha = integral of Omega over the step,
+/// force: moment lambda n, so the angle after any number of steps is the integral of Omega (of a
+/// signal the sum of dt Omega_1/2), and the drive does the work -lambda n . tau. Statics knows no
+/// velocity: the row is lambda = 0 there.
 /// @source formulation 2.4
 class AngularVelocity final : public model::MemorylessBatch, public model::ReactionSource {
  public:

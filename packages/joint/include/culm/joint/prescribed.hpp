@@ -21,6 +21,10 @@ struct Prescribed {
       return amount * signal->in_step(state, theta);
     return at((1.0 - theta) * state.time_prev + theta * state.time);
   }
+  /// Of a rate over the first part of a step, to (1 - theta) prev + theta next: of a function that
+  /// is smooth between its corners to rounding, of one that jumps elsewhere, as a formula may, to a
+  /// part in 1e4 of the step; of a signal with its mean over the step.
+  double integral(const model::State& state, double theta) const;
 };
 
 /// A translation in space as a function of time.
