@@ -2,15 +2,19 @@
 #include <culm/control/swap_library.hpp>
 
 #include <dlfcn.h>
+#include <link.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 namespace culm::control {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string reason() {
   const char* text = dlerror();
@@ -19,20 +23,20 @@ std::string reason() {
 
 void* open_file(const std::string& path, int more) { return dlopen(path.c_str(), RTLD_NOW | more); }
 
-// A file under a name of its own, which goes with this.
+// A file under a name of its own in a folder, which goes with this.
 class Copy {
  public:
-  explicit Copy(const std::string& path)
-      : name_((std::filesystem::temp_directory_path() / "culm-XXXXXX").string()) {
-    const int file = mkstemp(name_.data());
-    if (file < 0) throw FileError(name_, "a copy of '" + path + "' cannot be written");
-    close(file);
+  Copy(const fs::path& file, const fs::path& folder)
+      : name_((folder / ("." + file.stem().string() + "-XXXXXX.so")).string()) {
+    constexpr int behind = 3;  // what stands there
+    const int place = mkstemps(name_.data(), behind);
+    if (place < 0) throw FileError(folder.string(), "cannot be written to");
+    close(place);
     std::error_code failure;
-    std::filesystem::copy_file(path, name_, std::filesystem::copy_options::overwrite_existing,
-                               failure);
+    fs::copy_file(file, name_, fs::copy_options::overwrite_existing, failure);
     if (failure) {
       unlink(name_.c_str());
-      throw FileError(name_, "a copy of '" + path + "' cannot be written: " + failure.message());
+      throw FileError(folder.string(), failure.message());
     }
   }
   Copy(const Copy&) = delete;
@@ -44,13 +48,42 @@ class Copy {
   std::string name_;
 };
 
+// The file of a library that is loaded, wherever the system has found it.
+fs::path file_of(void* library, const std::string& path) {
+  link_map* map = nullptr;
+  const bool is_known = dlinfo(library, RTLD_DI_LINKMAP, static_cast<void*>(&map)) == 0;
+  return fs::absolute(is_known && map->l_name[0] != '\0' ? map->l_name : path.c_str());
+}
+
+// Beside the file a copy finds what the file finds there ($ORIGIN). That folder may not be
+// writable, and that of temporary files may have no programs.
+void* load_copy(const fs::path& file) {
+  std::string reasons;
+  std::error_code failure;
+  for (const fs::path& folder : {file.parent_path(), fs::temp_directory_path(failure)}) {
+    if (folder.empty()) continue;
+    try {
+      const Copy copy(file, folder);
+      if (void* const library = open_file(copy.name(), RTLD_LOCAL)) return library;
+      reasons += "; " + reason();
+    } catch (const FileError& error) {
+      reasons += std::string("; ") + error.what();
+    }
+  }
+  throw FileError(file.string(),
+                  "is in use by another signal, and a copy for this one can be loaded neither from "
+                  "beside it nor from the folder of temporary files (TMPDIR)" +
+                      reasons);
+}
+
 // The system loads a file once, with one memory for all who name it: whoever comes later has a
 // copy.
 void* load_alone(const std::string& path) {
   void* const other = open_file(path, RTLD_LOCAL | RTLD_NOLOAD);
   if (other == nullptr) return open_file(path, RTLD_LOCAL);
+  const fs::path file = file_of(other, path);
   dlclose(other);
-  return open_file(Copy(path).name(), RTLD_LOCAL);
+  return load_copy(file);
 }
 
 // A text that the library may read, with the zero that ends it.

@@ -5,6 +5,7 @@
 #include <culm_kit/temporary_folder.hpp>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -52,6 +53,16 @@ TEST(SwapLibrary, KeepsItsMemoryToItself) {
   EXPECT_EQ(one.get(count), 3.0);
   EXPECT_NEAR(one.get(torque), 3.0 * 1.5 + 4.0 * 1.5 * 0.3, 1e-6);
   EXPECT_EQ(other.get(count), 1.0);
+}
+
+// No folder for temporary files, or one without programs, is none that a copy needs.
+TEST(SwapLibrary, IsCopiedBesideItsFile) {
+  const InputFile input("1.5 3 4 10 20");
+  const char* const before = std::getenv("TMPDIR");
+  setenv("TMPDIR", "/proc", 1);
+  const SwapLibrary one(path, "DISCON", input.name(), "one");
+  EXPECT_NO_THROW(SwapLibrary(path, "DISCON", input.name(), "other"));
+  before != nullptr ? setenv("TMPDIR", before, 1) : unsetenv("TMPDIR");
 }
 
 TEST(SwapLibrary, FailsWithTheMessageOfTheLibrary) {
