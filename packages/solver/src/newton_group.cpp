@@ -180,6 +180,47 @@ bool NewtonGroup::solve_linear() {
     const bool is_start = p.last_residual == 0.0;
     if (is_start && p.stencil.inertia == 0.0) p.first_determinant = p.linear.determinant();
   }
+  return solve_factored() && (!p.holds_free || !has_tangent_ || shorten_free_motion());
+}
+
+// The motion that a solution means turns directors so far, at most [rad].
+double NewtonGroup::largest_turn() {
+  NewtonProblem& p = *problem_;
+  swap_with_state();
+  const model::Coordinates& motion = p.system.linear_motion(*p.state, newton_.get(), 1.0);
+  double largest = 0.0;
+  for (const assembly::Layout::LocalBlock& local : p.system.layout().local_blocks()) {
+    const model::Block& block = p.system.model().unknowns().block(local.block);
+    if (block.kind != model::BlockKind::node) continue;
+    const auto slots = model::NodeTable::slots(motion, block.owner);
+    largest = std::max(largest, slots.rightCols<3>().colwise().norm().maxCoeff());
+  }
+  swap_with_state();
+  return p.system.comm().max(largest);
+}
+
+// A load moves what is free by as much as little stiffness lets it, which may be many turns. With
+// as much stiffness as keeps an iteration short, it moves the way it is pushed, to where it hangs.
+bool NewtonGroup::shorten_free_motion() {
+  constexpr double farthest = 0.5;  // [rad]
+  constexpr int most = 8;
+  NewtonProblem& p = *problem_;
+  double share = held_share;
+  for (int i = 0; i < most; ++i) {
+    const double turn = largest_turn();
+    if (!(turn > farthest)) break;
+    const double wanted = share * std::min(1.2 * turn / farthest, 1e4);
+    p.system.stiffen(wanted - share);
+    share = wanted;
+    p.singular = !p.linear.factor();
+    ++p.factorisations;
+    if (p.singular || !solve_factored()) return false;
+  }
+  return true;
+}
+
+bool NewtonGroup::solve_factored() {
+  NewtonProblem& p = *problem_;
   const Ledger::Scope scope(p.ledger, p.solve_effect);
   const double goal = forcing_term(relative_residual(evaluation_), p.settings.force_tolerance);
   const LinearResidual residual = p.linear.solve_roughly(f_.get(), newton_.get(), goal);

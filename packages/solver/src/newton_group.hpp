@@ -89,6 +89,9 @@ class NewtonGroup final : public NOX::Abstract::Group {
   bool tangent_can_wait() const;
   /// Solves with new or old factors. @return false if the result is of no use
   bool solve_linear();
+  bool solve_factored();
+  double largest_turn();
+  bool shorten_free_motion();
   /// Adds the share of the level to the Newton direction. @return false if there is none
   bool solve_level();
 
