@@ -6,6 +6,7 @@
 #include "hidden_asymmetry.hpp"
 #include "whole_matrix.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
@@ -105,6 +106,32 @@ bool is_rigid(const Shape& shape, const model::Coordinates& q) {
   return (moved - fitted).norm() < 1e-3 * moved.norm();
 }
 
+// Orthonormal combinations of columns, each of which is three components at some points: by the sum
+// of their squares, the largest first. Weights keep directions apart that are alike else.
+Eigen::MatrixXd by_size(const Eigen::MatrixXd& columns, Eigen::VectorXd& squares) {
+  const Vec3 weights(1.0, 0.8, 0.6);
+  Eigen::MatrixXd weighted = columns;
+  for (Eigen::Index i = 0; i < weighted.rows(); ++i) weighted.row(i) *= weights[i % 3];
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(weighted.transpose() * weighted);
+  squares = found.eigenvalues().reverse();
+  return found.eigenvectors().rowwise().reverse();
+}
+
+// Combinations of motions of unit energy: those with momentum, then the others by what they
+// displace.
+Eigen::MatrixXd choose_combinations(const Eigen::MatrixXd& momentum,
+                                    const Eigen::MatrixXd& displaced, double mass) {
+  constexpr double rounding = 1e-8;  // of squares, which are effective masses
+  Eigen::VectorXd squares;
+  Eigen::MatrixXd chosen = by_size(momentum, squares);
+  const Eigen::Index moving = (squares.array() > rounding * mass).count();
+  const Eigen::Index rest = chosen.cols() - moving;
+  if (rest == 0) return chosen;
+  const Eigen::MatrixXd others = chosen.rightCols(rest);
+  chosen.rightCols(rest) = others * by_size(displaced * others, squares);
+  return chosen;
+}
+
 int sign_of_determinant(SparseMatrix matrix) {
   matrix.makeCompressed();
   Eigen::SparseLU<SparseMatrix> factors;
@@ -196,17 +223,18 @@ class Finder {
   void find_real() {
     solver_.shift =
         settings_.near ? std::pow(2.0 * std::numbers::pi * *settings_.near, 2) : lowest_shift();
-    const auto pairs = solver::solve_eigenproblem({linear_.stiffness, linear_.mass}, solver_,
-                                                  context_.system.comm());
+    auto pairs = solver::solve_eigenproblem({linear_.stiffness, linear_.mass}, solver_,
+                                            context_.system.comm());
     if (is_hidden_asymmetry(pairs)) {
       set_.is_complex = true;
       find_complex();
       return;
     }
+    separate_zero_modes(pairs);
     for (std::size_t i = 0; i < pairs.values.size(); ++i) {
       const double square = pairs.values[i];
       Mode mode;
-      if (std::abs(square) > zero_bound * pairs.rounding[i]) {
+      if (!is_zero(pairs, i)) {
         mode.eigenvalue = square > 0.0 ? Complex(0.0, std::sqrt(square)) : std::sqrt(-square);
       }
       const Eigen::VectorXd x = pairs.vectors.col(static_cast<Eigen::Index>(i));
@@ -219,12 +247,46 @@ class Finder {
     set_.worst_residual = pairs.worst_residual;
   }
 
+  static bool is_zero(const solver::EigenPairs& pairs, std::size_t i) {
+    return std::abs(pairs.values[i]) <= zero_bound * pairs.rounding[i];
+  }
+
+  // Modes at 0 Hz may be combined at will, and which combinations are found is rounding. Here first
+  // those that move the centre of mass, then the others by how far they displace nodes: what
+  // displaces nothing, as a free beam that turns about its axis, comes last and by itself.
+  void separate_zero_modes(solver::EigenPairs& pairs) const {
+    std::vector<Eigen::Index> zeros;
+    for (std::size_t i = 0; i < pairs.values.size(); ++i) {
+      if (is_zero(pairs, i)) zeros.push_back(static_cast<Eigen::Index>(i));
+    }
+    if (zeros.size() < 2) return;
+    const model::Model& model = context_.system.model();
+    const auto count = static_cast<Eigen::Index>(zeros.size());
+    const Eigen::Index nodes = model.nodes().size();
+    Eigen::MatrixXd momentum(3, count), displaced(3 * nodes, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const std::vector<Vec6> shape =
+          motions(pairs.vectors.col(zeros[static_cast<std::size_t>(k)]));
+      const model::Coordinates inertia = model.mass_times(slot_motions(model, state_, shape));
+      momentum.col(k).setZero();
+      for (Eigen::Index node = 0; node < nodes; ++node) {
+        momentum.col(k) += model::NodeTable::slots(inertia, static_cast<int>(node)).col(0);
+        displaced.col(k).segment<3>(3 * node) = shape[static_cast<std::size_t>(node)].head<3>();
+      }
+    }
+    const Eigen::MatrixXd chosen = choose_combinations(momentum, displaced, model.mass());
+    const Eigen::MatrixXd combined = pairs.vectors(Eigen::all, zeros) * chosen;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      pairs.vectors.col(zeros[static_cast<std::size_t>(k)]) = combined.col(k);
+    }
+  }
+
   // What is so little of the tangent may be all that its modes feel.
   bool is_hidden_asymmetry(const solver::EigenPairs& pairs) const {
     if (linear_.asymmetry <= least_asymmetry) return false;
     std::vector<double> squares = pairs.values;
     for (std::size_t i = 0; i < squares.size(); ++i) {
-      if (std::abs(squares[i]) <= zero_bound * pairs.rounding[i]) squares[i] = 0.0;
+      if (is_zero(pairs, i)) squares[i] = 0.0;
     }
     const parallel::Comm& comm = context_.system.comm();
     return hides_asymmetry(whole(*linear_.stiffness, comm), whole(*linear_.mass, comm), squares,
