@@ -24,6 +24,10 @@ Field height_field() { return number("Height", "m", "Extent along d3.").positive
 
 // Adds a structure of one node with mass.
 void build(const Options& options, const Inertia& inertia, structure::StructureContext& context) {
+  if (context.budget != nullptr) {
+    constexpr double nodes = 2.0;  // a body takes 13 kB, as two nodes of a beam do
+    context.budget->take_beam(1.0, nodes, options.where());
+  }
   const Mat3 triad = Eigen::Map<const Mat3>(options.numbers("Directors").data());
   if (triad_defect(triad) > 1e-6) {
     context.issues.add(options.where("Directors"),

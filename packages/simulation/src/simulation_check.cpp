@@ -15,6 +15,13 @@ namespace {
 // Of a factorisation that is worth a look at the start: some seconds.
 constexpr double most_operations = 2e10;
 
+// Factors are predicted as those of the solver that fits the model best, or of the iterative one.
+std::string named_solver(const Options& deck, const Phase& phase) {
+  const std::string& name = deck.list("Solver").text("Linear Solver");
+  if (name == "Automatic" || phase.linear.is_iterative) return {};
+  return fmt::format("; factors are those that 'Automatic' would take, '{}' may take more", name);
+}
+
 }  // namespace
 
 void Simulation::examine() {
@@ -62,7 +69,8 @@ std::string Simulation::summary() const {
   }
   text += report_unknowns(model) + fmt::format("matrix entries: {}\n", entries);
   text += fmt::format("linear solver: {}\n", phase.linear.reason);
-  text += fmt::format("memory, predicted: {}\n\n", need.text());
+  text +=
+      fmt::format("memory, predicted: {}{}\n\n", need.text(), named_solver(parts_->deck, phase));
   text +=
       fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
   const auto count = [](const std::optional<long long>& n) {
