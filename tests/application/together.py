@@ -308,6 +308,50 @@ FALLS = [
     for scheme in ("Conserving", "Generalised Alpha", "Trapezoidal")
 ]
 
+# --- modes at 0 Hz may be combined at will: three translations, two turns, and one that displaces nothing
+
+def has_masses_of_free_beam(folder, _):
+    with open(folder / "out/analyses/modes/modes.csv", newline="") as file:
+        found = [float(row["modal mass [kg]"]) for row in csv.DictReader(file)][:6]
+    wanted = [1, 1, 1, 1 / 3, 1 / 3, 0]
+    return "" if all(abs(f - w) < 1e-4 for f, w in zip(found, wanted)) else f"the modal masses are {found}"
+
+
+# --- a bar that is warmed and cooled stores and gives back what dwarfs all else
+
+def is_kept(folder, text):
+    lines = [line for line in text.splitlines() if "energy balance" in line]
+    return "" if len(lines) == 1 and lines[0].endswith("kept") else f"the balance of energy: {lines}"
+
+
+def breathing():
+    line = entry("Curve", Type="Line", From="{0, 0, 0}", To="{1, 0, 0}", Up="{0, 0, 1}", Elements="8")
+    return deck(
+        listed("Sections", entry("rod", Type="Rectangle", Young_Modulus="2e11", Poisson_Ratio="0.3", Density="7800", Width="0.02",
+                                 Height="0.02", Expansion="1.2e-5")),
+        listed("Functions", entry("warm", Type="Sinusoidal", Period="3")),
+        listed("Structures", entry("rod", Type="Beam", Section="rod").replace("</ParameterList>", f"{line}</ParameterList>")),
+        listed("Constraints", entry("clamp", Type="Rigid Support", Node="rod/first")),
+        listed("Loads", entry("heat", Type="Temperature", Structure="rod", Value="50", Function="warm")),
+        listed("Analyses", entry("motion", Type="Dynamic", Step="0.05", End_Time="10")))
+
+
+# --- a strip of 1 m by 0.02 m by 0.01 m, clamped at one end and bent by a tenth of its thickness at the other
+
+SAG = 1e-3  # m
+
+def slender():
+    mesh = entry("Mesh", Type="Plane", Side_1="{1, 0, 0}", Side_2="{0, 0.02, 0}", Elements="{20, 1}")
+    shell = entry("strip", Type="Shell", Material="soft", Thickness="0.01", Fidelity="Linear")
+    force = SAG * 3 * 1e9 * 0.01**3 / 12  # per metre of the edge
+    return deck(listed("Materials", entry("soft", Type="Isotropic", Young_Modulus="1e9", Poisson_Ratio="0", Density="1000")),
+                listed("Structures", shell.replace("</ParameterList>", f"{mesh}</ParameterList>")),
+                listed("Constraints", entry("clamp", Type="Rigid Support", Node="strip/u0")),
+                listed("Loads", entry("edge", Type="Line Force", Structure="strip/u1", Force=f"{{0, 0, {force}}}")),
+                listed("Analyses", entry("bend", Type="Static", Steps="1")),
+                listed("Output", listed("History", entry("end", Type="Displacement", Node="strip/u1 v0"))))
+
+
 # --- what hangs from a hinge is held by the weight that it carries
 
 ROD_WEIGHT = 7800 * 0.05**2 * 1.0 * 9.81
@@ -331,6 +375,21 @@ def hinged(end, *more, sideways="0"):
     )
 
 
+def hinged_bar(steps):
+    """A cantilever along x, and a bar on a hinge at its end that a force at the other end turns by a right angle."""
+    def beam(name, first):
+        line = entry("Curve", Type="Line", From=f"{{{first}, 0, 0}}", To=f"{{{first + 1}, 0, 0}}", Elements="2")
+        return entry(name, Type="Beam", Section="bar").replace("</ParameterList>", f"{line}</ParameterList>")
+
+    bar = entry("bar", Type="Stiffness Values", EA="1e5", GA1="1e5", GA2="1e5", EI1="10", EI2="10", GIp="10")
+    return deck(listed("Sections", bar), listed("Structures", beam("held", 0), beam("hung", 1)),
+                listed("Constraints", entry("clamp", Type="Rigid Support", Node="held/first"),
+                       entry("hinge", Type="Revolute Joint", First="held/last", Second="hung/first", Axis="{0, 1, 0}")),
+                listed("Loads", entry("push", Type="Force", Node="hung/last", Force="{0, 0, 1}")),
+                listed("Analyses", entry("swing", Type="Static", Steps=steps)),
+                listed("Output", listed("History", entry("tip", Type="Position", Node="hung/last"))))
+
+
 PULLED = entry("pull", Type="Static", Start_Level="1", Final_Level="2", Steps="4")
 SWING = math.atan2(SIDEWAYS, ROD_WEIGHT / 2)
 SWING_OF_LONG = math.atan2(SIDEWAYS, 1.25 * ROD_WEIGHT / 2)
@@ -342,6 +401,9 @@ HANGING = [
          check=ends_with("tip z [m]", -1.25 * math.cos(SWING_OF_LONG), 1e-5)),
     Case("a rod that stands on its hinge", 0, args=RUN, leaves=["out"], deck=hinged("1"),
          says=["warning: between the levels 0 and 0.5 the determinant of the stiffness changes its sign"]),
+    *(Case(f"a bar on a hinge that is pushed aside swings to where it hangs: {steps} steps", 0, args=RUN, leaves=["out"],
+           deck=hinged_bar(steps), never=["determinant"], check=ends_with("tip z [m]", 1.03331624, 1e-6), ranks=True)
+      for steps in (1, 2, 5, 20)),
     Case("a rod without weight", 4, args=RUN, leaves=["out"], deck=hinged("-1").replace("-9.81}", "0}"),
          says=["The equations are singular at level 0, before the first step.\nLikely cause: a mechanism."]),
 ]
@@ -517,5 +579,15 @@ CASES = [
     Case("one node of it that is thrown", 0, args=RUN, leaves=["out"], deck=flying("plate/u1 v1"),
          says=["warning: initial velocities were made to fit the constraints"]),
     *HEATED,
+    Case("a bar that breathes with its temperature keeps its energy", 0, args="run deck.xml --output out", leaves=["out"], errors=[],
+         silent=False, deck=breathing(), check=is_kept),
+    Case("the frame of a slender strip does not roll", 0, args=RUN, leaves=["out"], errors=[], deck=slender(),
+         check=ends_with("end uz [m]", SAG, 2e-3 * SAG)),
+    *(Case(f"modal masses of a free beam, {form}", 0, args=f"run deck.xml --output out --quiet --set 'Solver/Form={form}'",
+           leaves=["out"], errors=[], deck=(INPUTS / "modes/free_beam.xml").read_text(), check=has_masses_of_free_beam, ranks=True)
+      for form in ("Null Space", "Multipliers")),
+    Case("the memory that bodies need is predicted", 0, args="check deck.xml --set 'Solver/Linear Solver=KLU2'", silent=False,
+         deck=flying("plate").replace(listed("Structures", plate("Rigid")), listed("Structures", plate("Rigid"), HUB)),
+         prints=["; factors are those that 'Automatic' would take, 'KLU2' may take more"]),
     *JOINED,
 ]

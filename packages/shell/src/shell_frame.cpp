@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace culm::shell {
@@ -43,18 +44,67 @@ std::vector<Eigen::Index> spread_out(const Points& x, int most) {
   return chosen;
 }
 
+using Inertia = Eigen::SelfAdjointEigenSolver<Mat3>;
+
+Points about_mean(const Points& x) { return x.colwise() - x.rowwise().mean(); }
+
+// How far a frame on these points rolls about their longest axis where they are bent along it:
+// angle [rad] per curvature and length of that axis. Points that lie alike on both sides of the
+// axis do not roll.
+double roll_by_bending(const Points& x) {
+  const Points from_mean = about_mean(x);
+  const Inertia inertia(from_mean * from_mean.transpose());
+  const double length = std::sqrt(inertia.eigenvalues()[2]);
+  const Eigen::RowVectorXd along = inertia.eigenvectors().col(2).transpose() * from_mean;
+  const Eigen::RowVectorXd across = inertia.eigenvectors().col(1).transpose() * from_mean;
+  const Eigen::RowVectorXd squares = along.cwiseAbs2();
+  const double cubes = across.dot(squares.cwiseProduct(along)) / length;
+  return std::hypot(across.dot(squares), cubes) / (inertia.eigenvalues()[1] * length);
+}
+
+// The points that lie farthest to each corner of a shell as seen along its principal axes.
+std::vector<Eigen::Index> corners(const Points& x) {
+  const Points from_mean = about_mean(x);
+  const Inertia inertia(from_mean * from_mean.transpose());
+  const Eigen::RowVectorXd along = inertia.eigenvectors().col(2).transpose() * from_mean;
+  const Eigen::RowVectorXd across = inertia.eigenvectors().col(1).transpose() * from_mean;
+  std::vector<Eigen::Index> found;
+  for (const double first : {-1.0, 1.0}) {
+    for (const double second : {-1.0, 1.0}) {
+      Eigen::Index farthest = 0;
+      (first / along.cwiseAbs().maxCoeff() * along + second / across.cwiseAbs().maxCoeff() * across)
+          .maxCoeff(&farthest);
+      if (std::ranges::find(found, farthest) == found.end()) found.push_back(farthest);
+    }
+  }
+  return found;
+}
+
+// Points for a frame. In a slender strip those that are far from each other lie in a row, on one
+// edge here and on the other there, so that bending makes them roll.
+std::vector<Eigen::Index> choose_points(const Points& x, int most) {
+  constexpr double little = 0.5;
+  const auto roll = [&](const std::vector<Eigen::Index>& points) {
+    return roll_by_bending(x(Eigen::all, points));
+  };
+  std::vector<Eigen::Index> far = spread_out(x, most);
+  if (roll(far) < little) return far;
+  std::vector<Eigen::Index> four = corners(x);
+  const bool is_worse = roll(four) >= roll(far);  // far ones may lie on one edge, and have none
+  return four.size() == 4 && !is_worse ? four : far;
+}
+
 }  // namespace
 
 int add_frame(const std::string& shell, const std::vector<int>& nodes, model::Model& model) {
   constexpr int most = model::ConstraintBatch::max_nodes - 1;
+  const Points all = positions(nodes, model.nodes());
+  const std::vector<Eigen::Index> points = choose_points(all, most);
   std::vector<int> chosen;
-  for (Eigen::Index column : spread_out(positions(nodes, model.nodes()), most)) {
-    chosen.push_back(nodes[static_cast<std::size_t>(column)]);
-  }
-  Points x = positions(chosen, model.nodes());
-  const Vec3 mean = x.rowwise().mean();
-  x.colwise() -= mean;
-  const Eigen::SelfAdjointEigenSolver<Mat3> inertia(x * x.transpose());
+  for (Eigen::Index column : points) chosen.push_back(nodes[static_cast<std::size_t>(column)]);
+  const Vec3 mean = all(Eigen::all, points).rowwise().mean();
+  const Points x = about_mean(all(Eigen::all, points));
+  const Inertia inertia(x * x.transpose());
   const Vec3 largest = inertia.eigenvectors().col(2);
   const Vec3 second = inertia.eigenvectors().col(1);
 
