@@ -65,7 +65,7 @@ TEST(Certificate, SeesWhatBreaksJustBeforeTheEnd) {
 
 TEST(Certificate, WhatIsNotANumberIsNotKept) {
   Motion chain(build_free_chain);
-  Certificate certificate(*chain.system, true);
+  Certificate certificate(*chain.system, true, true);
   certificate.start(chain.state);
   for (double& v : chain.state.velocity) v *= 1e300;  // their energies are beyond all numbers
   certificate.compare(chain.state);
