@@ -4,8 +4,8 @@ include(GoogleTest)
 
 # Open MPI: start as root (containers), allow more ranks than cores, do not pin ranks, because tests
 # that run side by side would all be pinned to the same cores, and let ranks that wait yield to those
-# that work. Do not look for fast networks and do not wait a second for processes that have ended: short
-# runs are many.
+# that work. Do not look for fast networks and devices and do not wait a second for processes that have ended:
+# short runs are many.
 set(CULM_TEST_ENVIRONMENT
     OMPI_ALLOW_RUN_AS_ROOT=1
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
@@ -15,6 +15,7 @@ set(CULM_TEST_ENVIRONMENT
     OMPI_MCA_pml=ob1
     OMPI_MCA_odls_base_sigkill_timeout=0
     OMPI_MCA_btl_vader_single_copy_mechanism=none
+    HWLOC_COMPONENTS=-pci,-linuxio,-x86
     OPENBLAS_NUM_THREADS=1
 )
 

@@ -26,6 +26,7 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    "HWLOC_COMPONENTS": "-pci,-linuxio,-x86",
     "OPENBLAS_NUM_THREADS": "1",
 }
 
