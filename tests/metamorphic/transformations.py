@@ -313,3 +313,15 @@ class Reorder:
 
     def column(self, name, columns):
         return np.array(columns[name])
+
+
+class InTurn:
+    """One change after the other, the second of which leaves columns as they are."""
+
+    def __init__(self, first, second):
+        self.first, self.second = first, second
+        self.name = f"{first.name}; {second.name}"
+        self.column = first.column
+
+    def deck(self, root, reference):
+        return self.second.deck(self.first.deck(root, reference), reference)
