@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Vortex lattice: steady wings, a wing that rests, flutter in time. Page: doc/verification/lattice.md."""
 
+import functools
 import math
 import pathlib
 import tempfile
@@ -35,13 +36,19 @@ def flutter(culm, low, high, overrides=()):
     return low + share * (high - low), w0 + share * (w1 - w0)
 
 
+@functools.cache
+def by_eigenvalues(culm):
+    """Speeds of flutter and of divergence."""
+    return culm.table("sweep/onset", BY_EIGENVALUES)
+
+
 def verify_flutter(culm, report):
     report.title("Goland's wing: flutter in time, 8 x 12 panels, wake of 12 chords")
     speed, omega = flutter(culm, 161.0, 162.0)
     report.relative("speed of flutter [m/s]", speed, FLUTTER[8], 0.005)
     report.relative("frequency [rad/s]", omega, 68.8, 0.01)
     report.title("The same by eigenvalues, whose wake has no end, against time and against 3 + 3 modes")
-    onset = culm.table("sweep/onset", BY_EIGENVALUES)
+    onset = by_eigenvalues(culm)
     report.relative("speed of flutter [m/s]", onset.at(1, "level"), speed, 2e-4)
     report.relative("the same [m/s]", onset.at(1, "level"), FLUTTER[8], 1e-3)
     report.relative("frequency [rad/s]", 2.0 * math.pi * onset.at(1, "frequency [Hz]"), omega, 1.5e-3)
@@ -179,7 +186,7 @@ MODES = """    <ParameterList name="steady">
 
 def verify_divergence(culm, report):
     report.title("Divergence of Goland's wing by its lattice, and statics on both sides of it at 1e-7 rad")
-    speed = culm.table("sweep/onset", BY_EIGENVALUES).at(2, "level")
+    speed = by_eigenvalues(culm).at(2, "level")
     report.note(f"diverges at {speed:.4f} m/s")
     text = (INPUTS / BY_EIGENVALUES).read_text().replace(SWEEP, AT_ONCE)
     with tempfile.TemporaryDirectory() as folder:
