@@ -2,6 +2,7 @@
 of runs with it and without it."""
 
 import argparse
+import functools
 import pathlib
 import re
 import shutil
@@ -94,7 +95,8 @@ def unwatched(deck, folder):
     return copied
 
 
-def effects(program, deck, settings):
+@functools.cache
+def effects(program, deck, *settings):
     with tempfile.TemporaryDirectory(prefix="culm") as folder:
         run = program.run(unwatched(deck, folder), pathlib.Path(folder) / "run", settings)
         if not run.succeeded:
@@ -111,7 +113,7 @@ def entries(table):
 
 
 def complaints(program, name, deck, on, off, is_replaced):
-    whole, without = effects(program, deck, on), effects(program, deck, off)
+    whole, without = effects(program, deck, *on), effects(program, deck, *off)
     lines = [e for e in whole if e.name.startswith(name)]
     if not lines or not all(e.calls > 0 for e in lines):
         yield "it is not there when it is on"
