@@ -129,9 +129,11 @@ def theory(ply, angles, ratio, solid):
 FACTOR = 12.0 * (1.0 - 0.3**2) / math.pi**2  # k over N a^2 / (E h^3)
 
 
-def verify_plate(culm, report):
+def verify_plate(culm, report, ratios=(5, 10, 100)):
     report.title("BU-2: plate pressed in one direction, limit of 8 x 8 and 16 x 16")
     for ratio, reference in NAVIER.items():
+        if ratio not in ratios:
+            continue
         what = f"k, a/h = {ratio}"
         own = FACTOR * theory(ISOTROPIC, (0,), ratio, False)
         report.relative(f"{what}: Navier, own and collection", own, reference, 1e-5)
@@ -191,6 +193,7 @@ def verify_loaded(culm, report):
 
 
 def fine(culm, report):
+    verify_plate(culm, report, (20, 50))
     report.title("BU-2: plates, a/h = 10, three meshes up to 32 x 32")
     for ply, angles in ((ISOTROPIC, (0,)), *((PLY, angles) for angles in CROSS_PLIES)):
         for film in (False, True):

@@ -105,9 +105,9 @@ def verify_loss(culm, report):
         found = runs(culm, deck, 2.0 * period, period / 40.0, settings)
         check(report, f"{deck}, two cycles [J]", [run.books()[TAKEN] for run in found], exact, 1e-8 * exact)
         check_balance(report, deck, found[-1])
-        # the start has died away after 12 cycles: exp(-37)
+        # the start has died away after 7 cycles: exp(-22)
         books = [[run.books()[TAKEN] for run in runs(culm, deck, cycles * period, period / 40.0, settings)]
-                 for cycles in (12, 13)]
+                 for cycles in (7, 8)]
         cycle = romberg([b - a for a, b in zip(*books)], (2, 4, 6))
         stored = 0.5 * k * size**2 * (1.0 + G * omega * T * share)
         report.relative(f"{deck}, loss factor", cycle / (2.0 * math.pi * stored),
