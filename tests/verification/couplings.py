@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Structures and partners, each with steps of its own. Page: doc/verification/couplings.md."""
 
+import functools
 import math
 import pathlib
 import re
@@ -109,6 +110,17 @@ class Mast:
         return path
 
 
+    @functools.cache
+    def heavier(self, culm, mass):
+        """History of the mast with a mass in the model."""
+        return culm.history(self.deck(masses=[mass]))
+
+    @functools.cache
+    def in_water(self, culm, mass, scheme):
+        """A run with water at five points."""
+        return culm.run(self.deck(water(mass, "wet"), Scheme=scheme, **{"Most Attempts": 400}), quiet=False)
+
+
 def number(run, pattern):
     return float(re.search(pattern, run.output).group(1))
 
@@ -137,7 +149,7 @@ def swing(steps=1, **more):
 def verify_identity(culm, mast, report):
     report.title("A mass behind a port is a mass in the model")
     for mass in (4.5, 45.0, 4500.0):
-        together = culm.history(mast.deck(masses=[mass]))
+        together = mast.heavier(culm, mass)
         run = culm.run(mast.deck(water(mass), Tolerance=1e-11), quiet=False)
         report.holds(f"{mass:g} kg, {attempts(run):.1f} attempts per window: top, m",
                      largest_difference(run.history, together), 1e-10)
@@ -148,7 +160,7 @@ def verify_identity(culm, mast, report):
 def verify_parallel(culm, mast, report):
     report.title("Structure and partner at the same time: the mass in the model again, balance, and two partners")
     for mass in (4.5, 45.0, 4500.0):
-        together = culm.history(mast.deck(masses=[mass]))
+        together = mast.heavier(culm, mass)
         run = culm.run(mast.deck(water(mass), Tolerance=1e-11, Parallel="true"), quiet=False)
         report.holds(f"{mass:g} kg, {attempts(run):.1f} attempts per window: top, m",
                      largest_difference(run.history, together), 1e-10)
@@ -163,9 +175,9 @@ def verify_parallel(culm, mast, report):
     report.holds(f"two partners, {attempts(serial):.1f} and {attempts(parallel):.1f} attempts per window: top, m",
                  largest_difference(serial.history, parallel.history), 1e-10)
     for scheme in ("Aitken", "Quasi Newton"):
+        parallel = culm.run(mast.deck(water(2.0, "wet"), Scheme=scheme, Parallel="true", **{"Most Attempts": 400}), quiet=False)
         found = {}
-        for how in ("false", "true"):
-            run = culm.run(mast.deck(water(2.0, "wet"), Scheme=scheme, Parallel=how, **{"Most Attempts": 400}), quiet=False)
+        for how, run in (("false", mast.in_water(culm, 2.0, scheme)), ("true", parallel)):
             report.check(f"{scheme}: exit code", run.exit, 0, 0)
             found[how] = attempts(run)
         report.note(f"{scheme}, 2 kg at five points: serial {found['false']:.1f}, parallel {found['true']:.1f}")
@@ -211,7 +223,7 @@ def verify_schemes(culm, mast, report):
     for mass in (2.0, 20.0, 200.0):
         found = {}
         for scheme in ("Aitken", "Quasi Newton"):
-            run = culm.run(mast.deck(water(mass, "wet"), Scheme=scheme, **{"Most Attempts": 400}), quiet=False)
+            run = mast.in_water(culm, mass, scheme)
             found[scheme] = attempts(run) if run.exit == 0 else math.inf
         report.note(f"{mass:g} kg per point: Aitken {found['Aitken']:.1f}, quasi-Newton {found['Quasi Newton']:.1f}")
         report.holds("quasi-Newton over Aitken", found["Quasi Newton"] / found["Aitken"], 1.0 if mass < 10 else 0.6)
