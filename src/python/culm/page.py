@@ -56,12 +56,13 @@ class Page:
         self.parts.append(f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>")
 
     def figure(self, figure, description):
-        """A figure of matplotlib, as a picture within the page."""
+        """A figure of matplotlib, as a picture within the page; returns the picture."""
         data = io.BytesIO()
         figure.savefig(data, format="png", dpi=130)
         text = base64.b64encode(data.getvalue()).decode()
         alt = html.escape(description, quote=True)
         self.parts.append(f'<p><img alt="{alt}" src="data:image/png;base64,{text}"></p>')
+        return data.getvalue()
 
     def write(self, path):
         body = "\n".join(self.parts)

@@ -113,11 +113,12 @@ def draw(judgement):
 
 
 def write_page(judgement, title, command, path, figure, promise=None):
+    """study.html; returns its picture."""
     page = Page(f"Study: {title}", command)
     page.paragraph(_capital(advice.sentence(judgement)) + ".", "advice")
     if promise:
         page.paragraph(promise, "advice")
-    page.figure(figure, "error against CPU time, and against each variation")
+    picture = page.figure(figure, "error against CPU time, and against each variation")
     page.paragraph(explanation(judgement))
     for note in judgement.notes:
         page.paragraph(note, "warning")
@@ -152,6 +153,7 @@ def write_page(judgement, title, command, path, figure, promise=None):
         page.heading("Failures")
         page.code("\n".join(reasons))
     page.write(path)
+    return picture
 
 
 def explanation(judgement):
@@ -292,6 +294,6 @@ def write_all(judgement, deck, command, folder, promise=None):
     if judgement.plan.reference is None and judgement.measure.parts:
         write_reference(judgement, folder / "reference.csv")
     figure = draw(judgement)
-    figure.savefig(folder / "study.png", dpi=110)
-    write_page(judgement, deck, command, folder / "study.html", figure, promise)
+    picture = write_page(judgement, deck, command, folder / "study.html", figure, promise)
+    (folder / "study.png").write_bytes(picture)
     drawing.close(figure)
