@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Signals, controllers and actuators. Page: doc/verification/controls.md."""
 
+import functools
 import math
 
 import numpy as np
@@ -70,11 +71,14 @@ def verify_schedule(culm, report):
             report.holds(f"halved at {halved_at:g}: pole {pole:.4f}, relative,", apart / abs(pole), 1e-9)
 
 
-def variable_at(times):
-    """Filtered speed, counter-torque and limited integral of the rotor at variable speed, by an integrator of its own."""
+def torque(speed):
+    """Of the generator at variable speed."""
+    return max(min(np.interp(speed, [1.0, 1.4, 2.0], [0.0, 2.0, 8.0]), 12.0 / speed), 0.5)
 
-    def torque(speed):
-        return max(min(np.interp(speed, [1.0, 1.4, 2.0], [0.0, 2.0, 8.0]), 12.0 / speed), 0.5)
+
+@functools.cache
+def variable_motion(end):
+    """Speed, filtered speed and limited integral of the rotor at variable speed, by an integrator of its own."""
 
     def rates(t, y):
         speed, filtered, excess = y
@@ -82,32 +86,35 @@ def variable_at(times):
         beyond = min(max(excess, 0.0), 0.2) - excess
         return [(drive - torque(filtered)) / 2.0, (speed - filtered) / 0.2, filtered - 1.6 + beyond / 0.05]
 
-    found = solve_ivp(rates, (0.0, times[-1]), [1.5, 1.5, 0.0], t_eval=times, rtol=1e-10, atol=1e-12, max_step=1e-3).y
-    powers = [[(3.0 + 5.0 * math.sin(1.3 * t)) * speed, -torque(filtered) * speed]
-              for t, speed, filtered in zip(times, found[0], found[1])]
-    return found[1], [torque(speed) for speed in found[1]], found[2], np.transpose(powers)
+    return solve_ivp(rates, (0.0, end), [1.5, 1.5, 0.0], dense_output=True, rtol=1e-10, atol=1e-12, max_step=1e-3).sol
 
 
-def variable_error(culm, step):
-    history = culm.history(VARIABLE, [f"Analyses/motion/Step={step}"])
+def variable_at(times):
+    """Filtered speed, limited integral, powers of wind and generator."""
+    speed, filtered, excess = variable_motion(round(float(times[-1]), 9))(times)
+    powers = [[(3.0 + 5.0 * math.sin(1.3 * t)) * v, -torque(behind) * v] for t, v, behind in zip(times, speed, filtered)]
+    return filtered, excess, np.transpose(powers)
+
+
+def variable_error(history):
     times = np.array(history.levels)
-    speed, _, excess, _ = variable_at(times)
+    speed, excess, _ = variable_at(times)
     return [np.abs(np.array(history.column(name)) - wanted).max()
             for name, wanted in (("speed [1]", speed), ("turned too far [1]", excess))]
 
 
 def verify_variable_speed(culm, report):
     report.title("Rotor at variable speed: table, power over speed, least, greatest, limited integral")
-    coarse, fine = (variable_error(culm, step) for step in (0.02, 0.0025))
+    run = culm.run(VARIABLE, ["Analyses/motion/Step=0.0025"], quiet=False)
+    coarse, fine = map(variable_error, (culm.history(VARIABLE, ["Analyses/motion/Step=0.02"]), run.history))
     for name, a, b in zip(("filtered speed", "limited integral"), coarse, fine):
         report.holds(f"{name} at 0.0025 s", b, 1e-4)
         # corners lie within steps, here early and there late
         report.check(f"{name}: order of the step", math.log2(a / b) / 3.0, 2.0, 0.6)
     report.title("The same: works of wind and generator, each on its account")
-    run = culm.run(VARIABLE, ["Analyses/motion/Step=0.0025"], quiet=False)
     times = np.linspace(0.0, 10.0, 4001)
     books = run.books()
-    for account, power in zip(("wind", "generator"), variable_at(times)[3]):
+    for account, power in zip(("wind", "generator"), variable_at(times)[2]):
         report.relative(f"{account} [J]", books[f"work of loads, {account}"], float(simpson(power, x=times)), 1e-4)
     report.holds("books: gain less the works [J]", abs(gain(books)), 1e-9 * books["work of loads, wind"])
     for what, speed, drive, slope in (("table", 1.5, 3.0, 10.0), ("constant power", 2.4, 5.0, -12.0 / 2.4**2)):
@@ -124,22 +131,26 @@ def actuator_at(times, step=1e-4):
     """The actuator of the deck by Runge and Kutta's method, with steps that meet its switches."""
     omega, zeta, rate = 2.0 * math.pi * 1.5, 0.7, 0.6
 
-    def derivative(t, y):
+    def acceleration(t, angle, velocity):
         command = 0.0 if t < 0.2 else 0.3 if t < 3.0 else 1.0
-        wanted = max(-rate, min(rate, omega / (2 * zeta) * (command - y[0])))
-        return np.array([y[1], 2 * zeta * omega * (wanted - y[1])])
+        wanted = max(-rate, min(rate, omega / (2 * zeta) * (command - angle)))
+        return 2 * zeta * omega * (wanted - velocity)
 
-    y, values, now = np.zeros(2), [], 0
+    angle, velocity, values, now = 0.0, 0.0, [], 0
     for time in times:
         while now < round(time / step):
             t = (now + 1e-9) * step  # behind a switch
-            k1 = derivative(t, y)
-            k2 = derivative(t + step / 2, y + step / 2 * k1)
-            k3 = derivative(t + step / 2, y + step / 2 * k2)
-            k4 = derivative(t + (1 - 2e-9) * step, y + step * k3)
-            y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            v1, a1 = velocity, acceleration(t, angle, velocity)
+            v2 = velocity + step / 2 * a1
+            a2 = acceleration(t + step / 2, angle + step / 2 * v1, v2)
+            v3 = velocity + step / 2 * a2
+            a3 = acceleration(t + step / 2, angle + step / 2 * v2, v3)
+            v4 = velocity + step * a3
+            a4 = acceleration(t + (1 - 2e-9) * step, angle + step * v3, v4)
+            angle += step / 6 * (v1 + 2 * v2 + 2 * v3 + v4)
+            velocity += step / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
             now += 1
-        values.append(y[0])
+        values.append(angle)
     return np.array(values)
 
 
