@@ -111,27 +111,32 @@ def tip(z):
     return 30e6 * table([(a * DIAMETER, b) for a, b in points], z)
 
 
-def pushed(culm, move, cyclic):
-    """What holds the pile of 35 m in the ground when all of it is moved: the reaction of its head, without other supports."""
-    settings = ["Structures/pile/Fidelity=Rigid", "Loads/push/Force={0, 0, 0}", "Analyses/push/Steps=1", "Analyses/modes/Inactive={head}",
-                "Constraints/head/Type=Rigid Support", "Constraints/head/Node=pile/first", f"Constraints/head/Translation={move}",
+def pushed(culm, direction, moves, cyclic, component):
+    """What holds the pile of 35 m in the ground when all of it is moved, so far one after the other: the reaction of its head,
+    without other supports."""
+    move = ", ".join(repr(moves[-1] * share) for share in direction)
+    levels = [one / moves[-1] for one in moves]
+    settings = ["Structures/pile/Fidelity=Rigid", "Loads/push/Force={0, 0, 0}", "Analyses/modes/Inactive={head}",
+                f"Analyses/push/Levels={{{', '.join(map(repr, levels))}}}",
+                "Constraints/head/Type=Rigid Support", "Constraints/head/Node=pile/first", f"Constraints/head/Translation={{{move}}}",
                 "Output/History/head force/Type=Reaction", "Output/History/head force/Node=pile/first",
                 f"Loads/soil/Cyclic={str(cyclic).lower()}"]
-    return culm.history(MONOPILE, settings)
+    history = culm.history(MONOPILE, settings)
+    return [history.at(level, f"head force {component} [N]") for level in levels]
 
 
 def verify_laws(culm, report):
     report.title("Laws of API RP 2A and Matlock, 60 stations on a rigid pile")
     depths = [(i + 0.5) * 35.0 / 60 for i in range(60)]
+    moves = (0.005, 0.03, 0.3, 1.5, 2.5)
     for cyclic in (False, True):
-        for y in (0.005, 0.03, 0.3, 1.5, 2.5):
-            found = -pushed(culm, f"{{{0.6 * y}, {0.8 * y}, 0}}", cyclic).column("head force Fx [N]")[-1] / 0.6
+        for y, force in zip(moves, pushed(culm, (0.6, 0.8, 0.0), moves, cyclic, "Fx")):
             wanted = sum((sand if X > TOP else clay)(X, y, cyclic) * 35.0 / 60 for X in depths)
-            report.relative(f"{'cyclic, ' if cyclic else ''}{y} m across [N]", abs(found), wanted, 1e-9)
-    for z in (0.001, 0.01, 0.05, 0.3, 1.0):
-        found = pushed(culm, f"{{0, 0, {-z}}}", False).column("head force Fz [N]")[-1]
+            report.relative(f"{'cyclic, ' if cyclic else ''}{y} m across [N]", abs(force) / 0.6, wanted, 1e-9)
+    moves = (0.001, 0.01, 0.05, 0.3, 1.0)
+    for z, force in zip(moves, pushed(culm, (0.0, 0.0, -1.0), moves, False, "Fz")):
         wanted = sum(shaft(X, z) * 35.0 / 60 for X in depths) + tip(z)
-        report.relative(f"{z} m down [N]", abs(found), wanted, 1e-9)
+        report.relative(f"{z} m down [N]", abs(force), wanted, 1e-9)
 
 
 def verify_widths(culm, report):
