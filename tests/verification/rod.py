@@ -3,7 +3,7 @@
 Along the arc length s: x' = R (e3 + Gamma), R' = R [K0 + K] with the strains from the 6x6 section
 stiffness, n' = -f, m' = -x' x n - l. The integration (Runge-Kutta of order 4, triads by the
 exponential map) runs from the free tip to the clamped root. The unknown is the state of the tip;
-Newton's method with differences finds the one for which the root stands where it is clamped. With
+Newton's method finds the one for which the root stands where it is clamped. With
 follower loads alone the tip is known in its own axes, and nothing needs to be solved.
 """
 
@@ -125,20 +125,27 @@ class Rod:
                 states = self._integrate(start, part * force, part * moment, scaled)
                 return log_rotation(states[0][1] @ self.root.T), states
 
-            tip, states = self._newton(miss, tip)
+            # those before the last one are starts only
+            tip, states = self._newton(miss, tip, 1e-12 if level == levels else 1e-4)
         return self._place(states)
 
     @staticmethod
-    def _newton(miss, tip, tolerance=1e-12):
-        turn = np.zeros(3)
-        for _ in range(30):
+    def _newton(miss, tip, tolerance):
+        """With slopes by Broyden's updates, which cost no integrations, while the error falls by them."""
+        turn, slope, before = np.zeros(3), None, np.inf
+        for _ in range(60):
             error, states = miss(turn)
-            if np.linalg.norm(error) < tolerance:
+            size = np.linalg.norm(error)
+            if size < tolerance:
                 return exp_rotation(turn) @ tip, states
-            slope = np.column_stack(
-                [(miss(turn + 1e-6 * e)[0] - miss(turn - 1e-6 * e)[0]) / 2e-6 for e in np.eye(3)]
-            )
-            turn = turn - np.linalg.solve(slope, error)
+            if slope is None or size > 0.2 * before:
+                slope = np.column_stack(
+                    [(miss(turn + 1e-6 * e)[0] - miss(turn - 1e-6 * e)[0]) / 2e-6 for e in np.eye(3)]
+                )
+            else:
+                slope = slope + np.outer(error, change) / (change @ change)
+            before, change = size, -np.linalg.solve(slope, error)
+            turn = turn + change
         raise ArithmeticError("the shooting method does not converge: more levels")
 
 
