@@ -112,12 +112,22 @@ class Run:
 class Culm:
     """The program, to be run in folders that vanish afterwards."""
 
-    def __init__(self, program, mpiexec="mpiexec"):
+    def __init__(self, program, mpiexec="mpiexec", keeps=False):
+        """@param keeps  whether a deck of inputs/ that is run once more with the same overrides gives the same result"""
         self.program = str(program)
         self.mpiexec = mpiexec
+        self.kept = {} if keeps else None
 
     def run(self, deck, settings=(), ranks=1, quiet=True):
         """Runs a deck of inputs/ (or a path) with overrides; any exit code is a result."""
+        if self.kept is None or pathlib.Path(deck).is_absolute() or any(tempfile.gettempdir() in one for one in settings):
+            return self._run(deck, settings, ranks, quiet)
+        key = (str(deck), *settings, ranks, quiet)
+        if key not in self.kept:
+            self.kept[key] = self._run(deck, settings, ranks, quiet)
+        return self.kept[key]
+
+    def _run(self, deck, settings, ranks, quiet):
         command = [self.mpiexec, "-n", str(ranks)] if ranks > 1 else []
         command += [self.program, "run", str(INPUTS / deck), *(["--quiet"] if quiet else [])]
         for setting in [*settings, "Output/Pictures=false"]:

@@ -96,7 +96,7 @@ def main(verify, plot=None, fine=None):
     if fine:
         parser.add_argument("--fine", action="store_true", help="fine meshes as well")
     arguments = parser.parse_args()
-    culm = Culm(arguments.culm)
+    culm = Culm(arguments.culm, keeps=True)
     if plot and arguments.plot:
         plot(culm, arguments.plot)
         return
