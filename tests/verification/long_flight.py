@@ -82,7 +82,7 @@ def verify_hard_cases(culm, report):
 
 
 def verify(culm, report):
-    verify_flights(culm, report, 20000)
+    verify_flights(culm, report, 10000)
     verify_dissipation(culm, report, 5000)
     verify_spin(culm, report)
     verify_hard_cases(culm, report)
