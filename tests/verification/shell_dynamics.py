@@ -187,14 +187,15 @@ def verify_snap(culm, report):
 
 
 def verify_fine(culm, report):
-    verify_flights(culm, report, 10000)
-    verify_dissipation(culm, report, 10000)
+    for steps in (300, 10000):
+        verify_flights(culm, report, steps)
+        verify_dissipation(culm, report, steps)
     verify_cantilever(culm, report, 10000)
 
 
 def verify(culm, report):
-    verify_flights(culm, report, 300)
-    verify_dissipation(culm, report, 300)
+    verify_flights(culm, report, 200)
+    verify_dissipation(culm, report, 200)
     verify_other_schemes(culm, report)
     verify_objectivity(culm, report)
     verify_cantilever(culm, report, 300)
