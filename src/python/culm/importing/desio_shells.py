@@ -3,7 +3,6 @@
 import dataclasses
 
 import numpy
-from scipy.spatial import cKDTree
 
 from .desio_files import Values, read_loads, read_masses, read_motions, read_table
 from .findings import did_you_mean, refuse
@@ -132,6 +131,8 @@ class Shells:
 
     def _check(self, shell, quads, layers, materials, corners):
         """Directors, which culm finds by the normals, and directions of layers, which culm counts from the first line."""
+        from scipy.spatial import cKDTree
+
         findings = self.reader.findings
         edges = numpy.linalg.norm(numpy.roll(corners, -1, axis=1) - corners, axis=2)
         pairs = cKDTree(shell.nodes[:, :3]).query_pairs(SAME_PLACE * edges.min())

@@ -9,7 +9,6 @@ import collections
 import dataclasses
 
 import numpy
-from scipy.spatial import cKDTree
 
 from .findings import refuse
 from .model import Layer, Wall
@@ -66,6 +65,8 @@ class ShellPart:
         self._first = numpy.arange(len(self.positions))
         tolerance = SAME_PLACE * self.shortest_edge
         if tolerance > 0.0:
+            from scipy.spatial import cKDTree  # a third of a second, and models of beams do without
+
             for i, j in sorted(cKDTree(self.positions).query_pairs(tolerance)):
                 self._first[j] = min(self._first[j], self._first[i])
 
