@@ -20,11 +20,16 @@ def cut(text, first, last):
     return text[start : text.index(last, start) + len(last)]
 
 
+def rows(folder):
+    """Values of all steps by the names of their columns."""
+    with open(folder / "out/history.csv", newline="") as file:
+        names, *steps = list(csv.reader(file))
+    return [{name: float(value or "nan") for name, value in zip(names, step)} for step in steps]
+
+
 def last_row(folder):
     """Values of the last step by the names of their columns."""
-    with open(folder / "out/history.csv", newline="") as file:
-        names, *_, last = list(csv.reader(file))
-    return {name: float(value or "nan") for name, value in zip(names, last)}
+    return rows(folder)[-1]
 
 
 def ends_with(column, value, tolerance):

@@ -3,7 +3,7 @@ steps do not see, and prescribed motions with corners."""
 
 import math
 
-from deck_text import ends_with, entry, listed
+from deck_text import ends_with, entry, listed, rows
 from driver import Case
 
 RUN = "run deck.xml --output out --quiet"
@@ -37,7 +37,6 @@ def pulse(name, speed, impulse, **function):
                 check=ends_with("speed vx [m/s]", speed, 1e-9))
 
 
-<<<<<<< HEAD
 FITS = ["initial velocities were made to fit the constraints"]
 
 
@@ -56,13 +55,47 @@ def driven(name, step, end, way, speed, function="", says=FITS, **drive):
                 deck=motion(function, step, end, constraints=constraint), check=check)
 
 
-def turned(name, at_end, says=(), **function):
+def speed_below(limit):
+    """A check of all rows."""
+    def check(folder, _):
+        fastest = max(abs(row["speed vx [m/s]"]) for row in rows(folder))
+        return "" if fastest <= limit else f"the body goes by {fastest} m/s"
+
+    return check
+
+
+def moment_is(value, tolerance):
+    """A check of the second half of all rows."""
+    def check(folder, _):
+        moments = [-row["held Mz [N m]"] for row in rows(folder)]
+        away = max(abs(abs(m) - value) for m in moments[len(moments) * 3 // 4:])
+        return "" if away <= tolerance else f"moments are {away} N m away"
+
+    return check
+
+
+def eliminated_hinge():
+    """Off the axis, struck: the hinge shows the impulse m c Omega of 2 kg at 0.5 m."""
+    body = entry("body", Type="Rigid Body", Position="{0.5, 0, 0}", Mass="2", Inertia="{1, 1, 1}")
+    pin = entry("pin", Type="Revolute Support", Node="body", Axis="{0, 0, 1}", Offset="{-0.5, 0, 0}")
+    drive = entry("drive", Type="Angular Velocity", Node="body", Axis="{0, 0, 1}", Function="f", Angular_Velocity="2")
+
+    def check(folder, _):
+        found = max(abs(row["held Fy [N]"]) for row in rows(folder))
+        return "" if abs(found - 200.0) <= 2.0 else f"the hinge shows {found} N, not 200 N"
+
+    return Case("a support without equations shows the blow of a drive", 0, args=RUN, leaves=["out"],
+                deck=motion(entry("f", Type="Heaviside", Start="0.5"), 0.01, 0.6, constraints=pin + drive).replace(BODY, body),
+                check=check)
+
+
+def spun(name, at_end, says=(), still=False, **function):
     """A body on a hinge whose speed is prescribed."""
     pin = entry("pin", Type="Revolute Support", Node="body", Axis="{0, 0, 1}")
     drive = entry("drive", Type="Angular Velocity", Node="body", Axis="{0, 0, 1}", Function="f", **{"Angular Velocity": "1"})
     return Case(f"a prescribed angular velocity that jumps: {name}", 0, args=RUN, leaves=["out"], says=says,
                 deck=motion(entry("f", **function), 0.01, 1, constraints=pin + drive, watched="Angular Velocity"),
-                check=ends_with("speed wz [rad/s]", at_end, 1e-4))
+                check=moment_is(1.0, 0.01) if still else ends_with("speed wz [rad/s]", at_end, 1e-4))
 
 
 def flying_pair():
@@ -76,9 +109,6 @@ def flying_pair():
                 prints=["  angular momentum "], never=["BROKEN", "constraints do not allow"])
 
 
-PIECES = entry("f", Type="Table", Times="{0, 0.5, 0.8, 1.4, 3}", Values="{0, 1, 0.2, 0.2, 1}")
-
-=======
 def turned(name, angle, tolerance, **function):
     """By an angular velocity of 2 rad/s times a function for a second, in steps of 0.1 s."""
     turn = entry("f", **function)
@@ -101,7 +131,8 @@ def impact(speed, share):
                 check=ends_with("speed vz [m/s]", share * speed, 1e-3 * speed))
 
 
->>>>>>> c6d44d49 (Prescribed angular velocities turn by the integral of their function; pulses are told with what they are to prescribed motions; restitution of damped contact)
+PIECES = entry("f", Type="Table", Times="{0, 0.5, 0.8, 1.4, 3}", Values="{0, 1, 0.2, 0.2, 1}")
+
 CASES = [
     turned("a formula", 2 / 3, 1e-12, Type="Expression", Expression="t^2"),
     turned("a pulse about the end of a step", 0.08, 1e-10, Type="Table", Times="{0, 0.56, 0.6, 0.64, 1}", Values="{0, 0, 1, 0, 0}"),
@@ -127,10 +158,19 @@ CASES = [
            entry("f", Type="Expression", Expression="t &lt; 0.9 ? t : 0.9"), Function="f",
            says=[*FITS, "of the velocities at the end", "is 0 at 'body/0', by Rigid Support 'drive'"]),
     flying_pair(),
-    turned("at the end of a step", 1, Type="Heaviside", Start="0.5"),
-    turned("within a step", 1, Type="Heaviside", Start="0.505"),
-    turned("at the start, away from rest", 2, says=[*FITS, "at 'body/0', by Angular Velocity 'drive'"], Type="Table",
+    spun("at the end of a step", 1, Type="Heaviside", Start="0.5"),
+    spun("within a step", 1, Type="Heaviside", Start="0.505"),
+    spun("at the start, away from rest", 2, says=[*FITS, "at 'body/0', by Angular Velocity 'drive'"], Type="Table",
            Times="{0, 0.5, 0.6, 2}", Values="{1, 1, 2, 2}"),
+    Case("a load that begins to rise late in a step is no pulse", 0, args=RUN, leaves=["out"], errors=[],
+         deck=motion(entry("f", Type="Table", Times="{0, 0.505, 2}", Values="{0, 0, 1}"), 0.01, 2, FORCE),
+         check=ends_with("speed vx [m/s]", 0.7475, 1e-5)),
+    spun("a corner within a step", 0.505, still=True, Type="Table", Times="{0, 0.495, 2.495}", Values="{0, 0, 2}"),
+    Case("a rise much shorter than the step behind it", 0, args=RUN, leaves=["out"], says=[],
+         deck=motion(entry("f", Type="Table", Times="{0, 0.5, 0.5001, 2}", Values="{0, 0, 1, 1}"), 0.01, 1,
+                     constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", Function="f")),
+         check=speed_below(20.1)),
+    eliminated_hinge(),
     Case("a prescribed motion without corners does not", 0, args=RUN, leaves=["out"], errors=[],
          deck=motion(entry("f", Type="Expression", Expression="t &lt; 1 ? (1 - cos(pi*t))/2 : 1"), 0.01, 2,
                      constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", Function="f")),

@@ -28,22 +28,28 @@ std::vector<double> jumps_of(const model::Amplitude& function) {
   return times;
 }
 
+std::ranges::subrange<std::vector<double>::const_iterator> between(const std::vector<double>& times,
+                                                                   double after, double until) {
+  return {std::ranges::upper_bound(times, after), std::ranges::upper_bound(times, until)};
+}
+
 bool is_driven(const model::Constraint& constraint) { return static_cast<bool>(constraint.drive); }
 
 }  // namespace
 
 DrivenCorners::DrivenCorners(const assembly::System& system) : system_(system) {
   const model::Model& model = system.model();
-  const bool drives_positions = std::ranges::any_of(model.equations(), is_driven);
-  const bool drives_speeds = std::ranges::any_of(
-      model.constraints(), [](const auto& c) { return !c.velocity_rows.empty(); });
+  drives_positions_ = std::ranges::any_of(model.equations(), is_driven);
+  drives_speeds_ = std::ranges::any_of(model.constraints(),
+                                       [](const auto& c) { return !c.velocity_rows.empty(); });
+  if (!drives_positions_ && !drives_speeds_) return;
   // what has no function of its own
-  if (drives_positions) corners_ = model::Amplitude::ramp().corners();
+  if (drives_positions_) corners_ = model::Amplitude::ramp().corners();
   for (const auto& [name, function] : model.functions()) {
     if (!function.is_function_of_time()) continue;
     const std::vector<double>& corners = function.corners();
-    if (drives_positions) corners_.insert(corners_.end(), corners.begin(), corners.end());
-    if (!drives_speeds) continue;
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    if (!drives_speeds_) continue;
     const std::vector<double> jumps = jumps_of(function);
     jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
   }
@@ -51,15 +57,20 @@ DrivenCorners::DrivenCorners(const assembly::System& system) : system_(system) {
   std::ranges::sort(jumps_);
 }
 
+bool DrivenCorners::are_within(double start, double end) const {
+  const double slack = same_time * (end - start);
+  return !between(corners_, start + slack, end - slack).empty();
+}
+
+// A speed that is driven has a corner of no consequence where a step ends.
 bool DrivenCorners::in_step(const model::State& state) const {
   const double step = state.time - state.time_prev;
   const double slack = same_time * step;
-  const auto within = [&](const std::vector<double>& times) {
-    return std::ranges::subrange(std::ranges::upper_bound(times, state.time_prev + slack),
-                                 std::ranges::upper_bound(times, state.time + slack));
-  };
-  if (!within(jumps_).empty()) return true;
-  return std::ranges::any_of(within(corners_),
+  const double start = state.time_prev + slack;
+  if (!between(jumps_, start, state.time + slack).empty()) return true;
+  if (drives_speeds_ && are_within(state.time_prev, state.time)) return true;
+  return drives_positions_ &&
+         std::ranges::any_of(between(corners_, start, state.time + slack),
                              [&](double time) { return is_corner(time, step, state); });
 }
 

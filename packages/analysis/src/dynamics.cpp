@@ -259,6 +259,22 @@ void Dynamics::strike() {
   }
 }
 
+// Multipliers show it at once. What supports without equations take is the inertia of the jump,
+// too, which another look at the step finds; where nothing is held, nothing must look there again.
+void Dynamics::show_blow(double step) {
+  model::State& state = this->state();
+  certificate_.add_blow(blow_->work);
+  system().move(state, blow_->multipliers, 1.0 / step);
+  if (certificate_.is_free()) return;
+  const model::Coordinates offset = state.acceleration_offset;
+  const auto with_jump = [step](double without, double after, double before) {
+    return without + (after - before) / step;
+  };
+  model::combine(state.acceleration_offset, with_jump, state.velocity, blow_->velocity);
+  system().evaluate(state, stencil_, Want::residual);
+  state.acceleration_offset = offset;
+}
+
 void Dynamics::take_blow_back() {
   if (blow_) state().velocity = std::move(blow_->velocity);
   blow_.reset();
@@ -379,7 +395,7 @@ StepReport Dynamics::do_attempt(double end) {
   }
   StepReport report;
   report.increment = end - state.time_prev;
-  if (is_behind_corner_) strike();
+  if (is_behind_corner_ && !corners_.are_within(state.time_prev, end)) strike();
   if (is_first_ && !scheme_->conserves()) scheme_->start(first_acceleration(report.increment));
   report.time = state.time = end;
   stencil_ = scheme_->begin(state, report.increment);
@@ -408,12 +424,9 @@ void Dynamics::do_accept(const StepReport& report) {
     certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
   }
   is_behind_corner_ = scheme_->conserves() && corners_.in_step(state);
+  if (blow_) show_blow(taken);
+  blow_.reset();
   scheme_->finish(state, taken);
-  if (blow_) {
-    certificate_.add_blow(blow_->work);
-    system().move(state, blow_->multipliers, 1.0 / taken);
-    blow_.reset();
-  }
   is_first_ = false;
   warn_of_short_step(taken);
   system().accept(state);

@@ -22,6 +22,8 @@ constexpr std::array<double, 9> points = {0.07, 0.19, 0.28, 0.41, 0.52, 0.63, 0.
 
 // Of an impulse; four steps per period of a sine take 0.11 too much of half a period.
 constexpr double notable_loss = 0.25;
+// Of the largest value over a step: less is the foot of what only begins to rise.
+constexpr double notable_impulse = 0.01;
 // Of adaptive steps: a change between samples that is none of a function which steps follow, and
 // what may be lost of an impulse there, over a usual step.
 constexpr double notable_leap = 0.3;
@@ -193,7 +195,9 @@ void MissedPulses::check(double start, double end, Findings& findings) {
              "it acts in part or not at all; take steps that are shorter than the pulse");
       }
     }
-    if (candidate.is_told || candidate.impulse.lost() <= notable_loss * candidate.impulse.size) {
+    const double size = candidate.impulse.size;
+    if (candidate.is_told || candidate.impulse.lost() <= notable_loss * size ||
+        size <= notable_impulse * candidate.size * (end - start)) {
       continue;
     }
     // as long as it acts, what comes may make up for what was lost

@@ -17,13 +17,16 @@ class DrivenCorners {
   /// than a hundredth of the speeds on both sides. Costs nothing where no function has a corner
   /// there. Collective.
   bool in_step(const model::State& state) const;
+  /// Whether there may be another one within a step, so that speeds where it begins do not last.
+  bool are_within(double start, double end) const;
 
  private:
   bool is_corner(double time, double step, const model::State& state) const;
 
   const assembly::System& system_;
-  std::vector<double> corners_;  ///< of all functions, rising; none where no position is driven
-  std::vector<double> jumps_;    ///< likewise; none where no speed is driven
+  std::vector<double> corners_;  ///< of all functions, rising; none where nothing is driven
+  std::vector<double> jumps_;    ///< of these; none where no speed is driven
+  bool drives_positions_ = false, drives_speeds_ = false;
 };
 
 }  // namespace culm::analysis

@@ -69,6 +69,7 @@ class Dynamics final : public Stepper {
   std::optional<assembly::VelocityFit> find_fitting(model::Coordinates& fitted,
                                                     assembly::Vector& solution);
   void strike();
+  void show_blow(double step);
   void take_blow_back();
   void measure_hidden_constraints();
   void keep_balance();
