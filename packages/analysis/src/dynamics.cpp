@@ -126,8 +126,8 @@ const model::Constraint* find_cause(const model::Model& model, const assembly::V
   const model::Constraint* cause = nullptr;
   if (fit.equation >= 0) cause = &model.equations()[static_cast<std::size_t>(fit.equation)];
   for (const model::Constraint& c : model.constraints()) {
-    const bool drives_speed = !c.velocity_rows.empty() && c.nodes.front() == fit.node;
-    if (cause == nullptr && drives_speed) cause = &c;
+    if (cause != nullptr || c.velocity_rows.empty()) continue;
+    if (model.nodes().master(c.nodes.front()) == fit.node) cause = &c;
   }
   for (const model::Constraint& c : model.constraints()) {
     if (cause == nullptr && c.fix && model.nodes().master(c.fix->node) == fit.node) cause = &c;
@@ -228,8 +228,11 @@ std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& 
                                                             assembly::Vector& solution) {
   solver::LinearSolver& linear = context().linear;
   bool sound = true;
+  // speeds are differences over a short time, but not so short that rounding of the time shows
+  const double step = settings_.steps.step;
+  const double probe = std::min(0.5 * step, std::max(1e-4 * step, 2e-10 * std::abs(state().time)));
   const assembly::VelocityFit fit = system().project_velocity(
-      state(), 1e-4 * settings_.steps.step,
+      state(), probe,
       [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = linear.factor() && linear.solve(b, x).is_sound();
         if (!sound) x.fill(0.0);
@@ -259,11 +262,11 @@ void Dynamics::strike() {
   }
 }
 
-// Multipliers show it at once. What supports without equations take is the inertia of the jump,
-// too, which another look at the step finds; where nothing is held, nothing must look there again.
+// Multipliers show it until the attempt is accepted, and then again. What supports without
+// equations take is the inertia of the jump, too, which another look at the step finds; where
+// nothing is held, nothing must look there again.
 void Dynamics::show_blow(double step) {
   model::State& state = this->state();
-  certificate_.add_blow(blow_->work);
   system().move(state, blow_->multipliers, 1.0 / step);
   if (certificate_.is_free()) return;
   const model::Coordinates offset = state.acceleration_offset;
@@ -302,7 +305,8 @@ void Dynamics::measure_hidden_constraints() {
       "alternating velocities",
       fmt::format(
           "constraints do not allow {:.3g} of the velocities at the end, of which the largest is "
-          "{:.3g}{}: behind a corner of a prescribed motion that its formula hides, velocities, "
+          "{:.3g}{}: behind a corner of a prescribed motion that a formula hides or no step sees, "
+          "velocities, "
           "kinetic energies and reactions alternate from step to step about their means; take a "
           "table, or a function without corners",
           fit.change, fastest, describe_place(system().model(), fit)),
@@ -409,6 +413,7 @@ StepReport Dynamics::do_attempt(double end) {
   }
   refuse_mirrored(context(), state, report.outcome);
   refuse_missed_turns(context(), state, stencil_, report.outcome);
+  if (blow_ && report.outcome.converged()) show_blow(report.increment);
   return report;
 }
 
@@ -421,10 +426,13 @@ void Dynamics::do_accept(const StepReport& report) {
   predictor_.accept(state, taken);
   {
     const Ledger::Scope scope(context().ledger, certificate_effect_);
+    // multipliers of the step alone do work over it
+    if (blow_) system().move(state, blow_->multipliers, -1.0 / taken);
     certificate_.add_work(state, stencil_, report.outcome.last.constraint_violation);
+    if (blow_) certificate_.add_blow(blow_->work);
   }
   is_behind_corner_ = scheme_->conserves() && corners_.in_step(state);
-  if (blow_) show_blow(taken);
+  if (blow_) system().move(state, blow_->multipliers, 1.0 / taken);
   blow_.reset();
   scheme_->finish(state, taken);
   is_first_ = false;
