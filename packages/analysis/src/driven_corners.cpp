@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 namespace culm::analysis {
 namespace {
 
+constexpr int few = 5;              // corners that tell whether a function leads
 constexpr double notable = 0.01;    // of the speeds on both sides, or of the largest one
 constexpr double smallest = 1e-9;   // way in a step, over the length of the model
 constexpr double probe = 1e-4;      // of the step
@@ -28,6 +30,25 @@ std::vector<double> jumps_of(const model::Amplitude& function) {
   return times;
 }
 
+// Its corners, those first where its slope changes most beside what it is.
+std::vector<double> sharpest_first(const model::Amplitude& function) {
+  const std::vector<double>& times = function.corners();
+  std::vector<std::pair<double, double>> turns;  // less is sharper
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double before = i > 0 ? times[i] - times[i - 1] : 1.0;
+    const double after = i + 1 < times.size() ? times[i + 1] - times[i] : 1.0;
+    const double here = function.at(times[i]);
+    const double left = (here - function.at(times[i] - 0.5 * before)) / before;
+    const double right = (function.at(times[i] + 0.5 * after) - here) / after;
+    const double size = std::abs(left) + std::abs(right);
+    turns.emplace_back(size > 0.0 ? -std::abs(right - left) / size : 0.0, times[i]);
+  }
+  std::ranges::sort(turns);
+  std::vector<double> sorted;
+  for (const auto& turn : turns) sorted.push_back(turn.second);
+  return sorted;
+}
+
 std::ranges::subrange<std::vector<double>::const_iterator> between(const std::vector<double>& times,
                                                                    double after, double until) {
   return {std::ranges::upper_bound(times, after), std::ranges::upper_bound(times, until)};
@@ -44,17 +65,27 @@ DrivenCorners::DrivenCorners(const assembly::System& system) : system_(system) {
                                        [](const auto& c) { return !c.velocity_rows.empty(); });
   if (!drives_positions_ && !drives_speeds_) return;
   // what has no function of its own
-  if (drives_positions_) corners_ = model::Amplitude::ramp().corners();
+  if (drives_positions_) functions_.push_back(model::Amplitude::ramp().corners());
   for (const auto& [name, function] : model.functions()) {
     if (!function.is_function_of_time()) continue;
-    const std::vector<double>& corners = function.corners();
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    functions_.push_back(sharpest_first(function));
     if (!drives_speeds_) continue;
     const std::vector<double> jumps = jumps_of(function);
     jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
   }
-  std::ranges::sort(corners_);
   std::ranges::sort(jumps_);
+}
+
+// Of the functions those that lead, so that corners of loads are looked at once only.
+void DrivenCorners::choose(double step, const model::State& state) {
+  for (const std::vector<double>& corners : functions_) {
+    const auto leads = [&](double time) { return is_corner(time, step, state); };
+    if (drives_speeds_ || std::ranges::any_of(corners | std::views::take(few), leads)) {
+      corners_.insert(corners_.end(), corners.begin(), corners.end());
+    }
+  }
+  functions_.clear();
+  std::ranges::sort(corners_);
 }
 
 bool DrivenCorners::are_within(double start, double end) const {
@@ -63,8 +94,9 @@ bool DrivenCorners::are_within(double start, double end) const {
 }
 
 // A speed that is driven has a corner of no consequence where a step ends.
-bool DrivenCorners::in_step(const model::State& state) const {
+bool DrivenCorners::in_step(const model::State& state) {
   const double step = state.time - state.time_prev;
+  if (!functions_.empty()) choose(step, state);
   const double slack = same_time * step;
   const double start = state.time_prev + slack;
   if (!between(jumps_, start, state.time + slack).empty()) return true;

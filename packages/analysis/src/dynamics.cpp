@@ -161,6 +161,31 @@ void close_joints(Context& context, model::State& state) {
   }
 }
 
+// Rates of directors at the end of a step are not quite rigid, those that fit are. What is struck
+// takes the rigid ones, or the rest would ring and grow; what is not struck, and what has momenta
+// to keep, takes the difference.
+void add_jumps(model::Coordinates& velocity, const model::Coordinates& rigid,
+               const model::Coordinates& fitted, bool keeps_momenta, const parallel::Comm& comm) {
+  constexpr double struck = 1e-3;  // of the largest jump
+  const int nodes = static_cast<int>(velocity.size() / 12);
+  const auto jump = [&](int node) -> model::NodeSlots {
+    return model::NodeTable::slots(fitted, node) - model::NodeTable::slots(rigid, node);
+  };
+  double largest = 0.0;
+  for (int node = 0; node < nodes; ++node) largest = std::max(largest, jump(node).norm());
+  largest = comm.max(largest);
+  for (int node = 0; node < nodes; ++node) {
+    auto slots = model::NodeTable::slots(velocity, node);
+    if (!keeps_momenta && jump(node).norm() > struck * largest) {
+      slots = model::NodeTable::slots(fitted, node);
+    } else {
+      slots += jump(node);
+    }
+  }
+}
+
+void no_change(const assembly::Vector&, assembly::Vector& x) { x.fill(0.0); }
+
 // Leaves nothing of a solution but what it says of the forces of constraints.
 void keep_multipliers(const assembly::System& system, assembly::Vector& solution) {
   const model::Model& model = system.model();
@@ -224,15 +249,19 @@ void Dynamics::fit_motion() {
   }
 }
 
+// Speeds of drives are differences over a short time, but not so short that rounding of the time
+// shows.
+double Dynamics::probe() const {
+  const double step = settings_.steps.step;
+  return std::min(0.5 * step, std::max(1e-4 * step, 2e-10 * std::abs(state().time)));
+}
+
 std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& fitted,
                                                             assembly::Vector& solution) {
   solver::LinearSolver& linear = context().linear;
   bool sound = true;
-  // speeds are differences over a short time, but not so short that rounding of the time shows
-  const double step = settings_.steps.step;
-  const double probe = std::min(0.5 * step, std::max(1e-4 * step, 2e-10 * std::abs(state().time)));
   const assembly::VelocityFit fit = system().project_velocity(
-      state(), probe,
+      state(), probe(),
       [&](const assembly::Vector& b, assembly::Vector& x) {
         sound = linear.factor() && linear.solve(b, x).is_sound();
         if (!sound) x.fill(0.0);
@@ -252,9 +281,13 @@ void Dynamics::strike() {
   model::Coordinates fitted;
   assembly::Vector solution(system().layout().rows());
   if (!find_fitting(fitted, solution)) return;
-  keep_multipliers(system(), solution);
+  model::Coordinates rigid;
+  system().project_velocity(state, probe(), no_change, rigid);
   const double kinetic = system().momentum(state.next, state.velocity).kinetic_energy;
-  blow_ = Blow{std::exchange(state.velocity, std::move(fitted)), std::move(solution), 0.0};
+  const model::Coordinates before = state.velocity;
+  add_jumps(state.velocity, rigid, fitted, certificate_.is_free(), system().comm());
+  keep_multipliers(system(), solution);
+  blow_ = Blow{before, std::move(solution), 0.0};
   blow_->work = system().momentum(state.next, state.velocity).kinetic_energy - kinetic;
   // old factors would be those of the mass
   if (settings_.newton.refresh == solver::Refresh::on_slow_convergence) {

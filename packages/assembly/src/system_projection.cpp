@@ -268,6 +268,13 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   const auto rates = std::as_const(residual_).values();  // by drives of angular velocities
   for (std::size_t row = 0; row < b.size(); ++row)
     b[row] = is_force_row_[row] ? 0.0 : speed[row] - rates[row] - b[row];
+  // nobody knows how fast a signal changes that leads, so what it leads stays as it is
+  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
+    const model::Block& block = unknowns.block(local.block);
+    if (!local.owned || block.kind != model::BlockKind::multipliers) continue;
+    if (!model_.equations()[index(block.owner)].follow) continue;
+    for (int i = 0; i < block.shape.active; ++i) b[index(local.first_column + i)] = 0.0;
+  }
   Vector change(layout_.rows());
   solve_mass(rhs, change);
   velocity.update(1.0, change);

@@ -16,15 +16,17 @@ class DrivenCorners {
   /// Whether there is one within the step from state.time_prev to state.time or at its end, by more
   /// than a hundredth of the speeds on both sides. Costs nothing where no function has a corner
   /// there. Collective.
-  bool in_step(const model::State& state) const;
+  bool in_step(const model::State& state);
   /// Whether there may be another one within a step, so that speeds where it begins do not last.
   bool are_within(double start, double end) const;
 
  private:
   bool is_corner(double time, double step, const model::State& state) const;
+  void choose(double step, const model::State& state);
 
   const assembly::System& system_;
-  std::vector<double> corners_;  ///< of all functions, rising; none where nothing is driven
+  std::vector<std::vector<double>> functions_;  ///< corners of each, before any step
+  std::vector<double> corners_;  ///< of those that lead, rising; none where nothing is driven
   std::vector<double> jumps_;    ///< of these; none where no speed is driven
   bool drives_positions_ = false, drives_speeds_ = false;
 };

@@ -68,6 +68,7 @@ class Dynamics final : public Stepper {
   /// @return none where a closed loop just passes a singular position
   std::optional<assembly::VelocityFit> find_fitting(model::Coordinates& fitted,
                                                     assembly::Vector& solution);
+  double probe() const;
   void strike();
   void show_blow(double step);
   void take_blow_back();
