@@ -740,8 +740,8 @@ ILL_POSED = [
         4, "a mechanism",
     ),
     IllPosed(
-        "a free body in statics", "joint/spring_statics.xml",
-        ["Constraints/hub/Type=Spherical Support"],
+        "a free body in statics", "beam/princeton_beam.xml",
+        ["Constraints/clamp/Type=Spherical Support"],
         4, "a mechanism",
     ),
     IllPosed(
