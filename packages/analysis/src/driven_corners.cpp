@@ -8,11 +8,10 @@
 namespace culm::analysis {
 namespace {
 
-constexpr int few = 5;              // corners that tell whether a function leads
-constexpr double notable = 0.01;    // of the speeds on both sides, or of the largest one
-constexpr double smallest = 1e-9;   // way in a step, over the length of the model
-constexpr double probe = 1e-4;      // of the step
-constexpr double same_time = 1e-6;  // of the step, by which sums of steps miss a time
+constexpr int few = 5;             // corners that tell whether a function leads
+constexpr double notable = 0.01;   // of the speeds on both sides, or of the largest one
+constexpr double smallest = 1e-9;  // way in a step, over the length of the model
+constexpr double probe = 1e-4;     // of the step
 
 std::vector<double> jumps_of(const model::Amplitude& function) {
   std::vector<std::pair<double, double>> sizes;  // of jumps, with their times
@@ -41,7 +40,8 @@ std::vector<double> sharpest_first(const model::Amplitude& function) {
     const double left = (here - function.at(times[i] - 0.5 * before)) / before;
     const double right = (function.at(times[i] + 0.5 * after) - here) / after;
     const double size = std::abs(left) + std::abs(right);
-    turns.emplace_back(size > 0.0 ? -std::abs(right - left) / size : 0.0, times[i]);
+    turns.emplace_back(size > 0.0 && std::isfinite(size) ? -std::abs(right - left) / size : 0.0,
+                       times[i]);
   }
   std::ranges::sort(turns);
   std::vector<double> sorted;

@@ -27,9 +27,6 @@ assembly::System::Solve mass_solver(Context& context, const model::State& state)
   };
 }
 
-// Of a step, by which sums of steps miss the time of a corner.
-constexpr double same_time = 1e-6;
-
 // What velocities did not fit: the equation that was violated most, or the support that holds the
 // node where they changed most.
 const model::Constraint* find_cause(const model::Model& model, const assembly::VelocityFit& fit) {
@@ -130,8 +127,8 @@ void Dynamics::fit_motion() {
   if (state.at_rest) system().model().add_initial_velocities(state.next, state.velocity);
   state.at_rest = false;
   model::Coordinates fitted;
-  const assembly::VelocityFit fit = system().project_velocity(
-      state, 1e-4 * settings_.steps.step, mass_solver(context(), state), fitted);
+  const assembly::VelocityFit fit =
+      system().project_velocity(state, probe(), mass_solver(context(), state), fitted);
   state.velocity.swap(fitted);
   const double fastest = system().comm().max(largest(state.velocity));
   if (fit.change > tolerance * std::max(1.0, fastest)) {
@@ -172,7 +169,8 @@ std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& 
 // is tied follows by its inertia, and momenta are kept. Reactions show the blow over that step.
 void Dynamics::strike() {
   model::State& state = this->state();
-  state.time = state.time_prev + same_time * settings_.steps.step;  // on the far side
+  state.time =
+      state.time_prev + DrivenCorners::same_time * settings_.steps.step;  // on the far side
   model::Coordinates fitted;
   assembly::Vector solution(system().layout().rows());
   if (!find_fitting(fitted, solution)) return;

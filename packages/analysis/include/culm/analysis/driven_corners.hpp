@@ -11,6 +11,9 @@ namespace culm::analysis {
 /// about the mean speed of a step, and would go on to do so behind a corner.
 class DrivenCorners {
  public:
+  /// Of a step, by which sums of steps may miss the time of a corner.
+  static constexpr double same_time = 1e-6;
+
   explicit DrivenCorners(const assembly::System& system);
 
   /// Whether there is one within the step from state.time_prev to state.time or at its end, by more
