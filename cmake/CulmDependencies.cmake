@@ -43,7 +43,19 @@ culm_external(MPI LINK MPI::MPI_CXX)
 culm_external(LibXml2 LINK LibXml2::LibXml2)
 culm_external(muparser LINK muparser::muparser)
 culm_external(ZLIB LINK ZLIB::ZLIB)
-culm_external(HDF5 LINK hdf5::hdf5 MPI::MPI_CXX)
+# Debian's shared HDF5 brings curl, Kerberos and LDAP, which culm never calls. So programs, which start often,
+# take its archive where there is one; that cannot be part of a shared object.
+get_filename_component(culm_hdf5_folder "${HDF5_C_LIBRARY_hdf5}" DIRECTORY)
+find_library(CULM_HDF5_ARCHIVE libhdf5.a PATHS ${culm_hdf5_folder} NO_DEFAULT_PATH)
+mark_as_advanced(CULM_HDF5_ARCHIVE)
+set(culm_hdf5 hdf5::hdf5)
+if(CULM_HDF5_ARCHIVE AND HDF5_C_LIBRARY_sz)
+  set(culm_program "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
+  set(culm_hdf5 "$<$<NOT:${culm_program}>:hdf5::hdf5>" "$<${culm_program}:${CULM_HDF5_ARCHIVE}>"
+      "$<${culm_program}:${HDF5_C_LIBRARY_sz}>" "$<${culm_program}:ZLIB::ZLIB>"
+  )
+endif()
+culm_external(HDF5 INCLUDE ${HDF5_C_INCLUDE_DIRS} LINK ${culm_hdf5} MPI::MPI_CXX)
 culm_external(METIS INCLUDE ${CULM_METIS_INCLUDE_DIR} LINK ${CULM_METIS_LIBRARY})
 culm_external(MUMPS INCLUDE ${CULM_MUMPS_INCLUDE_DIR} LINK ${CULM_MUMPS_LIBRARY} MPI::MPI_CXX)
 

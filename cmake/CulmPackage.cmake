@@ -8,7 +8,7 @@
 # The folder is its own file list: include/culm/NAME/*.hpp, src/*.cpp, test/*_test.cpp. Makes
 #   culm::NAME         the library (interface only while src/ is empty)
 #   culm_NAME_test     all unit tests
-#   culm_NAME_headers  every public header compiled alone, with CULM_HEADER_CHECK
+#   culm_NAME_headers  every public header compiled alone, with CULM_HEADER_CHECK, by the test headers
 # Sources named *_cxx17.cpp are compiled as C++17, for the few Trilinos headers that need it.
 #
 # Parsing headers would cost more than half of a build. So a package that begins a layer compiles
@@ -214,7 +214,7 @@ macro(culm_add_header_check name)
   foreach(with alone ${CULM_CHECK_PRECOMPILED})
     if(units_${with})
       string(MAKE_C_IDENTIFIER culm_${name}_headers_${with} part)
-      add_library(${part} OBJECT ${units_${with}})
+      add_library(${part} OBJECT EXCLUDE_FROM_ALL ${units_${with}})
       target_link_libraries(${part} PRIVATE ${target})
       target_compile_options(${part} PRIVATE -O0)
       culm_finish_target(${part})

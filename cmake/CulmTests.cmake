@@ -19,10 +19,15 @@ set(CULM_TEST_ENVIRONMENT
     OPENBLAS_NUM_THREADS=1
 )
 
+# Names of long tests, see culm_check_long_tests.
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tests/long.txt)
+file(STRINGS ${PROJECT_SOURCE_DIR}/tests/long.txt CULM_LONG_TESTS REGEX "^[^#]")
+
 # culm_add_test(name LABEL unit|regression|verification|style COMMAND program [arguments...]
 #   RANKS        processes that it runs at once, 1 if not given
 #   ENVIRONMENT  further settings, NAME=VALUE)
-# Exit code 77 says that something it needs is not there.
+# Exit code 77 says that something it needs is not there. What tests/long.txt names gets the label long as
+# well: tools/test leaves it out without --all.
 #
 # A test on several processes takes two of the places of tests that run at once, and begins before those on
 # one: else it would wait until all others are done, since two places are hardly ever free together, and such
@@ -30,10 +35,14 @@ set(CULM_TEST_ENVIRONMENT
 # want to be preloaded before all others.
 function(culm_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;RANKS" "COMMAND;ENVIRONMENT")
+  set_property(GLOBAL APPEND PROPERTY CULM_TEST_NAMES ${name})
+  if(name IN_LIST CULM_LONG_TESTS)
+    list(APPEND arg_LABEL long)
+  endif()
   set(environment ${CULM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
   add_test(NAME ${name} COMMAND ${arg_COMMAND})
   set_tests_properties(
-    ${name} PROPERTIES LABELS ${arg_LABEL} ENVIRONMENT "${environment}" SKIP_RETURN_CODE 77
+    ${name} PROPERTIES LABELS "${arg_LABEL}" ENVIRONMENT "${environment}" SKIP_RETURN_CODE 77
   )
   if(arg_RANKS GREATER 1)
     set_tests_properties(
@@ -45,6 +54,16 @@ function(culm_add_test name)
       )
     endif()
   endif()
+endfunction()
+
+# Called after all tests: tells which long tests are not there. Some need what a machine may lack.
+function(culm_check_long_tests)
+  get_property(names GLOBAL PROPERTY CULM_TEST_NAMES)
+  foreach(name IN LISTS CULM_LONG_TESTS)
+    if(NOT name IN_LIST names)
+      message(STATUS "culm: no test ${name} here (tests/long.txt)")
+    endif()
+  endforeach()
 endfunction()
 
 # The same for a program of ours that mpiexec starts on a number of processes.

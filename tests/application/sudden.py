@@ -55,6 +55,17 @@ def driven(name, step, end, way, speed, function="", says=FITS, **drive):
                 deck=motion(function, step, end, constraints=constraint), check=check)
 
 
+def damped(scheme, is_told, **settings):
+    """Whether a run says that rates lag in its scheme."""
+    note = f"where '{scheme}' does not balance forces: it is of first order in the step here"
+    more = "".join(f'<Parameter name="{key.replace("_", " ")}" value="{value}"/>'
+                   for key, value in {"Scheme": scheme, **settings}.items())
+    damper = entry("damper", Type="Directed Ground Damper", Node="body", Direction="{1, 0, 0}", Damping="0.8")
+    name = " ".join([scheme, *settings.values()])
+    return Case(f"rates of the middle of steps: {name}", 0, leaves=["out"], errors=[], prints=[note] * is_told,
+                never=[note] * (not is_told), deck=motion("", 0.1, 1, SPRING, damper, adaptive=more))
+
+
 def speed_below(limit):
     """A check of all rows."""
     def check(folder, _):
@@ -203,4 +214,15 @@ CASES = [
          deck=motion(entry("f", Type="Expression", Expression="t &lt; 1 ? (1 - cos(pi*t))/2 : 1"), 0.01, 2,
                      constraints=entry("drive", Type="Rigid Support", Node="body", Translation="{0.1, 0, 0}", Function="f")),
          check=ends_with("place ux [m]", 0.1, 1e-9)),
+    Case("a smooth rotation that comes to rest has no corner", 0, args=RUN, leaves=["out"], errors=[],
+         deck=motion(entry("f", Type="Expression", Expression="t &lt; 1 ? t^3*(10 - 15*t + 6*t^2) : 1"), 0.01, 1.5,
+                     constraints=entry("pin", Type="Revolute Support", Node="body", Axis="{0, 0, 1}") +
+                     entry("drive", Type="Rotation", Node="body", Axis="{0, 0, 1}", Angle="1", Function="f") +
+                     entry("bond", Type="Rigid Connection", Node="arm", Master="body"),
+                     others=entry("arm", Type="Rigid Body", Position="{1, 0, 0}", Mass="1", Inertia="{1, 1, 1}")),
+         check=ends_with("place ux [m]", 0, 1e-9)),
+    damped("Trapezoidal", True),
+    damped("Generalised Alpha", True),
+    damped("Generalised Alpha", False, Spectral_Radius="1"),
+    damped("Conserving", False),
 ]

@@ -125,6 +125,11 @@ void Certificate::measure(const model::State& state) {
                           (momentum_.angular - first_momentum_.angular - angular_impulse_).norm());
 }
 
+double Certificate::largest_mean_speed() const {
+  const double mass = system_.model().mass();
+  return mass > 0.0 ? std::sqrt(2.0 * largest_kinetic_ / mass) : 0.0;
+}
+
 void Certificate::finish(double change, double velocity) {
   hidden_violation_ = relative(change, velocity);
 }

@@ -1,4 +1,5 @@
 #include <culm/analysis/dynamics.hpp>
+#include <culm/analysis/linearisation.hpp>
 #include <culm/analysis/newton_options.hpp>
 #include <culm/analysis/turning_rotor.hpp>
 #include <culm/assembly/rounding.hpp>
@@ -140,10 +141,22 @@ void Dynamics::do_fit() {
   fit_motion();
 }
 
+// Rates are those of the middle of the step whatever the scheme.
+void Dynamics::note_lagging_rates() {
+  if (scheme_->conserves() || stencil_.theta == 0.5 || !feels_rates(system(), state())) return;
+  context().log.info(fmt::format(
+      "note: rates of dampers, friction, frames that turn, air and the like are those of the "
+      "middle "
+      "of steps, where '{}' does not balance forces: it is of first order in the step here, "
+      "'Conserving' of second",
+      scheme_->name()));
+}
+
 void Dynamics::do_begin() {
   model::State& state = this->state();
   scheme_->start(model::Coordinates(state.velocity.size()));
   stencil_ = scheme_->begin(state, settings_.steps.step);
+  note_lagging_rates();
   system().prepare(state, stencil_);
   system().choose_multiplier_scale(state, stencil_);
   make_post_mortem(state, stencil_);

@@ -218,12 +218,14 @@ void Dynamics::measure_hidden_constraints() {
   if (!found) return;
   const assembly::VelocityFit& fit = *found;
   const double fastest = system().comm().max(largest(fitted));
-  certificate_.finish(fit.change, fastest);
-  constexpr double notable = 0.1;
-  constexpr double smallest = 1e-9;  // way in a step over the length of the model
+  const double usual = certificate_.largest_mean_speed();
+  certificate_.finish(fit.change, std::max(fastest, usual));
+  constexpr double notable = 0.1;          // of the velocities there
+  constexpr double notable_of_all = 0.01;  // of those before: what came to rest has none
+  constexpr double smallest = 1e-9;        // way in a step over the length of the model
   const model::Constraint* cause = find_cause(system().model(), fit);
   const bool is_driven = cause != nullptr && (cause->is_driven() || !cause->velocity_rows.empty());
-  if (!is_driven || fit.change <= notable * fastest ||
+  if (!is_driven || fit.change <= std::max(notable * fastest, notable_of_all * usual) ||
       fit.change * settings_.steps.step <= smallest * system().model().length()) {
     return;
   }

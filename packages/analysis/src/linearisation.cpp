@@ -165,6 +165,10 @@ bool damps_motions(const assembly::System& system, const std::shared_ptr<const M
   return largest_entry(system, between) > 0.0;
 }
 
+bool feels_rates(assembly::System& system, const model::State& state) {
+  return damps_motions(system, find_damping(system, state, find_branches(system, state)));
+}
+
 std::shared_ptr<const Matrix> rates_of_signals(const assembly::System& system,
                                                const std::shared_ptr<const Matrix>& damping) {
   if (!damping || system.model().unknowns().num_signals() == 0) return nullptr;

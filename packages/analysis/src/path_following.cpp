@@ -1,7 +1,6 @@
 #include <culm/analysis/path_following.hpp>
 #include <culm/base/error.hpp>
 
-#include "determinant_zero.hpp"
 #include "mirrored_faces.hpp"
 #include "path_end.hpp"
 #include "shear_range.hpp"
@@ -20,8 +19,6 @@ namespace {
 using assembly::Vector;
 using solver::StepEnd;
 
-// A step that bends more than this may have reached another piece of the path.
-constexpr double least_straightness = 0.5;
 // Of what the tangent promises for a change of the watched displacement.
 constexpr double longest_way = 3.0;
 // For derivatives by the level, over the first change of the level: exact where loads are linear.
@@ -280,68 +277,6 @@ solver::StepOutcome PathFollowing::go_on(double size) {
   return outcome;
 }
 
-bool PathFollowing::examine(const PathTangent& tangent, const solver::Determinant& determinant) {
-  known_.here.tangent = tangent;
-  known_.here.determinant = determinant;
-  known_.is_examined = true;
-  if (!known_.has_behind) return false;
-  for (const PathEvent& event : find_events(known_.behind, known_.here, last_length_)) {
-    known_.events.push_back(event);
-  }
-  if (crosses() && settings_.at_bifurcation == AtBifurcation::stop) known_.is_ended = true;
-  if (passed_limit_points()) known_.is_ended = true;
-  const int before = known_.behind.determinant.sign, now = known_.here.determinant.sign;
-  return crosses() || (before != 0 && now != 0 && before != now);
-}
-
-bool PathFollowing::crosses() const {
-  return std::any_of(known_.events.begin() + static_cast<std::ptrdiff_t>(before_.events.size()),
-                     known_.events.end(), [](const PathEvent& event) {
-                       return event.kind == PathEventKind::bifurcation;
-                     });
-}
-
-bool PathFollowing::is_to_branch() const {
-  return crosses() && settings_.at_bifurcation == AtBifurcation::follow && !known_.has_branched &&
-         !known_.is_ended;
-}
-
-std::optional<solver::Determinant> PathFollowing::go_back(double length) {
-  const Stencil stencil = Stencil::statics();
-  condition_.begin_back(length);
-  system().prepare(state(), stencil);
-  const solver::StepOutcome outcome = newton().solve(state(), stencil, &condition_);
-  if (!outcome.converged() || -condition_.straightness(state()) < least_straightness) return {};
-  system().evaluate(state(), stencil, Want::residual_and_tangent);
-  if (!context().linear.factor()) return {};
-  return context().linear.determinant();
-}
-
-void PathFollowing::locate_zero() {
-  const auto kind = crosses() ? PathEventKind::bifurcation : PathEventKind::limit_point;
-  const auto begin = known_.events.begin() + static_cast<std::ptrdiff_t>(before_.events.size());
-  const auto found = std::find_if(begin, known_.events.end(),
-                                  [kind](const PathEvent& event) { return event.kind == kind; });
-  if (found == known_.events.end()) return;
-  PathEvent& crossing = *found;
-  const auto look_at = [&](double length) {
-    const std::optional<solver::Determinant> determinant = go_back(length);
-    if (determinant) {
-      crossing.level = state().time;
-      crossing.watched = condition_.watched_displacement(state().next);
-    }
-    return determinant;
-  };
-  back_ = approach_zero(known_.here.determinant, known_.behind.determinant, last_length_, look_at);
-  system().discard(state());
-}
-
-void PathFollowing::tell_events() {
-  for (std::size_t i = before_.events.size(); i < known_.events.size(); ++i) {
-    context().log.info(describe(known_.events[i]));
-  }
-}
-
 // Where a function of loads or motions ends, the path does.
 void PathFollowing::explain_failure() {
   const Stencil stencil = Stencil::statics();
@@ -393,47 +328,6 @@ bool PathFollowing::do_fail(const StepReport&) {
   return std::abs(size_) < settings_.smallest_length * std::abs(first_size_);
 }
 
-std::optional<solver::StepOutcome> PathFollowing::branch_off() {
-  const Stencil stencil = Stencil::statics();
-  model::State& state = this->state();
-  known_.has_branched = true;
-  const auto go_to_crossing = [&] {
-    if (back_ > 0.0 && go_back(back_)) return;
-    system().discard(state);
-    system().prepare(state, stencil);
-  };
-  go_to_crossing();
-  system().evaluate(state, stencil, Want::residual_and_tangent);
-  Vector motion(system().layout().rows());
-  context().linear.weakest_direction(motion);
-  double amplitude = settings_.branch_amplitude.value_or(last_length_);
-  constexpr int most_attempts = 8;
-  for (int i = 0; i < most_attempts; ++i, amplitude *= 0.5) {
-    if (i > 0) go_to_crossing();
-    const double factor = condition_.begin_branch(state, motion, amplitude);
-    system().move(state, motion, factor);
-    solver::StepOutcome outcome = newton().solve(state, stencil, &condition_);
-    refuse_mirrored(context(), state, outcome);
-    refuse_missed_turns(context(), state, stencil, outcome);
-    if (outcome.converged() && may_cross_at(state.time)) return outcome;
-    system().discard(state);
-  }
-  context().findings.warn(
-      "branch", "the crossing path was not found; a 'Branch Amplitude' may help", state.time);
-  return {};
-}
-
-// The crossing lies between the last two points, and the branch begins there. Limit points between
-// them hide how far the level has gone, so the slopes count, too.
-bool PathFollowing::may_cross_at(double level) const {
-  const PathPoint &behind = known_.behind, &here = known_.here;
-  const double slope = std::max(std::abs(behind.tangent.level), std::abs(here.tangent.level));
-  const double reach =
-      0.5 * std::max(std::abs(here.level - behind.level), slope * std::abs(last_length_));
-  const auto [low, high] = std::minmax(behind.level, here.level);
-  return level >= low - reach && level <= high + reach;
-}
-
 AnalysisReport PathFollowing::do_finish() {
   // reactions, too, are those of this state afterwards
   const auto [tangent, determinant] = compute_tangent();
@@ -448,14 +342,6 @@ AnalysisReport PathFollowing::do_finish() {
   if (!known_.is_ended) report_early_end();
   warn_of_shear(context(), state());
   return report();
-}
-
-std::string PathFollowing::describe(const PathEvent& event) const {
-  std::string text = fmt::format("{} at level {:.6g}", name_of(event.kind), event.level);
-  if (settings_.watch) {
-    text += fmt::format(", displacement of '{}' {:.6g} m", settings_.watch->node, event.watched);
-  }
-  return text;
 }
 
 AnalysisReport PathFollowing::report() const {

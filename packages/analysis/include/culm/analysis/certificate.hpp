@@ -35,7 +35,7 @@ class Certificate {
   /// Once at the end, if it can be told. Constraints hold for positions; their rates, H v = dg/dt,
   /// hold to the second order of the step only. @param change largest change of the velocity that
   /// makes them hold
-  /// @param velocity the largest one [m/s, 1/s]
+  /// @param velocity the largest one, of the end or usual before [m/s, 1/s]
   void finish(double change, double velocity);
 
   /// Before the end, if it is asked for: what rounding alone may move in one step [J]. Where
@@ -46,6 +46,9 @@ class Certificate {
   /// All that was summed and compared so far, as "certificate".
   void save(Snapshot& snapshot) const;
   void restore(const Snapshot& snapshot);
+
+  /// The largest of the mean speeds sqrt(2 T / m) that were compared so far [m/s]; 0 without mass.
+  double largest_mean_speed() const;
 
   /// Whether nothing holds the model from outside, so that its momenta are kept.
   bool is_free() const;

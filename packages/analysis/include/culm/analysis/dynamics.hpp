@@ -61,6 +61,7 @@ class Dynamics final : public Stepper {
   void do_save(Snapshot& snapshot) const override;
   void do_restore(const Snapshot& snapshot) override;
   void refuse_other_schemes() const;
+  void note_lagging_rates();
   void fit_motion();
   model::Coordinates first_acceleration(double first_step);
   /// @param fitted  becomes the velocity that constraints allow, see System::project_velocity

@@ -50,6 +50,10 @@ std::shared_ptr<const assembly::Matrix> rates_of_signals(
 bool damps_motions(const assembly::System& system,
                    const std::shared_ptr<const assembly::Matrix>& damping);
 
+/// Whether forces at state.next depend on velocities. Leaves the system prepared for another step.
+/// Collective.
+bool feels_rates(assembly::System& system, const model::State& state);
+
 /// Typical squared frequency of the displacement of single nodes, the geometric mean of K_ii / M_ii
 /// [1/s^2]: orders of magnitude above the first of a structure.
 double typical_eigenvalue(const Linearisation& linear, const assembly::System& system);

@@ -39,6 +39,9 @@ class PathFollowing final : public Stepper {
     std::vector<PathEvent> events;
   };
 
+  /// A step that bends more than this, as a cosine, may have reached another piece of the path.
+  static constexpr double least_straightness = 0.5;
+
   void do_begin() override;
   void do_prepare_resume() override { make_newton(settings_.newton); }
   bool reaches_end() const override;
