@@ -2,7 +2,7 @@
 """Stops and kills runs, goes on with them, and compares the results with those of a run that nobody
 disturbed: all bits must be the same.
 
-usage: resume.py --culm PROGRAM [--mpiexec PROGRAM --ranks N] [--kills N] [--flips N] [--seed N] [--only NAME]
+usage: resume.py --culm PROGRAM [--kind single|parts] [--mpiexec PROGRAM --ranks N] [--kills N] [--flips N] [--seed N] [--only NAME]
 """
 
 import argparse
@@ -679,13 +679,15 @@ def kills(name):
     return test
 
 
-def tests(ranks):
-    names = [name for name in PARTS if ranks == 1 or name in ON_SEVERAL_RANKS]
-    killed = [name for name in KILLED if ranks == 1 or name in ON_SEVERAL_RANKS]
-    return [run_in_parts(name, PARTS[name]) for name in names] + ALWAYS + [kills(name) for name in killed]
+def tests(options):
+    """The trials of one kind; on several ranks those of PARTS and KILLED that differ there."""
+    parts, killed = ([name for name in names if options.ranks == 1 or name in ON_SEVERAL_RANKS] for names in (PARTS, KILLED))
+    if options.kind == "parts":
+        return [run_in_parts(name, PARTS[name]) for name in parts] + [kills(name) for name in killed]
+    return SINGLE + [run_in_parts(parts[0], PARTS[parts[0]])]
 
 
-ALWAYS = [
+SINGLE = [
     signals_stop_within_a_step,
     signals_that_come_early_are_heard,
     time_allowed_is_kept,
@@ -710,6 +712,8 @@ def main():
     parser.add_argument("--culm", required=True)
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--kind", choices=["single", "parts"], default="single",
+                        help="single trials, or runs of many models in parts and with kills")
     parser.add_argument("--kills", type=int, default=8)
     parser.add_argument("--flips", type=int, default=4)
     parser.add_argument("--seed", type=int, default=1)
@@ -717,7 +721,7 @@ def main():
     options = parser.parse_args()
     # a shell that starts this in the background lets it and its children ignore SIGINT
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    chosen = [test for test in tests(options.ranks) if options.only in test.__name__]
+    chosen = [test for test in tests(options) if options.only in test.__name__]
     return run_each(options, [(test.__name__, functools.partial(test, options=options)) for test in chosen])
 
 
