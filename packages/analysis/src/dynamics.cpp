@@ -146,8 +146,7 @@ void Dynamics::note_lagging_rates() {
   if (scheme_->conserves() || stencil_.theta == 0.5 || !feels_rates(system(), state())) return;
   context().log.info(fmt::format(
       "note: rates of dampers, friction, frames that turn, air and the like are those of the "
-      "middle "
-      "of steps, where '{}' does not balance forces: it is of first order in the step here, "
+      "middle of steps, where '{}' does not balance forces: it is of first order in the step here, "
       "'Conserving' of second",
       scheme_->name()));
 }
