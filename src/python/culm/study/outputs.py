@@ -234,6 +234,9 @@ def _draw_costs(judgement, ax, styles):
     if high < 8.0 * low:
         numbers += [m * 10.0**k for k in range(-3, 6) for m in (1.2, 1.5, 3.0, 4.0, 7.0)]
     shown = sorted(number for number in numbers if low <= number <= high)
+    if len(shown) < 2:  # costs that hardly differ
+        even = drawing.matplotlib.ticker.MaxNLocator(4).tick_values(low, high)
+        shown = [number for number in even if low <= number <= high]
     ax.set_xticks(shown, [f"{number:g}" for number in shown])
     ax.set_xticks([], minor=True)
     ax.legend(fontsize=7)
