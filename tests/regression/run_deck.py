@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Runs a deck and compares its history with the expected values.
 
-usage: run_deck.py --culm PROGRAM [--mpiexec PROGRAM --parallel] DECK.xml EXPECTED.xml
+usage: run_deck.py --culm PROGRAM [--mpiexec PROGRAM --ranks N] DECK.xml EXPECTED.xml
 
 What an expected file holds, see README.md beside this file. One process runs the deck, both forms
-of the equations and another linear solver where the file says so, and the variants that must fail. With --parallel the deck
-runs on 2 and 3 ranks instead, compared with the same file, and with a run on one.
+of the equations and another linear solver where the file says so, and the variants that must fail. With --ranks the deck
+runs on that many instead, compared with the same file, and with a run on one.
 """
 
 import argparse
@@ -17,7 +17,6 @@ import xml.etree.ElementTree as ElementTree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "kit"))
 from culm_runs import Culm  # noqa: E402
 
-RANKS = (2, 3)
 RANKS_TOLERANCE = 1e-12
 # other ways to solve the same equations: by element of an expected file, how to ask for them
 VARIANTS = {
@@ -206,19 +205,17 @@ def check_alone(culm, deck, expected):
     return complaints
 
 
-def check_parallel(culm, deck, expected):
+def check_parallel(culm, deck, expected, ranks):
     complaints = []
     alone = check_run(culm, deck, expected, 1, complaints, brief=True)
-    for ranks in RANKS if alone else []:
-        run = check_run(culm, deck, expected, ranks, complaints, brief=True)
-        if not run:
-            continue
+    run = check_run(culm, deck, expected, ranks, complaints, brief=True) if alone else None
+    if run:
         what = f"1 and {ranks} ranks"
         scale = scale_of(expected, alone.history)
         complaints += compare(alone.history, run.history, scale, RANKS_TOLERANCE, what)
         complaints += compare_tables(alone.tables, run.tables, what)
     for failure in expected.findall("Fails"):
-        complaints += check_failure(culm, deck, failure, ranks=2)
+        complaints += check_failure(culm, deck, failure, ranks)
     return complaints
 
 
@@ -226,7 +223,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--culm", required=True)
     parser.add_argument("--mpiexec", default="mpiexec")
-    parser.add_argument("--parallel", action="store_true", help="run on 2 and 3 ranks")
+    parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("deck", type=pathlib.Path)
     parser.add_argument("expected", type=pathlib.Path)
     arguments = parser.parse_args()
@@ -234,8 +231,11 @@ def main():
         sys.exit(f"{arguments.deck} has no expected values: write {arguments.expected}")
     expected = ElementTree.parse(arguments.expected).getroot()
     culm = Culm(arguments.culm, arguments.mpiexec)
-    check = check_parallel if arguments.parallel else check_alone
-    complaints = check(culm, arguments.deck.resolve(), expected)
+    deck = arguments.deck.resolve()
+    if arguments.ranks > 1:
+        complaints = check_parallel(culm, deck, expected, arguments.ranks)
+    else:
+        complaints = check_alone(culm, deck, expected)
     for complaint in complaints:
         print(complaint)
     sys.exit(1 if complaints else 0)

@@ -43,6 +43,10 @@ std::vector<Wave> random_waves(const SeaState& sea, Band band, int count, std::u
   return waves;
 }
 
+// Boost would compute in long double, which angles of waves do not need and which takes long to
+// compile.
+using Doubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
 // With v = sin(pi angle / range), (1 + v) / 2 has a beta distribution with both parameters
 // (exponent + 1) / 2. Multiples of the golden ratio, without their integers, fill the interval from
 // 0 to 1 evenly however many follow each other.
@@ -52,7 +56,7 @@ std::vector<double> spread_angles(const Spreading& spreading, int count, std::ui
   std::vector<double> angles;
   for (int i = 0; i < count; ++i) {
     const double whole = begin + i / std::numbers::phi;
-    const double v = 2.0 * boost::math::ibeta_inv(a, a, whole - std::floor(whole)) - 1.0;
+    const double v = 2.0 * boost::math::ibeta_inv(a, a, whole - std::floor(whole), Doubles()) - 1.0;
     angles.push_back(spreading.range / std::numbers::pi * std::asin(v));
   }
   return angles;
