@@ -80,22 +80,43 @@ Vector linear_step(Context& context, model::State at, double level) {
 }
 
 // What the linear step adds to the tangent, all of it linear in the step: stresses where the
-// structure is, multipliers, loads.
+// structure is, multipliers, loads. A difference that is small beside the tangent would be made of
+// rounding, so the step is taken as many times as large as it takes.
 std::shared_ptr<const Matrix> stress_stiffness(Context& context, model::State at, double level,
                                                const Vector& step, const Matrix& tangent) {
   assembly::System& system = context.system;
   const Stencil stencil = Stencil::statics();
-  const model::Coordinates q = at.next;
   at.time = at.time_prev = level;
-  system.prepare(at, stencil);
-  system.extrapolate(at, stencil, step, 1.0);
-  system.move(at, step, 1.0);
-  at.next = q;
-  system.evaluate(at, stencil, Want::residual_and_tangent);
-  const auto change = std::make_shared<Matrix>(*system.matrix());
+  const auto with = [&](double times) {
+    model::State moved = at;
+    system.prepare(moved, stencil);
+    system.extrapolate(moved, stencil, step, times);
+    system.move(moved, step, times);
+    moved.next = at.next;
+    system.evaluate(moved, stencil, Want::residual_and_tangent);
+    return std::make_shared<Matrix>(*system.matrix());
+  };
+  const auto subtract = [](Matrix& from, const Matrix& what) {
+    const auto values = from.values();
+    const auto others = what.values();
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] -= others[k];
+  };
+  auto change = with(1.0);
+  subtract(*change, tangent);
+  const double enough = 1e-6 * tangent.norm();
+  constexpr double factor = 0x1p20, most = 0x1p200;
+  if (change->norm() >= enough || step.largest() == 0.0) return change;
+  const auto without = with(0.0);
+  double times = 1.0;
+  do {
+    times *= factor;
+    change = with(times);
+    subtract(*change, *without);
+  } while (change->norm() < enough && times < most);
+  subtract(*without, tangent);
   const auto values = change->values();
-  const auto before = tangent.values();
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] -= before[k];
+  const auto loads = without->values();
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = values[k] / times + loads[k];
   return change;
 }
 

@@ -227,10 +227,14 @@ double PathCondition::violation(const model::State& state) {
   return std::abs(gone - size_) / system_.model().length();
 }
 
-double PathCondition::length(const model::State& state) {
+const PathCondition::Motion& PathCondition::way(const model::State& state) {
   read_way(state);
-  return std::sqrt(dot(way_, way_));
+  return way_;
 }
+
+double PathCondition::length(const Motion& way) { return std::sqrt(dot(way, way)); }
+
+double PathCondition::length(const model::State& state) { return length(way(state)); }
 
 double PathCondition::straightness(const model::State& state) {
   read_way(state);

@@ -79,7 +79,7 @@ std::vector<PathEvent> find_events(const PathPoint& from, const PathPoint& to, d
   }
   std::sort(found.begin(), found.end());
   std::vector<PathEvent> events;
-  for (const auto& [x, kind] : found) events.push_back({kind, level.at(x), watched.at(x)});
+  for (const auto& [x, kind] : found) events.push_back({kind, level.at(x), watched.at(x), x});
   return events;
 }
 

@@ -221,7 +221,7 @@ StepReport PathFollowing::do_attempt(double size) {
   if (!known_.is_examined && condition_.tangent()) {
     if (examine(*condition_.tangent(), report.outcome.first_determinant)) {
       system().discard(state());
-      locate_zero();
+      locate_events();
       std::optional<solver::StepOutcome> found;
       if (is_to_branch()) found = branch_off();
       is_on_branch_ = found.has_value();
@@ -334,7 +334,14 @@ AnalysisReport PathFollowing::do_finish() {
   if (!known_.is_examined) {
     before_ = known_;
     if (examine(tangent, determinant)) {
-      locate_zero();
+      locate_events();
+      if (is_to_branch()) {
+        context().findings.warn(
+            "branch",
+            "the path ends on the step in which another one crosses it, before that could "
+            "be followed; try shorter steps, or an end farther on",
+            known_.events.back().level);
+      }
       compute_tangent();
     }
   }

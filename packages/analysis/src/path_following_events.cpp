@@ -52,23 +52,143 @@ std::optional<solver::Determinant> PathFollowing::go_back(double length) {
   return context().linear.determinant();
 }
 
-void PathFollowing::locate_zero() {
-  const auto kind = crosses() ? PathEventKind::bifurcation : PathEventKind::limit_point;
-  const auto begin = known_.events.begin() + static_cast<std::ptrdiff_t>(before_.events.size());
-  const auto found = std::find_if(begin, known_.events.end(),
-                                  [kind](const PathEvent& event) { return event.kind == kind; });
-  if (found == known_.events.end()) return;
-  PathEvent& crossing = *found;
-  const auto look_at = [&](double length) {
-    const std::optional<solver::Determinant> determinant = go_back(length);
-    if (determinant) {
-      crossing.level = state().time;
-      crossing.watched = condition_.watched_displacement(state().next);
-    }
-    return determinant;
+namespace {
+
+// A point at a length behind the last one of a path.
+struct PointBehind {
+  double length = 0.0;  // [m]
+  double level = 0.0, watched = 0.0;
+  solver::Determinant determinant;
+  PathCondition::Motion way;  // to it
+};
+
+double between(const PointBehind& near, const PointBehind& far, double length,
+               double PointBehind::*value) {
+  const double share = (length - near.length) / (far.length - near.length);
+  return near.*value + share * (far.*value - near.*value);
+}
+
+// Near to a crossing the iteration may end on the other path. A point of this one lies hardly
+// beside the chord between its neighbours.
+bool leaves_path(const PointBehind& near, const PointBehind& far, const PointBehind& point) {
+  const PathCondition::Motion chord = far.way - near.way;
+  const double share = (point.length - near.length) / (far.length - near.length);
+  const PathCondition::Motion beside = point.way - near.way - share * chord;
+  return PathCondition::length(beside) > 0.5 * PathCondition::length(chord);
+}
+
+// Where the level turns, by the parabola through the point where it has gone farthest and those
+// beside it.
+void turn_at(PathEvent& limit, std::vector<PointBehind>& points) {
+  std::sort(points.begin(), points.end(),
+            [](const PointBehind& a, const PointBehind& b) { return a.length < b.length; });
+  const double sense = limit.level > points.front().level ? 1.0 : -1.0;
+  const auto farthest = std::max_element(points.begin() + 1, points.end() - 1,
+                                         [sense](const PointBehind& a, const PointBehind& b) {
+                                           return sense * a.level < sense * b.level;
+                                         });
+  const PointBehind &a = *(farthest - 1), &b = *farthest, &c = *(farthest + 1);
+  const auto slope = [](const PointBehind& from, const PointBehind& to,
+                        double PointBehind::*value) {
+    return (to.*value - from.*value) / (to.length - from.length);
   };
-  back_ = approach_zero(known_.here.determinant, known_.behind.determinant, last_length_, look_at);
+  const auto curvature = [&](double PointBehind::*value) {
+    return (slope(b, c, value) - slope(a, b, value)) / (c.length - a.length);
+  };
+  const auto at = [&](double x, double PointBehind::*value) {
+    return a.*value + (x - a.length) * (slope(a, b, value) + (x - b.length) * curvature(value));
+  };
+  const double bend = curvature(&PointBehind::level);
+  if (bend * sense >= 0.0) return;
+  const double x = 0.5 * (a.length + b.length - slope(a, b, &PointBehind::level) / bend);
+  limit.level = at(x, &PointBehind::level);
+  limit.watched = at(x, &PointBehind::watched);
+}
+
+}  // namespace
+
+void PathFollowing::locate_events() {
+  const PathPoint &here = known_.here, &behind = known_.behind;
+  const auto find = [this](PathEventKind kind) {
+    const auto begin = known_.events.begin() + static_cast<std::ptrdiff_t>(before_.events.size());
+    const auto found = std::find_if(begin, known_.events.end(),
+                                    [kind](const PathEvent& event) { return event.kind == kind; });
+    return found == known_.events.end() ? nullptr : &*found;
+  };
+  const auto look_at = [this](double length, const PointBehind& near,
+                              const PointBehind& far) -> std::optional<PointBehind> {
+    const std::optional<solver::Determinant> determinant = go_back(length);
+    if (!determinant) return {};
+    PointBehind point{length, state().time, condition_.watched_displacement(state().next),
+                      *determinant, condition_.way(state())};
+    if (leaves_path(near, far, point)) return {};
+    return point;
+  };
+  const auto locate = [&](PathEvent& event, PointBehind near, PointBehind far) {
+    const DeterminantZero zero = approach_zero(
+        {near.length, near.determinant}, {far.length, far.determinant}, [&](double length) {
+          std::optional<PointBehind> point = look_at(length, near, far);
+          std::optional<solver::Determinant> determinant;
+          if (!point) return determinant;
+          determinant = point->determinant;
+          (determinant->sign == near.determinant.sign ? near : far) = std::move(*point);
+          return determinant;
+        });
+    const double before = zero.place - near.length, after = far.length - zero.place;
+    constexpr double sure = 1e-3;  // of the step
+    const bool is_sure = zero.is_found || std::min(before, after) < sure * last_length_;
+    // the level of a limit point is known well from the slopes of the path
+    if (!is_sure && event.kind == PathEventKind::limit_point) return;
+    event.level = between(near, far, zero.place, &PointBehind::level);
+    event.watched = between(near, far, zero.place, &PointBehind::watched);
+    if (event.kind == PathEventKind::bifurcation) back_ = before < after ? near.length : far.length;
+    if (!is_sure) doubt(event, near.level, far.level);
+  };
+  PointBehind near{0.0, here.level, here.watched, here.determinant, 0.0 * condition_.last_way()};
+  PointBehind far{last_length_, behind.level, behind.watched, behind.determinant,
+                  -condition_.last_way()};
+  PathEvent *crossing = find(PathEventKind::bifurcation), *limit = find(PathEventKind::limit_point);
+  back_ = 0.0;
+  if (here.determinant.sign != behind.determinant.sign) {
+    if (PathEvent* event = crossing ? crossing : limit) locate(*event, near, far);
+  } else if (crossing && limit) {
+    // beside the limit point, on the side of the crossing, the determinant has the other sign
+    std::vector<PointBehind> points;
+    std::optional<PointBehind> inside;
+    for (const double share : {-0.02, 0.02, -0.1, 0.1, -0.3, 0.3}) {
+      const double length = last_length_ * (1.0 + share) - limit->length;
+      if (length <= 0.0 || length >= last_length_) continue;
+      std::optional<PointBehind> point = look_at(length, near, far);
+      if (!point) continue;
+      if (point->determinant.sign != here.determinant.sign) {
+        locate(*crossing, share < 0.0 ? near : *point, share < 0.0 ? *point : far);
+        locate(*limit, share < 0.0 ? *point : near, share < 0.0 ? far : *point);
+        inside = std::move(point);
+        break;
+      }
+      points.push_back(std::move(*point));
+    }
+    // if it has that nowhere, the other path crosses where the level turns
+    if (!inside && points.size() > 2) {
+      points.push_back(near);
+      points.push_back(far);
+      turn_at(*limit, points);
+      crossing->level = limit->level;
+      crossing->watched = limit->watched;
+    } else if (!inside) {
+      doubt(*crossing, near.level, far.level);
+    }
+  }
   system().discard(state());
+}
+
+void PathFollowing::doubt(const PathEvent& event, double one_level, double other_level) {
+  context().findings.warn(
+      "crossing",
+      fmt::format("the {} at level {:.6g} lies anywhere between {:.6g} and {:.6g}: "
+                  "equilibria between them were not found; try shorter steps",
+                  name_of(event.kind), event.level, one_level, other_level),
+      event.level);
 }
 
 void PathFollowing::tell_events() {

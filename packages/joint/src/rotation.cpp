@@ -14,8 +14,11 @@ namespace {
 // The longest projection of a director on the plane normal to n, unit length.
 Vec3 normal_of_body(const Mat3& triad, const Vec3& n) {
   const Mat3 projections = triad - n * (n.transpose() * triad);
+  const Vec3 lengths = projections.colwise().norm().transpose();
+  // of directors that are alike the first, whatever rounding made of them
+  constexpr double alike = 1e-4;
   int longest = 0;
-  projections.colwise().squaredNorm().maxCoeff(&longest);
+  while (lengths[longest] < lengths.maxCoeff() - alike) ++longest;
   return projections.col(longest).normalized();
 }
 

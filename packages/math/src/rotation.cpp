@@ -86,8 +86,11 @@ Mat3 triad_along(const Vec3& axis, const Vec3& up) {
 
 Vec3 any_normal(const Vec3& n) {
   const Vec3 unit = n.normalized();
+  // of axes that are alike the first, whatever rounding made of their components
+  constexpr double alike = 1e-4;
+  const Vec3 along = unit.cwiseAbs();
   int least = 0;
-  unit.cwiseAbs().minCoeff(&least);
+  while (along[least] > along.minCoeff() + alike) ++least;
   const Vec3 e = Vec3::Unit(least);
   return (e - e.dot(unit) * unit).normalized();
 }

@@ -96,6 +96,14 @@ TEST(TriadAlong, HasItsThirdAxisAlongAndItsFirstTowardsUp) {
   EXPECT_GT(D.col(0).dot(up), 0.0);
 }
 
+TEST(AnyNormal, DoesNotDependOnRounding) {
+  const Vec3 along(1.0, 0.0, 0.0);
+  for (const double rounding : {1e-17, -1e-17, 1e-9}) {
+    EXPECT_LT((any_normal({1.0, rounding, 0.0}) - any_normal(along)).norm(), 1e-8);
+    EXPECT_LT((any_normal({1.0, 0.0, rounding}) - any_normal(along)).norm(), 1e-8);
+  }
+}
+
 TEST(AnyNormal, IsAUnitNormal) {
   for (const Vec3& n : {Vec3(2.0, 0.0, 0.0), Vec3(0.0, -1.0, 0.0), Vec3(0.1, 5.0, -3.0)}) {
     EXPECT_NEAR(any_normal(n).dot(n), 0.0, 1e-15);

@@ -228,6 +228,15 @@ void take(Linearised& problem, const QuadraticPencil& pencil, const EigenSetting
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return std::abs(a.first) < std::abs(b.first);
   });
+  // of a pair s, -s of what falls over the growing one first, which alone may find room
+  constexpr double alike = 1e-6;
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    const Complex before = found[i - 1].first, value = found[i].first;
+    const bool are_alike = std::abs(value) - std::abs(before) <= alike * std::abs(value);
+    if (are_alike && value.real() > before.real() + alike * std::abs(value)) {
+      std::swap(found[i - 1], found[i]);
+    }
+  }
 
   const Judge judge(problem.inverse(), pencil, settings.shift, largest_entry(*pencil.K, comm));
   FreeMotions free(problem, *pencil.M);

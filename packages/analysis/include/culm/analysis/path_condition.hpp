@@ -36,6 +36,9 @@ struct PathTangent {
 /// the equations. Remembers the last increment, by which the next step knows its sense.
 class PathCondition final : public solver::LevelCondition {
  public:
+  /// Of the slots of all nodes, directors times their weights; the same on all ranks.
+  using Motion = Eigen::Matrix<double, 12, Eigen::Dynamic>;
+
   /// @param level_difference for derivatives by the level; its sign is the sense of the first step
   PathCondition(assembly::System& system, PathControl control,
                 const std::optional<WatchedMotion>& watched, double level_difference);
@@ -67,6 +70,12 @@ class PathCondition final : public solver::LevelCondition {
   double length(const model::State& state);
   /// Cosine between the way of the last attempt and the direction in which it began.
   double straightness(const model::State& state);
+  /// The way of the last attempt.
+  const Motion& way(const model::State& state);
+  /// The way of the last accepted step; no columns before the first.
+  const Motion& last_way() const { return previous_; }
+  /// Length of a way [m].
+  static double length(const Motion& way);
   /// The tangent at the start of the last attempt; nothing if it had none.
   const std::optional<PathTangent>& tangent() const { return tangent_; }
   /// Finds the tangent from d_f at an equilibrium.
@@ -83,9 +92,6 @@ class PathCondition final : public solver::LevelCondition {
   void restore(const Snapshot& snapshot);
 
  private:
-  /// Of the slots of all nodes, directors times their weights; the same on all ranks.
-  using Motion = Eigen::Matrix<double, 12, Eigen::Dynamic>;
-
   void read_slots(const model::Coordinates& q, Motion& motion) const;
   void read_way(const model::State& state);
   void complete(Motion& motion) const;

@@ -28,6 +28,7 @@ struct PathEvent {
   PathEventKind kind = PathEventKind::limit_point;
   double level = 0.0;
   double watched = 0.0;  ///< [m]
+  double length = 0.0;   ///< of arc from the point before it, as near as find_events() knows [m]
 };
 
 /// "limit point", "turning point", "bifurcation"

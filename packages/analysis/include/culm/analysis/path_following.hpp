@@ -77,14 +77,16 @@ class PathFollowing final : public Stepper {
   /// to be had.
   std::optional<assembly::Vector> find_flexibility();
   /// Looks for events between the last two points once the tangent of the later one is known.
-  /// @return whether the determinant changes its sign there; locate_zero() is to follow
+  /// @return whether the determinant passes zero there; locate_events() is to follow
   bool examine(const PathTangent& tangent, const solver::Determinant& determinant);
   /// Solves on the path at a `length` [m] of arc before the last accepted point. @return the
   /// determinant there; nothing if no solution is found
   std::optional<solver::Determinant> go_back(double length);
-  /// Finds where the determinant changes its sign between the last two points, and corrects the
-  /// event that was found there: the crossing of another path, or else the limit point.
-  void locate_zero();
+  /// Finds where the determinant passes zero between the last two points, and corrects what was
+  /// found there: the crossing of another path, or the limit point, or one of each.
+  void locate_events();
+  /// Warns that an event may lie anywhere between two levels.
+  void doubt(const PathEvent& event, double one_level, double other_level);
   /// Whether another path crosses between the last two points.
   bool crosses() const;
   /// Tells the events that were found since the last step was accepted or failed.
