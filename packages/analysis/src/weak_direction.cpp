@@ -55,8 +55,13 @@ bool WeakDirection::is_multiplier(const Vector& vector, std::size_t i) const {
   return names_.place_of(static_cast<int>(unknown)).block.kind != model::BlockKind::node;
 }
 
-double WeakDirection::resistance(const Vector& motion) const {
+double WeakDirection::resistance(const Vector& direction) const {
   assembly::Matrix absolute = *system_.matrix();
+  // where nothing at all resists, what rounding left of a direction elsewhere would resist alone
+  constexpr double rounding = 1e-12;
+  Vector motion = direction;
+  const double least = rounding * motion.largest();
+  for (double& value : motion.values()) value = std::abs(value) < least ? 0.0 : value;
   Vector image(motion.rows());
   absolute.multiply(motion, image);
   const double work = motion.dot(image);
@@ -64,7 +69,8 @@ double WeakDirection::resistance(const Vector& motion) const {
   Vector size = motion;
   for (double& value : size.values()) value = std::abs(value);
   absolute.multiply(size, image);
-  return std::abs(work) / (std::numeric_limits<double>::epsilon() * size.dot(image));
+  const double held = size.dot(image);
+  return held > 0.0 ? std::abs(work) / (std::numeric_limits<double>::epsilon() * held) : 0.0;
 }
 
 bool WeakDirection::is_free(const Vector& motion) const {
