@@ -2,6 +2,7 @@
 """What keeping watch costs: ledger, certificate and evaluation of what is watched, as shares of one run.
 
 usage: tests/benchmark/overhead.py --culm build/release/src/culm --benchmark build/release/tests/benchmark/culm_benchmark
+       after cmake --build build/release --target culm_benchmark
 """
 
 import argparse
