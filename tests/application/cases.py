@@ -681,7 +681,7 @@ CASES = [
             ('<ParameterList name="Solver">', f'<ParameterList name="Initial Conditions">{entry("push", Type="Velocity", Node="beam/last", Velocity="{0, 3, 0}")}'
              '</ParameterList><ParameterList name="Solver">'),
         ],
-        says=["warning: initial velocities were made to fit the constraints; largest change 3 at 'beam/4', by Rigid "
+        says=["warning: initial velocities were made to fit the constraints; largest change 3 m/s at 'beam/4', by Rigid "
               "Connection 'bolt'\n"],
         results="out",
         last_level=0.05,

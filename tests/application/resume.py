@@ -491,6 +491,36 @@ def start_from_another_run_keeps_signals(program, folder, options):
     demand("'Start From' of 'motion' leaves out what Lag 'motor' remembers" in err, f"stderr is {err}")
 
 
+def start_from_another_run_counts_turns(program, folder, options):
+    """The quantity 'Joint Angle' goes on counting in another run; that nobody watched it there is told."""
+    far = settings("Constraints/lead/Angle=9")
+    start = far + settings("Analyses/motion/Start From=half", "Analyses/motion/Start Time=2", "Analyses/motion/End Time=4")
+    program("run", *TORSION, *far, "--output", "half")
+    _, _, err = program("run", *TORSION, *start, "--output", "rest")
+    names, *_, last = (line.split(",") for line in (folder / "rest/history.csv").read_text().splitlines())
+    angle = float(last[names.index("led angle [rad]")])
+    demand(abs(angle - 9.0) < 1e-6 and "turns" not in err, f"turned by {angle} rad, not 9; stderr is {err}")
+    text = (INPUTS / "joint/torsion.xml").read_text().replace('"led angle"', '"turn"')
+    (folder / "renamed.xml").write_text(text)
+    _, _, err = program("run", "renamed.xml", "--quiet", *start, "--output", "rest")
+    demand("History 'turn' counts turns from here" in err, f"stderr is {err}")
+
+
+def start_from_a_run_that_ends_with_modes(program, folder, options):
+    """What looks at a state comes after the last step, whose end another run can start from."""
+    path, levels = INPUTS / "modes/rotating_beam.xml", "Analyses/spin"
+    program("run", path, *settings(f"{levels}/Final Level=0.5", f"{levels}/Steps=6"), "--output", "half")
+    end = settings(f"{levels}/Start From=half", f"{levels}/Start Level=0.5", f"{levels}/Steps=6")
+    program("run", path, *end, "--output", "rest")
+    program("run", path, "--output", "whole")
+
+    def numbers(name):
+        return numpy.loadtxt(folder / name / "history.csv", delimiter=",", skiprows=1)[-1, :-2]
+
+    rest, whole = numbers("rest"), numbers("whole")
+    demand(numpy.abs(rest - whole).max() <= 1e-9 * numpy.abs(whole).max(), f"{rest}, in one run {whole}")
+
+
 def flipped_bits(program, folder, options):
     """A bit that turned over in run.h5 or a checkpoint is found, or changes nothing."""
     program("run", *TORSION, "--output", "whole")
@@ -700,6 +730,8 @@ SINGLE = [
     start_from_another_run,
     start_from_another_run_remembers,
     start_from_another_run_keeps_signals,
+    start_from_another_run_counts_turns,
+    start_from_a_run_that_ends_with_modes,
     flipped_bits,
     checkpoints_can_be_switched_off,
     other_number_of_processes,

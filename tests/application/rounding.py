@@ -1,11 +1,13 @@
 """What rounding or the size of a step must not decide: on which axes sections stand, where paths cross, factors of small
-loads, which of two roots of a pair is shown."""
+loads, which of two roots of a pair is shown, from where angles are counted, in which step a jump acts."""
 
 import csv
 import math
 import re
 
-from deck_text import ends_with, entry, listed
+import numpy
+
+from deck_text import ends_with, entry, last_row, listed, rows
 from driver import Case
 
 RUN = "run deck.xml --output out"
@@ -132,6 +134,27 @@ UNFOLLOWED = [Case("a path that ends before it could follow another", 0, args=RU
                    says=["the path ends on the step in which another one crosses it"])]
 
 
+# --- a square column: two directions lose their stiffness together, and the determinant keeps its sign
+
+def square_column(increment, **values):
+    path = inner(entry("p", Type="Path", First_Increment=increment, Final_Level="1.4", Steps="100", **values),
+                 entry("Watch", Node="b/last", Direction="{0, 0, 1}"))
+    return deck(listed("Sections", entry("s", Type="Stiffness Values", EA="1e7", GA1="1e7", GA2="1e7", EI1="1", EI2="1", GIp="10")),
+                listed("Structures", beam(entry("Curve", Type="Line", From="{0, 0, 0}", To="{0, 0, 1}", Elements="10", Up="{1, 0, 0}"), Order="2")),
+                listed("Constraints", entry("root", Type="Rigid Support", Node="b/first")),
+                listed("Loads", entry("q", Type="Force", Node="b/last", Force=numbers([0.0, 0.0, -math.pi**2 / 4.0]))), listed("Analyses", path),
+                inner('<ParameterList name="Output"></ParameterList>', listed("History", entry("u", Type="Displacement", Node="b/last"))))
+
+
+def ends_at_pair(folder, _):
+    *_, before, last = (row["time [s]"] for row in rows(folder))
+    return "" if before < 1.0 < last < 1.4 else f"the last levels are {before}, {last}"
+
+
+PAIRS = [Case(f"a square column, first increment {increment}", 0, args=RUN, deck=square_column(increment, Bifurcation="Stop"), leaves=["out"],
+              silent=False, says=["two directions lost their stiffness"], check=ends_at_pair, ranks=increment == "0.3") for increment in ("0.05", "0.3")]
+
+
 # --- factors of loads that are small beside the stiffness
 
 def column_under(load):
@@ -184,4 +207,69 @@ def sliding():
 
 FREE = [Case("a body with nothing along z", 4, args=RUN, deck=sliding(), leaves=["out"], says=["Nothing resists this motion"])]
 
-CASES = [*FREE, *ALIKE, *HELD, *CROSSED, *UNFOLLOWED, *SMALL, *FALLING]
+
+# --- angles between bodies whose axes nothing keeps together are the same in each pose
+
+POSE = numpy.array([[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]]) / 3.0
+AXIS = [0.1, 0.0, 1.0]
+
+
+def tilting(turn, load=None, joint=None):
+    def turned(*vector):
+        return numbers((turn @ numpy.array(vector)).tolist())
+
+    between = {"First": "a", "Second": "b", "Axis": turned(*AXIS)}
+    bodies = (entry(name, Type="Rigid Body", Position="{0, 0, 0}", Directors=numbers(turn.T.ravel().tolist()), Mass="2", Inertia=inertia)
+              for name, inertia in (("a", "{1, 1.1, 1.5}"), ("b", "{0.5, 0.7, 0.6}")))
+    return deck(listed("Structures", *bodies),
+                listed("Constraints", entry("s", Type="Spherical Joint", First="a", Second="b"), *([entry("j", **between, **joint)] if joint else [])),
+                listed("Loads", *([entry("l", **between, **load)] if load else [])),
+                listed("Initial Conditions", entry("v", Type="Velocity", Node="b", Angular_Velocity=turned(1.0, 0.5, 0.0))),
+                listed("Analyses", entry("d", Type="Dynamic", Step="0.01", End_Time="1")),
+                inner('<ParameterList name="Output"></ParameterList>',
+                      listed("History", entry("j", Type="Joint Angle", **between), entry("r", Type="Rotation", Node="b"))))
+
+
+def turns_to(angle, turn):
+    """A check of the angle at the end, and of the way that body b has turned, seen in the first pose."""
+    def check(folder, _):
+        end = last_row(folder)
+        found = turn.T @ [end[f"r {name} [rad]"] for name in ("rx", "ry", "rz")]
+        return "" if abs(end["j [rad]"] - angle[0]) < 1e-6 and abs(found - angle[1]).max() < 1e-6 else f"{end['j [rad]']}, {found}"
+
+    return check
+
+
+TILTING = {
+    "spring": ({"load": {"Type": "Torsion Spring", "Stiffness": "5"}}, (0.0, [0.0, 0.0, 0.0])),
+    "damper": ({"load": {"Type": "Torsion Damper", "Damping": "5"}}, (0.0, [0.0, 0.0, 0.0])),
+    "drive": ({"load": {"Type": "Torsion Drive", "Moment": "2", "Function": "Constant"}}, (0.0, [0.0, 0.0, 0.0])),
+    "joint": ({"joint": {"Type": "Joint Angle", "Angle": "0"}}, (0.0, [0.0, 0.0, 0.0])),
+}
+POSES = [Case(f"a torsion {name} between bodies that tilt, {pose}", 0, args=RUN, deck=tilting(turn, **values), leaves=["out"], check=turns_to(end, turn))
+         for name, (values, end) in TILTING.items() for pose, turn in (("in one pose", numpy.eye(3)), ("in another", POSE))]
+
+
+# --- a force that jumps at a level acts from there on, whatever rounding made of the sum of the increments
+
+def stepped(level):
+    return deck(listed("Structures", entry("b", Type="Rigid Body", Position="{0, 0, 0}", Mass="1", Inertia="{1, 1, 1}")),
+                listed("Constraints", entry("p", Type="Prismatic Support", Node="b", Axis="{1, 0, 0}")),
+                listed("Functions", entry("jump", Type="Heaviside", Start=level)),
+                listed("Loads", entry("k", Type="Directed Ground Spring", Node="b", Direction="{1, 0, 0}", Stiffness="1"),
+                       entry("f", Type="Force", Node="b", Force="{1, 0, 0}", Function="jump")),
+                listed("Analyses", entry("s", Type="Static", Steps="10")),
+                inner('<ParameterList name="Output"></ParameterList>', listed("History", entry("u", Type="Displacement", Node="b"))))
+
+
+def jumps_at(level):
+    def check(folder, _):
+        moved = [row["time [s]"] for row in rows(folder) if row["u ux [m]"] > 0.5]
+        return "" if moved and abs(min(moved) - level) < 1e-6 else f"moves at {moved}"
+
+    return check
+
+
+JUMPS = [Case(f"a force from level {i / 10} on", 0, args=RUN, deck=stepped(i / 10), leaves=["out"], check=jumps_at(i / 10)) for i in (1, 3, 6, 7, 8, 9)]
+
+CASES = [*FREE, *ALIKE, *HELD, *CROSSED, *UNFOLLOWED, *PAIRS, *SMALL, *FALLING, *POSES, *JUMPS]

@@ -77,6 +77,18 @@ class Sweeps(SweepTest):
         self.assertNotEqual(rows[0]["other end x [m] last"], rows[1]["other end x [m] last"])
         self.assertFalse([name for name in rows[0] if name.startswith("loaded end")])
 
+    def test_a_variable_comes_before_a_short_name(self):
+        deck = self.folder / "named.xml"
+        variable = '<Variable name="tolerance" value="500"/>'
+        deck.write_text(FLIGHT.read_text().replace('<ParameterList name="culm">', '<ParameterList name="culm">' + variable)
+                        .replace('name="EI1" value="500"', 'name="EI1" value="tolerance"'))
+        output = self.sweep("--vary", "tolerance=300,500", *SHORT, "--watch", "other end", deck=deck)
+        self.assertIn("note: 'tolerance' is the variable of the deck, not short for Analyses/*/Newton/Force Tolerance", output)
+        by_name = [row["other end x [m] last"] for row in self.rows()]
+        shutil.rmtree(self.folder / "sweep")
+        self.sweep("--vary", f"{STIFFNESS}=300,500", *SHORT, "--watch", "other end")
+        self.assertEqual(by_name, [row["other end x [m] last"] for row in self.rows()])
+
     def test_parts_are_disjoint_and_collected(self):
         values = ["--vary", f"{STIFFNESS}=300,400,500", *SHORT]
         self.sweep(*values, "--part", "1/2")

@@ -5,7 +5,7 @@ import csv
 import math
 import pathlib
 
-from deck_text import ends_with, entry, last_row, listed
+from deck_text import ends_with, entry, last_row, listed, rows
 from driver import Case
 
 INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs"
@@ -559,7 +559,39 @@ COUPLED = [
          args="couple deck.xml --partner oscillator --mass 5 --stiffness 100 --output out --quiet"),
 ]
 
+# --- where a second motion begins nothing has been solved yet: a drive and a damper show no force
+
+def in_two_parts():
+    bodies = (entry(name, Type="Rigid Body", Position=place, Mass="1", Inertia="{1, 1, 1}") for name, place in (("wheel", "{0, 0, 0}"), ("cart", "{3, 0, 0}")))
+    watched = (entry("drive", Type="Reaction", Node="wheel", Constraint="drive"), entry("brake", Type="Link", Load="brake"),
+               entry("spring", Type="Link", Load="spring"))
+    along = {"Node": "cart", "Direction": "{1, 0, 0}"}
+    return f"""<ParameterList name="culm">{listed("Structures", *bodies)}{listed(
+        "Constraints", entry("pin", Type="Revolute Support", Node="wheel", Axis="{0, 0, 1}"),
+        entry("rail", Type="Prismatic Support", Node="cart", Axis="{1, 0, 0}"),
+        entry("drive", Type="Angular Velocity", Node="wheel", Axis="{0, 0, 1}", Angular_Velocity="2", Function="growth"))}{listed(
+        "Functions", entry("growth", Type="Formula", Value="1+t"))}{listed(
+        "Loads", entry("brake", Type="Directed Ground Damper", Damping="2", **along),
+        entry("spring", Type="Directed Ground Spring", Stiffness="3", **along))}{listed(
+        "Initial Conditions", entry("turn", Type="Velocity", Node="wheel", Angular_Velocity="{0, 0, 2}"),
+        entry("push", Type="Velocity", Node="cart", Velocity="{1, 0, 0}"))}{listed(
+        "Analyses", entry("one", Type="Dynamic", Step="0.01", End_Time="0.1"), entry("two", Type="Dynamic", Step="0.01", End_Time="0.2"))}
+        <ParameterList name="Output">{listed("History", *watched)}</ParameterList></ParameterList>"""
+
+
+def begins_unsolved(folder, _):
+    steps = rows(folder)
+    again = next(i for i in range(1, len(steps)) if steps[i]["time [s]"] == steps[i - 1]["time [s]"])
+    before, first = steps[again - 1], steps[again]
+    found = [(row["drive Mz [N m]"], row["brake F [N]"], row["spring F [N]"]) for row in (before, first)]
+    held = 3.0 * first["spring elongation [m]"]
+    is_right = abs(found[0][0]) > 1.9 and found[0][1] > 1.0 and found[1][:2] == (0.0, 0.0) and abs(found[1][2] - held) < 1e-9
+    return "" if is_right else f"drive, brake and spring before and at the start: {found}"
+
+
 CASES = [
+    Case("a second motion begins without forces of the first one", 0, args=RUN, leaves=["out"], errors=[], deck=in_two_parts(),
+         check=begins_unsolved, ranks=True),
     *COUPLED,
     SOFT,
     NEAR,

@@ -226,8 +226,7 @@ CASES = [
         "structure with a slash in its name",
         '<ParameterList name="beam">',
         '@@<ParameterList name="be/am">',
-        "Structures / be/am: the name of a structure must not contain '/' or '@', which stand before "
-        "its nodes and points",
+        "Structures / be/am: a name must not contain '/', which stands between the names of a path",
     ),
     wrong(
         "function that every deck has",

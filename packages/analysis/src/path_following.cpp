@@ -4,6 +4,7 @@
 #include "mirrored_faces.hpp"
 #include "path_end.hpp"
 #include "shear_range.hpp"
+#include "softest_direction.hpp"
 #include "take_up.hpp"
 #include "turns.hpp"
 
@@ -34,11 +35,12 @@ std::vector<double> numbers_of(const PathPoint& p) {
           p.tangent.level,
           p.tangent.watched,
           static_cast<double>(p.determinant.sign),
-          p.determinant.log_size};
+          p.determinant.log_size,
+          p.sets_energy_free ? 1.0 : 0.0};
 }
 
 PathPoint point_of(std::span<const double> n) {
-  return {n[0], n[1], {n[2], n[3]}, {static_cast<int>(n[4]), n[5]}};
+  return {n[0], n[1], {n[2], n[3]}, {static_cast<int>(n[4]), n[5]}, n[6] != 0.0};
 }
 
 std::optional<WatchedMotion> find_watched(const PathSettings& settings, const model::Model& model) {
@@ -304,7 +306,13 @@ void PathFollowing::do_accept(const StepReport& report) {
   last_length_ = condition_.length(state);
   condition_.accept(state);
   known_.behind = known_.here;
-  known_.here = {state.time, condition_.watched_displacement(state.next), {}, {}};
+  // where one direction has lost its stiffness, it hides others
+  const bool may_free = known_.events.empty();
+  known_.here = {state.time,
+                 condition_.watched_displacement(state.next),
+                 {},
+                 {},
+                 may_free && sets_energy_free(system(), context().linear)};
   pace_.add(known_.here.level, known_.here.watched);
   // what lies before a branch is the bifurcation that is known
   known_.has_behind = known_.is_examined && !is_on_branch_;
@@ -333,6 +341,8 @@ AnalysisReport PathFollowing::do_finish() {
   const auto [tangent, determinant] = compute_tangent();
   if (!known_.is_examined) {
     before_ = known_;
+    known_.here.sets_energy_free =
+        known_.events.empty() && sets_energy_free(system(), context().linear);
     if (examine(tangent, determinant)) {
       locate_events();
       if (is_to_branch()) {
@@ -391,8 +401,8 @@ void PathFollowing::do_restore(const Snapshot& snapshot) {
   known_.has_behind = step[5] != 0.0;
   known_.has_branched = step[6] != 0.0;
   known_.is_ended = step[7] != 0.0;
-  known_.behind = point_of(snapshot.numbers("path/behind", 6));
-  known_.here = point_of(snapshot.numbers("path/here", 6));
+  known_.behind = point_of(snapshot.numbers("path/behind", 7));
+  known_.here = point_of(snapshot.numbers("path/here", 7));
   const std::span<const double> events = snapshot.numbers("path/events");
   for (std::size_t i = 0; i + 2 < events.size(); i += 3) {
     known_.events.push_back(

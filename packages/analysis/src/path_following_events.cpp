@@ -25,8 +25,25 @@ bool PathFollowing::examine(const PathTangent& tangent, const solver::Determinan
   }
   if (crosses() && settings_.at_bifurcation == AtBifurcation::stop) known_.is_ended = true;
   if (passed_limit_points()) known_.is_ended = true;
+  watch_pairs();
   const int before = known_.behind.determinant.sign, now = known_.here.determinant.sign;
   return crosses() || (before != 0 && now != 0 && before != now);
+}
+
+void PathFollowing::watch_pairs() {
+  const PathPoint &behind = known_.behind, &here = known_.here;
+  const bool is_new = here.sets_energy_free && !behind.sets_energy_free;
+  if (!is_new || !known_.events.empty() || here.determinant.sign != behind.determinant.sign) return;
+  if (settings_.at_bifurcation == AtBifurcation::stop) known_.is_ended = true;
+  context().findings.warn(
+      "crossing",
+      fmt::format(
+          "between the levels {:.6g} and {:.6g} two directions lost their stiffness, and the "
+          "determinant has kept its sign: other paths cross there, none of which is "
+          "followed, and this one is unstable beyond; an analysis of type 'Buckling' shows "
+          "where",
+          behind.level, here.level),
+      here.level);
 }
 
 bool PathFollowing::crosses() const {

@@ -45,4 +45,19 @@ double resistance(const assembly::Matrix& matrix, const Vector& direction) {
   return each > 0.0 ? energy / each : 0.0;
 }
 
+bool sets_energy_free(const assembly::System& system, solver::LinearSolver& linear) {
+  if (system.model().unknowns().num_forces() > 0) return false;
+  const assembly::Matrix& tangent = *system.matrix();
+  const auto softest = softest_direction(linear, system.layout().rows());
+  if (!softest || resistance(tangent, *softest) < least_resistance) return false;
+  const Vector other = irregular(system.layout().rows());
+  Vector force(other.rows()), other_force(other.rows());
+  tangent.multiply(*softest, force);
+  tangent.multiply(other, other_force);
+  const double one = other.dot(force), transposed = softest->dot(other_force);
+  constexpr double rounding = 1e-8;
+  const double terms = std::sqrt(other.dot(other) * force.dot(force));
+  return softest->dot(force) < 0.0 && std::abs(one - transposed) <= rounding * terms;
+}
+
 }  // namespace culm::analysis

@@ -1,6 +1,7 @@
 /// The direction that a factored matrix resists least.
 #pragma once
 
+#include <culm/assembly/system.hpp>
 #include <culm/solver/linear_solver.hpp>
 
 #include <optional>
@@ -24,5 +25,11 @@ double resistance(const assembly::Matrix& matrix, const assembly::Vector& direct
 /// What is resisted by less is not resisted: several digits above rounding, and below slender
 /// beams.
 constexpr double least_resistance = 1e-13;
+
+/// Whether motion in the softest direction of the last tangent sets energy free. Two directions
+/// that lose their stiffness together, as those in which a round column bends, leave the
+/// determinant its sign; this shows them. False of tangents that are not symmetric or have
+/// multipliers. Collective.
+bool sets_energy_free(const assembly::System& system, solver::LinearSolver& linear);
 
 }  // namespace culm::analysis

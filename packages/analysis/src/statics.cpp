@@ -92,7 +92,19 @@ double Statics::next_level(double level, double increment) const {
   }
   const double rest = bound - level;
   if (rest <= increment * (1.0 + 1e-9)) return bound;
-  return rest < 1.5 * increment ? level + 0.5 * rest : level + increment;
+  return on_grid(rest < 1.5 * increment ? level + 0.5 * rest : level + increment);
+}
+
+// Equal steps meet the levels that the deck means. Those of sums of increments are off by rounding,
+// which would decide whether a function that jumps there acts.
+double Statics::on_grid(double level) const {
+  const double range = settings_.final_level - settings_.start_level;
+  const double steps = std::round(range / settings_.increment);
+  const double step = (level - settings_.start_level) / range * steps;
+  const double nearest = std::round(step);
+  constexpr double rounding = 1e-9;
+  if (std::abs(step - nearest) > rounding || nearest == 0.0) return level;
+  return settings_.start_level + range * nearest / steps;
 }
 
 void Statics::do_begin() {
@@ -113,9 +125,7 @@ void Statics::do_begin() {
   // of the state without the first load: under stresses that come by themselves, as those of heat
   // do, the first iteration may lie beyond a bifurcation already
   if (system().layout().rows().total() > 0 && !hangs_) {
-    const solver::Determinant first = context().linear.determinant();
-    determinant_sign_ = first.sign;
-    first_log_size_ = first.log_size;
+    determinant_sign_ = context().linear.determinant().sign;
   }
   make_newton(settings_.newton);
   newton().hold_free(hangs_);
@@ -190,7 +200,6 @@ void Statics::do_save(Snapshot& snapshot) const {
   snapshot.set("statics/increment", increment_);
   snapshot.set("statics/determinant sign", determinant_sign_);
   snapshot.set("statics/crossings", crossings_);
-  snapshot.set("statics/first log size", first_log_size_);
   snapshot.set("statics/unstable pair", has_unstable_pair_ ? 1 : 0);
   snapshot.set("statics/hangs", hangs_ ? 1 : 0);
   trend_.save(snapshot);
@@ -201,7 +210,6 @@ void Statics::do_restore(const Snapshot& snapshot) {
   increment_ = snapshot.number("statics/increment");
   determinant_sign_ = snapshot.integer("statics/determinant sign");
   crossings_ = snapshot.copy("statics/crossings");
-  first_log_size_ = snapshot.number("statics/first log size");
   has_unstable_pair_ = snapshot.integer("statics/unstable pair") != 0;
   hangs_ = snapshot.integer("statics/hangs") != 0;
   newton().hold_free(hangs_);
@@ -217,35 +225,21 @@ bool Statics::is_singular() {
 }
 
 // Stresses may grow where nothing moves, as those of a heated bar between two walls: then no
-// iteration has factored anything.
+// iteration has factored anything. The last iteration began before the equilibrium, so that a step
+// of one iteration tells of its start; at the end there is none to follow.
 int Statics::find_determinant_sign(const StepReport& report) {
-  if (report.outcome.iterations > 0 || determinant_sign_ == 0) {
+  const bool is_last = report.time == settings_.final_level;
+  if ((report.outcome.iterations > 0 && !is_last) || determinant_sign_ == 0) {
     return report.outcome.last_determinant.sign;
   }
   system().evaluate(state(), Stencil::statics(), Want::residual_and_tangent);
   return context().linear.factor() ? context().linear.determinant().sign : 0;
 }
 
-// Two directions that lose their stiffness together, as those in which a round column bends, leave
-// the determinant its sign. Then the softest one, of which there is energy to be had, shows it; of
-// tangents that are symmetric and without multipliers.
 void Statics::watch_pairs(const StepReport& report) {
-  const bool is_softer = report.outcome.last_determinant.log_size < first_log_size_;
-  if (has_unstable_pair_ || !crossings_.empty() || report.outcome.iterations == 0 || !is_softer ||
-      system().model().unknowns().num_forces() > 0) {
+  if (has_unstable_pair_ || !crossings_.empty() || !sets_energy_free(system(), context().linear)) {
     return;
   }
-  const assembly::Matrix& tangent = *system().matrix();
-  const auto softest = softest_direction(context().linear, system().layout().rows());
-  if (!softest || resistance(tangent, *softest) < least_resistance) return;
-  const assembly::Vector other = irregular(system().layout().rows());
-  assembly::Vector force(other.rows()), other_force(other.rows());
-  tangent.multiply(*softest, force);
-  tangent.multiply(other, other_force);
-  const double one = other.dot(force), transposed = softest->dot(other_force);
-  constexpr double rounding = 1e-8;
-  const double terms = std::sqrt(other.dot(other) * force.dot(force));
-  if (softest->dot(force) >= 0.0 || std::abs(one - transposed) > rounding * terms) return;
   has_unstable_pair_ = true;
   context().findings.warn(
       "stability",
@@ -261,7 +255,6 @@ void Statics::watch_stability(const StepReport& report) {
   if (sign == 0) return;
   if (determinant_sign_ == 0) {
     determinant_sign_ = report.outcome.first_determinant.sign;
-    first_log_size_ = report.outcome.first_determinant.log_size;
   }
   if (sign == determinant_sign_) {
     watch_pairs(report);

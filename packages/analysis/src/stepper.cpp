@@ -76,6 +76,11 @@ void Stepper::accept() {
   if (observer_ != nullptr) observer_->step(report_, state_);
 }
 
+void Stepper::preview(const std::function<void(model::State&)>& look) {
+  require(is_open(), "be looked at");
+  system().preview(state_, end_velocity(report_), last_stencil(), look);
+}
+
 model::Coordinates Stepper::velocity() const {
   return is_open() ? end_velocity(report_) : state_.velocity;
 }
@@ -111,7 +116,7 @@ void Stepper::fail() {
 void Stepper::give_up() {
   require(stage_ == Stage::resting, "be given up");
   explain_failure();
-  post_mortem().give_up(state_, failed_stencil(), dead_end());
+  post_mortem().give_up(state_, last_stencil(), dead_end());
 }
 
 AnalysisReport Stepper::finish() {

@@ -138,6 +138,30 @@ void System::prepare(const model::State& state, const Stencil& stencil) {
   });
 }
 
+void System::forget_evaluation() {
+  forget_reactions();
+  for (model::Batch* batch : batches_) batch->forget_evaluation();
+}
+
+// The evaluation is made once more, so that batches know of the attempt what accept() needs.
+void System::preview(const model::State& state, const model::Coordinates& velocity,
+                     const Stencil& stencil, const std::function<void(model::State&)>& look) {
+  const std::vector<double> before = memory(model::Items::local);
+  const std::vector<double> reactions = reactions_;
+  model::State ahead = state;
+  ahead.velocity = velocity;
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : batches_) {
+      if (batch->can_go_back()) batch->accept(ahead);
+    }
+  });
+  look(ahead);
+  restore_memory(before);
+  prepare(state, stencil);
+  evaluate(state, stencil, Want::residual);
+  reactions_ = reactions;
+}
+
 void System::accept(model::State& state) {
   if (carries_residuals_) carry_residual(state.time - state.time_prev);
   parallel::together(comm_, [&] {

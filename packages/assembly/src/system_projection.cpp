@@ -301,14 +301,16 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
     if (moves_mass[4 * index(model_.nodes().master(slave))]) moves_mass[4 * index(slave)] = true;
   }
   double largest = 0.0;
-  int node = -1;
+  int place = -1;  // slot of the model
+  const double length = model_.length();
   const auto compare = [&](int at) {
-    const auto first = static_cast<std::size_t>(model::NodeTable::offset(at));
-    for (std::size_t i = first; i < first + 12; ++i) {
-      const double moved = std::abs(fitted[i] - state.velocity[i]);
-      if (!moves_mass[i / 3] || moved <= largest) continue;
+    const model::NodeSlots apart =
+        model::NodeTable::slots(fitted, at) - model::NodeTable::slots(state.velocity, at);
+    for (int s = 0; s < 4; ++s) {
+      const double moved = speed_of(s, apart.col(s), length);
+      if (!moves_mass[index(4 * at + s)] || moved <= largest) continue;
       largest = moved;
-      node = at;
+      place = 4 * at + s;
     }
   };
   each_unknown([&](const Layout::LocalBlock&, const model::Block& block) {
@@ -322,8 +324,10 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
     if (is_here && !given[i].isZero(0.0)) compare(slave);
   }
   forget_reactions();
-  const auto [most, where] = find_largest(largest, node);
-  return {most, where, largest_equation(b, negligible * multiplier_scale_ * most)};
+  const auto [most, slot] = find_largest(largest, place);
+  const int equation = largest_equation(b, negligible * multiplier_scale_ * most);
+  if (slot < 0) return {most, false, -1, equation};
+  return {most, slot % 4 != 0, slot / 4, equation};
 }
 
 }  // namespace culm::assembly

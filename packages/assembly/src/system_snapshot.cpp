@@ -161,15 +161,29 @@ void System::save(model::State& state, Snapshot& snapshot) {
   } else {
     snapshot.set("system/carried", gather_carried());
   }
-  const model::Items which = snapshot.is_for_memory() ? model::Items::local : model::Items::owned;
-  std::vector<double> memory(memory_size(), nothing);
-  std::span<double> rest = memory;
+  const bool is_here = snapshot.is_for_memory();
+  std::vector<double> numbers = memory(is_here ? model::Items::local : model::Items::owned);
+  if (!is_here) comm_.sum(numbers);
+  snapshot.set("system/batches", std::move(numbers));
+}
+
+std::vector<double> System::memory(model::Items which) const {
+  std::vector<double> all(memory_size(), nothing);
+  std::span<double> rest = all;
   for (const model::Batch* batch : batches_) {
     batch->save(which, rest.first(batch->memory_size()));
     rest = rest.subspan(batch->memory_size());
   }
-  if (!snapshot.is_for_memory()) comm_.sum(memory);
-  snapshot.set("system/batches", std::move(memory));
+  return all;
+}
+
+void System::restore_memory(std::span<const double> memory) {
+  parallel::together(comm_, [&] {
+    for (model::Batch* batch : batches_) {
+      batch->restore(memory.first(batch->memory_size()));
+      memory = memory.subspan(batch->memory_size());
+    }
+  });
 }
 
 std::size_t System::memory_size() const {
@@ -216,13 +230,7 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
   } else {
     carried_.emplace(carried.begin(), carried.end());
   }
-  std::span<const double> memory = snapshot.numbers("system/batches", memory_size());
-  parallel::together(comm_, [&] {
-    for (model::Batch* batch : batches_) {
-      batch->restore(memory.first(batch->memory_size()));
-      memory = memory.subspan(batch->memory_size());
-    }
-  });
+  restore_memory(snapshot.numbers("system/batches", memory_size()));
 }
 
 // By global row, so that it does not depend on the number of ranks.

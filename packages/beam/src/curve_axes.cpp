@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace culm::beam {
@@ -27,6 +28,19 @@ Field direction_field(std::string name, std::string doc) {
 void require_direction(const Options& options, const std::string& name, InputIssues& issues) {
   if (vector(options, name).norm() == 0.0) {
     issues.add(options.where(name), "must not be zero");
+  }
+}
+
+// Sections may jump, but what stands on them may not.
+void check_twist(const Options& curve, InputIssues& issues) {
+  const std::vector<double>&angles = curve.numbers("Pre-Twist"),
+        &positions = curve.numbers("Pre-Twist Positions");
+  for (std::size_t i = 1; i < std::min(angles.size(), positions.size()); ++i) {
+    if (positions[i] != positions[i - 1] || angles[i] == angles[i - 1]) continue;
+    issues.add(curve.where("Pre-Twist Positions"),
+               fmt::format("'Pre-Twist' jumps at {:g}, and a beam does not; where its sections do, "
+                           "they have an 'Angle'",
+                           positions[i]));
   }
 }
 
@@ -52,6 +66,7 @@ Schema curve_schema(std::string type, std::string doc) {
           issues.add(curve.where(), "'Pre-Twist' and 'Pre-Twist Positions' need each other");
         } else if (curve.has("Pre-Twist")) {
           check_positions(curve, "Pre-Twist Positions", curve.numbers("Pre-Twist").size(), issues);
+          check_twist(curve, issues);
         }
       });
   return schema;

@@ -49,6 +49,10 @@ class RawReader {
     const std::string above = parent.value_or("");
     check_attributes(element, {"name"}, above);
     list.name = required_attribute(element, "name", {"name"}, above);
+    if (parent && list.name.find('/') != std::string::npos) {
+      report(list.line, join_path(above, list.name),
+             "a name must not contain '/', which stands between the names of a path");
+    }
     read_children(element, parent ? join_path(above, list.name) : "", list);
     report_duplicates(list, parent ? join_path(above, list.name) : "");
     return list;

@@ -19,6 +19,16 @@ Anchor::Anchor(const model::NodeTable& nodes, const model::Marker& marker)
   components_ = node() >= 0 ? Mat3(directors_.transpose()) : Mat3(directors_.inverse());
 }
 
+Vec3 Anchor::across(const Vec3& axis) const {
+  const Mat3 projections = directors_ - axis * (axis.transpose() * directors_);
+  const Vec3 lengths = projections.colwise().norm().transpose();
+  // of directors that are alike the first, whatever rounding made of them
+  constexpr double alike = 1e-4;
+  int longest = 0;
+  while (lengths[longest] < lengths.maxCoeff() - alike) ++longest;
+  return projections.col(longest).normalized();
+}
+
 model::SlotSum Anchor::attached(const Vec3& components) const {
   model::SlotSum factors(static_cast<std::size_t>(num_slots()), 0.0);
   for (std::size_t a = 0; a < marker_.weights.size(); ++a) {

@@ -1,6 +1,5 @@
 #include <culm/joint/joint_angle.hpp>
 #include <culm/joint/turn.hpp>
-#include <culm/math/rotation.hpp>
 
 #include "supports.hpp"
 
@@ -11,7 +10,7 @@
 namespace culm::joint {
 
 model::Constraint joint_angle(const MarkerPair& pair, const Vec3& axis, const Prescribed& motion) {
-  const Vec3 n1 = any_normal(axis);
+  const Vec3 n1 = pair.across(axis);
   const Vec3 n2 = axis.cross(n1);
   model::Constraint joint = pair.joint();
   pair.add_angle_row(n2, n1, joint);

@@ -11,17 +11,6 @@
 namespace culm::joint {
 namespace {
 
-// The longest projection of a director on the plane normal to n, unit length.
-Vec3 normal_of_body(const Mat3& triad, const Vec3& n) {
-  const Mat3 projections = triad - n * (n.transpose() * triad);
-  const Vec3 lengths = projections.colwise().norm().transpose();
-  // of directors that are alike the first, whatever rounding made of them
-  constexpr double alike = 1e-4;
-  int longest = 0;
-  while (lengths[longest] < lengths.maxCoeff() - alike) ++longest;
-  return projections.col(longest).normalized();
-}
-
 model::ConstraintRow row_of(const Vec3& direction, model::SlotSum attached) {
   model::ConstraintRow row;
   row.direction = direction;
@@ -45,7 +34,7 @@ void register_rotation_type(model::BuilderRegistry& registry, const std::string&
 }  // namespace
 
 model::Constraint rotation(const Anchor& anchor, const Vec3& axis, const Prescribed& motion) {
-  const Vec3 c0 = normal_of_body(anchor.directors(), axis);
+  const Vec3 c0 = anchor.across(axis);
   const Vec3 across = axis.cross(c0);
   model::Constraint support = support_of(anchor);
   support.rows = {row_of(across, anchor.vector(c0))};
@@ -60,7 +49,7 @@ model::Constraint rotation(const Anchor& anchor, const Vec3& axis, const Prescri
 }
 
 model::Constraint rotation_local(const Anchor& anchor, const Vec3& axis, const Prescribed& motion) {
-  const Vec3 c0 = normal_of_body(anchor.directors(), axis);
+  const Vec3 c0 = anchor.across(axis);
   const Vec3 across = axis.cross(c0);
   model::Constraint support = support_of(anchor);
   support.rows = {row_of(c0, anchor.vector(across))};

@@ -108,7 +108,7 @@ Link plane_ground_link(const NodeTable& nodes, const LinkPoint& point, const Vec
 
 Link angle_link(const joint::MarkerPair& pair, const Vec3& axis) {
   Link link = link_between(pair.nodes().front(), pair.nodes().back(), Measure::angle);
-  const Vec3 n1 = any_normal(axis);
+  const Vec3 n1 = pair.across(axis);
   const SlotSum of_second = pair.vector(1, n1);
   for (const Vec3& e : {n1, Vec3(axis.cross(n1))}) {
     link.forms.push_back({pair.vector(0, e), Vec3::Zero(), of_second, Vec3::Zero()});

@@ -193,6 +193,10 @@ void LinkLoad::restore(std::span<const double> memory) {
   }
 }
 
+void LinkLoad::forget_evaluation() {
+  for (Item& item : items_) item.force.reset();
+}
+
 double LinkLoad::stored_energy(const model::Coordinates& q) const {
   double energy = 0.0;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {

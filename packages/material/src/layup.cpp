@@ -1,6 +1,9 @@
 #include <culm/base/error.hpp>
 #include <culm/material/layup.hpp>
+#include <culm/material/thickness_strain.hpp>
 #include <culm/math/quadrature.hpp>
+
+#include "plane_turn.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -86,10 +89,7 @@ Mat3 plane_stiffness(const Mat6& C, double angle) {
       Q(static_cast<int>(i), static_cast<int>(j)) = C(k, l) - C(k, 2) * C(2, l) / C(2, 2);
     }
   }
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  Mat3 T;  // strains in the axes of the material by those in the axes asked for
-  T << c * c, s * s, s * c, s * s, c * c, -s * c, -2.0 * s * c, 2.0 * s * c, c * c - s * s;
+  const Mat3 T = plane_turn(angle);
   return T.transpose() * Q * T;
 }
 
@@ -268,6 +268,7 @@ Layup read_layup(const Options& options, const std::map<std::string, Material>& 
     }
   }
   Layup layup{stack(std::move(layers), options.integer("Repeat"), options.text("Symmetric"))};
+  if (layup.is_linear()) layup = with_common_thickness_strain(std::move(layup));
   if (options.text("Shear Correction") == "None") return layup;
   if (!layup.is_linear()) {
     throw InputError(options.where("Shear Correction"),

@@ -17,7 +17,7 @@ Schema placement_schema() {
 
 Section place(const Section& section, const Options& options) {
   const auto& offset = options.numbers("Offset");
-  return shifted(rotated(section, options.number("Angle")), Vec<2>(offset[0], offset[1]));
+  return placed(section, options.number("Angle"), Vec<2>(offset[0], offset[1]));
 }
 
 }  // namespace culm::material

@@ -151,14 +151,36 @@ Section shifted(const Section& section, const Vec<2>& offset) {
   return result;
 }
 
+Section placed(const Section& section, double angle, const Vec<2>& offset) {
+  Section result = shifted(rotated(section, angle), offset);
+  result.angle = angle;
+  result.offset = offset;
+  return result;
+}
+
+namespace {
+
+// As it is about its own origin and axes.
+Section own(const Section& section) {
+  return rotated(shifted(section, -section.offset), -section.angle);
+}
+
+}  // namespace
+
 Section interpolate(const Section& a, const Section& b, double t) {
+  if (a.offset != b.offset || a.angle != b.angle) {
+    return placed(interpolate(own(a), own(b), t), (1.0 - t) * a.angle + t * b.angle,
+                  (1.0 - t) * a.offset + t * b.offset);
+  }
   Section result{(1.0 - t) * a.stiffness + t * b.stiffness,
                  (1.0 - t) * a.mass + t * b.mass,
                  t < 0.5 ? a.outline : b.outline,
                  (1.0 - t) * a.expansion + t * b.expansion,
                  a.fibres,
                  a.pattern,
-                 UniaxialPlasticity::interpolate(a.plasticity, b.plasticity, t)};
+                 UniaxialPlasticity::interpolate(a.plasticity, b.plasticity, t),
+                 a.offset,
+                 a.angle};
   for (std::size_t i = 0; i < result.fibres.size(); ++i) {
     Fibre& fibre = result.fibres[i];
     fibre.place = (1.0 - t) * fibre.place + t * b.fibres[i].place;

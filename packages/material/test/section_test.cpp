@@ -163,6 +163,18 @@ TEST(Interpolate, IsLinearAndMeetsItsEnds) {
   EXPECT_LT((middle.outline[1] - Vec<2>(0.625, -0.5)).norm(), 1e-15);
 }
 
+TEST(Interpolate, DoesNotStiffenWhatMovesOrTurnsItsOwnAxes) {
+  const Section own_a = centred_rectangle(0.4, 0.9), own_b = centred_rectangle(0.2, 0.8);
+  const Section a = placed(own_a, 0.6, {0.7, -0.2}), b = placed(own_b, -0.4, {0.0, 0.3});
+  const Section expected = placed(interpolate(own_a, own_b, 0.25), 0.35, {0.525, -0.075});
+  const Section found = interpolate(a, b, 0.25);
+  EXPECT_LT(relative_difference(found.stiffness, expected.stiffness), 1e-14);
+  EXPECT_LT(relative_difference(found.mass, expected.mass), 1e-14);
+  EXPECT_LT((found.outline[1] - expected.outline[1]).norm(), 1e-15);
+  EXPECT_LT(relative_difference(interpolate(a, b, 0.0).stiffness, a.stiffness), 1e-14);
+  EXPECT_LT(relative_difference(interpolate(found, b, 1.0).mass, b.mass), 1e-14);
+}
+
 TEST(Interpolate, TakesTheNearerOutlineWhenTheyDiffer) {
   Section a = centred_rectangle(1.0, 1.0);
   Section b = a;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -19,13 +18,14 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+// Of those that have a length: elements without all edges are refused later.
 double shortest_edge(const Facets& facets) {
   double shortest = std::numeric_limits<double>::max();
   for (const auto& quad : facets.quads) {
     for (std::size_t c = 0; c < 4; ++c) {
       const double length =
           (facets.points[index(quad[c])] - facets.points[index(quad[(c + 1) % 4])]).norm();
-      shortest = std::min(shortest, length);
+      if (length > 0.0) shortest = std::min(shortest, length);
     }
   }
   return shortest;
@@ -52,13 +52,13 @@ class Union {
 
 // The first of all points within `tolerance` of each point, found by cells of that size.
 std::vector<int> join_points(const std::vector<Vec3>& points, double tolerance) {
-  using Cell = std::array<std::int64_t, 3>;
+  using Cell = std::array<double, 3>;  // whole numbers, of any size
   std::map<Cell, std::vector<int>> cells;
   std::vector<int> first(points.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
     Cell home;
     for (int c = 0; c < 3; ++c) {
-      home[index(c)] = static_cast<std::int64_t>(std::floor(points[p][c] / tolerance));
+      home[index(c)] = std::floor(points[p][c] / tolerance);
     }
     first[p] = static_cast<int>(p);
     for (int neighbour = 0; neighbour < 27 && first[p] == static_cast<int>(p); ++neighbour) {

@@ -120,6 +120,16 @@ analysis::AnalysisReport CoupledRun::run(analysis::Stepper& stepper, assembly::S
   return report;
 }
 
+void CoupledRun::stay(const std::string& analysis, double time) {
+  if (!has_begun_) return;
+  findings_.warn("coupling",
+                 fmt::format("'Start From' of '{}' takes the structure to another state and leaves "
+                             "the partners as they are: what they remember belongs to another "
+                             "motion",
+                             analysis),
+                 time);
+}
+
 void CoupledRun::begin(const model::State& state) {
   has_begun_ = true;
   const bool goes_on = resumed_ != nullptr && resumed_->has("coupling/counts");

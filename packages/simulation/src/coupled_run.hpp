@@ -31,6 +31,8 @@ class CoupledRun {
   analysis::AnalysisReport run(analysis::Stepper& stepper, assembly::System& system,
                                const Ports& ports, const std::vector<WatchedQuantity>& watched,
                                analysis::Observer& observer);
+  /// Says where a motion starts from another state that partners do not go back with it.
+  void stay(const std::string& analysis, double time);
   /// Between windows; collective.
   void save(Snapshot& snapshot);
   /// Before run(). @param snapshot  must live until then

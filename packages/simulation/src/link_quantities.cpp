@@ -1,6 +1,5 @@
 #include <culm/base/nearest.hpp>
 #include <culm/load/link_load.hpp>
-#include <culm/math/rotation.hpp>
 #include <culm/simulation/quantity.hpp>
 
 #include "place.hpp"
@@ -62,7 +61,7 @@ class JointAngle final : public Quantity {
  public:
   JointAngle(const joint::MarkerPair& pair, const Vec3& axis, bool turns)
       : first_(pair.nodes().front()), second_(pair.nodes().back()), turns_(turns) {
-    const Vec3 across = any_normal(axis);
+    const Vec3 across = pair.across(axis);
     first_axes_ << across, axis.cross(across);
     first_axes_ = directors(pair.reference(), 0).transpose() * first_axes_;
     second_axis_ = directors(pair.reference(), 4).transpose() * across;
@@ -89,6 +88,7 @@ class JointAngle final : public Quantity {
   }
   std::vector<double> memory() const override { return {angle_}; }
   void restore(std::span<const double> memory) override { angle_ = memory.front(); }
+  bool relies_on_memory() const override { return turns_; }
 
  private:
   static Mat3 directors(const Eigen::Matrix3Xd& q, int first) { return q.middleCols<3>(first + 1); }

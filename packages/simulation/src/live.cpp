@@ -245,12 +245,13 @@ std::vector<double> Simulation::quantities() {
   if (!p.stepper->is_open()) {
     return p.results != nullptr ? p.results->observer.shown() : p.keeper->shown();
   }
-  model::State now = state();
-  now.velocity = p.stepper->velocity();
-  p.context->system.synchronise(now);
   const std::vector<WatchedQuantity>& watched = p.phases.of(p.present).watched;
   const std::vector<double> memories = memories_of(watched);
-  std::vector<double> numbers = evaluate(watched, p.context->system, now);
+  std::vector<double> numbers;
+  p.stepper->preview([&](model::State& ahead) {
+    p.context->system.synchronise(ahead);
+    numbers = evaluate(watched, p.context->system, ahead);
+  });
   restore_memories(watched, memories);
   return numbers;
 }

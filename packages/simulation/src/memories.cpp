@@ -34,7 +34,7 @@ void hand_over_memories(const std::vector<WatchedQuantity>& from,
 }
 
 void MemoryKeeper::start(model::State& state) {
-  model::State first = unsolved(state);
+  model::State first = unsolved(system_.model(), state);
   show(first);
 }
 
@@ -66,9 +66,15 @@ void MemoryKeeper::show(model::State& state) {
   shown_ = evaluate(watched_, system_, state);
 }
 
-model::State unsolved(const model::State& state) {
+model::State unsolved(const model::Model& model, const model::State& state) {
   model::State result = state;
   std::fill(result.multipliers.begin(), result.multipliers.end(), 0.0);
+  for (const model::OwnBlock& block : model.own_blocks()) {
+    for (std::size_t i = 0; i < block.unknowns.size(); ++i) {
+      if (block.unknowns[i].kind != model::UnknownKind::multiplier) continue;
+      result.own[static_cast<std::size_t>(block.first) + i] = 0.0;
+    }
+  }
   return result;
 }
 

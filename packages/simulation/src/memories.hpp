@@ -51,7 +51,7 @@ class MemoryKeeper final : public analysis::Observer {
 
 /// A state in which nothing has been solved yet, so that there are no reactions, in whatever form
 /// they are computed.
-model::State unsolved(const model::State& state);
+model::State unsolved(const model::Model& model, const model::State& state);
 /// Whether any of them remembers anything.
 bool remember(const std::vector<WatchedQuantity>& watched);
 

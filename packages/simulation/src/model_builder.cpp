@@ -106,10 +106,10 @@ void build_loads(const Catalogue& catalogue, const Options& list, const Inactive
 void build_structures(const structure::StructureRegistry& registry, const Options& list,
                       structure::StructureContext& context) {
   for (const Options& entry : list.entries()) {
-    if (entry.name().find_first_of("/@") != std::string::npos) {
+    if (entry.name().find('@') != std::string::npos) {
       context.issues.add(entry.where(),
-                         "the name of a structure must not contain '/' or '@', which stand before "
-                         "its nodes and points");
+                         "the name of a structure must not contain '@', which stands before its "
+                         "points");
       continue;
     }
     build_one(registry, entry, context, context.issues);

@@ -9,6 +9,7 @@
 #include <culm/simulation/resume.hpp>
 
 #include "checkpoints.hpp"
+#include "memories.hpp"
 #include "on_root.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -88,6 +90,15 @@ Owners owners_of_signals(const model::Model& model) {
   return owners;
 }
 
+Owners owners_of_watched(const std::vector<WatchedQuantity>& watched) {
+  Owners owners;
+  for (const WatchedQuantity& one : watched) {
+    const std::size_t size = one.quantity->memory().size();
+    if (size > 0) owners.push_back({one.name, size});
+  }
+  return owners;
+}
+
 std::string owner_key(const char* one, const char* what, std::size_t i) {
   return fmt::format("run/{} {} {}", one, what, i);
 }
@@ -105,37 +116,58 @@ struct Kept {
   const char *all, *one, *values;
 };
 
-// Moves numbers of another run to owners of the same name and size.
-// @return names of what keeps something there and has no place here
-std::vector<std::string> take(const Kept& kept, const Owners& owners, const Snapshot& other,
-                              Snapshot& snapshot) {
-  std::span<const double> rest = other.numbers(kept.values);
-  const auto is_empty = [](std::span<const double> numbers) {
-    return std::ranges::all_of(numbers, [](double one) { return one == 0.0; });
-  };
-  // checkpoints of before do not say whose they are
+// What belongs to each name; of equal names the first comes first.
+using Numbers = std::multimap<std::string, std::span<const double>>;
+
+// Those of another run; nothing where a checkpoint of before does not say whose they are.
+std::optional<Numbers> numbers_of(const Kept& kept, const Snapshot& other) {
   const std::string count = fmt::format("run/{}", kept.all);
-  if (!other.has(count)) {
-    return is_empty(rest) ? std::vector<std::string>{} : std::vector<std::string>{"the model"};
-  }
-  std::multimap<std::string, std::span<const double>> there;
+  if (!other.has(count)) return {};
+  std::span<const double> rest = other.numbers(kept.values);
+  Numbers there;
   for (std::size_t i = 0; i < static_cast<std::size_t>(other.integer(count)); ++i) {
     const auto size = static_cast<std::size_t>(other.integer(owner_key(kept.one, "size", i)));
     there.emplace(other.text(owner_key(kept.one, "of", i)), rest.first(size));
     rest = rest.subspan(size);
   }
+  return there;
+}
+
+// Moves them to owners of the same name and size, and leaves what has no place here.
+// @return names of the owners that got nothing
+std::vector<std::string> move(const Kept& kept, const Owners& owners, Numbers& there,
+                              Snapshot& snapshot) {
+  std::vector<std::string> without;
   std::vector<double> values = snapshot.copy(kept.values);
   auto to = values.begin();
   for (const Owner& owner : owners) {
-    const auto found = there.find(owner.name);  // of equal ones the first
+    const auto found = there.find(owner.name);
     if (found != there.end() && found->second.size() == owner.size) {
       std::ranges::copy(found->second, to);
       there.erase(found);
+    } else {
+      without.push_back(owner.name);
     }
     to += static_cast<std::ptrdiff_t>(owner.size);
   }
   snapshot.set(kept.values, std::move(values));
+  return without;
+}
+
+// @return names of what keeps something there and has no place here
+std::vector<std::string> take(const Kept& kept, const Owners& owners, const Snapshot& other,
+                              Snapshot& snapshot) {
+  const auto is_empty = [](std::span<const double> numbers) {
+    return std::ranges::all_of(numbers, [](double one) { return one == 0.0; });
+  };
   std::vector<std::string> lost;
+  std::optional<Numbers> numbers = numbers_of(kept, other);
+  if (!numbers) {
+    if (!is_empty(other.numbers(kept.values))) lost.push_back("the model");
+    return lost;
+  }
+  Numbers& there = *numbers;
+  move(kept, owners, there, snapshot);
   for (const auto& [name, numbers] : there) {
     if (!is_empty(numbers)) lost.push_back(name);
   }
@@ -153,7 +185,13 @@ std::string difference(const Snapshot& snapshot, const model::Model& model) {
   const std::vector<std::string> there = structures_of(snapshot);
   std::size_t i = 0;
   for (const model::Structure& structure : model.structures()) {
-    if (i >= there.size() || there[i] != structure.name) {
+    const bool is_here = i < there.size() && there[i] == structure.name;
+    if (!is_here && std::ranges::find(there, structure.name) != there.end()) {
+      return fmt::format(
+          "it has '{}' in another place of the list of structures, whose order counts",
+          structure.name);
+    }
+    if (!is_here) {
       return fmt::format("it has no structure '{}' in this place{}", structure.name,
                          did_you_mean(structure.name, there));
     }
@@ -198,6 +236,23 @@ std::vector<std::string> take_memories(const Snapshot& other, const model::Model
     lost.push_back(std::move(name));
   }
   return lost;
+}
+
+void save_watched(const std::vector<WatchedQuantity>& watched, Snapshot& snapshot) {
+  save_owners("watched", "watched", owners_of_watched(watched), snapshot);
+}
+
+std::vector<std::string> take_watched(const Snapshot& other,
+                                      const std::vector<WatchedQuantity>& watched,
+                                      Snapshot& snapshot) {
+  const Kept kept{"watched", "watched", memories_key};
+  Numbers there = numbers_of(kept, other).value_or(Numbers{});
+  std::vector<std::string> without = move(kept, owners_of_watched(watched), there, snapshot);
+  std::erase_if(without, [&](const std::string& name) {
+    const auto one = std::ranges::find(watched, name, &WatchedQuantity::name);
+    return !one->quantity->relies_on_memory();
+  });
+  return without;
 }
 
 Snapshot find_state_of_run(const parallel::Comm& comm, const Options& analysis,

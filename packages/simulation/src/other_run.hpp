@@ -5,6 +5,7 @@
 #include <culm/base/snapshot.hpp>
 #include <culm/model/model.hpp>
 #include <culm/parallel/comm.hpp>
+#include <culm/simulation/quantity.hpp>
 
 #include <string>
 #include <vector>
@@ -25,6 +26,15 @@ void save_memory_owners(const model::Model& model, Snapshot& snapshot);
 /// @return titles of what remembers something there and has no place here
 std::vector<std::string> take_memories(const Snapshot& other, const model::Model& model,
                                        Snapshot& snapshot);
+
+/// Says in a checkpoint whose memories "output/memories" holds.
+void save_watched(const std::vector<WatchedQuantity>& watched, Snapshot& snapshot);
+/// Moves what quantities of another run remember to those of the same name and size.
+/// @param snapshot  with "output/memories" as they begin
+/// @return those that rely on their memory and were not watched there
+std::vector<std::string> take_watched(const Snapshot& other,
+                                      const std::vector<WatchedQuantity>& watched,
+                                      Snapshot& snapshot);
 
 /// Reads the newest checkpoint of the run that 'Start From' of an analysis names. Unlike a run that
 /// goes on, it takes no older one in its place, which would be another state.

@@ -89,8 +89,7 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
       settings_(std::move(settings)),
       watched_(&watched),
       read_nodes_(nodes_of(watched)),
-      shows_fluid_(settings_.pictures && !fluid_meshes(system.model()).empty()),
-      first_memories_(memories_of(watched)) {
+      shows_fluid_(settings_.pictures && !fluid_meshes(system.model()).empty()) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
     const output::SharedMeshes meshes = meshes_in(drawn);
@@ -101,15 +100,11 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
 void ResultFiles::restore_counts(const Snapshot& saved) {
   frames_ = static_cast<std::size_t>(saved.integer("output/states"));
   rows_ = static_cast<std::size_t>(saved.integer("output/rows"));
-  restore_memories(&saved);
+  restore_memories(saved.numbers(memories_key, memories_of(*watched_).size()));
 }
 
-void ResultFiles::restore_memories(const Snapshot* saved) {
-  std::span<const double> rest = first_memories_;
-  if (saved != nullptr && saved->has(memories_key)) {
-    rest = saved->numbers(memories_key, first_memories_.size());
-  }
-  simulation::restore_memories(*watched_, rest);
+void ResultFiles::restore_memories(std::span<const double> memories) {
+  simulation::restore_memories(*watched_, memories);
 }
 
 bool ResultFiles::has_saved(const Snapshot& snapshot) const {
@@ -146,6 +141,7 @@ void ResultFiles::save(Snapshot& snapshot) const {
     if (files_->pictures) files_->pictures->secure();
   }
   snapshot.set(memories_key, memories_of(*watched_));
+  save_watched(*watched_, snapshot);
 }
 
 void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantity>& watched) {

@@ -77,6 +77,7 @@ void RunObserver::begin(const Options& entry, std::size_t number, bool is_last,
   stepper_ = nullptr;
   number_ = number;
   is_last_ = is_last;
+  keeps_end_ = false;
   has_stepped_ = false;
 }
 
@@ -101,7 +102,7 @@ void RunObserver::start_run(model::State& state, bool steps_follow) {
 void RunObserver::start(model::State& state) {
   start_run(state, true);
   has_history_ = true;
-  model::State first = unsolved(state);
+  model::State first = unsolved(context_->system.model(), state);
   add_history(state.time, 0, first);
 }
 
@@ -169,7 +170,7 @@ void RunObserver::step(const analysis::StepReport& report, model::State& state) 
   progress_.show(report);
   if (checkpoints_ == nullptr) return;
   const Checkpoints::Demand demand = checkpoints_->demand();
-  const bool ends = is_last_ && report.is_last;
+  const bool ends = keeps_end_ && report.is_last;
   if (demand == Checkpoints::Demand::none && !ends) return;
   if (served_ == nullptr) write_checkpoint();
   if (demand != Checkpoints::Demand::stop) return;

@@ -52,14 +52,17 @@ class RunObserver final : public analysis::Observer {
   void start_run(model::State& state, bool steps_follow);
   /// Adds the state from which an analysis makes steps to the history, and records the first one.
   void start(model::State& state) override;
+  /// Records a state that is not the last one, for what looks at it.
+  void record_start(const model::State& state) { record(state.time, 0, state, false); }
   /// Goes on from a checkpoint instead.
   void restore(const Snapshot& snapshot);
   /// @param number   of the analysis in the deck, from 0
-  /// @param is_last  of the deck: its end is a checkpoint, from which the run can go on to a later
-  ///                 one
+  /// @param is_last  of the deck
   /// @param linear_solver for the report; it lives as long as the run
   void begin(const Options& entry, std::size_t number, bool is_last, analysis::Context& context,
              const solver::ChosenSolver& linear_solver);
+  /// The end of the present analysis is a checkpoint, from which the run can go on to a later one.
+  void keep_end() { keeps_end_ = true; }
   /// What makes the steps from now on, and what its checkpoints hold; none: nothing does.
   /// @param coupled, served  what else they hold; null if nothing does. A run that is led writes
   /// checkpoints when it is asked to.
@@ -133,6 +136,7 @@ class RunObserver final : public analysis::Observer {
   std::string name_;                      // of the analysis
   std::size_t number_ = 0;
   bool is_last_ = false;
+  bool keeps_end_ = false;
   std::optional<double> kept_;  // time of the last checkpoint [s]
   bool has_stepped_ = false;    // the analysis has something to save
   bool is_recorded_ = false;    // the last accepted state is on disk, or none to keep

@@ -8,6 +8,7 @@
 
 #include "contact_findings.hpp"
 #include "doubts.hpp"
+#include "memories.hpp"
 #include "port_picture.hpp"
 #include "run_observer.hpp"
 #include "served_run.hpp"
@@ -121,6 +122,7 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     p.imperfections.restore(*from, *p.phases.of(p.present).model);
   }
   Phase& phase = p.phases.enter(p.present, p.comm, p.ledger);
+  p.first_memories = memories_of(phase.watched);
   const std::unique_ptr<CoupledRun> coupled = p.make_coupling({settings.folder, settings.replay});
   const std::unique_ptr<ServedRun> served =
       settings.serve.address.empty()
@@ -201,7 +203,6 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
     phase.system->synchronise(state);
     p.let_watch(files, entries[i], !resumes);
     analysis::Context context{*phase.system, *phase.linear.solver, p.ledger, p.log, p.findings};
-    if (!resumes) phase.system->forget_reactions();
     observer.begin(entries[i], i, i + 1 == entries.size(), context, phase.linear);
     if (resumes) observer.resume(*from);
     warn_before(p.deck, entries[i], *phase.model, state, p.findings);
@@ -233,6 +234,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
       return !known.inspections.contains(one.text("Type"));
     });
     observer.start_run(state, steps_follow);
+    if (entry.has("Start From")) observer.record_start(state);
     inspection->begin(context, state);
     const analysis::AnalysisReport report = inspection->inspect(context, state);
     observer.finish(report, state);
@@ -242,6 +244,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   const auto stepper = known.steppers.make(type, entry, context, state);
   const bool is_motion = dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
   observer.follow(stepper.get(), coupled, is_motion ? served : nullptr);
+  if (!steps_follow()) observer.keep_end();
   if (from != nullptr) {
     stepper->resume(*from);
   } else {
@@ -257,6 +260,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
         return served->run(*stepper, context.system, ports, observer);
       }
       if (is_motion && coupled != nullptr) {
+        if (from == nullptr && entry.has("Start From")) coupled->stay(entry.name(), state.time);
         return coupled->run(*stepper, context.system, ports, phase.watched, observer);
       }
       return analysis::run(*stepper, observer);
@@ -276,6 +280,15 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     if (coupled == nullptr || dynamic_cast<const NumericalError*>(&error) == nullptr) throw;
     throw NumericalError(error.what() + observer.way_on());
   }
+}
+
+// Whether an analysis after the present one makes steps.
+bool Simulation::steps_follow() const {
+  const auto& entries = parts_->deck.list("Analyses").entries();
+  const auto& inspections = parts_->catalogue.analyses.inspections;
+  return std::any_of(entries.begin() + static_cast<std::ptrdiff_t>(parts_->present) + 1,
+                     entries.end(),
+                     [&](const Options& one) { return !inspections.contains(one.text("Type")); });
 }
 
 // Whether an analysis after the present one looks at a state; such ones want all elements.

@@ -46,7 +46,9 @@ struct Simulation::Parts {
   Phases phases = Phases(catalogue, deck, imperfections, log, memory);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
   Ledger ledger = {};
-  std::size_t present = 0;  ///< the analysis whose phase the state belongs to
+  std::size_t present = 0;                  ///< the analysis whose phase the state belongs to
+  std::vector<double> first_memories = {};  ///< of what is watched, before any state
+  std::vector<double> other_memories = {};  ///< from the run that the present analysis starts from
   analysis::ElementTurn reference_turn =
       {};  ///< the largest one without load; its share tells if any
 
@@ -55,7 +57,6 @@ struct Simulation::Parts {
   std::optional<analysis::Context> context = {};
   std::unique_ptr<Results> results = {};    ///< if any are wanted
   std::optional<MemoryKeeper> keeper = {};  ///< if none are
-  std::vector<double> first_memories = {};  ///< of what is watched, before any state
   std::unique_ptr<analysis::Stepper> stepper = {};
   long taken_up = 0;                                          ///< analyses so far
   std::map<std::string, std::vector<double>> set_loads = {};  ///< as they were set last
@@ -65,6 +66,8 @@ struct Simulation::Parts {
   void tell_of(const port::Port& port);
   /// Of where an analysis ends, in its phase; collective. @param q  up to date
   void warn_of_end(const model::Coordinates& q, double time);
+  /// What is watched remembers this where an analysis with 'Start From' begins.
+  std::span<const double> memories_at(const Options& analysis) const;
   /// Hands what is watched over to the phase of the present analysis. @param begins  or goes on
   void let_watch(ResultFiles& files, const Options& analysis, bool begins);
   /// The same where no results are written. @param before  the phase of the analysis before

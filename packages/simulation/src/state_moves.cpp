@@ -57,23 +57,23 @@ std::vector<std::string> forgotten(const Phases& phases, std::size_t last, const
 
 }  // namespace
 
+std::span<const double> Simulation::Parts::memories_at(const Options& analysis) const {
+  const std::string& name = analysis.text("Start From");
+  if (name == EarlierStates::reference) return first_memories;
+  return earlier.wants(name) ? earlier.find(name).state.numbers(memories_key) : other_memories;
+}
+
 // What is watched goes on from where the state comes from.
 void Simulation::Parts::let_watch(ResultFiles& files, const Options& analysis, bool begins) {
   const Phase& phase = phases.of(present);
   files.use(*phase.system, phase.watched);
-  if (!begins || !analysis.has("Start From")) return;
-  const std::string& name = analysis.text("Start From");
-  files.restore_memories(earlier.wants(name) ? &earlier.find(name).state : nullptr);
+  if (begins && analysis.has("Start From")) files.restore_memories(memories_at(analysis));
 }
 
 void Simulation::Parts::let_remember(const Phase& before, const Options& analysis) {
   const std::vector<WatchedQuantity>& watched = phases.of(present).watched;
   hand_over_memories(before.watched, watched);
-  if (!analysis.has("Start From")) return;
-  const std::string& name = analysis.text("Start From");
-  restore_memories(watched, earlier.wants(name) ? earlier.find(name).state.numbers(
-                                                      memories_key, first_memories.size())
-                                                : std::span<const double>(first_memories));
+  if (analysis.has("Start From")) restore_memories(watched, memories_at(analysis));
 }
 
 // Brings the state to where an analysis starts, in its phase.
@@ -83,6 +83,7 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
   p.findings.begin(entry.name());
   move_state(number, state);
   const Phase& phase = p.phases.of(number);
+  phase.system->forget_evaluation();
   model::Coordinates q = state.next;
   phase.system->complete(q);
   refuse_left_supports(*phase.model, q, p.deck.list("Constraints"), entry.name());
@@ -129,8 +130,8 @@ void Simulation::move_state(std::size_t number, model::State& state) {
   }
 }
 
-// The nodes of a checkpoint of another run, and what batches of the same effect and signals of the
-// same name remember there; multipliers begin anew.
+// The nodes of a checkpoint of another run, and what batches of the same effect, signals and
+// quantities of the same name remember there; multipliers begin anew.
 Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::State& state) {
   const Snapshot found = find_state_of_run(parts_->comm, analysis, *phase.model);
   Snapshot snapshot;
@@ -146,6 +147,24 @@ Snapshot Simulation::read_state(const Options& analysis, Phase& phase, model::St
                                       analysis.name(), title),
                           state.time);
   }
+  if (found.has("coupling/counts") && parts_->deck.has_list("Coupling")) {
+    parts_->findings.warn(
+        "coupling",
+        fmt::format("'Start From' of '{}' does not take what the partners of that "
+                    "run remember: those of this one begin anew",
+                    analysis.name()),
+        state.time);
+  }
+  snapshot.set(memories_key, parts_->first_memories);
+  for (const std::string& name : take_watched(found, phase.watched, snapshot)) {
+    parts_->findings.warn(
+        "memory",
+        fmt::format("History '{}' counts turns from here: the run that '{}' starts from does not "
+                    "watch it, so that whole turns of before are lacking",
+                    name, analysis.name()),
+        state.time);
+  }
+  parts_->other_memories = snapshot.copy(memories_key);
   return snapshot;
 }
 

@@ -16,6 +16,7 @@ class ResolvedDeck:
 
     def __init__(self, text):
         self.text = text
+        self.variables = set()  # of the deck files, which --set takes by their names
         self.parameters = {}
         self.lists = []
         self._walk(ElementTree.fromstring(text), ())
@@ -26,7 +27,9 @@ class ResolvedDeck:
         with tempfile.TemporaryDirectory(prefix="culm") as folder:
             path = pathlib.Path(folder) / "resolved.xml"
             program.resolve(deck, path, settings)
-            return ResolvedDeck(path.read_text(encoding="utf-8"))
+            resolved = ResolvedDeck(path.read_text(encoding="utf-8"))
+        resolved.variables = _variables(pathlib.Path(deck))
+        return resolved
 
     def matching(self, pattern):
         """Paths of the parameters that a pattern names, in which * is any one name."""
@@ -112,16 +115,23 @@ def texts(value):
 
 
 def _folders(deck):
-    """Of a deck file and of all its includes."""
-    folders, seen, waiting = set(), set(), [deck]
+    return {path.parent for path, _ in _files(deck)}
+
+
+def _variables(deck):
+    return {variable.get("name") for _, root in _files(deck) for variable in root.iter("Variable")}
+
+
+def _files(deck):
+    """A deck file and all its includes: paths, and what they hold."""
+    seen, waiting = {}, [deck]
     while waiting:
         path = waiting.pop()
         if path in seen:
             continue
-        seen.add(path)
-        folders.add(path.parent)
-        waiting += [path.parent / one.get("href") for one in ElementTree.parse(path).iter(INCLUDE)]
-    return folders
+        seen[path] = ElementTree.parse(path).getroot()
+        waiting += [path.parent / one.get("href") for one in seen[path].iter(INCLUDE)]
+    return seen.items()
 
 
 def _matches(path, pattern):

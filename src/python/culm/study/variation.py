@@ -8,6 +8,7 @@ import dataclasses
 import difflib
 import math
 import re
+import sys
 
 from ..errors import CulmError
 
@@ -262,6 +263,10 @@ def refuse_set(settings, named):
 
 def places(name, deck):
     """The paths that a name stands for. Other paths are left to the program to judge."""
+    if name in deck.variables:
+        if name in SHORT_NAMES:
+            print(f"note: '{name}' is the variable of the deck, not short for {' and '.join(SHORT_NAMES[name])}", file=sys.stderr)
+        return [name]
     if name in SHORT_NAMES:
         found = [path for pattern in SHORT_NAMES[name] for path in deck.matching(pattern)]
         if found:

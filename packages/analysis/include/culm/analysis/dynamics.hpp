@@ -55,7 +55,7 @@ class Dynamics final : public Stepper {
   }
   bool do_fail(const StepReport& report) override;
   void do_discard() override;
-  Stencil failed_stencil() const override { return stencil_; }
+  Stencil last_stencil() const override { return stencil_; }
   AnalysisReport do_finish() override;
   const char* kind() const override { return "Dynamic"; }
   void do_save(Snapshot& snapshot) const override;
@@ -70,6 +70,7 @@ class Dynamics final : public Stepper {
   std::optional<assembly::VelocityFit> find_fitting(model::Coordinates& fitted,
                                                     assembly::Vector& solution);
   double probe() const;
+  double smallest_speed() const;
   void strike();
   void show_blow(double step);
   void take_blow_back();

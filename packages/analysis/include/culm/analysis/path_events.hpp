@@ -15,6 +15,7 @@ struct PathPoint {
   double watched = 0.0;  ///< displacement of the watched node [m]
   PathTangent tangent;
   solver::Determinant determinant;  ///< of the tangent stiffness
+  bool sets_energy_free = false;    ///< in its softest direction
 };
 
 enum class PathEventKind {

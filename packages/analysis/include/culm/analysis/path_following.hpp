@@ -51,7 +51,7 @@ class PathFollowing final : public Stepper {
   void do_discard() override { known_ = before_; }
   bool do_fail(const StepReport& report) override;
   void explain_failure() override;
-  Stencil failed_stencil() const override { return Stencil::statics(); }
+  Stencil last_stencil() const override { return Stencil::statics(); }
   AnalysisReport do_finish() override;
   const char* kind() const override { return "Path"; }
   void do_save(Snapshot& snapshot) const override;
@@ -82,6 +82,9 @@ class PathFollowing final : public Stepper {
   /// Solves on the path at a `length` [m] of arc before the last accepted point. @return the
   /// determinant there; nothing if no solution is found
   std::optional<solver::Determinant> go_back(double length);
+  /// Warns of two directions that lost their stiffness between the last two points, and left the
+  /// determinant its sign.
+  void watch_pairs();
   /// Finds where the determinant passes zero between the last two points, and corrects what was
   /// found there: the crossing of another path, or the limit point, or one of each.
   void locate_events();

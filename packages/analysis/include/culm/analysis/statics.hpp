@@ -46,12 +46,13 @@ class Statics final : public Stepper {
   bool do_fail(const StepReport& report) override;
   void explain_failure() override;
   std::optional<double> dead_end() const override { return trend_.end(settings_.final_level); }
-  Stencil failed_stencil() const override { return Stencil::statics(); }
+  Stencil last_stencil() const override { return Stencil::statics(); }
   AnalysisReport do_finish() override;
   const char* kind() const override { return "Static"; }
   void do_save(Snapshot& snapshot) const override;
   void do_restore(const Snapshot& snapshot) override;
   double next_level(double level, double increment) const;
+  double on_grid(double level) const;
   /// Whether the last stiffness resists some motion by no more than rounding.
   bool is_singular();
   /// Of the stiffness at the end of a step; 0 if unknown.
@@ -66,8 +67,7 @@ class Statics final : public Stepper {
 
   StaticsSettings settings_;
   double increment_ = 0.0;
-  int determinant_sign_ = 0;     ///< of the tangent at the last equilibrium; 0 if unknown
-  double first_log_size_ = 0.0;  ///< logarithm of the determinant of the first tangent
+  int determinant_sign_ = 0;  ///< of the tangent at the last equilibrium; 0 if unknown
   bool has_unstable_pair_ = false;
   /// Something moves freely at the start, which may be held by what it carries from the first step.
   bool hangs_ = false;

@@ -4,6 +4,7 @@
 #include <culm/analysis/analysis.hpp>
 #include <culm/analysis/post_mortem.hpp>
 
+#include <functional>
 #include <optional>
 
 namespace culm::analysis {
@@ -60,6 +61,9 @@ class Stepper {
   void fail();
   /// Whether an attempt has converged and waits for its verb.
   bool is_open() const { return stage_ == Stage::tried && report_.accepted; }
+  /// Shows the state that accept() would make of an open attempt, with what the model would then
+  /// remember, and takes it back. Collective.
+  void preview(const std::function<void(model::State&)>& look);
   /// Tells that a load or signal was set from outside: an attempt that is open still shows what it
   /// found, and cannot be accepted.
   void outdate() { is_outdated_ = is_open(); }
@@ -131,7 +135,8 @@ class Stepper {
   virtual void explain_failure() {}
   /// Towards which level ever smaller gains lead, where they are the reason to give up.
   virtual std::optional<double> dead_end() const { return {}; }
-  virtual Stencil failed_stencil() const = 0;
+  /// Of the last attempt.
+  virtual Stencil last_stencil() const = 0;
   virtual AnalysisReport do_finish() = 0;
   virtual void do_save(Snapshot& snapshot) const = 0;
   virtual void do_restore(const Snapshot& snapshot) = 0;

@@ -42,11 +42,17 @@ struct LoadShare {
   double moving = 0.0;  ///< the same of what supports at its nodes do not take [N, N m]
 };
 
+/// How fast a slot of a node is [m/s]. A director counts at a length, that of the model.
+inline double speed_of(int slot, const Vec3& rate, double length) {
+  return slot == 0 ? rate.norm() : length * rate.norm();
+}
+
 /// A change of velocities by which they fit the constraints.
 struct VelocityFit {
-  double change = 0.0;  ///< the largest [m/s, 1/s]
-  int node = -1;        ///< where that is; -1 where nothing changes
-  int equation = -1;    ///< of the model, the one that was violated most; -1 if none was
+  double change = 0.0;   ///< the largest, by speed_of() [m/s]
+  bool is_turn = false;  ///< whether that is of a director
+  int node = -1;         ///< where that is; -1 where nothing changes
+  int equation = -1;     ///< of the model, the one that was violated most; -1 if none was
 };
 
 class ColumnImport;
@@ -63,6 +69,10 @@ class System {
   /// velocity of its end: makes the end of the step the start of the next one, also of what batches
   /// carry.
   void accept(model::State& state);
+  /// Shows what accept() would make of an attempt, also of what batches carry that can go back,
+  /// and takes it back. Collective. @param velocity  at the end of the attempt
+  void preview(const model::State& state, const model::Coordinates& velocity,
+               const Stencil& stencil, const std::function<void(model::State&)>& look);
   /// Asks for the values of an accepted state that batches follow in the next step; collective.
   using Sampler = std::function<void(model::State&)>;
   void set_sampler(Sampler sampler) { sampler_ = std::move(sampler); }
@@ -192,8 +202,9 @@ class System {
   /// there: of the last evaluation where they take unknowns away, of the state's multipliers where
   /// they are equations. Call synchronise first; the same on all ranks.
   Vec6 reaction(int node, const model::State& state) const;
-  /// No evaluation counts any more, as where another analysis begins.
-  void forget_reactions() { std::fill(reactions_.begin(), reactions_.end(), 0.0); }
+  /// No evaluation counts any more, as where another analysis begins: there are no reactions, and
+  /// no forces of the last step.
+  void forget_evaluation();
   /// The share of one constraint that is kept as equations, by its name.
   Vec6 reaction_of(const std::string& constraint, int node, const model::State& state) const;
 
@@ -228,6 +239,9 @@ class System {
   const parallel::Comm& comm() const { return comm_; }
 
  private:
+  std::vector<double> memory(model::Items which) const;
+  void restore_memory(std::span<const double> memory);
+  void forget_reactions() { std::fill(reactions_.begin(), reactions_.end(), 0.0); }
   std::size_t memory_size() const;
   model::Target target();
   model::Target target_with_matrix();

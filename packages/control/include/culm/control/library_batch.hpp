@@ -52,6 +52,7 @@ class LibraryBatch final : public model::MemorylessBatch,
   std::size_t memory_size() const override;
   void save(model::Items which, std::span<double> values) const override;
   void restore(std::span<const double> values) override;
+  bool can_go_back() const override { return false; }
   model::StepWork step_work(const model::State&, const Stencil&) const override { return {}; }
 
   /// 2 once a library has warned or failed.

@@ -30,6 +30,10 @@ class Anchor {
   const Vec3& position() const { return position_; }
   const Mat3& directors() const { return directors_; }
 
+  /// A unit vector normal to a unit axis in the reference that is at home in the directors, and so
+  /// the same for an observer who turns with them: the longest projection of a director.
+  Vec3 across(const Vec3& axis) const;
+
   /// Position of the point at `offset` in the directors.
   model::SlotSum point(const Vec3& offset = Vec3::Zero()) const;
   /// The first director, which is the only one of a shell.

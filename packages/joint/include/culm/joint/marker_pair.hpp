@@ -26,6 +26,9 @@ class MarkerPair {
   /// Attached copy of a spatial vector on anchor 0 or 1 of the pair.
   model::SlotSum vector(int anchor, const Vec3& v) const;
   const Eigen::Matrix3Xd& reference() const { return q_; }
+  /// Anchor::across() of the first: from where angles between the two are counted, so that they are
+  /// the same in each pose also where no joint keeps the axis of one along that of the other.
+  Vec3 across(const Vec3& axis) const { return anchors_[0].across(axis); }
 
   /// A constraint of the two anchors without rows; it keeps the momenta of the model.
   model::Constraint joint() const;

@@ -62,7 +62,8 @@ Link directed_ground_link(const model::NodeTable& nodes, const LinkPoint& point,
 Link plane_ground_link(const model::NodeTable& nodes, const LinkPoint& point, const Vec3& n);
 
 /// Angle by which the second node has turned about `axis` relative to the first, zero in the
-/// reference, counting full turns: atan2(u_1(n2) . u_2(n1), u_1(n1) . u_2(n1)).
+/// reference, counting full turns: atan2(u_1(n2) . u_2(n1), u_1(n1) . u_2(n1)), n1 =
+/// pair.across(axis).
 /// @source formulation 2.2
 Link angle_link(const joint::MarkerPair& pair, const Vec3& axis);
 

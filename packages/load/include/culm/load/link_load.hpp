@@ -44,6 +44,7 @@ class LinkLoad final : public model::Batch, public model::Booked {
   std::size_t memory_size() const override { return item_memory * items_.size(); }
   void save(model::Items which, std::span<double> memory) const override;
   void restore(std::span<const double> memory) override;
+  void forget_evaluation() override;
   double stored_energy(const model::Coordinates& q) const override;
   /// The coordinate u of an item [m, rad] at a state, and the force that resisted it in the last
   /// step [N, N m]; of the state itself before the first. Zero on ranks that do not own the item.

@@ -26,6 +26,9 @@ struct Section {
   std::vector<Fibre> fibres = {};
   FibrePattern pattern = {};
   UniaxialPlasticity plasticity = {};
+  /// Where its own origin and axes lie, see place() [m, rad].
+  Vec<2> offset = Vec<2>::Zero();
+  double angle = 0.0;
 };
 
 /// The independent entries of eq. (1.9), axes d1 and d2 through the reference point.
@@ -76,9 +79,14 @@ Section rotated(const Section& section, double angle);
 /// The section whose own origin lies at `offset` (xi1, xi2) [m] from the axis of the beam.
 Section shifted(const Section& section, const Vec<2>& offset);
 
-/// (1 - t) a + t b; where both yield, fibres are joined by place and area, and the stiffness in
-/// stretch and bending is theirs. @pre the same pattern of fibres in both. Outlines are joined
-/// point by point if they have the same number of points, otherwise the nearer one is taken.
+/// The section turned by `angle` about its own origin, which is then moved to `offset`.
+Section placed(const Section& section, double angle, const Vec<2>& offset);
+
+/// (1 - t) a + t b of what both are about their own origins and axes, and of where these lie: what
+/// bends by itself is not stiffened by what moves its axis. Where both yield, fibres are joined by
+/// place and area, and the stiffness in stretch and bending is theirs. @pre the same pattern of
+/// fibres in both. Outlines are joined point by point if they have the same number of points,
+/// otherwise the nearer one is taken.
 Section interpolate(const Section& a, const Section& b, double t);
 
 /// What makes a stiffness or a mass impossible, one sentence each; empty if nothing does. Both

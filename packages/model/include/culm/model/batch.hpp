@@ -80,6 +80,8 @@ class Batch {
   /// evaluated last, its end: what items carry from step to step moves on. In dynamics
   /// state.velocity is that of the end, and a batch that says needs_mean_velocity may change it.
   virtual void accept(State&) {}
+  /// What was shown of the last evaluation, such as forces, counts no more.
+  virtual void forget_evaluation() {}
   /// Whether velocities must be those of the conserving scheme, for accept to correct them.
   virtual bool needs_mean_velocity() const { return false; }
   /// Whether it changes with time or level itself, beside the state. Of loads and constraints
@@ -101,6 +103,8 @@ class Batch {
   virtual void save(Items, std::span<double>) const {}
   /// Takes them over for all local items; after place, before prepare.
   virtual void restore(std::span<const double>) {}
+  /// Whether restore() takes back what accept() did. Not where something outside was told.
+  virtual bool can_go_back() const { return true; }
 
   /// Energy stored in the owned items at a configuration [J]: strain energy, or the potential of a
   /// load that has one.

@@ -29,6 +29,8 @@ class Quantity {
   virtual std::vector<double> memory() const { return {}; }
   /// Takes it back.
   virtual void restore(std::span<const double> /*memory*/) {}
+  /// Whether its numbers are wrong where it cannot take it back, as of turns that nobody counted.
+  virtual bool relies_on_memory() const { return false; }
   /// What is doubtful about the numbers given last, to follow the name of the quantity; empty if
   /// nothing is.
   virtual std::string doubt() const { return {}; }

@@ -61,9 +61,8 @@ class ResultFiles {
   void save(Snapshot& snapshot) const;
 
   /// Goes back to what the watched quantities remember, such as turns that were counted, where an
-  /// analysis starts from a state that was kept; to the beginning where nothing was saved with it,
-  /// or without it.
-  void restore_memories(const Snapshot* saved);
+  /// analysis starts from another state than the last one.
+  void restore_memories(std::span<const double> memories);
 
   /// Whether a snapshot is one of save(), by this object or one that it goes on from.
   bool has_saved(const Snapshot& snapshot) const;
@@ -123,7 +122,6 @@ class ResultFiles {
   const std::vector<WatchedQuantity>* watched_;
   std::optional<std::vector<int>> read_nodes_;  ///< by what is watched; none: everything
   bool shows_fluid_ = false;                    ///< in pictures of their own
-  std::vector<double> first_memories_;          ///< of what is watched, before any state
   std::unique_ptr<Files> files_;
   std::vector<std::filesystem::path> analysis_files_;  ///< for listing()
   std::size_t frames_ = 0;
