@@ -14,6 +14,12 @@ def listed(name, *entries):
     return f'<ParameterList name="{name}">{"".join(entries)}</ParameterList>'
 
 
+def rail(node):
+    """Supports that leave a body nothing but to slide along x."""
+    return [entry(f"{node} {name}", Type="Simple Support", Node=node, Direction=axis) for name, axis in (("y", "{0, 1, 0}"), ("z", "{0, 0, 1}"))] + [
+        entry(f"{node} turn {name}", Type="Rotation", Node=node, Axis=axis) for name, axis in (("x", "{1, 0, 0}"), ("y", "{0, 1, 0}"), ("z", "{0, 0, 1}"))]
+
+
 def cut(text, first, last):
     """The part of a text from one word to the end of another."""
     start = text.index(first)

@@ -5,7 +5,7 @@ import csv
 import math
 import pathlib
 
-from deck_text import ends_with, entry, last_row, listed, rows
+from deck_text import ends_with, entry, last_row, listed, rail, rows
 from driver import Case
 
 INPUTS = pathlib.Path(__file__).resolve().parents[2] / "inputs"
@@ -568,9 +568,9 @@ def in_two_parts():
     along = {"Node": "cart", "Direction": "{1, 0, 0}"}
     return f"""<ParameterList name="culm">{listed("Structures", *bodies)}{listed(
         "Constraints", entry("pin", Type="Revolute Support", Node="wheel", Axis="{0, 0, 1}"),
-        entry("rail", Type="Prismatic Support", Node="cart", Axis="{1, 0, 0}"),
+        *rail("cart"),
         entry("drive", Type="Angular Velocity", Node="wheel", Axis="{0, 0, 1}", Angular_Velocity="2", Function="growth"))}{listed(
-        "Functions", entry("growth", Type="Formula", Value="1+t"))}{listed(
+        "Functions", entry("growth", Type="Expression", Expression="1+t"))}{listed(
         "Loads", entry("brake", Type="Directed Ground Damper", Damping="2", **along),
         entry("spring", Type="Directed Ground Spring", Stiffness="3", **along))}{listed(
         "Initial Conditions", entry("turn", Type="Velocity", Node="wheel", Angular_Velocity="{0, 0, 2}"),
@@ -581,7 +581,7 @@ def in_two_parts():
 
 def begins_unsolved(folder, _):
     steps = rows(folder)
-    again = next(i for i in range(1, len(steps)) if steps[i]["time [s]"] == steps[i - 1]["time [s]"])
+    again = next(i for i in range(1, len(steps)) if steps[i]["time"] == steps[i - 1]["time"])
     before, first = steps[again - 1], steps[again]
     found = [(row["drive Mz [N m]"], row["brake F [N]"], row["spring F [N]"]) for row in (before, first)]
     held = 3.0 * first["spring elongation [m]"]

@@ -206,6 +206,7 @@ double PathCondition::level_increment(const model::State& state, const Vector& r
   --missing_iterations_;
   if (has_begun_) return correct();
   has_begun_ = true;
+  probe_();
   return predict();
 }
 

@@ -65,7 +65,11 @@ PathFollowing::PathFollowing(PathSettings settings, Context& context, model::Sta
     : Stepper(context, state),
       settings_(std::move(settings)),
       condition_(context.system, settings_.control, find_watched(settings_, context.system.model()),
-                 compute_level_difference(settings_)) {}
+                 compute_level_difference(settings_)) {
+  condition_.set_probe([this] {
+    if (!known_.is_examined) look_for_free_energy();
+  });
+}
 
 std::unique_ptr<Stepper> PathFollowing::make(const Options& options, Context& context,
                                              model::State& state) {
@@ -118,6 +122,12 @@ void PathFollowing::balance_start() {
   system().discard(state);
   if (take_up(context(), newton(), state) == TakeUp::done) return;
   post_mortem().give_up(state, Stencil::statics());
+}
+
+// Where one direction has lost its stiffness, it hides others.
+void PathFollowing::look_for_free_energy() {
+  known_.here.sets_energy_free =
+      known_.events.empty() && sets_energy_free(system(), context().linear);
 }
 
 std::pair<PathTangent, solver::Determinant> PathFollowing::compute_tangent() {
@@ -306,13 +316,7 @@ void PathFollowing::do_accept(const StepReport& report) {
   last_length_ = condition_.length(state);
   condition_.accept(state);
   known_.behind = known_.here;
-  // where one direction has lost its stiffness, it hides others
-  const bool may_free = known_.events.empty();
-  known_.here = {state.time,
-                 condition_.watched_displacement(state.next),
-                 {},
-                 {},
-                 may_free && sets_energy_free(system(), context().linear)};
+  known_.here = {state.time, condition_.watched_displacement(state.next), {}, {}};
   pace_.add(known_.here.level, known_.here.watched);
   // what lies before a branch is the bifurcation that is known
   known_.has_behind = known_.is_examined && !is_on_branch_;
@@ -341,8 +345,7 @@ AnalysisReport PathFollowing::do_finish() {
   const auto [tangent, determinant] = compute_tangent();
   if (!known_.is_examined) {
     before_ = known_;
-    known_.here.sets_energy_free =
-        known_.events.empty() && sets_energy_free(system(), context().linear);
+    look_for_free_energy();
     if (examine(tangent, determinant)) {
       locate_events();
       if (is_to_branch()) {

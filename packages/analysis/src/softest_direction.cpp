@@ -55,9 +55,11 @@ bool sets_energy_free(const assembly::System& system, solver::LinearSolver& line
   tangent.multiply(*softest, force);
   tangent.multiply(other, other_force);
   const double one = other.dot(force), transposed = softest->dot(other_force);
-  constexpr double rounding = 1e-8;
+  // stiff directions leave rounding of what is large, though the softest one has little of them
+  constexpr double small = 1e-8, rounding = 1e-13;
   const double terms = std::sqrt(other.dot(other) * force.dot(force));
-  return softest->dot(force) < 0.0 && std::abs(one - transposed) <= rounding * terms;
+  const double most = small * terms + rounding * tangent.norm() * std::sqrt(softest->dot(*softest));
+  return softest->dot(force) < 0.0 && std::abs(one - transposed) <= most;
 }
 
 }  // namespace culm::analysis

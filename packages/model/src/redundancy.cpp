@@ -396,21 +396,24 @@ std::vector<int> independent_columns(const Factors& factors) {
   return columns;
 }
 
-// Gradients at a position nearby where the rows that are independent at the start are so, too: one
-// where they are not is singular by itself and tells nothing of the start. Nothing where no such
+// Gradients at positions nearby where the rows that are independent at the start are so, too: one
+// where they are not is singular by itself and tells nothing of the start. None where no such
 // position is found: there is none, or it is out of reach.
-std::optional<Sparse> gradients_nearby(RowTable& table, const Factors& reference,
-                                       const Coordinates& start) {
+std::vector<Sparse> gradients_nearby(RowTable& table, const Factors& reference,
+                                     const Coordinates& start) {
   const std::vector<int> independent = independent_columns(reference);
+  std::vector<Sparse> found;
   for (double size : {1.0, -0.5, 0.25}) {
     Coordinates moved = start;
     table.move(size * table.perturbation(), moved);
     const auto nearby = admissible(table, std::move(moved));
     if (!nearby) continue;
     Sparse gradients = table.gradients(*nearby);
-    if (Factors(gradients, independent).rank() == reference.rank()) return gradients;
+    if (Factors(gradients, independent).rank() == reference.rank()) {
+      found.push_back(std::move(gradients));
+    }
   }
-  return {};
+  return found;
 }
 
 // Whether the rows of a set that were independent before no longer imply the others.
@@ -443,12 +446,14 @@ std::vector<RedundantSet> find_redundant_rows(const NodeTable& nodes,
   const Factors factors(at_start, doubtful);
   if (factors.rank() == factors.cols()) return {};
   std::vector<RedundantSet> sets = dependent_sets(table, factors, q);
-  if (const auto nearby = gradients_nearby(table, factors, q)) {
-    for (RedundantSet& set : sets) {
-      if (set.kind == RedundantSet::Kind::structural && gains_rank(table, *nearby, factors, set)) {
-        set.kind = RedundantSet::Kind::position;
-      }
-    }
+  // where rows depend on each other only here, they do so nowhere else; what rounding makes of rows
+  // that always do is not the same everywhere
+  const std::vector<Sparse> nearby = gradients_nearby(table, factors, q);
+  for (RedundantSet& set : sets) {
+    if (set.kind != RedundantSet::Kind::structural || nearby.empty()) continue;
+    const bool is_of_here = std::ranges::all_of(
+        nearby, [&](const Sparse& one) { return gains_rank(table, one, factors, set); });
+    if (is_of_here) set.kind = RedundantSet::Kind::position;
   }
   return sets;
 }

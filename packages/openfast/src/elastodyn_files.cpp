@@ -195,6 +195,13 @@ Platform read_platform(InputFile& file) {
     platform.inertia[i] = file.number(inertias[i], 0.0);
   }
   platform.mass = file.number("PtfmMass", 0.0);
+  for (int i = 0; i < 3 && platform.mass > 0.0; ++i) {
+    if (platform.inertia[i] > 0.0) continue;
+    throw InputError(file.where("PtfmMass"),
+                     fmt::format("is {:g} kg, so that {} must be above 0, got {:g}: a point turns "
+                                 "without resistance",
+                                 platform.mass, inertias[i], platform.inertia[i]));
+  }
   return platform;
 }
 

@@ -353,6 +353,18 @@ TEST_F(ElastoDynFiles, PlatformsAreImportedAndHeldAloud) {
   EXPECT_THAT(imported.report, HasSubstr("Hz on the platform of 400000 kg afloat"));
 }
 
+TEST_F(ElastoDynFiles, PlatformsThatWeighResistTurns) {
+  write("turbine.dat", change(turbine, "--- BLADE ---",
+                              "4E5 PtfmMass - (kg)\n1E8 PtfmRIner - (kg m^2)\n--- BLADE ---"));
+  try {
+    import_file(path_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("PtfmMass: is 400000 kg, so that PtfmPIner must be above 0"));
+  }
+}
+
 TEST_F(ElastoDynFiles, TowersOnTheGroundLeaveNothingOut) {
   EXPECT_THAT(import_file(path_).report, Not(HasSubstr("not in these files")));
 }

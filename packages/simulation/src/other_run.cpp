@@ -161,12 +161,12 @@ std::vector<std::string> take(const Kept& kept, const Owners& owners, const Snap
     return std::ranges::all_of(numbers, [](double one) { return one == 0.0; });
   };
   std::vector<std::string> lost;
-  std::optional<Numbers> numbers = numbers_of(kept, other);
-  if (!numbers) {
+  std::optional<Numbers> known = numbers_of(kept, other);
+  if (!known) {
     if (!is_empty(other.numbers(kept.values))) lost.push_back("the model");
     return lost;
   }
-  Numbers& there = *numbers;
+  Numbers& there = *known;
   move(kept, owners, there, snapshot);
   for (const auto& [name, numbers] : there) {
     if (!is_empty(numbers)) lost.push_back(name);

@@ -10,6 +10,7 @@
 #include "fluid_pictures.hpp"
 #include "memories.hpp"
 #include "on_root.hpp"
+#include "other_run.hpp"
 #include "pictures.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,10 @@
 #include <culm/base/snapshot.hpp>
 #include <culm/solver/level_condition.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culm::analysis {
@@ -76,6 +78,8 @@ class PathCondition final : public solver::LevelCondition {
   const Motion& last_way() const { return previous_; }
   /// Length of a way [m].
   static double length(const Motion& way);
+  /// Who looks at the start of each attempt while the factors at hand are those of its tangent.
+  void set_probe(std::function<void()> probe) { probe_ = std::move(probe); }
   /// The tangent at the start of the last attempt; nothing if it had none.
   const std::optional<PathTangent>& tangent() const { return tangent_; }
   /// Finds the tangent from d_f at an equilibrium.
@@ -115,6 +119,7 @@ class PathCondition final : public solver::LevelCondition {
   bool has_begun_ = false;                 ///< an iteration of the attempt was made
   int missing_iterations_ = 0;             ///< that an attempt off the path has to make at least
   std::optional<PathTangent> tangent_;
+  std::function<void()> probe_ = [] {};
   Motion previous_;     ///< the last accepted increment; no columns before the first
   Motion direction_;    ///< unit vector in which the attempt began
   Motion flexibility_;  ///< a

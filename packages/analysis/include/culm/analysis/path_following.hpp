@@ -82,6 +82,8 @@ class PathFollowing final : public Stepper {
   /// Solves on the path at a `length` [m] of arc before the last accepted point. @return the
   /// determinant there; nothing if no solution is found
   std::optional<solver::Determinant> go_back(double length);
+  /// Whether the softest direction of the tangent at the present point sets energy free.
+  void look_for_free_energy();
   /// Warns of two directions that lost their stiffness between the last two points, and left the
   /// determinant its sign.
   void watch_pairs();

@@ -60,6 +60,7 @@ class Statics final : public Stepper {
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
   void watch_pairs(const StepReport& report);
+  bool is_last(const StepReport& report) const { return report.time == settings_.final_level; }
   /// Throws NumericalError if something moves freely after the first step as well.
   void try_hanging();
   /// Measures the structure again once loads give it the stiffness that it had not at the start.
@@ -67,7 +68,8 @@ class Statics final : public Stepper {
 
   StaticsSettings settings_;
   double increment_ = 0.0;
-  int determinant_sign_ = 0;  ///< of the tangent at the last equilibrium; 0 if unknown
+  int determinant_sign_ = 0;     ///< of the tangent at the last equilibrium; 0 if unknown
+  double first_log_size_ = 0.0;  ///< logarithm of the determinant of the first tangent
   bool has_unstable_pair_ = false;
   /// Something moves freely at the start, which may be held by what it carries from the first step.
   bool hangs_ = false;
