@@ -161,10 +161,24 @@ StepReport Statics::do_attempt(double level) {
   report.outcome = newton().solve(state(), stencil);
   refuse_mirrored(context(), state(), report.outcome);
   refuse_missed_turns(context(), state(), stencil, report.outcome);
-  if (hangs_ && report.outcome.converged() && post_mortem().is_singular(state(), stencil)) {
+  if (hangs_ && report.outcome.converged() &&
+      (flies_away() || post_mortem().is_singular(state(), stencil))) {
     report.outcome.end = solver::StepEnd::singular;
   }
   return report;
+}
+
+// What hangs from a hinge comes as far as it is long.
+bool Statics::flies_away() {
+  constexpr double far = 3.0;  // lengths of the model
+  double most = 0.0;
+  const int nodes = static_cast<int>(state().next.size() / 12);
+  for (int node = 0; node < nodes; ++node) {
+    const Vec3 way = model::NodeTable::slots(state().next, node).col(0) -
+                     model::NodeTable::slots(state().prev, node).col(0);
+    most = std::max(most, way.norm());
+  }
+  return system().comm().max(most) > far * system().model().length();
 }
 
 void Statics::do_accept(const StepReport& report) {

@@ -59,6 +59,7 @@ class Statics final : public Stepper {
   int find_determinant_sign(const StepReport& report);
   /// Warns where the structure lost or regained its stability in an accepted step.
   void watch_stability(const StepReport& report);
+  bool flies_away();
   void watch_pairs(const StepReport& report);
   bool is_last(const StepReport& report) const { return report.time == settings_.final_level; }
   /// Throws NumericalError if something moves freely after the first step as well.
