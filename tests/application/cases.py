@@ -793,7 +793,7 @@ CASES = [
         0,
         deck=hinged(entry("ground", Type="Rigid Support", Node="arm"), "{0, 0, 4}"),
         args=RUN,
-        says=["largest change 4 at 'arm/0', by Rigid Support 'ground'\n"],
+        says=["largest change 4 m/s at 'arm/0', by Rigid Support 'ground'\n"],
         check=has_cells((0, "energy kinetic [J]", 0.0)),
         leaves=["out"],
     ),

@@ -26,7 +26,7 @@ def strip(name, origin, elements):
 
 
 def clamp(*nodes):
-    return "".join(entry(f"clamp {node}", Type="Rigid Support", Node=node) for node in nodes)
+    return "".join(entry(f"clamp {node.replace('/', ' ')}", Type="Rigid Support", Node=node) for node in nodes)
 
 
 # --- connections of meshes that do not fit

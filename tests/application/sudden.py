@@ -194,7 +194,7 @@ CASES = [
     driven("a jump", 0.01, 2, 0.1, 0, entry("f", Type="Heaviside", Start="0.5"), says=[], Function="f"),
     driven("one that a formula hides leaves velocities that alternate", 0.01, 2, 0.09, None,
            entry("f", Type="Expression", Expression="t &lt; 0.9 ? t : 0.9"), Function="f",
-           says=[*FITS, "of the velocities at the end", "is 0 at 'body/0', by Rigid Support 'drive'"]),
+           says=[*FITS, "of the velocities at the end at 'body/0', by Rigid Support 'drive'"]),
     flying_pair(),
     beside(),
     spun("at the end of a step", 1, Type="Heaviside", Start="0.5"),

@@ -209,17 +209,17 @@ CASES = [
         + parameters("@@beam/last", ("Nodes", "{beam/2}"))
         + "</ParameterList>\n"
         + LOADS,
-        "Node Sets / beam/last: names that begin with 'beam/' stand for parts of the structure 'beam'",
+        "Node Sets / beam/last: a name must not contain '/', which stands between the names of a path",
         ranks=True,
     ),
     wrong(
-        "element set named like an end of a beam",
+        "element set named like a point of a beam",
         LOADS,
         '<ParameterList name="Element Sets">\n'
-        + parameters("@@beam/first", ("Structure", "beam"), ("Range", "{0, 1}"))
+        + parameters("@@beam@0.5", ("Structure", "beam"), ("Range", "{0, 1}"))
         + "</ParameterList>\n"
         + LOADS,
-        "Element Sets / beam/first: names that begin with 'beam/' stand for parts of the structure "
+        "Element Sets / beam@0.5: names that begin with 'beam@' stand for parts of the structure "
         "'beam'",
     ),
     wrong(

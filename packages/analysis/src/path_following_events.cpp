@@ -154,8 +154,11 @@ void PathFollowing::locate_events() {
     const double before = zero.place - near.length, after = far.length - zero.place;
     constexpr double sure = 1e-3;  // of the step
     const bool is_sure = zero.is_found || std::min(before, after) < sure * last_length_;
-    // the level of a limit point is known well from the slopes of the path
-    if (!is_sure && event.kind == PathEventKind::limit_point) return;
+    // where a limit point lies, the slopes at both ends of the step tell better
+    if (!is_sure && event.kind == PathEventKind::limit_point) {
+      doubt_limit(event);
+      return;
+    }
     event.level = between(near, far, zero.place, &PointBehind::level);
     event.watched = between(near, far, zero.place, &PointBehind::watched);
     if (event.kind == PathEventKind::bifurcation) back_ = before < after ? near.length : far.length;
@@ -205,6 +208,15 @@ void PathFollowing::doubt(const PathEvent& event, double one_level, double other
       fmt::format("the {} at level {:.6g} lies anywhere between {:.6g} and {:.6g}: "
                   "equilibria between them were not found; try shorter steps",
                   name_of(event.kind), event.level, one_level, other_level),
+      event.level);
+}
+
+void PathFollowing::doubt_limit(const PathEvent& event) {
+  context().findings.warn(
+      "limit point",
+      fmt::format("the limit point at level {:.6g} is interpolated over a step in which the path "
+                  "bends: no equilibria between its ends were found; try shorter steps",
+                  event.level),
       event.level);
 }
 

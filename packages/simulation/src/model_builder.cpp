@@ -128,7 +128,7 @@ void refuse_equal_names(const Options& list, const model::BuildContext& context)
 
 // A set must not stand for what has its name already: a structure, its nodes or its edges.
 bool is_free(const Options& entry, const model::BuildContext& context) {
-  const std::string structure = entry.name().substr(0, entry.name().find_first_of("/@"));
+  const std::string structure = entry.name().substr(0, entry.name().find('@'));
   if (context.model.find_structure(structure) == nullptr) return true;
   context.issues.add(entry.where(), structure == entry.name()
                                         ? "there is a structure of this name"

@@ -102,7 +102,7 @@ void RunObserver::start_run(model::State& state, bool steps_follow) {
 void RunObserver::start(model::State& state) {
   start_run(state, true);
   has_history_ = true;
-  model::State first = unsolved(context_->system.model(), state);
+  model::State first = unsolved(files_.model(), state);
   add_history(state.time, 0, first);
 }
 

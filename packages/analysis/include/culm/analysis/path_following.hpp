@@ -92,6 +92,8 @@ class PathFollowing final : public Stepper {
   void locate_events();
   /// Warns that an event may lie anywhere between two levels.
   void doubt(const PathEvent& event, double one_level, double other_level);
+  /// Warns that the level of a limit point is interpolated.
+  void doubt_limit(const PathEvent& event);
   /// Whether another path crosses between the last two points.
   bool crosses() const;
   /// Tells the events that were found since the last step was accepted or failed.

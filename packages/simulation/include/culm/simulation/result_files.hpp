@@ -60,6 +60,8 @@ class ResultFiles {
   /// How much there is, under "output/" with checksums, and whose it is, under "run/".
   void save(Snapshot& snapshot) const;
 
+  /// That of the present analysis.
+  const model::Model& model() const { return system_->model(); }
   /// Goes back to what the watched quantities remember, such as turns that were counted, where an
   /// analysis starts from another state than the last one.
   void restore_memories(std::span<const double> memories);
