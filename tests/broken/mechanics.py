@@ -204,6 +204,14 @@ CASES = [
         BEAM + " / Section Positions: must not descend",
     ),
     wrong(
+        "pre-twist that jumps",
+        '<Parameter name="Elements" value="4"/>',
+        '<Parameter name="Elements" value="4"/>\n<Parameter name="Pre-Twist" value="{0, 0.1, 1.1, 1.2}"/>\n'
+        '@@<Parameter name="Pre-Twist Positions" value="{0, 0.5, 0.5, 1}"/>',
+        BEAM + " / Curve / Pre-Twist Positions: 'Pre-Twist' jumps at 0.5, and a beam does not; where its sections do, they have "
+        "an 'Angle'",
+    ),
+    wrong(
         "load levels do not rise",
         STEPS,
         '<Parameter name="Levels" value="{0.5, 0.25}"/>',
