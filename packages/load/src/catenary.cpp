@@ -16,11 +16,6 @@ struct Complementary {
   Mat<2, 2> hessian = Mat<2, 2>::Zero();
 };
 
-// int sqrt(H^2 + v^2) dv from 0
-double tension_integral(double H, double v) {
-  return 0.5 * (v * std::hypot(H, v) + H * H * std::asinh(v / H));
-}
-
 Complementary complementary(const CatenaryLine& line, const Vec<2>& force) {
   const double H = force[0];
   const double V = force[1];
@@ -31,16 +26,22 @@ Complementary complementary(const CatenaryLine& line, const Vec<2>& force) {
   const double low = grounded > 0.0 ? 0.0 : V - w * L;  // V at the lower end of what hangs
   const double T_high = std::hypot(H, V);
   const double T_low = std::hypot(H, low);
-  const double arc = std::asinh(V / H) - std::asinh(low / H);
+  // differences between both ends, of which little is left in a taut line, as products
+  const double T_step = w * hanging * (V + low) / (T_high + T_low);
+  const double sinh_arc = V * low > 0.0 ? w * hanging * (V + low) / (V * T_low + low * T_high)
+                                        : (V * T_low - low * T_high) / (H * H);
+  const double arc = std::asinh(sinh_arc);  // asinh(V / H) - asinh(low / H)
+  // int sqrt(H^2 + v^2) dv / w
+  const double tension =
+      0.25 * hanging * (T_high + T_low) + (0.25 * (V + low) * T_step + 0.5 * H * H * arc) / w;
   // int v^2 dv / w is hanging (V^2 + V low + low^2) / 3
   const double square = H * H * L + hanging * (V * V + V * low + low * low) / 3.0;
   Complementary psi;
-  psi.value = (tension_integral(H, V) - tension_integral(H, low)) / w + grounded * H +
-              square / (2.0 * line.stiffness);
+  psi.value = tension + grounded * H + square / (2.0 * line.stiffness);
   psi.gradient << grounded + H * arc / w + H * L / line.stiffness,
-      (T_high - T_low) / w + 0.5 * hanging * (V + low) / line.stiffness;
-  const double sines = (V / T_high - low / T_low) / w;
-  const double cosines = H * (1.0 / T_high - 1.0 / T_low) / w;
+      T_step / w + 0.5 * hanging * (V + low) / line.stiffness;
+  const double sines = H * H * sinh_arc / (T_high * T_low * w);
+  const double cosines = -H * T_step / (T_high * T_low * w);
   psi.hessian << arc / w - sines + L / line.stiffness, cosines, cosines,
       sines + hanging / line.stiffness;
   return psi;

@@ -33,6 +33,30 @@ TEST(Catenary, RestsOnTheSeabed) {
   EXPECT_NEAR(elastic.grounded, 202.810289957, 1e-8);
 }
 
+// A taut line is a spring along its chord, with half of its weight at each end, up to terms in
+// (w L / T)^2: of its length, that is L (1 + T / EA) less (w L cos / T)^2 / 24.
+TEST(Catenary, TautLinesAreSprings) {
+  for (const double stiffness : {1e6, 1e8, 1e10, 1e12}) {
+    for (const double weight : {1e-6, 1e-3, 1.0}) {
+      for (const double stretch : {1e-6, 1e-4, 1e-2}) {
+        const double length = 100.0, T = stiffness * stretch;
+        if (T < 1e3 * weight * length) continue;
+        for (const bool flat : {true, false}) {
+          const Vec<2> along = flat ? Vec<2>(1.0, 0.0) : Vec<2>(0.6, 0.8);
+          const Vec<2> place = (1.0 + stretch) * length * along;
+          const CatenaryEnds ends = hang({length, stiffness, weight, false}, place[0], place[1]);
+          ASSERT_TRUE(ends.found) << stiffness << ' ' << weight << ' ' << stretch;
+          const double ratio = weight * length * along[0] / T;
+          const double sag = ratio * ratio / 24.0 * stiffness;  // what it adds to the tension
+          EXPECT_NEAR(ends.horizontal, T * along[0], 2.0 * sag + 1e-9 * T);
+          EXPECT_NEAR(ends.vertical, T * along[1] + 0.5 * weight * length,
+                      2.0 * sag + 1e-9 * T + 2.0 * weight * length * stretch);
+        }
+      }
+    }
+  }
+}
+
 // h and z of a line with the forces H and V at its fairlead, by sums over pieces of the line.
 Vec<2> by_pieces(const CatenaryLine& line, double H, double V) {
   constexpr int pieces = 200000;
