@@ -109,7 +109,10 @@ def cross_at(number):
     return check
 
 
-CROSSED = [Case(f"an arch, first increment {increment}", 0, args=RUN, deck=arch(increment), leaves=["out"], check=cross_at(2), ranks=increment == "0.5")
+# beside crossings equilibria near to limit points are not found in long steps; what is told is right here
+INTERPOLATED = {"0.5": ["-1.01865"], "2": ["2.96516", "-1.01865"]}
+CROSSED = [Case(f"an arch, first increment {increment}", 0, args=RUN, deck=arch(increment), leaves=["out"], check=cross_at(2), ranks=increment == "0.5",
+                says=[f"the limit point at level {level} is interpolated" for level in INTERPOLATED.get(increment, [])], silent=False)
            for increment in ("0.2", "0.5", "1", "2")] + [
     # on the crossing path the level turns where it comes back to the first one
     Case("an arch that bends sideways and back", 8, args=RUN, deck=arch("0.5", Steps="22", Bifurcation="Follow"), leaves=["out"],
@@ -168,7 +171,7 @@ def pressed(steps, level, other_stiffness, says):
 
 
 BEYOND = [pressed(steps, level, "30", "changes its sign") for steps, level in ((1, 1.3), (5, 1.2), (10, 1.05))] + [
-    pressed(steps, level, other, "two directions") for steps, level, other in ((1, 1.5, "1"), (2, 1.5, "1"), (3, 1.5, "1"), (1, 2.5, "1"), (1, 2, "1.44"))]
+    pressed(steps, level, other, "two directions") for steps, level, other in ((1, 1.5, "1"), (2, 1.5, "1"), (3, 1.5, "1"), (1, 2.5, "1"), (1, 6, "1"), (1, 2, "1.44"))]
 
 
 # --- factors of loads that are small beside the stiffness

@@ -390,6 +390,21 @@ def hinged_bar(steps):
                 listed("Output", listed("History", entry("tip", Type="Position", Node="hung/last"))))
 
 
+def drawn_away():
+    """A body that nothing holds along x but the edge of a sheet to which it is tied softly, so that this is free to widen."""
+    sheet = entry("sheet", Type="Shell", Material="film", Thickness="0.02").replace("</ParameterList>", entry(
+        "Mesh", Type="Plane", Origin="{1, 0, 0}", Side_1="{0, 0, 0.5}", Side_2="{0, 0.7, 0}", Elements="{1, 1}") + "</ParameterList>")
+    return deck(listed("Materials", entry("film", Type="Orthotropic", E1="4e9", E2="1e9", E3="1e9", nu12="0.3", nu13="0.3", nu23="0.2",
+                                          G12="5e8", G13="5e8", G23="4e8")),
+                listed("Structures", sheet, entry("body", Type="Rigid Body", Position="{1.2, 0.35, 0.5}", Mass="2", Inertia="{0.1, 0.2, 0.3}")),
+                listed("Constraints", entry("sides", Type="Symmetry", Node="sheet/v0", Normal="{0, 1, 0}"),
+                       entry("tie", Type="Soft Transition", Node="sheet/u1", Master="body"),
+                       entry("plane", Type="Planar Support", Node="body", Normal="{0, 1, 0}"),
+                       entry("clamp", Type="Rigid Support", Node="sheet/u0")),
+                listed("Loads", entry("wind", Type="Surface Force", Structure="sheet", Force="{0.5, 0.25, -2}")),
+                entry("Solver", Linear_Solver="MUMPS", Form="Multipliers"), listed("Analyses", entry("s", Type="Static", Steps="1")))
+
+
 PULLED = entry("pull", Type="Static", Start_Level="1", Final_Level="2", Steps="4")
 SWING = math.atan2(SIDEWAYS, ROD_WEIGHT / 2)
 SWING_OF_LONG = math.atan2(SIDEWAYS, 1.25 * ROD_WEIGHT / 2)
@@ -404,6 +419,7 @@ HANGING = [
     *(Case(f"a bar on a hinge that is pushed aside swings to where it hangs: {steps} steps", 0, args=RUN, leaves=["out"],
            deck=hinged_bar(steps), never=["determinant"], check=ends_with("tip z [m]", 1.03331624, 1e-6), ranks=True)
       for steps in (1, 2, 5, 20)),
+    Case("a body that a load draws away", 4, args=RUN, leaves=["out"], deck=drawn_away(), says=["Likely cause: a mechanism."]),
     Case("a rod without weight", 4, args=RUN, leaves=["out"], deck=hinged("-1").replace("-9.81}", "0}"),
          says=["The equations are singular at level 0, before the first step.\nLikely cause: a mechanism."]),
 ]

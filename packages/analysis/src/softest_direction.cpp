@@ -47,6 +47,8 @@ double resistance(const assembly::Matrix& matrix, const Vector& direction) {
 
 bool sets_energy_free(const assembly::System& system, solver::LinearSolver& linear) {
   if (system.model().unknowns().num_forces() > 0) return false;
+  const std::optional<int> negative = linear.determinant().negative;
+  if (negative && *negative == 0) return false;
   const assembly::Matrix& tangent = *system.matrix();
   const auto softest = softest_direction(linear, system.layout().rows());
   if (!softest || resistance(tangent, *softest) < least_resistance) return false;
@@ -59,7 +61,7 @@ bool sets_energy_free(const assembly::System& system, solver::LinearSolver& line
   constexpr double small = 1e-8, rounding = 1e-13;
   const double terms = std::sqrt(other.dot(other) * force.dot(force));
   const double most = small * terms + rounding * tangent.norm() * std::sqrt(softest->dot(*softest));
-  return softest->dot(force) < 0.0 && std::abs(one - transposed) <= most;
+  return (negative || softest->dot(force) < 0.0) && std::abs(one - transposed) <= most;
 }
 
 }  // namespace culm::analysis

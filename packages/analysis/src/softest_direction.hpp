@@ -26,8 +26,9 @@ double resistance(const assembly::Matrix& matrix, const assembly::Vector& direct
 /// beams.
 constexpr double least_resistance = 1e-13;
 
-/// Whether motion in the softest direction of the last tangent sets energy free. Two directions
-/// that lose their stiffness together, as those in which a round column bends, leave the
+/// Whether some motion sets energy free by the last tangent, as it was factored: by the number of
+/// its negative eigenvalues, or, where the factors do not tell, in its softest direction. Two
+/// directions that lose their stiffness together, as those in which a round column bends, leave the
 /// determinant its sign; this shows them. False of tangents that are not symmetric or have
 /// multipliers. Collective.
 bool sets_energy_free(const assembly::System& system, solver::LinearSolver& linear);

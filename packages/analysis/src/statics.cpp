@@ -270,8 +270,9 @@ int Statics::find_determinant_sign(const StepReport& report) {
 }
 
 void Statics::watch_pairs(const StepReport& report) {
-  const bool is_softer = report.outcome.last_determinant.log_size < first_log_size_;
-  if (has_unstable_pair_ || !crossings_.empty() || (!is_softer && !is_last(report)) ||
+  const solver::Determinant& last = report.outcome.last_determinant;
+  const bool may_be = last.negative || last.log_size < first_log_size_ || is_last(report);
+  if (has_unstable_pair_ || !crossings_.empty() || !may_be ||
       !sets_energy_free(system(), context().linear)) {
     return;
   }

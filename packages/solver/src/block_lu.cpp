@@ -330,15 +330,21 @@ void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width wi
 }
 
 // Rows and columns are in the same order, so that only exchanges inside blocks change the sign.
+// Without them the factors of a symmetric matrix are L D L^T, and D has the signs of the
+// eigenvalues.
 Determinant BlockLu::determinant() const {
   Determinant d{1, 0.0};
+  int negative = 0, exchanges = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     for (int i = 0; i < panel.size; ++i) {
       const double reciprocal = values_[panel.pivot + index(i) * index(panel.stride() + 1)];
-      if ((reciprocal < 0.0) != (exchanged_[index(panel.first + i)] != i)) d.sign = -d.sign;
+      if (reciprocal < 0.0) ++negative;
+      if (exchanged_[index(panel.first + i)] != i) ++exchanges;
       d.log_size -= std::log(std::abs(reciprocal));
     }
   }
+  if ((negative + exchanges) % 2 != 0) d.sign = -1;
+  if (exchanges == 0) d.negative = negative;
   return d;
 }
 

@@ -27,6 +27,7 @@ enum Control {
 enum Info {
   status = 1,
   status_detail = 2,
+  negative_pivot_count = 12,
   null_pivot_count = 28,
   determinant_exponent = 34,  // of two
 };
@@ -117,9 +118,11 @@ bool Mumps::factor(const assembly::CrsMatrix& matrix) {
 
 Determinant Mumps::determinant() const {
   const double mantissa = mumps_.rinfog[determinant_mantissa - 1];
-  return {mantissa > 0.0 ? 1 : (mantissa < 0.0 ? -1 : 0),
-          std::log(std::abs(mantissa)) +
-              std::log(2.0) * static_cast<double>(info(mumps_, determinant_exponent))};
+  Determinant d{mantissa > 0.0 ? 1 : (mantissa < 0.0 ? -1 : 0),
+                std::log(std::abs(mantissa)) +
+                    std::log(2.0) * static_cast<double>(info(mumps_, determinant_exponent))};
+  if (symmetry_ == Symmetry::symmetric) d.negative = info(mumps_, negative_pivot_count);
+  return d;
 }
 
 void Mumps::solve(std::span<double> b) {

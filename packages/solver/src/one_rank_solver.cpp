@@ -42,9 +42,13 @@ class OneRankSolver final : public LinearSolver {
   Determinant determinant() override {
     Determinant found;
     on_root([&] { found = serial_->determinant(); });
-    std::array<double, 2> numbers = {static_cast<double>(found.sign), found.log_size};
+    constexpr int unknown = -1;
+    std::array<double, 3> numbers = {static_cast<double>(found.sign), found.log_size,
+                                     static_cast<double>(found.negative.value_or(unknown))};
     comm_.broadcast(numbers);
-    return {static_cast<int>(numbers[0]), numbers[1]};
+    found = {static_cast<int>(numbers[0]), numbers[1], static_cast<int>(numbers[2])};
+    if (found.negative == unknown) found.negative.reset();
+    return found;
   }
 
   double weakest_direction(Vector& v) override {

@@ -67,10 +67,20 @@ class SubstructuredSolver final : public LinearSolver {
     Determinant mine = piece_.determinant();
     if (interface_) {
       const Determinant between = interface_->determinant();
-      mine = {mine.sign * between.sign, mine.log_size + between.log_size};
+      mine.sign *= between.sign;
+      mine.log_size += between.log_size;
+      if (mine.negative && between.negative) {
+        *mine.negative += *between.negative;
+      } else {
+        mine.negative.reset();
+      }
     }
-    const double negative = comm_.sum(mine.sign < 0 ? 1.0 : 0.0);
-    return {std::fmod(negative, 2.0) == 0.0 ? 1 : -1, comm_.sum(mine.log_size)};
+    const double odd = comm_.sum(mine.sign < 0 ? 1.0 : 0.0);
+    Determinant all{std::fmod(odd, 2.0) == 0.0 ? 1 : -1, comm_.sum(mine.log_size)};
+    const bool is_known = comm_.sum(mine.negative ? 0.0 : 1.0) == 0.0;
+    const double negative = comm_.sum(mine.negative.value_or(0));
+    if (is_known) all.negative = static_cast<int>(negative);
+    return all;
   }
 
   double weakest_direction(Vector& v) override {

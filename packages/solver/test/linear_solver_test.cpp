@@ -156,7 +156,21 @@ TEST_P(EachLinearSolver, SymmetricMatricesNeedNotBeDefinite) {
     const double exact = dense.determinant();
     EXPECT_EQ(solver->determinant().sign, exact > 0.0 ? 1 : -1) << negative;
     EXPECT_NEAR(solver->determinant().log_size, std::log(std::abs(exact)), 1e-10);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(dense, Eigen::EigenvaluesOnly);
+    const auto below = (modes.eigenvalues().array() < 0.0).count();
+    EXPECT_EQ(solver->determinant().negative.value_or(static_cast<int>(below)), below);
   }
+}
+
+TEST(BlockLuSolver, CountsNegativeEigenvalues) {
+  Eigen::MatrixXd dense = band_with_far_entries();
+  dense = (dense + dense.transpose()).eval();
+  dense(7, 7) *= -1.0;
+  dense(21, 21) *= -1.0;
+  const ScatteredSystem symmetric(dense);
+  const auto solver = make("Block LU", symmetric);
+  ASSERT_TRUE(solver->factor());
+  EXPECT_EQ(solver->determinant().negative, 2);
 }
 
 // One entry loses its mirror image, little or entirely, and finds it again.

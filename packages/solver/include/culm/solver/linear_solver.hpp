@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ using assembly::Vector;
 struct Determinant {
   int sign = 0;           ///< 0 if unknown
   double log_size = 0.0;  ///< natural logarithm of the absolute value
+  /// Negative eigenvalues, if the matrix is symmetric and its pivots tell.
+  std::optional<int> negative = {};
 };
 
 /// What is left of a linear system that was solved.
