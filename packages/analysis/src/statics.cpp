@@ -276,6 +276,9 @@ void Statics::watch_pairs(const StepReport& report) {
       !sets_energy_free(system(), context().linear)) {
     return;
   }
+  // the last iteration may have begun far from the equilibrium, as where heat presses at first
+  system().evaluate(state(), Stencil::statics(), Want::residual_and_tangent);
+  if (!context().linear.factor() || !sets_energy_free(system(), context().linear)) return;
   has_unstable_pair_ = true;
   context().findings.warn(
       "stability",
