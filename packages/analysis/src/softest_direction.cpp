@@ -47,8 +47,10 @@ double resistance(const assembly::Matrix& matrix, const Vector& direction) {
 
 bool sets_energy_free(const assembly::System& system, solver::LinearSolver& linear) {
   if (system.model().unknowns().num_forces() > 0) return false;
-  const std::optional<int> negative = linear.determinant().negative;
-  if (negative && *negative == 0) return false;
+  const solver::Determinant determinant = linear.determinant();
+  const std::optional<int> negative = determinant.negative;
+  // of a solver without factors nothing is asked
+  if (determinant.sign == 0 || (negative && *negative == 0)) return false;
   const assembly::Matrix& tangent = *system.matrix();
   const auto softest = softest_direction(linear, system.layout().rows());
   if (!softest || resistance(tangent, *softest) < least_resistance) return false;
