@@ -521,6 +521,23 @@ def start_from_a_run_that_ends_with_modes(program, folder, options):
     demand(numpy.abs(rest - whole).max() <= 1e-9 * numpy.abs(whole).max(), f"{rest}, in one run {whole}")
 
 
+def partners_stay_where_they_are(program, folder, options):
+    """'Start From' takes no partner of a coupling along, which is told, in a run and from another one."""
+    path = INPUTS / "coupling/partners.xml"
+    name, kind = "motion", '<Parameter name="Type" value="Dynamic"/>'
+    program("run", path, *settings(f"Analyses/{name}/End Time=0.06"), "--output", "half")
+    later = settings(f"Analyses/{name}/Start From=half", f"Analyses/{name}/Start Time=0.06", f"Analyses/{name}/End Time=0.08")
+    _, _, err = program("run", path, *later, "--output", "rest")
+    demand("does not take what the partners of that run remember: those of this one begin anew" in err, f"stderr is {err}")
+    text = path.read_text()
+    again = (f'<ParameterList name="again">{kind}<Parameter name="Start From" value="Reference"/><Parameter name="Start Time" value="0"/>'
+             '<Parameter name="End Time" value="0.02"/><Parameter name="Step" value="0.001"/></ParameterList>')
+    end = text.index("</ParameterList>", text.index(f'<ParameterList name="{name}">', text.index('name="Analyses"'))) + len("</ParameterList>")
+    (folder / "again.xml").write_text(text[:end] + again + text[end:])
+    _, _, err = program("run", "again.xml", *settings(f"Analyses/{name}/End Time=0.02"), "--output", "again")
+    demand("'Start From' of 'again' takes the structure to another state and leaves the partners as they are" in err, f"stderr is {err}")
+
+
 def flipped_bits(program, folder, options):
     """A bit that turned over in run.h5 or a checkpoint is found, or changes nothing."""
     program("run", *TORSION, "--output", "whole")
@@ -732,6 +749,7 @@ SINGLE = [
     start_from_another_run_keeps_signals,
     start_from_another_run_counts_turns,
     start_from_a_run_that_ends_with_modes,
+    partners_stay_where_they_are,
     flipped_bits,
     checkpoints_can_be_switched_off,
     other_number_of_processes,
