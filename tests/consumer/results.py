@@ -6,7 +6,7 @@ import sys
 
 import culm
 
-deck, program, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+deck, program, folder, inputs = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
 overrides = [
     "Loads/push/Type=Line Force", "Loads/push/Structure=mast", "Loads/push/Force={57, 10, 0}",
     "Loads/push/Function=Constant", "Output/Every=5", "Output/Velocities=true", "Output/History/top/Type=Displacement",
@@ -78,7 +78,6 @@ assert not (folder / "late").exists()
 print("results step by step: as of culm run")
 
 # of an open attempt as it would be accepted, also where parts of the model remember
-inputs = pathlib.Path(__file__).resolve().parents[2] / "inputs"
 for path, steps in (("plasticity/bent_bar.xml", 8), ("water/spar.xml", 25), ("contact/dragged_bar.xml", 8)):
     simulation = culm.Simulation(str(inputs / path))
     stepper = simulation.begin()

@@ -105,7 +105,7 @@ def check_coupling(culm):
         sys.exit("the programs do not agree, or the wind did not push the mast")
     print(run(culm.build_c((HERE / "errors.c").read_text(), "errors"), deck), end="")
     print(culm.run_python((HERE / "arrays.py").read_text(), "arrays", deck), end="")
-    print(culm.run_python((HERE / "results.py").read_text(), "results", deck, culm.prefix / "bin/culm", culm.folder), end="")
+    print(culm.run_python((HERE / "results.py").read_text(), "results", deck, culm.prefix / "bin/culm", culm.folder, ROOT / "inputs"), end="")
     check_couple(culm, deck)
     check_socket(culm, deck, work)
     check_wing(culm)
