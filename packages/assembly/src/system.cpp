@@ -155,11 +155,19 @@ void System::preview(const model::State& state, const model::Coordinates& veloci
       if (batch->can_go_back()) batch->accept(ahead);
     }
   });
-  look(ahead);
-  restore_memory(before);
-  prepare(state, stencil);
-  evaluate(state, stencil, Want::residual);
-  reactions_ = reactions;
+  const auto go_back = [&] {
+    restore_memory(before);
+    prepare(state, stencil);
+    evaluate(state, stencil, Want::residual);
+    reactions_ = reactions;
+  };
+  try {
+    look(ahead);
+  } catch (...) {
+    go_back();
+    throw;
+  }
+  go_back();
 }
 
 void System::accept(model::State& state) {

@@ -229,22 +229,18 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   const std::string& type = entry.text("Type");
   if (known.inspections.contains(type)) {
     const auto inspection = known.inspections.make(type, entry);
-    const auto& entries = parts_->deck.list("Analyses").entries();
-    const bool steps_follow = std::any_of(entries.begin(), entries.end(), [&](const Options& one) {
-      return !known.inspections.contains(one.text("Type"));
-    });
-    observer.start_run(state, steps_follow);
+    observer.start_run(state, has_type(0, false));
     if (entry.has("Start From")) observer.record_start(state);
     inspection->begin(context, state);
     const analysis::AnalysisReport report = inspection->inspect(context, state);
     observer.finish(report, state);
     return report;
   }
-  if (!inspection_follows()) context.system.forget_other_items();
+  if (!has_type(parts_->present, true)) context.system.forget_other_items();
   const auto stepper = known.steppers.make(type, entry, context, state);
   const bool is_motion = dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
   observer.follow(stepper.get(), coupled, is_motion ? served : nullptr);
-  if (!steps_follow()) observer.keep_end();
+  if (!has_type(parts_->present + 1, false)) observer.keep_end();
   if (from != nullptr) {
     stepper->resume(*from);
   } else {
@@ -282,21 +278,14 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   }
 }
 
-// Whether an analysis after the present one makes steps.
-bool Simulation::steps_follow() const {
+// Whether an analysis of the deck, from a number on, looks at a state, or else makes steps. Those
+// that look want all elements.
+bool Simulation::has_type(std::size_t first, bool inspects) const {
   const auto& entries = parts_->deck.list("Analyses").entries();
   const auto& inspections = parts_->catalogue.analyses.inspections;
-  return std::any_of(entries.begin() + static_cast<std::ptrdiff_t>(parts_->present) + 1,
-                     entries.end(),
-                     [&](const Options& one) { return !inspections.contains(one.text("Type")); });
-}
-
-// Whether an analysis after the present one looks at a state; such ones want all elements.
-bool Simulation::inspection_follows() const {
-  const auto& entries = parts_->deck.list("Analyses").entries();
-  const auto& inspections = parts_->catalogue.analyses.inspections;
-  return std::any_of(entries.begin() + static_cast<std::ptrdiff_t>(parts_->present), entries.end(),
-                     [&](const Options& one) { return inspections.contains(one.text("Type")); });
+  return std::any_of(
+      entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end(),
+      [&](const Options& one) { return inspections.contains(one.text("Type")) == inspects; });
 }
 
 void Simulation::write_last_checkpoint(RunObserver& observer) const {

@@ -60,7 +60,8 @@ std::vector<std::string> forgotten(const Phases& phases, std::size_t last, const
 std::span<const double> Simulation::Parts::memories_at(const Options& analysis) const {
   const std::string& name = analysis.text("Start From");
   if (name == EarlierStates::reference) return first_memories;
-  return earlier.wants(name) ? earlier.find(name).state.numbers(memories_key) : other_memories;
+  if (!earlier.wants(name)) return other_memories;
+  return earlier.find(name).state.numbers(memories_key, first_memories.size());
 }
 
 // What is watched goes on from where the state comes from.

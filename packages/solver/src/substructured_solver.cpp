@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -75,11 +76,13 @@ class SubstructuredSolver final : public LinearSolver {
         mine.negative.reset();
       }
     }
-    const double odd = comm_.sum(mine.sign < 0 ? 1.0 : 0.0);
-    Determinant all{std::fmod(odd, 2.0) == 0.0 ? 1 : -1, comm_.sum(mine.log_size)};
-    const bool is_known = comm_.sum(mine.negative ? 0.0 : 1.0) == 0.0;
-    const double negative = comm_.sum(mine.negative.value_or(0));
-    if (is_known) all.negative = static_cast<int>(negative);
+    std::array<double, 4> sums = {mine.sign < 0 ? 1.0 : 0.0, mine.log_size,
+                                  mine.negative ? 0.0 : 1.0,
+                                  static_cast<double>(mine.negative.value_or(0))};
+    comm_.sum(sums);
+    const auto [odd, log_size, unknown, negative] = sums;
+    Determinant all{std::fmod(odd, 2.0) == 0.0 ? 1 : -1, log_size};
+    if (unknown == 0.0) all.negative = static_cast<int>(negative);
     return all;
   }
 

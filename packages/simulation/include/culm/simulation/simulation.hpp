@@ -169,8 +169,7 @@ class Simulation {
                                         model::State& state, RunObserver& observer,
                                         CoupledRun* coupled, ServedRun* served,
                                         const Snapshot* from);
-  bool inspection_follows() const;
-  bool steps_follow() const;
+  bool has_type(std::size_t first, bool inspects) const;
   void start_analysis(std::size_t number, model::State& state);
   Snapshot read_state(const Options& analysis, Phase& phase, model::State& state);
   void move_state(std::size_t number, model::State& state);
