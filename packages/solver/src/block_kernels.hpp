@@ -2,9 +2,12 @@
 /// with which the compiler unrolls the loops.
 #pragma once
 
+#include "row.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -88,64 +91,92 @@ bool factor_panel(double* D, Size size, Columns columns, const double* before, d
   return true;
 }
 
-/// The same for sizes that are known, so that it works in a copy without loops. Rows of a node are
-/// of one scale.
+/// The same where all pivots stay on the diagonal. @param before, least  as above
+/// @return false, and nothing is changed, if a row would have to be exchanged or a pivot is too
+/// small
 template <int size, int columns>
-bool factor_panel(double* D, Fixed<size>, Fixed<columns>, const double* before, double least,
-                  int* exchanged, double* weight) {
+[[gnu::always_inline]] inline bool factor_in_order(double* D, const double* before, double least,
+                                                   double* weight) {
+  // rows of a node are of one scale
   constexpr bool is_node = size == 6;
   constexpr int stride = size + columns;
-  std::array<double, size * stride> a;
-  std::copy_n(D, a.size(), a.data());
+  const auto weight_of = [&](int row) { return is_node ? 1.0 : weight[row]; };
   if (!is_node) find_row_weights(D, stride, Fixed<size>(), weight);
-  const auto eliminate = [&](auto c) {
-    double* row_c = a.data() + c * stride;
-    const int best = find_pivot(a.data(), stride, Fixed<size>(), c,
-                                [&](int row) { return is_node ? 1.0 : weight[row]; });
-    if (best != c) {
-      std::swap_ranges(row_c, row_c + stride, a.data() + best * stride);
-      if (!is_node) std::swap(weight[c], weight[best]);
-    }
-    exchanged[c] = best;
-    if (!(std::abs(row_c[c]) > least * before[c])) return false;
-    row_c[c] = 1.0 / row_c[c];
-    for (int r = c + 1; r < size; ++r) {
-      double* row_r = a.data() + r * stride;
-      const double factor = row_r[c] *= row_c[c];
-      for (int k = c + 1; k < stride; ++k) row_r[k] -= factor * row_c[k];
-    }
-    return true;
-  };
-  const auto substitute = [&](auto reversed) {
-    constexpr int r = size - 1 - reversed;
-    double* row_r = a.data() + r * stride;
-    for (int c = r + 1; c < size; ++c) {
-      for (int k = size; k < stride; ++k) row_r[k] -= row_r[c] * a[c * stride + k];
-    }
-    for (int k = size; k < stride; ++k) row_r[k] *= row_r[r];
-  };
-  const bool is_sound = [&]<int... i>(std::integer_sequence<int, i...>) {
-    if (!(eliminate(Fixed<i>()) && ...)) return false;
-    (substitute(Fixed<i>()), ...);
-    return true;
+  Row<size> d[size];
+  Row<columns> u[size];
+  double factors[size][size];
+  double reciprocal[size];
+  for (int r = 0; r < size; ++r) {
+    d[r].load(D + r * stride);
+    u[r].load(D + r * stride + size);
   }
-  (std::make_integer_sequence<int, size>());
-  std::copy_n(a.data(), a.size(), D);
-  return is_sound;
+  bool is_sound = true;
+  unrolled<size>([&](auto c) __attribute__((always_inline)) {
+    const double pivot = d[c].template get<c>();
+    double largest = 0.0;
+    unrolled<size - 1 - c>([&](auto below) __attribute__((always_inline)) {
+      constexpr int r = c + 1 + below;
+      factors[r][c] = d[r].template get<c>();
+      largest = std::max(largest, weight_of(r) * std::abs(factors[r][c]));
+    });
+    const bool stays = !(weight_of(c) * std::abs(pivot) < preferred_pivot * largest);
+    is_sound = is_sound && stays && std::abs(pivot) > least * before[c];
+    reciprocal[c] = 1.0 / pivot;
+    unrolled<size - 1 - c>([&](auto below) __attribute__((always_inline)) {
+      constexpr int r = c + 1 + below;
+      const double factor = factors[r][c] *= reciprocal[c];
+      d[r].subtract(factor, d[c]);
+      u[r].subtract(factor, u[c]);
+    });
+  });
+  if (!is_sound) return false;
+  unrolled<size>([&](auto reversed) __attribute__((always_inline)) {
+    constexpr int r = size - 1 - reversed;
+    unrolled<reversed>([&](auto beyond) __attribute__((always_inline)) {
+      constexpr int c = r + 1 + beyond;
+      u[r].subtract(d[r].template get<c>(), u[c]);
+    });
+    u[r].scale(reciprocal[r]);
+  });
+  for (int r = 0; r < size; ++r) {
+    d[r].store(D + r * stride);
+    u[r].store(D + r * stride + size);
+    std::copy_n(factors[r], r, D + r * stride);
+    D[r * stride + r] = reciprocal[r];
+  }
+  return true;
 }
 
-/// x = D^-1 x with the factors of D. @param stride of D
-template <class Size>
-void solve_block(const double* D, int stride, Size size, const int* exchanged, double* x) {
-  for (int c = 0; c < size; ++c) {
-    if (exchanged[c] != c) std::swap(x[c], x[exchanged[c]]);
+/// The same for sizes that are known: first without exchanges, which are rare.
+template <int size, int columns>
+[[gnu::always_inline]] inline bool factor_panel(double* D, Fixed<size>, Fixed<columns>,
+                                                const double* before, double least, int* exchanged,
+                                                double* weight) {
+  if (!factor_in_order<size, columns>(D, before, least, weight)) {
+    return factor_panel(D, size, columns, before, least, exchanged, weight);
   }
+  std::iota(exchanged, exchanged + size, 0);
+  return true;
+}
+
+/// Exchanges rows of x as those of D were.
+[[gnu::always_inline]] inline void exchange_rows(std::span<const int> exchanged, double* x) {
+  for (int c = 0; c < static_cast<int>(exchanged.size()); ++c) {
+    const int other = exchanged[static_cast<std::size_t>(c)];
+    if (other != c) std::swap(x[c], x[other]);
+  }
+}
+
+/// x = D^-1 x with the factors of D, where rows of x are exchanged already. @param stride of D
+template <class Size>
+[[gnu::always_inline]] inline void solve_block(const double* D, int stride, Size size, double* x) {
   for (int r = 1; r < size; ++r) {
     for (int c = 0; c < r; ++c) x[r] -= D[r * stride + c] * x[c];
   }
-  for (int r = size - 1; r >= 0; --r) {
-    for (int c = r + 1; c < size; ++c) x[r] -= D[r * stride + c] * x[c];
-    x[r] *= D[r * stride + r];  // the reciprocal of the pivot
+  // column by column, so that rows wait for one product only
+  for (int c = size - 1; c >= 0; --c) {
+    x[c] *= D[c * stride + c];  // the reciprocal of the pivot
+    for (int r = 0; r < c; ++r) x[r] -= D[r * stride + c] * x[c];
   }
 }
 
@@ -163,15 +194,16 @@ void subtract_product(const double* A, const double* B, int stride_B, double* C,
 
 /// The same with rows that fit into registers.
 template <int rows, int inner, int columns>
-void subtract_product(const double* A, const double* B, int stride_B, double* C, int stride_C,
-                      Fixed<rows>, Fixed<inner>, Fixed<columns>) {
+[[gnu::always_inline]] inline void subtract_product(const double* A, const double* B, int stride_B,
+                                                    double* C, int stride_C, Fixed<rows>,
+                                                    Fixed<inner>, Fixed<columns>) {
+  Row<columns> b[inner];
+  for (int j = 0; j < inner; ++j) b[j].load(B + j * stride_B);
   for (int i = 0; i < rows; ++i) {
-    std::array<double, columns> row;
-    std::copy_n(C + i * stride_C, columns, row.data());
-    for (int j = 0; j < inner; ++j) {
-      for (int k = 0; k < columns; ++k) row[k] -= A[i * inner + j] * B[j * stride_B + k];
-    }
-    std::copy_n(row.data(), columns, C + i * stride_C);
+    Row<columns> c;
+    c.load(C + i * stride_C);
+    for (int j = 0; j < inner; ++j) c.subtract(A[i * inner + j], b[j]);
+    c.store(C + i * stride_C);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace culm::solver {
 namespace {
@@ -153,7 +154,7 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
 }
 
 // Brings from the matrix what the elimination of a panel is the first to need.
-void BlockLu::fill_before(const BlockPlan::Panel& panel) {
+[[gnu::always_inline]] inline void BlockLu::fill_before(const BlockPlan::Panel& panel) {
   const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns) {
     const double* source = rows_.values(c.source);
     double* target = values_.data() + c.target;
@@ -236,23 +237,8 @@ double BlockLu::largest_behind_joints(int row) const {
   return largest;
 }
 
-CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
-                                                                   double least) {
-  fill_before(panel);
-  if (has_grown(panel)) return false;
-  const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
-    return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
-                        least, exchanged_.data() + panel.first, row_weight_.data());
-  });
-  if (!is_sound) {
-    failed_ = &panel;
-    return false;
-  }
-  update(panel, before(panel).updates);
-  return true;
-}
-
-void BlockLu::update(const BlockPlan::Panel& panel, std::size_t from) {
+[[gnu::always_inline]] inline void BlockLu::update(const BlockPlan::Panel& panel,
+                                                   std::size_t from) {
   double* v = values_.data();
   const int stride = panel.stride();
   for (std::size_t k = from; k < panel.updates; ++k) {
@@ -272,6 +258,22 @@ void BlockLu::update(const BlockPlan::Panel& panel, std::size_t from) {
       subtract_product(L, V, stride, target, u.stride, u.rows, panel.size, u.columns);
     }
   }
+}
+
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
+                                                                   double least) {
+  fill_before(panel);
+  if (has_grown(panel)) return false;
+  const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
+    return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
+                        least, exchanged_.data() + panel.first, row_weight_.data());
+  });
+  if (!is_sound) {
+    failed_ = &panel;
+    return false;
+  }
+  update(panel, before(panel).updates);
+  return true;
 }
 
 void BlockLu::solve(std::span<double> x) {
@@ -311,14 +313,31 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::extend(std::span<double
   }
 }
 
+// With known sizes the block is solved in registers.
 template <class Size, class Width>
 void BlockLu::substitute_forward(const BlockPlan::Panel& panel, Size size, Width width) {
   double* x = x_.data() + panel.first;
+  const double* D = values_.data() + panel.pivot;
+  const double* L = values_.data() + panel.below;
   const int* beside = plan_.beside.data() + panel.beside;
-  solve_block(values_.data() + panel.pivot, size + width, size, exchanged_.data() + panel.first, x);
-  for (int k = 0; k < width; ++k) beside_[index(k)] = x_[index(beside[k])];
-  subtract_product(values_.data() + panel.below, size, x, beside_.data(), width, size);
-  for (int k = 0; k < width; ++k) x_[index(beside[k])] = beside_[index(k)];
+  exchange_rows({exchanged_.data() + panel.first, index(panel.size)}, x);
+  const auto subtract_from_beside = [&](const double* solved) __attribute__((always_inline)) {
+    for (int i = 0; i < width; ++i) {
+      double sum = 0.0;
+      for (int k = 0; k < size; ++k) sum += L[i * size + k] * solved[k];
+      x_[index(beside[i])] -= sum;
+    }
+  };
+  if constexpr (std::is_same_v<Size, int>) {
+    solve_block(D, size + width, size, x);
+    subtract_from_beside(x);
+  } else {
+    double solved[Size::value];
+    std::copy_n(x, Size::value, solved);
+    solve_block(D, size + width, size, solved);
+    std::copy_n(solved, Size::value, x);
+    subtract_from_beside(solved);
+  }
 }
 
 template <class Size, class Width>
