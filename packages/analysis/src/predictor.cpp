@@ -52,13 +52,14 @@ void Predictor::accept(const model::State& state, double step) {
   std::array<double, most_points + 1> errors{};
   for (std::size_t points = 0; points <= past_.size(); ++points) {
     const std::vector<double> w = weights(static_cast<int>(points), now.time);
+    Vec6 largest = Vec6::Zero();
     for (std::size_t node = 0; node < now.values.size(); ++node) {
       Vec6 error = -now.values[node];
       if (points == 0) error += start[node];
       for (std::size_t k = 0; k < points; ++k) error += w[k] * past_[k].values[node];
-      errors[points] = std::max({errors[points], error.head<3>().lpNorm<Eigen::Infinity>() / length,
-                                 error.tail<3>().lpNorm<Eigen::Infinity>()});
+      largest = largest.cwiseMax(error.cwiseAbs());
     }
+    errors[points] = std::max(largest.head<3>().maxCoeff() / length, largest.tail<3>().maxCoeff());
   }
   system_.comm().max(errors);
   const auto known = errors.begin() + static_cast<std::ptrdiff_t>(past_.size()) + 1;
@@ -76,15 +77,19 @@ void Predictor::accept(const model::State& state, double step) {
 // Rotations count by a tenth of the length of the model, as along paths.
 double Predictor::measure_reversal(const Motions& start, const MeanVelocity& now) const {
   const double arm = PathCondition::turning_arm(system_.model());
-  std::array<double, 3> products{};  // before . before, after . after, before . after
+  // before . before, after . after, before . after, of each unknown
+  std::array<Vec6, 3> sums{Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
   for (std::size_t node = 0; node < system_.num_own_motions(); ++node) {
-    Vec6 before = start[node] - past_.front().values[node];
-    Vec6 after = now.values[node] - start[node];
-    for (Vec6* change : {&before, &after}) change->tail<3>() *= arm;
-    products[0] += before.squaredNorm();
-    products[1] += after.squaredNorm();
-    products[2] += before.dot(after);
+    const Vec6 before = start[node] - past_.front().values[node];
+    const Vec6 after = now.values[node] - start[node];
+    sums[0] += before.cwiseAbs2();
+    sums[1] += after.cwiseAbs2();
+    sums[2] += before.cwiseProduct(after);
   }
+  std::array<double, 3> products;
+  std::ranges::transform(sums, products.begin(), [arm](const Vec6& sum) {
+    return sum.head<3>().sum() + arm * arm * sum.tail<3>().sum();
+  });
   system_.comm().sum(products);
   const double squares = products[0] * products[1];
   return squares > 0.0 ? products[2] / std::sqrt(squares) : 1.0;

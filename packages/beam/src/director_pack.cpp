@@ -1,4 +1,5 @@
 #include <culm/beam/director_pack.hpp>
+#include <culm/math/types.hpp>
 #include <culm/math/vector_units.hpp>
 
 #define CULM_INLINE [[gnu::always_inline]] inline
@@ -260,29 +261,35 @@ CULM_INLINE void add_geometry(const Pack* A, const Pack* force, const Pack* mid,
   }
 }
 
-// force += M a, A += inertia M. The slot d3 carries no mass.
-template <int Order>
-CULM_INLINE void add_inertia(const Pack* mass, const Pack* acceleration, double inertia, Pack* A,
-                             Pack* force) {
+// Calls visit(s, t, m) with the mass m between the slots s and t. The slot d3 carries none.
+template <int Order, class Visit>
+CULM_INLINE void for_masses(const Pack* mass, const Visit& visit) {
   using Beam = DirectorPack<Order>;
   constexpr int N = Order + 1;
-  constexpr int S = 4 * N;
   for (int a = 0; a < N; ++a) {
     for (int b = 0; b < N; ++b) {
       const Pack* between = mass + Beam::entries(3) * Beam::entry(N, a, b);
 #pragma GCC unroll 3
       for (int r = 0; r < 3; ++r) {
-        const int s = 4 * a + r;
 #pragma GCC unroll 3
         for (int q = 0; q < 3; ++q) {
-          const int t = 4 * b + q;
-          const Pack& m = between[Beam::entry(3, r, q)];
-          for (int c = 0; c < 3; ++c) force[3 * s + c] += m * acceleration[3 * t + c];
-          A[S * s + t] += inertia * m;
+          visit(4 * a + r, 4 * b + q, between[Beam::entry(3, r, q)]);
         }
       }
     }
   }
+}
+
+// force += M a, A += inertia M
+template <int Order>
+CULM_INLINE void add_inertia(const Pack* mass, const Pack* acceleration, double inertia, Pack* A,
+                             Pack* force) {
+  constexpr int S = 4 * (Order + 1);
+  for_masses<Order>(
+      mass, [&](int s, int t, const Pack& m) __attribute__((always_inline)) {
+        for (int c = 0; c < 3; ++c) force[3 * s + c] += m * acceleration[3 * t + c];
+        A[S * s + t] += inertia * m;
+      });
 }
 
 template <int Order>
@@ -376,6 +383,42 @@ CULM_FOR_EACH_VECTOR_UNIT void extrapolate_pack(const typename DirectorPack<Orde
   }
 }
 
+template <int Order>
+CULM_FOR_EACH_VECTOR_UNIT void find_strain_energy(
+    const typename DirectorPack<Order>::Points& points, const Pack* slots, const Pack* less,
+    Pack* energy) noexcept {
+  Pack twice = {};
+  for (const auto& p : points) {
+    Pack C[36], e[6] = {}, stress[6];
+    add_strain<Order>(p, PackFrame<Order>(p, slots), 1.0, e);
+    if (less != nullptr) add_strain<Order>(p, PackFrame<Order>(p, less), -1.0, e);
+    unpack_stiffness<Order>(p, C);
+    compute_stress(C, e, stress);
+    for (int i = 0; i < 6; ++i) twice += e[i] * stress[i];
+  }
+  *energy = 0.5 * twice;
+}
+
+// T = 1/2 v . M v, L = sum of M v over positions, J = sum_s q_s x (M v)_s
+template <int Order>
+CULM_FOR_EACH_VECTOR_UNIT void find_pack_momentum(const typename DirectorPack<Order>::Mass& mass,
+                                                  const Pack* q, const Pack* v,
+                                                  PackMomentum& momentum) noexcept {
+  constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
+  Pack p[12 * (Order + 1)] = {};
+  for_masses<Order>(
+      mass.data(), [&](int s, int t, const Pack& m) __attribute__((always_inline)) {
+        for (int c = 0; c < 3; ++c) p[3 * s + c] += m * v[3 * t + c];
+      });
+  momentum = PackMomentum{};
+  for (int s = 0; s < 4 * (Order + 1); ++s) {
+    for (int c = 3 * s; c < 3 * s + 3; ++c) momentum.kinetic_energy += 0.5 * p[c] * v[c];
+    add_cross(q + 3 * s, p + 3 * s, one, momentum.angular.data());
+    if (s % 4 != 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) momentum.linear[c] += p[3 * index(s) + c];
+  }
+}
+
 }  // namespace
 
 template <int Order>
@@ -422,6 +465,18 @@ template <int Order>
 void DirectorPack<Order>::extrapolate(const Motion& motion, const Pack* increment,
                                       const Stencil& stencil, Pack* stress) const noexcept {
   extrapolate_pack<Order>(points_, motion, increment, stencil, stress);
+}
+
+template <int Order>
+void DirectorPack<Order>::strain_energy(const Pack* slots, const Pack* less,
+                                        Pack* energy) const noexcept {
+  find_strain_energy<Order>(points_, slots, less, energy);
+}
+
+template <int Order>
+void DirectorPack<Order>::find_momentum(const Pack* slots, const Pack* velocity,
+                                        PackMomentum& momentum) const noexcept {
+  find_pack_momentum<Order>(mass_, slots, velocity, momentum);
 }
 
 template class DirectorPack<1>;

@@ -1,3 +1,4 @@
+#include <culm/math/vector_units.hpp>
 #include <culm/model/scatter.hpp>
 
 namespace culm::model {
@@ -8,5 +9,19 @@ void Scatter::add_item(std::span<const Rows> rows, std::span<const int> offsets)
   first_block_.push_back(rows_.size());
   first_pair_.push_back(offsets_.size());
 }
+
+template <int width>
+CULM_FOR_EACH_VECTOR_UNIT void add_six_rows(const double* rows, const std::size_t* begin,
+                                            double* values) {
+  for (int i = 0; i < 6; ++i) {
+    double* __restrict out = values + begin[i];
+    for (int k = 0; k < width; ++k) out[k] += rows[i * width + k];
+  }
+}
+
+template void add_six_rows<12>(const double*, const std::size_t*, double*);
+template void add_six_rows<18>(const double*, const std::size_t*, double*);
+template void add_six_rows<24>(const double*, const std::size_t*, double*);
+template void add_six_rows<30>(const double*, const std::size_t*, double*);
 
 }  // namespace culm::model

@@ -28,6 +28,12 @@ class DirectorPack {
   void extrapolate(const Motion& motion, const Pack* increment, const Stencil& stencil,
                    Pack* stress) const noexcept;
 
+  /// What the strains at some slots store, less those at others, or nullptr. @param slots shape (12
+  /// num_nodes)
+  void strain_energy(const Pack* slots, const Pack* less, Pack* energy) const noexcept;
+  void find_momentum(const Pack* slots, const Pack* velocity,
+                     PackMomentum& momentum) const noexcept;
+
   /// Where the entry (i, j) of a symmetric matrix of n rows is among those on and above the
   /// diagonal, by rows.
   static constexpr int entry(int n, int i, int j) {

@@ -59,19 +59,32 @@ struct PackSum {
   Packs<3 * N> pull;          ///< forces on positions that the tangent belongs to
 };
 
+/// Momentum of each element of a pack. @source formulation 1.2, 4.6
+struct PackMomentum {
+  Pack kinetic_energy;
+  Packs<3> linear;
+  Packs<3> angular;  ///< about the origin
+};
+
 /// Elements of triads whose law is linear, and that come in packs: E::Pack holds the constants of
-/// pack_lanes elements; evaluate() and extrapolate() are what ElementBatch does for one of them.
+/// pack_lanes elements; its functions are what ElementBatch does for one of them.
 template <class E>
 concept ComesInPacks = HasStiffness<E> &&
     requires(const typename E::Pack& pack, const PackMotion<E::num_nodes>& motion,
              const ::culm::Pack* numbers, ::culm::Pack* stress, const Stencil& stencil,
-             PackSum<E::num_nodes>& sum) {
+             PackSum<E::num_nodes>& sum, PackMomentum& momentum) {
   // numbers: stress of the tangent, num_points x num_strains, or nullptr for that of the motion;
   // without tangent only the residual is written
   { pack.evaluate(motion, numbers, stencil, true, sum) }
   noexcept->std::same_as<void>;
   // numbers: increments of the slots; stress: of the motion and what they add, to first order
   { pack.extrapolate(motion, numbers, stencil, stress) }
+  noexcept->std::same_as<void>;
+  // numbers: slots of which the strains store energy, less those of others or nullptr; stress: it
+  { pack.strain_energy(numbers, numbers, stress) }
+  noexcept->std::same_as<void>;
+  // numbers: slots and their velocities
+  { pack.find_momentum(numbers, numbers, momentum) }
   noexcept->std::same_as<void>;
 };
 

@@ -117,6 +117,13 @@ struct Momentum {
   double kinetic_energy = 0.0;  ///< [J]
   Vec3 linear = Vec3::Zero();   ///< [N s]
   Vec3 angular = Vec3::Zero();  ///< about the origin [N m s]
+
+  Momentum& operator+=(const Momentum& other) {
+    kinetic_energy += other.kinetic_energy;
+    linear += other.linear;
+    angular += other.angular;
+    return *this;
+  }
 };
 
 /// Has inertia.

@@ -120,7 +120,7 @@ class ElementBatch final : public Batch,
       }
     }
     // packs find the strains of the start themselves
-    if (!wants_strains || (in_packs && !laws_.takes(damped))) return;
+    if (!wants_strains || in_packs) return;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       const ItemSlots q = gather(i, state.prev);
       const E& element = local(i).element;
@@ -223,6 +223,9 @@ class ElementBatch final : public Batch,
 
   double stored_energy(const Coordinates& q) const override {
     double energy = 0.0;
+    if constexpr (ComesInPacks<E>) {
+      if (!packs_.empty() && laws_.branches().empty()) return energy_of_packs(q, nullptr);
+    }
     Strain y;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
@@ -261,6 +264,14 @@ class ElementBatch final : public Batch,
 
   void add_momentum(const Coordinates& q, const Coordinates& velocity,
                     Momentum& momentum) const override {
+    if constexpr (ComesInPacks<E>) {
+      if (!packs_.empty()) {
+        packs_.for_momenta(q, velocity, [&](std::size_t i, const Momentum& one) {
+          if (placement_.owned[i]) momentum += one;
+        });
+        return;
+      }
+    }
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
       add_item_momentum<K, S>(masses_.empty() ? local(i).element.mass() : masses_[i], gather(i, q),
@@ -271,17 +282,7 @@ class ElementBatch final : public Batch,
   StepWork step_work(const State& state, const Stencil& stencil) const override {
     const Stencil damped = laws_.damped(stencil);
     if (!laws_.takes(damped)) return {};
-    typename PointLaws<E>::Taken taken;
-    Strain y;
-    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-      if (!placement_.owned[i]) continue;
-      const E& element = local(i).element;
-      const ItemSlots q = gather(i, state.next);
-      for (int p = 0; p < E::num_points; ++p) {
-        element.strain(p, q, y);
-        laws_.add_taken(element, p, at(i, p), y, damped, taken);
-      }
-    }
+    const typename PointLaws<E>::Taken taken = taken_in_step(state, damped);
     StepWork work;
     const double physical = damping().viscosity / stencil.step;
     const double share = physical > 0.0 ? physical / damping().weight(stencil.step) : 0.0;
@@ -401,6 +402,39 @@ class ElementBatch final : public Batch,
   // Whether items are evaluated in packs, which know their masses. @param stencil  damped
   bool comes_in_packs(const Stencil& stencil) const {
     return ComesInPacks<E> && form_ == Form::null_space && laws_.is_plain(stencil);
+  }
+
+  // What the strains of q store, less those at `less`, in the elements of this rank.
+  double energy_of_packs(const Coordinates& q,
+                         const Coordinates* less) const requires ComesInPacks<E> {
+    double sum = 0.0;
+    packs_.for_energies(q, less, [&](std::size_t i, double energy) {
+      if (placement_.owned[i]) sum += energy;
+    });
+    return sum;
+  }
+
+  // @param stencil  damped
+  typename PointLaws<E>::Taken taken_in_step(const State& state, const Stencil& stencil) const {
+    typename PointLaws<E>::Taken taken;
+    if constexpr (ComesInPacks<E>) {
+      if (comes_in_packs(stencil)) {
+        taken.by_law =
+            PointLaws<E>::share_taken(stencil) * energy_of_packs(state.next, &state.prev);
+        return taken;
+      }
+    }
+    Strain y;
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (!placement_.owned[i]) continue;
+      const E& element = local(i).element;
+      const ItemSlots q = gather(i, state.next);
+      for (int p = 0; p < E::num_points; ++p) {
+        element.strain(p, q, y);
+        laws_.add_taken(element, p, at(i, p), y, stencil, taken);
+      }
+    }
+    return taken;
   }
 
   template <class Space>

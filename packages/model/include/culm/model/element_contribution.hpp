@@ -20,7 +20,7 @@ void add_to_target(std::size_t i, const Vec<Size>& residual, const RowMat<Size, 
   if (tangent == nullptr) return;
   for (int a = 0; a < N; ++a) {
     if constexpr (W == 6) {
-      places.add_tangent_rows<N>(i, a, tangent->template middleRows<6>(6 * a), target);
+      places.add_tangent_rows<N>(i, a, tangent->data() + 6 * a * Size, target);
     } else {
       for (int b = 0; b < N; ++b) {
         places.add_tangent(i, a, b, tangent->template block<W, W>(W * a, W * b), target);

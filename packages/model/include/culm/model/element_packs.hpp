@@ -49,6 +49,40 @@ class ElementPacks {
     is_extrapolated_ = false;
   }
 
+  bool empty() const { return packs_.empty(); }
+
+  /// Calls visit(number, energy) with what the strains at q store, less those at `less` where that
+  /// is given.
+  template <class Visit>
+  void for_energies(const Coordinates& q, const Coordinates* less, Visit visit) const {
+    Packs<12 * N> slots, other;
+    Pack energy;
+    for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+      gather(nodes_[pack], q, slots);
+      if (less != nullptr) gather(nodes_[pack], *less, other);
+      packs_[pack].strain_energy(slots.data(), less != nullptr ? other.data() : nullptr, &energy);
+      for_lanes(pack, [&](std::size_t i, int l) { visit(i, energy[l]); });
+    }
+  }
+
+  /// Calls visit(number, momentum).
+  template <class Visit>
+  void for_momenta(const Coordinates& q, const Coordinates& velocity, Visit visit) const {
+    Packs<12 * N> slots, rates;
+    PackMomentum sum;
+    for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+      gather(nodes_[pack], q, slots);
+      gather(nodes_[pack], velocity, rates);
+      packs_[pack].find_momentum(slots.data(), rates.data(), sum);
+      for_lanes(pack, [&](std::size_t i, int l) {
+        const auto vector = [l](const Packs<3>& v) {
+          return Vec3(v.of(l, 0), v.of(l, 1), v.of(l, 2));
+        };
+        visit(i, Momentum{sum.kinetic_energy[l], vector(sum.linear), vector(sum.angular)});
+      });
+    }
+  }
+
   /// Tangents belong to the stress of the motion again.
   void forget_extrapolation() { is_extrapolated_ = false; }
 
@@ -76,14 +110,12 @@ class ElementPacks {
       packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
                             with_tangent, sum_);
       take(with_tangent);
-      const std::size_t first = pack * pack_lanes;
-      for (std::size_t i = first; i < std::min(first + pack_lanes, count_); ++i) {
-        const std::size_t l = i - first;
-        Contribution& c = contributions_[l];
+      for_lanes(pack, [&](std::size_t i, int l) {
+        const Nodes& nodes = lanes[index(l)];
+        Contribution& c = contributions_[index(l)];
         for (int a = 0; a < N; ++a) {
-          if (table.is_slave(lanes[l][index(a)])) {
-            add_lever(lanes[l], a, static_cast<int>(l), table, state, stencil.theta, with_tangent,
-                      c);
+          if (table.is_slave(nodes[index(a)])) {
+            add_lever(nodes, a, l, table, state, stencil.theta, with_tangent, c);
           }
         }
         if (std::isfinite(c.residual.sum())) {
@@ -91,7 +123,7 @@ class ElementPacks {
         } else {
           verdict = worse(verdict, Verdict::not_finite);
         }
-      }
+      });
     }
     return verdict;
   }
@@ -99,6 +131,14 @@ class ElementPacks {
  private:
   static constexpr int num_values = E::num_points * E::num_strains;
   using Lanes = std::array<Nodes, pack_lanes>;
+
+  // Calls visit(number, lane) for the elements of a pack.
+  template <class Visit>
+  void for_lanes(std::size_t pack, const Visit& visit) const {
+    const std::size_t first = pack * pack_lanes;
+    const std::size_t end = std::min(first + pack_lanes, count_);
+    for (std::size_t i = first; i < end; ++i) visit(i, static_cast<int>(i - first));
+  }
 
   static void gather(const Lanes& lanes, const Coordinates& q, Packs<12 * N>& slots) {
     std::array<const double*, pack_lanes> rows;

@@ -138,12 +138,14 @@ class PointLaws {
     // the mean stress of a linear law does just what changes the stored energy
     return !HasStiffness<E> || stencil.theta_strain != 0.5 || roots_ || branches_.acts();
   }
+  /// Of what the change of the strains would store by itself, so much is taken by a linear law.
+  static double share_taken(const Stencil& stencil) { return 2.0 * stencil.theta_strain - 1.0; }
   /// Adds that of a point at the strain y of the end of the step.
   void add_taken(const E& element, int p, std::size_t point, const Strain& y,
                  const Stencil& stencil, Taken& taken) const {
     const Strain& prev = prev_[point];
     if constexpr (HasStiffness<E>) {
-      taken.by_law += (2.0 * stencil.theta_strain - 1.0) * element.energy(p, y - prev);
+      taken.by_law += share_taken(stencil) * element.energy(p, y - prev);
       if (roots_) {
         taken.by_strains += 2.0 / stencil.step * element.energy(p, roots_->cwiseProduct(y - prev));
       }

@@ -20,6 +20,10 @@ struct Target {
   double multiplier_scale = 1.0;           ///< unknowns are multipliers / scale, rows times scale
 };
 
+/// Adds six rows of `width` numbers to the rows of values that begin at `begin`.
+template <int width>
+void add_six_rows(const double* rows, const std::size_t* begin, double* values);
+
 /// Places of the items of one batch. A block of unknowns is one contiguous run in every row of any
 /// other block, so one offset per pair of blocks is enough; rows of other ranks have row -1.
 class Scatter {
@@ -89,11 +93,10 @@ class Scatter {
     }
   }
 
-  /// The same for the blocks of a and of all N blocks of an item, side by side in K of the shape
-  /// (6, 6 N), all of them nodes with six unknowns.
-  template <int N, class Derived>
-  void add_tangent_rows(std::size_t item, int a, const Eigen::MatrixBase<Derived>& K,
-                        Target& target) const {
+  /// The same for the blocks of a and of all N blocks of an item, side by side in the rows of K of
+  /// the shape (6, 6 N), all of them nodes with six unknowns.
+  template <int N>
+  void add_tangent_rows(std::size_t item, int a, const double* K, Target& target) const {
     const std::size_t first = first_block_[item];
     const Rows& rows = rows_[first + static_cast<std::size_t>(a)];
     if (rows.first < 0) return;
@@ -104,15 +107,13 @@ class Scatter {
                      is_node(*rows_[first + static_cast<std::size_t>(b)].shape);
     }
     if (!side_by_side) {
+      const Eigen::Map<const RowMat<6, 6 * N>> all(K);
       for (int b = 0; b < N; ++b) {
-        add_tangent(item, a, b, K.template middleCols<6>(6 * b), target);
+        add_tangent(item, a, b, all.template middleCols<6>(6 * b), target);
       }
       return;
     }
-    const std::size_t* row = target.row_begin.data() + rows.first;
-    for (int i = 0; i < 6; ++i) {
-      Eigen::Map<RowMat<1, 6 * N>>(target.values.data() + row[i] + offsets[0]) += K.row(i);
-    }
+    add_six_rows<6 * N>(K, target.row_begin.data() + rows.first, target.values.data() + offsets[0]);
   }
 
   std::size_t size() const { return first_block_.size() - 1; }
