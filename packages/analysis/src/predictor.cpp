@@ -32,11 +32,13 @@ std::vector<double> Predictor::weights(int points, double time) const {
 }
 
 void Predictor::predict(model::State& state, double step) const {
-  Motions motions = system_.velocities(state);
-  if (points_ > 0) {
+  Motions motions;
+  if (points_ == 0) {
+    motions = system_.velocities(state);
+  } else {
     const std::vector<double> w = weights(points_, state.time_prev + 0.5 * step);
+    motions.assign(past_.front().values.size(), Vec6::Zero());
     for (std::size_t node = 0; node < motions.size(); ++node) {
-      motions[node].setZero();
       for (std::size_t k = 0; k < w.size(); ++k) motions[node] += w[k] * past_[k].values[node];
     }
   }

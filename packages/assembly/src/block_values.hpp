@@ -37,4 +37,31 @@ inline model::NodeSlots slot_motion(const model::Model& model, int node,
   return model.nodes().slot_motion(node, Eigen::Map<const Vec6>(u.data()), q);
 }
 
+/// Moves nodes, several at a time; all of them are where they belong when it ends.
+class NodeMoves {
+ public:
+  NodeMoves(const model::NodeTable& nodes, model::Coordinates& q) : nodes_(nodes), q_(q) {}
+  ~NodeMoves() { finish(); }
+  NodeMoves(const NodeMoves&) = delete;
+  NodeMoves& operator=(const NodeMoves&) = delete;
+
+  void add(int node, const Vec6& increment) {
+    waiting_[count_] = node;
+    increments_[count_] = increment;
+    if (++count_ == waiting_.size()) finish();
+  }
+
+ private:
+  void finish() {
+    nodes_.move(std::span(waiting_).first(count_), std::span(increments_).first(count_), q_);
+    count_ = 0;
+  }
+
+  const model::NodeTable& nodes_;
+  model::Coordinates& q_;
+  std::size_t count_ = 0;
+  std::array<int, 64> waiting_;
+  std::array<Vec6, 64> increments_;
+};
+
 }  // namespace culm::assembly

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace culm::assembly {
@@ -377,6 +378,7 @@ void System::move(model::State& state, const Vector& increment, double factor) {
   const Ledger::Scope scope(ledger_, update_effect_);
   const std::span<const double> dx = column_values(increment);
   const model::UnknownTable& unknowns = model_.unknowns();
+  std::optional<NodeMoves> moves(std::in_place, model_.nodes(), state.next);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block& block = unknowns.block(local.block);
     if (block.shape.active == 0) continue;
@@ -392,12 +394,13 @@ void System::move(model::State& state, const Vector& increment, double factor) {
             own_scale(own[index(i)], multiplier_scale_) * u[index(i)];
       }
     } else if (unknowns.form() == model::Form::null_space) {
-      model_.nodes().move(block.owner, Eigen::Map<const Vec6>(u.data()), state.next);
+      moves->add(block.owner, Eigen::Map<const Vec6>(u.data()));
     } else {
       model::NodeTable::slots(state.next, block.owner) +=
           Eigen::Map<const model::NodeSlots>(u.data());
     }
   }
+  moves.reset();
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
   if (needs_all_nodes_) complete(state.next);
 }

@@ -107,11 +107,11 @@ NodeMotions System::node_motions() const {
 }
 
 System::Motions System::motions(const model::State& state) const {
-  Motions motions;
-  motions.reserve(layout_.local_blocks().size());
-  each_moving_node([&](int node, const model::BlockShape&) {
-    motions.push_back(model_.nodes().motion(node, state.prev, state.next));
-  });
+  std::vector<int> nodes;
+  nodes.reserve(layout_.local_blocks().size());
+  each_moving_node([&](int node, const model::BlockShape&) { nodes.push_back(node); });
+  Motions motions(nodes.size());
+  model_.nodes().motions(nodes, state.prev, state.next, motions);
   return motions;
 }
 
@@ -125,14 +125,17 @@ System::Motions System::velocities(const model::State& state) const {
 }
 
 void System::move_nodes(model::State& state, const Motions& motions) const {
-  auto motion = motions.begin();
-  each_moving_node([&](int node, const model::BlockShape& shape) {
-    Vec6 u = *motion++;
-    for (int i = 0; i < 6 && shape.width == 6; ++i) {
-      if (shape.position[index(i)] < 0) u[i] = 0.0;
-    }
-    model_.nodes().move(node, u, state.next);
-  });
+  {
+    NodeMoves moves(model_.nodes(), state.next);
+    auto motion = motions.begin();
+    each_moving_node([&](int node, const model::BlockShape& shape) {
+      Vec6 u = *motion++;
+      for (int i = 0; i < 6 && shape.width == 6; ++i) {
+        if (shape.position[index(i)] < 0) u[i] = 0.0;
+      }
+      moves.add(node, u);
+    });
+  }
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
   if (needs_all_nodes_) complete(state.next);
 }

@@ -89,6 +89,42 @@ TYPED_TEST(ProjectedElement, ExtrapolatedStressIsOfFirstOrder) {
   }
 }
 
+// In the null-space form packs find them, with multipliers one element after the other does.
+TYPED_TEST(ProjectedElement, EnergyAndMomentumAreTheSameInBothForms) {
+  struct Sums {
+    double energy, taken;
+    model::Momentum momentum;
+  };
+  for (const Stencil& stencil : kit::law_stencils) {
+    const auto sums = [&](model::Form form) {
+      model::Model model;
+      fill<TypeParam>(model, true, pack_lanes + 3);
+      model.freeze(form);
+      model::Batch* batch = kit::find_batch(model, effect);
+      kit::DenseAssembly dense(model);
+      const model::State state = kit::random_state(model, 3);
+      dense.prepare(state, stencil);
+      const model::StepWork work = batch->step_work(state, stencil);
+      Sums found{batch->stored_energy(state.next), work.damping + work.dissipation, {}};
+      dynamic_cast<model::MassSource&>(*batch).add_momentum(state.next, state.velocity,
+                                                            found.momentum);
+      return found;
+    };
+    const Sums packs = sums(model::Form::null_space);
+    const Sums each = sums(model::Form::multipliers);
+    constexpr double rounding = 1e-13;
+    EXPECT_NEAR(packs.energy / each.energy, 1.0, rounding);
+    EXPECT_NEAR(packs.taken, each.taken, rounding * each.energy);
+    const double kinetic = each.momentum.kinetic_energy;
+    EXPECT_GT(kinetic, 0.0);
+    EXPECT_NEAR(packs.momentum.kinetic_energy / kinetic, 1.0, rounding);
+    EXPECT_LT((packs.momentum.linear - each.momentum.linear).norm(),
+              rounding * each.momentum.linear.norm());
+    EXPECT_LT((packs.momentum.angular - each.momentum.angular).norm(),
+              rounding * each.momentum.angular.norm());
+  }
+}
+
 TYPED_TEST(ProjectedElement, AttemptsLeaveNoTrace) {
   kit::expect_attempts_leave_no_trace([&](model::Model& model) { fill<TypeParam>(model, true); },
                                       effect);

@@ -1,47 +1,29 @@
 #include <culm/math/rotation.hpp>
+#include <culm/math/rotation_series.hpp>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 namespace culm {
-namespace {
-
-// Where they serve, what these series leave out is less than rounding.
-constexpr std::array sine_series = {1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040,
-                                    1.0 / 362880};  // sin t / t
-constexpr std::array cosine_series = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320,
-                                      1.0 / 3628800};  // (1 - cos t) / t^2
-constexpr std::array arcsine_series = {1.0,          1.0 / 6,       3.0 / 40,        15.0 / 336,
-                                       105.0 / 3456, 945.0 / 42240, 10395.0 / 599040};  // t / sin t
-
-template <std::size_t terms>
-double polynomial(const std::array<double, terms>& coefficients, double x) {
-  double sum = coefficients.back();
-  for (std::size_t k = terms - 1; k-- > 0;) sum = coefficients[k] + x * sum;
-  return sum;
+RotationFactors rotation_factors(double t2) {
+  if (t2 < small_turn_squared) {
+    RotationFactors factors{};
+    find_polynomial(sine_series, t2, factors.sine);
+    find_polynomial(cosine_series, t2, factors.cosine);
+    return factors;
+  }
+  const double t = std::sqrt(t2);
+  const double half_sine = std::sin(0.5 * t);
+  return {std::sin(t) / t, 2.0 * half_sine * half_sine / t2};
 }
-
-}  // namespace
 
 Mat3 exp_rotation(const Vec3& theta) {
   const double x = theta[0], y = theta[1], z = theta[2];
   const double t2 = x * x + y * y + z * z;
-  double a = 0.0;  // sin t / t
-  double b = 0.0;  // (1 - cos t) / t^2
-  if (t2 < 0.01) {
-    a = polynomial(sine_series, t2);
-    b = polynomial(cosine_series, t2);
-  } else {
-    const double t = std::sqrt(t2);
-    const double half_sine = std::sin(0.5 * t);
-    a = std::sin(t) / t;
-    b = 2.0 * half_sine * half_sine / t2;
-  }
+  const auto [a, b] = rotation_factors(t2);
   // 1 + a [theta] + b [theta]^2, with [theta]^2 = theta theta^T - t^2 1
   const double c = 1.0 - b * t2;
   const double xy = b * x * y, yz = b * y * z, zx = b * z * x;
@@ -59,7 +41,11 @@ Mat3 polar_correction(const Mat3& D) {
 Vec3 log_rotation(const Mat3& R) {
   const Vec3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
   const double s2 = 0.25 * twice.squaredNorm();  // sin^2 t
-  if (s2 < 0.01 && R.trace() > 1.0) return 0.5 * polynomial(arcsine_series, s2) * twice;
+  if (s2 < small_turn_squared && R.trace() > 1.0) {
+    double factor = 0.0;
+    find_polynomial(arcsine_series, s2, factor);
+    return 0.5 * factor * twice;
+  }
   const Eigen::AngleAxisd rotation(R);
   return rotation.angle() * rotation.axis();
 }

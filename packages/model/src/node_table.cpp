@@ -1,9 +1,50 @@
 #include <culm/math/rotation.hpp>
+#include <culm/mechanics/triad_pack.hpp>
 #include <culm/model/node_table.hpp>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
+
 namespace culm::model {
+namespace {
+
+// Which of some nodes are in a pack.
+using Lanes = std::array<std::size_t, pack_lanes>;
+
+// Calls alone(i) for shell nodes, and together(lanes, count) for up to pack_lanes triads at once,
+// the last of which is repeated where there are fewer.
+template <class Alone, class Together>
+void in_packs(const NodeTable& table, std::span<const int> nodes, Alone alone, Together together) {
+  Lanes lanes{};
+  std::size_t count = 0;
+  const auto finish = [&] {
+    if (count == 0) return;
+    std::fill(lanes.begin() + static_cast<std::ptrdiff_t>(count), lanes.end(), lanes[count - 1]);
+    together(lanes, count);
+    count = 0;
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (table.kind(nodes[i]) != NodeKind::node12) {
+      alone(i);
+      continue;
+    }
+    lanes[count++] = i;
+    if (count == pack_lanes) finish();
+  }
+  finish();
+}
+
+void gather(std::span<const int> nodes, const Lanes& lanes, const Coordinates& q,
+            Packs<12>& slots) {
+  std::array<const double*, pack_lanes> rows{};
+  std::ranges::transform(lanes, rows.begin(),
+                         [&](std::size_t i) { return q.data() + NodeTable::offset(nodes[i]); });
+  to_lanes(rows, 12, slots.data());
+}
+
+}  // namespace
 
 int NodeTable::add(const NodeSlots& slots, NodeKind kind) {
   reference_.append({slots.data(), static_cast<std::size_t>(slots.size())});
@@ -73,6 +114,43 @@ Vec6 NodeTable::motion(int node, const Coordinates& from, const Coordinates& to)
     u.tail<3>() = log_rotation(b.rightCols<3>() * a.rightCols<3>().transpose());
   }
   return u;
+}
+
+void NodeTable::move(std::span<const int> nodes, std::span<const Vec6> increments,
+                     Coordinates& q) const {
+  const auto move_triads_of = [&](const Lanes& lanes, std::size_t count) {
+    Packs<12> slots;
+    gather(nodes, lanes, q, slots);
+    Packs<6> u;
+    for (std::size_t l = 0; l < pack_lanes; ++l) {
+      for (int c = 0; c < 6; ++c) u.of(static_cast<int>(l), c) = increments[lanes[l]][c];
+    }
+    move_triads(u, slots);
+    std::array<double, 12> repeated;
+    std::array<double*, pack_lanes> rows;
+    rows.fill(repeated.data());
+    for (std::size_t l = 0; l < count; ++l) rows[l] = q.data() + offset(nodes[lanes[l]]);
+    from_lanes(slots.data(), 12, rows);
+  };
+  in_packs(
+      *this, nodes, [&](std::size_t i) { move(nodes[i], increments[i], q); }, move_triads_of);
+}
+
+void NodeTable::motions(std::span<const int> nodes, const Coordinates& from, const Coordinates& to,
+                        std::span<Vec6> motions) const {
+  const auto find_motions_of = [&](const Lanes& lanes, std::size_t count) {
+    Packs<12> start, end;
+    gather(nodes, lanes, from, start);
+    gather(nodes, lanes, to, end);
+    Packs<6> u;
+    find_motions(start, end, u);
+    for (std::size_t l = 0; l < count; ++l) {
+      for (int c = 0; c < 6; ++c) motions[lanes[l]][c] = u.of(static_cast<int>(l), c);
+    }
+  };
+  in_packs(
+      *this, nodes, [&](std::size_t i) { motions[i] = motion(nodes[i], from, to); },
+      find_motions_of);
 }
 
 NodeSlots NodeTable::slot_motion(int node, const Vec6& u, const Coordinates& q) const {

@@ -53,6 +53,7 @@ void NewtonGroup::start() {
   own_ = problem_->state->own;
   level_ = problem_->state->time;
   level_increment_ = 0.0;
+  problem_->stress_is_old = false;
   forget_results();
 }
 
@@ -107,7 +108,9 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
   swap_with_state();
   NewtonProblem& p = *problem_;
   if (p.settings.extrapolate_stress) {
-    p.system.extrapolate(*p.state, p.stencil, increment.get(), step);
+    // where a step of a motion is about to end, no tangent follows that would know it
+    p.stress_is_old = p.stencil.inertia != 0.0 && tangent_can_wait();
+    if (!p.stress_is_old) p.system.extrapolate(*p.state, p.stencil, increment.get(), step);
   }
   p.system.move(*p.state, increment.get(), step);
   if (p.condition != nullptr) p.system.change_level(*p.state, p.stencil);
@@ -138,6 +141,10 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
   swap_with_state();
   NewtonProblem& p = *problem_;
   const bool without_tangent = !tangent_wanted_ && tangent_can_wait();
+  if (!without_tangent && p.stress_is_old) {
+    p.system.extrapolate(*p.state, p.stencil, x_.get(), 0.0);
+    p.stress_is_old = false;
+  }
   evaluation_ = p.system.evaluate(*p.state, p.stencil,
                                   without_tangent ? Want::residual : Want::residual_and_tangent);
   if (p.condition != nullptr && evaluation_.verdict == Verdict::ok) {

@@ -5,6 +5,14 @@
 
 namespace culm {
 
+/// sin t / t and (1 - cos t) / t^2.
+struct RotationFactors {
+  double sine;
+  double cosine;
+};
+/// @param t2  t^2
+RotationFactors rotation_factors(double t2);
+
 /// Rotation about the vector theta [rad] by its length (Rodrigues), accurate for any length.
 Mat3 exp_rotation(const Vec3& theta);
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bitset>
+#include <span>
 #include <vector>
 
 namespace culm::model {
@@ -71,6 +72,10 @@ class NodeTable {
   /// The increment of the six unknowns of a node by which `move` takes it from one configuration to
   /// another; rotations by less than pi.
   Vec6 motion(int node, const Coordinates& from, const Coordinates& to) const;
+  /// The same for many nodes, which is faster. @param increments  one for each
+  void move(std::span<const int> nodes, std::span<const Vec6> increments, Coordinates& q) const;
+  void motions(std::span<const int> nodes, const Coordinates& from, const Coordinates& to,
+               std::span<Vec6> motions) const;
   /// How the slots of a node move with its six unknowns at `q`, to first order: P u, shape (3, 4).
   NodeSlots slot_motion(int node, const Vec6& u, const Coordinates& q) const;
   /// The rates of the six unknowns that belong to slot rates `v` at `q`, for a triad v and
