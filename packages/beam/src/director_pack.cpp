@@ -1,8 +1,7 @@
 #include <culm/beam/director_pack.hpp>
 #include <culm/math/types.hpp>
 #include <culm/math/vector_units.hpp>
-
-#define CULM_INLINE [[gnu::always_inline]] inline
+#include <culm/mechanics/pack_geometry.hpp>
 
 namespace culm::beam {
 
@@ -11,13 +10,6 @@ namespace {
 // Cyclic partners of a director: (i, j, k) = (0, 1, 2), (1, 2, 0), (2, 0, 1).
 // Coordinates of the slots x, d1, d2, d3, interpolated: those of director i start here.
 constexpr int director(int i) { return 3 * (1 + i); }
-
-// sum += factor a x b
-CULM_INLINE void add_cross(const Pack* a, const Pack* b, const Pack& factor, Pack* sum) {
-  sum[0] += factor * (a[1] * b[2] - a[2] * b[1]);
-  sum[1] += factor * (a[2] * b[0] - a[0] * b[2]);
-  sum[2] += factor * (a[0] * b[1] - a[1] * b[0]);
-}
 
 // Axis and triad at a point, and their derivatives by arc length.
 template <int Order>
@@ -209,58 +201,6 @@ CULM_INLINE void add_product(const Pack* C, double factor, const Pack* R_mid, co
   }
 }
 
-// block += sign [a], in rows of this length
-CULM_INLINE void add_skew(const Pack* a, double sign, Pack* block, int row) {
-  block[1] -= sign * a[2];
-  block[2] += sign * a[1];
-  block[row] += sign * a[2];
-  block[row + 2] -= sign * a[0];
-  block[2 * row] -= sign * a[1];
-  block[2 * row + 1] += sign * a[0];
-}
-
-// What model::add_triad_tangent adds, where no node is at a lever: see there.
-template <int Order>
-CULM_INLINE void add_geometry(const Pack* A, const Pack* force, const Pack* mid, const Pack* next,
-                              double theta, Pack* K) {
-  constexpr int N = Order + 1;
-  constexpr int S = 4 * N;
-  constexpr int row = 6 * N;
-  for (int b = 0; b < N; ++b) {
-    const Pack* arms = next + 12 * b;
-    for (int a = 0; a < N; ++a) {
-      const Pack* own = mid + 12 * a;
-      Pack v[12], W[9] = {}, lever[3] = {};
-      for (int s = 0; s < 4; ++s) {
-        const Pack* of_slot = A + S * (4 * a + s) + 4 * b;
-        for (int c = 0; c < 3; ++c) {
-          v[3 * s + c] =
-              of_slot[1] * arms[3 + c] + of_slot[2] * arms[6 + c] + of_slot[3] * arms[9 + c];
-        }
-      }
-      for (int s = 1; s < 4; ++s) {
-        const Pack& by_position = A[S * (4 * a + s) + 4 * b];
-        for (int c = 0; c < 3; ++c) {
-          lever[c] += by_position * own[3 * s + c];
-          for (int d = 0; d < 3; ++d) {
-            W[3 * c + d] += v[3 * s + c] * own[3 * s + d];
-            if (a == b) W[3 * c + d] -= theta * arms[3 * s + c] * force[12 * a + 3 * s + d];
-          }
-        }
-      }
-      Pack* block = K + 6 * row * a + 6 * b;
-      const Pack trace = W[0] + W[4] + W[8];
-      for (int c = 0; c < 3; ++c) {
-        block[row * c + c] += A[S * 4 * a + 4 * b];
-        block[row * (3 + c) + 3 + c] += trace;
-        for (int d = 0; d < 3; ++d) block[row * (3 + c) + 3 + d] -= W[3 * c + d];
-      }
-      add_skew(v, -1.0, block + 3, row);
-      add_skew(lever, 1.0, block + 3 * row, row);
-    }
-  }
-}
-
 // Calls visit(s, t, m) with the mass m between the slots s and t. The slot d3 carries none.
 template <int Order, class Visit>
 CULM_INLINE void for_masses(const Pack* mass, const Visit& visit) {
@@ -363,7 +303,7 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     }
   }
   if (with_tangent) {
-    add_geometry<Order>(A, tangent_force, mid, motion.next.data(), theta, sum.tangent.data());
+    add_pack_geometry<N>(A, tangent_force, mid, motion.next.data(), theta, sum.tangent.data());
   }
 }
 

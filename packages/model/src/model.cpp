@@ -181,6 +181,9 @@ namespace {
 
 std::string quoted_name(const Constraint& c) { return c.type + " '" + c.name + "'"; }
 
+// Notes name so many, and say how many more there are.
+constexpr std::size_t most_named = 8;
+
 // "a, b and c", without repetitions
 std::string enumerate(const std::vector<std::string>& names) {
   std::vector<std::string> once;
@@ -188,6 +191,11 @@ std::string enumerate(const std::vector<std::string>& names) {
     if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
   }
   if (once.size() < 2) return join(once, "");
+  if (once.size() > most_named) {
+    const std::size_t more = once.size() - most_named;
+    once.resize(most_named);
+    return join(once, ", ") + " and " + std::to_string(more) + " more";
+  }
   const std::string last = once.back();
   once.pop_back();
   return join(once, ", ") + " and " + last;

@@ -19,6 +19,7 @@ CULM_FOR_EACH_VECTOR_UNIT void add_six_rows(const double* rows, const std::size_
   }
 }
 
+template void add_six_rows<6>(const double*, const std::size_t*, double*);
 template void add_six_rows<12>(const double*, const std::size_t*, double*);
 template void add_six_rows<18>(const double*, const std::size_t*, double*);
 template void add_six_rows<24>(const double*, const std::size_t*, double*);

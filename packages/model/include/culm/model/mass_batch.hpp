@@ -1,9 +1,11 @@
 /// Nodes with mass but without stiffness: rigid bodies and point masses.
 #pragma once
 
+#include <culm/mechanics/mass_pack.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/node_table.hpp>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +42,19 @@ class MassBatch final : public Batch, public MassSource {
     SlotMatrix<4> mass;
   };
 
+  // Items that are evaluated at once; the last one is repeated.
+  struct Together {
+    MassPack masses;
+    std::array<std::size_t, pack_lanes> items;  // of the placement
+    int count = 0;
+  };
+
+  const Item& local(std::size_t i) const {
+    return items_[static_cast<std::size_t>(placement_.items[i])];
+  }
+  void add_to_packs(std::size_t i);
+  Verdict assemble_pack(const Together& pack, const State& state, const Stencil& stencil, Want want,
+                        Target& target) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Target& target) const;
@@ -49,6 +64,8 @@ class MassBatch final : public Batch, public MassSource {
   std::vector<Item> items_;
   Placement placement_;
   Form form_ = Form::null_space;
+  std::vector<Together> packs_;
+  std::vector<std::size_t> alone_;  // items of the placement in no pack
 };
 
 }  // namespace culm::model

@@ -77,6 +77,20 @@ class Scatter {
       }
       return;
     }
+    constexpr int rows_of_K = Derived::RowsAtCompileTime;
+    constexpr int columns_of_K = Derived::ColsAtCompileTime;
+    if constexpr (rows_of_K != Eigen::Dynamic && columns_of_K != Eigen::Dynamic) {
+      const bool is_whole = row_shape.full() && row_shape.width == rows_of_K &&
+                            column_shape.full() && column_shape.width == columns_of_K;
+      if (is_whole) {
+        const std::size_t* row = target.row_begin.data() + rows.first;
+        for (int i = 0; i < rows_of_K; ++i) {
+          double* out = target.values.data() + row[i] + offset;
+          for (int j = 0; j < columns_of_K; ++j) out[j] += K(i, j);
+        }
+        return;
+      }
+    }
     for (int i = 0; i < row_shape.width; ++i) {
       const int row = row_shape.position[static_cast<std::size_t>(i)];
       if (row < 0) continue;
