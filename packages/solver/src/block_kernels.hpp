@@ -2,6 +2,8 @@
 /// with which the compiler unrolls the loops.
 #pragma once
 
+#include <culm/mechanics/pack.hpp>
+
 #include "row.hpp"
 
 #include <algorithm>
@@ -52,9 +54,8 @@ int find_pivot(const double* D, int stride, Size size, int column, const Weight&
 /// @param weight     room for a number of each row. Rows of multipliers have another scale than
 ///                   those of nodes, so pivots are compared with the largest entries of their rows
 /// @return false if a pivot is too small or not a number
-template <class Size, class Columns>
-bool factor_panel(double* D, Size size, Columns columns, const double* before, double least,
-                  int* exchanged, double* weight) {
+inline bool factor_long_rows(double* D, int size, int columns, const double* before, double least,
+                             int* exchanged, double* weight) {
   const int stride = size + columns;
   find_row_weights(D, stride, size, weight);
   for (int c = 0; c < size; ++c) {
@@ -89,6 +90,74 @@ bool factor_panel(double* D, Size size, Columns columns, const double* before, d
     for (int k = 0; k < columns; ++k) U[r * stride + k] *= pivot;
   }
   return true;
+}
+
+/// The same with rows of so many vectors. @param room for size of them
+template <int vectors>
+[[gnu::always_inline]] inline bool factor_rows(double* D, int size, int columns,
+                                               const double* before, double least, int* exchanged,
+                                               double* weight, Pack* room) {
+  const int stride = size + columns;
+  const auto row = [&](int r) { return room + r * vectors; };
+  // numbers of a row, also as those of its vectors
+  const auto numbers = [&](int r) { return reinterpret_cast<double*>(row(r)); };
+  for (int r = 0; r < size; ++r) {
+    for (int k = 0; k < vectors; ++k) row(r)[k] = Pack{};
+    std::copy_n(D + r * stride, stride, numbers(r));
+  }
+  // whole rows are subtracted, so that what stands left of the pivots is not kept there but in D
+  const auto subtract = [&](double factor, int from, int of) {
+    for (int k = 0; k < vectors; ++k) row(of)[k] -= factor * row(from)[k];
+  };
+  find_row_weights(D, stride, size, weight);
+  for (int c = 0; c < size; ++c) {
+    const int best =
+        find_pivot(numbers(0), vectors * pack_lanes, size, c, [&](int r) { return weight[r]; });
+    if (best != c) {
+      std::swap_ranges(row(c), row(c) + vectors, row(best));
+      std::swap_ranges(D + c * stride, D + c * stride + c, D + best * stride);
+      std::swap(weight[c], weight[best]);
+    }
+    exchanged[c] = best;
+    const double pivot = numbers(c)[c];
+    if (!(std::abs(pivot) > least * before[c])) return false;
+    D[c * stride + c] = 1.0 / pivot;
+    std::copy(numbers(c) + c + 1, numbers(c) + size, D + c * stride + c + 1);
+    for (int r = c + 1; r < size; ++r) {
+      const double factor = D[r * stride + c] = numbers(r)[c] * D[c * stride + c];
+      subtract(factor, c, r);
+    }
+  }
+  for (int r = size - 1; r >= 0; --r) {
+    for (int c = r + 1; c < size; ++c) subtract(D[r * stride + c], c, r);
+    for (int k = 0; k < vectors; ++k) row(r)[k] *= D[r * stride + r];
+    std::copy_n(numbers(r) + size, columns, D + r * stride + size);
+  }
+  return true;
+}
+
+/// How many vectors a row of so many numbers fills.
+constexpr int vectors_of(int numbers) { return (numbers + pack_lanes - 1) / pack_lanes; }
+
+/// The same for rows of any length.
+[[gnu::always_inline]] inline bool factor_panel(double* D, int size, int columns,
+                                                const double* before, double least, int* exchanged,
+                                                double* weight, Pack* room) {
+  const auto factor = [&](auto vectors) __attribute__((always_inline)) {
+    return factor_rows<vectors>(D, size, columns, before, least, exchanged, weight, room);
+  };
+  switch (vectors_of(size + columns)) {
+    case 1:
+      return factor(Fixed<1>());
+    case 2:
+      return factor(Fixed<2>());
+    case 3:
+      return factor(Fixed<3>());
+    case 4:
+      return factor(Fixed<4>());
+    default:
+      return factor_long_rows(D, size, columns, before, least, exchanged, weight);
+  }
 }
 
 /// The same where all pivots stay on the diagonal. @param before, least  as above
@@ -151,9 +220,9 @@ template <int size, int columns>
 template <int size, int columns>
 [[gnu::always_inline]] inline bool factor_panel(double* D, Fixed<size>, Fixed<columns>,
                                                 const double* before, double least, int* exchanged,
-                                                double* weight) {
+                                                double* weight, Pack* room) {
   if (!factor_in_order<size, columns>(D, before, least, weight)) {
-    return factor_panel(D, size, columns, before, least, exchanged, weight);
+    return factor_panel(D, size, columns, before, least, exchanged, weight, room);
   }
   std::iota(exchanged, exchanged + size, 0);
   return true;
@@ -180,19 +249,7 @@ template <class Size>
   }
 }
 
-/// C -= A B. @param inner columns of A, rows of B
-template <class Rows, class Inner, class Columns>
-void subtract_product(const double* A, const double* B, int stride_B, double* C, int stride_C,
-                      Rows rows, Inner inner, Columns columns) {
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < inner; ++j) {
-      const double factor = A[i * inner + j];
-      for (int k = 0; k < columns; ++k) C[i * stride_C + k] -= factor * B[j * stride_B + k];
-    }
-  }
-}
-
-/// The same with rows that fit into registers.
+/// C -= A B, with rows that fit into registers. @param inner columns of A, rows of B
 template <int rows, int inner, int columns>
 [[gnu::always_inline]] inline void subtract_product(const double* A, const double* B, int stride_B,
                                                     double* C, int stride_C, Fixed<rows>,
@@ -205,6 +262,39 @@ template <int rows, int inner, int columns>
     for (int j = 0; j < inner; ++j) c.subtract(A[i * inner + j], b[j]);
     c.store(C + i * stride_C);
   }
+}
+
+/// The same for so many columns, and any number of rows.
+template <int columns>
+[[gnu::always_inline]] inline void subtract_columns(const double* A, const double* B, int stride_B,
+                                                    double* C, int stride_C, int rows, int inner) {
+  for (int i = 0; i < rows; ++i) {
+    Row<columns> c, b;
+    c.load(C + i * stride_C);
+    for (int j = 0; j < inner; ++j) {
+      b.load(B + j * stride_B);
+      c.subtract(A[i * inner + j], b);
+    }
+    c.store(C + i * stride_C);
+  }
+}
+
+/// The same for any number of columns.
+[[gnu::always_inline]] inline void subtract_product(const double* A, const double* B, int stride_B,
+                                                    double* C, int stride_C, int rows, int inner,
+                                                    int columns) {
+  int done = 0;
+  const auto subtract = [&](auto some) __attribute__((always_inline)) {
+    for (; columns - done >= some; done += some) {
+      subtract_columns<some>(A, B + done, stride_B, C + done, stride_C, rows, inner);
+    }
+  };
+  subtract(Fixed<12>());
+  subtract(Fixed<8>());
+  subtract(Fixed<6>());
+  subtract(Fixed<4>());
+  subtract(Fixed<2>());
+  subtract(Fixed<1>());
 }
 
 /// y -= A x. @param stride of A

@@ -140,12 +140,15 @@ void BlockLu::plan() {
   }
   int widest = 0;
   int tallest = 0;
+  int room = 0;
   for (const BlockPlan::Panel& panel : plan_.panels) {
     widest = std::max(widest, panel.width);
     tallest = std::max(tallest, panel.size);
+    room = std::max(room, panel.size * vectors_of(panel.stride()));
   }
   beside_.assign(index(widest), 0.0);
   row_weight_.assign(index(tallest), 0.0);
+  room_.resize(index(room));
 }
 
 BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
@@ -250,8 +253,6 @@ double BlockLu::largest_behind_joints(int row) const {
       subtract_product(L, V, stride, target, u.stride, node, node, node);
     } else if (panel.size == node && u.rows == node && u.columns == 2 * node) {
       subtract_product(L, V, stride, target, u.stride, node, node, Fixed<2 * node>());
-    } else if (panel.size == node) {
-      subtract_product(L, V, stride, target, u.stride, u.rows, node, u.columns);
     } else if (panel.size == jointed && u.rows == node && u.columns == node) {
       subtract_product(L, V, stride, target, u.stride, node, jointed, node);
     } else {
@@ -266,7 +267,8 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
-                        least, exchanged_.data() + panel.first, row_weight_.data());
+                        least, exchanged_.data() + panel.first, row_weight_.data(),
+                        room_.data()->numbers);
   });
   if (!is_sound) {
     failed_ = &panel;

@@ -1,6 +1,7 @@
 /// LU factors of dense blocks, for graphs like chains and trees.
 #pragma once
 
+#include <culm/mechanics/pack.hpp>
 #include <culm/solver/linear_solver.hpp>
 
 #include "block_plan.hpp"
@@ -85,6 +86,7 @@ class BlockLu {
   std::vector<double> x_;           ///< by place
   std::vector<double> beside_;      ///< of one panel
   std::vector<double> row_weight_;  ///< of one panel
+  std::vector<Packs<1>> room_;      ///< of one panel
 };
 
 }  // namespace culm::solver
