@@ -11,6 +11,9 @@ namespace culm::beam {
 
 namespace {
 
+// Of |dz|^2; below, the correction of the stress, of third order in dz, is smaller than round-off.
+constexpr double smallest_change = 1e-16;
+
 const double least_cosine = std::cos(HelicalBeam::max_rotation);
 
 // z of the relative motion of the two nodes; r divided by h.
@@ -109,6 +112,12 @@ Verdict HelicalBeam::respond(int, const Strain& prev, const Strain& next, const 
   Vec6 e = weight * (helical_strain(z1, length_) - strain_reference_);
   if (weight != 1.0) e += (1.0 - weight) * section_strain(prev);
   const Vec6 w = length_ * stiffness_ * e;
+  if (!response.wants_tangent) {
+    response.stress = stencil.theta == 1.0
+                          ? Vec<7>(helical_strain_gradient(z1, length_).transpose() * w)
+                          : step_stress(prev + z_reference_, z1, w);
+    return verdict;
+  }
   const Mat<6, 7> J1 = helical_strain_gradient(z1, length_);
   const Mat<6, 7> CJ1 = weight * length_ * stiffness_ * J1;  // ∂w/∂z1
   if (stencil.theta == 1.0) {
@@ -125,7 +134,7 @@ Verdict HelicalBeam::respond(int, const Strain& prev, const Strain& next, const 
   response.stress = at_mid.gradient;
   response.tangent = 0.5 * at_mid.hessian;
   const double n = dz.squaredNorm();
-  if (n > 1e-16) {  // below, the correction, of third order in dz, is smaller than round-off
+  if (n > smallest_change) {
     const Vec6 defect = helical_strain_increment(z0, z1, length_) - Y * dz;
     const double kappa = w.dot(defect) / n;
     // ∂(w . defect)/∂z1 at fixed w
@@ -137,6 +146,18 @@ Verdict HelicalBeam::respond(int, const Strain& prev, const Strain& next, const 
   }
   response.tangent += Y.transpose() * CJ1;
   return verdict;
+}
+
+// S alone of (1.12)
+Vec<7> HelicalBeam::step_stress(const Vec<7>& z0, const Vec<7>& z1, const Vec6& w) const noexcept {
+  const Vec<7> dz = z1 - z0;
+  const Mat<6, 7> Y = helical_strain_gradient(0.5 * (z0 + z1), length_);
+  Vec<7> stress = Y.transpose() * w;
+  const double n = dz.squaredNorm();
+  if (n > smallest_change) {
+    stress += w.dot(helical_strain_increment(z0, z1, length_) - Y * dz) / n * dz;
+  }
+  return stress;
 }
 
 double HelicalBeam::energy(int, const Strain& y) const noexcept {

@@ -18,11 +18,15 @@ struct Jet {
   double second;
 };
 
-// sum_n coefficients[n] x^n with derivatives, by Horner's rule.
+// sum_n coefficients[n] x^n with derivatives, by Horner's rule. Coefficients fall, so that for
+// small x the last terms are less than rounding in all three.
 template <std::size_t N>
 Jet polynomial(const std::array<double, N>& coefficients, double x) {
-  Jet p{coefficients[N - 1], 0.0, 0.0};
-  for (std::size_t n = N - 1; n-- > 0;) {
+  static_assert(N >= 11);
+  const double size = std::abs(x);
+  const std::size_t terms = size < 1e-4 ? 7 : size < 1e-2 ? 11 : N;
+  Jet p{coefficients[terms - 1], 0.0, 0.0};
+  for (std::size_t n = terms - 1; n-- > 0;) {
     p.second = p.second * x + p.first;
     p.first = p.first * x + p.value;
     p.value = p.value * x + coefficients[n];

@@ -238,15 +238,38 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
   model::StepWork work;
   const double factor = amplitude_.in_step(state, stencil);
   const bool works = !has_potential();
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-    if (!placement_.owned[i]) continue;
+  const auto add = [&](std::size_t i) {
     const Item& item = local(i);
     const Ends ends(item.nodes, state, stencil.theta);
     ItemSlots f = factor * item.constant;
     if (item.follows) f.noalias() += factor * ends.mid.lazyProduct(item.linear.transpose());
     add_item_work(f, ends, item.nodes, state, works, work);
+  };
+  for (const Free& item : free_) {
+    if (!placement_.owned[item.local]) continue;
+    if (works) {
+      add(item.local);
+    } else {
+      add_push(item, state, stencil.theta, factor, work);
+    }
+  }
+  for (const std::size_t i : others_) {
+    if (placement_.owned[i]) add(i);
   }
   return work;
+}
+
+// What add_item_work adds of forces with a potential, which weight has on every node.
+void SlotLoad::add_push(const Free& item, const model::State& state, double theta, double factor,
+                        model::StepWork& work) const {
+  const Eigen::Map<const model::NodeSlots> constant(local(item.local).constant.data());
+  const auto prev = model::NodeTable::slots(state.prev, item.node);
+  const auto next = model::NodeTable::slots(state.next, item.node);
+  work.force += factor * constant.col(0);
+  for (int s = 0; s < (item.on_directors ? 4 : 1); ++s) {
+    const Vec3 mid = (1.0 - theta) * prev.col(s) + theta * next.col(s);
+    work.moment += mid.cross(Vec3(factor * constant.col(s)));
+  }
 }
 
 }  // namespace culm::load

@@ -147,8 +147,17 @@ ItemSlots slot_forces(const std::vector<ConstraintRow>& rows, const ItemFactors&
                       const double* lambda) {
   ItemSlots force = ItemSlots::Zero(3, 4 * nodes);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    for (int a = 0; a < nodes; ++a) {
-      force.middleCols<4>(4 * a) += lambda[k] * slot_gradient(rows[k], factors[k], a);
+    for (int t = 0; t < factors[k].size; ++t) {
+      const RowFactors::Product& one = factors[k].products[static_cast<std::size_t>(t)];
+      const Vec3 P = lambda[k] * one.P;
+      const Vec3 Q = lambda[k] * one.Q;
+      for (int a = 0; a < nodes; ++a) {
+        auto on_node = force.middleCols<4>(4 * a);
+        const int place = t * nodes + a;
+        on_node.noalias() += Q.lazyProduct(of_node(rows[k].alpha, place).transpose());
+        if (rows[k].linear()) continue;
+        on_node.noalias() += P.lazyProduct(of_node(rows[k].beta, place).transpose());
+      }
     }
   }
   return force;

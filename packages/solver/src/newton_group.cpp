@@ -53,7 +53,7 @@ void NewtonGroup::start() {
   own_ = problem_->state->own;
   level_ = problem_->state->time;
   level_increment_ = 0.0;
-  problem_->stress_is_old = false;
+  problem_->stress_waits = false;
   forget_results();
 }
 
@@ -109,8 +109,16 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
   NewtonProblem& p = *problem_;
   if (p.settings.extrapolate_stress) {
     // where a step of a motion is about to end, no tangent follows that would know it
-    p.stress_is_old = p.stencil.inertia != 0.0 && tangent_can_wait();
-    if (!p.stress_is_old) p.system.extrapolate(*p.state, p.stencil, increment.get(), step);
+    p.stress_waits = p.stencil.inertia != 0.0 && tangent_can_wait();
+    if (!p.stress_waits) {
+      p.system.extrapolate(*p.state, p.stencil, increment.get(), step);
+    } else if (p.waiting) {
+      p.waiting->from = p.state->next;
+      p.waiting->increment = increment.get();
+      p.waiting->step = step;
+    } else {
+      p.waiting.emplace(p.state->next, increment.get(), step);
+    }
   }
   p.system.move(*p.state, increment.get(), step);
   if (p.condition != nullptr) p.system.change_level(*p.state, p.stencil);
@@ -141,10 +149,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
   swap_with_state();
   NewtonProblem& p = *problem_;
   const bool without_tangent = !tangent_wanted_ && tangent_can_wait();
-  if (!without_tangent && p.stress_is_old) {
-    p.system.extrapolate(*p.state, p.stencil, x_.get(), 0.0);
-    p.stress_is_old = false;
-  }
+  if (!without_tangent) extrapolate_late();
   evaluation_ = p.system.evaluate(*p.state, p.stencil,
                                   without_tangent ? Want::residual : Want::residual_and_tangent);
   if (p.condition != nullptr && evaluation_.verdict == Verdict::ok) {
@@ -156,6 +161,16 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
   has_residual_ = evaluation_.verdict == Verdict::ok;
   has_tangent_ = has_residual_ && !without_tangent;
   return has_residual_ ? Ok : Failed;
+}
+
+// The stress that tangents at this point belong to, if it was left out.
+void NewtonGroup::extrapolate_late() {
+  NewtonProblem& p = *problem_;
+  if (!p.stress_waits) return;
+  p.state->next.swap(p.waiting->from);
+  p.system.extrapolate(*p.state, p.stencil, p.waiting->increment, p.waiting->step);
+  p.state->next.swap(p.waiting->from);
+  p.stress_waits = false;
 }
 
 NOX::Abstract::Group::ReturnType NewtonGroup::computeJacobian() {

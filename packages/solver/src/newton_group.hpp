@@ -14,6 +14,13 @@
 
 namespace culm::solver {
 
+/// An extrapolation of the stress that no tangent has asked for yet.
+struct WaitingStress {
+  model::Coordinates from;
+  assembly::Vector increment;
+  double step;
+};
+
 /// What all groups of one solver share. The state's `next` and `multipliers` are lent to the group
 /// that is being evaluated; between evaluations the groups keep them.
 struct NewtonProblem {
@@ -38,10 +45,11 @@ struct NewtonProblem {
   bool direction_is_fresh = false;  ///< the last Newton direction is that of a new tangent
   bool holds_free = false;  ///< motions that nothing resists are held a little where a step begins
   bool tangent_is_whole = true;  ///< no load says that it leaves out something (`LeftOutOfModes`)
-  bool stress_is_old = false;    ///< what tangents belong to is not that of the trial point
   bool singular = false;         ///< the last factorisation failed
   bool not_finite = false;       ///< the last solution is infinite or not a number
   double largest_increment = 0.0;
+  bool stress_waits = false;                  ///< tangents do not yet know the last increment
+  std::optional<WaitingStress> waiting = {};  ///< made when it is first wanted
 };
 
 /// A trial point. Rotations are updated multiplicatively in computeX, so X only counts increments
@@ -88,6 +96,7 @@ class NewtonGroup final : public NOX::Abstract::Group {
   bool needs_tangent() const;
   /// Whether the tangent at this point will hardly be asked for.
   bool tangent_can_wait() const;
+  void extrapolate_late();
   /// Solves with new or old factors. @return false if the result is of no use
   bool solve_linear();
   bool solve_factored();

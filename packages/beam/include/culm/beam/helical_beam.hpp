@@ -25,6 +25,8 @@ class HelicalBeam {
   static constexpr int num_mass_points = 2;
   static constexpr int num_strains = HelicalInvariants::size;
   static constexpr int num_resultants = 6;
+  /// Its stress over a step does what changes the stored energy, eq. (1.12); see StressConserves.
+  static constexpr bool stress_conserves = true;
   /// Largest relative rotation of the nodes [rad]; the strains are singular at pi.
   static constexpr double max_rotation = 3.0;
 
@@ -66,6 +68,7 @@ class HelicalBeam {
 
  private:
   Verdict check(const Vec<num_strains>& z) const noexcept;
+  Strain step_stress(const Strain& z0, const Strain& z1, const Vec6& w) const noexcept;
 
   Vec<num_strains> z_reference_;
   Vec6 strain_reference_;

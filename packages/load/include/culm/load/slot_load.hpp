@@ -76,6 +76,8 @@ class SlotLoad final : public model::Batch, public model::Booked {
   bool is_free(const Item& item) const;
   Verdict assemble_free(const Free& item, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;
+  void add_push(const Free& item, const model::State& state, double theta, double factor,
+                model::StepWork& work) const;
   template <class Space>
   Verdict assemble_item(std::size_t i, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;

@@ -22,8 +22,9 @@ using Gradient = RowMat<3 * S, M>;
 /// Answer of the law at one point. Quadrature weight included.
 template <int M>
 struct Response {
-  Vec<M> stress;         ///< algorithmic stress conjugate to the forms, times weight
-  RowMat<M, M> tangent;  ///< its derivative by the forms at the end of the step
+  Vec<M> stress;              ///< algorithmic stress conjugate to the forms, times weight
+  RowMat<M, M> tangent;       ///< its derivative by the forms at the end of the step
+  bool wants_tangent = true;  ///< if not, a law may leave it as it is
 };
 
 template <class E>
@@ -63,6 +64,13 @@ template <class E>
 concept HasStiffness = requires(const E& e, int point) {
   { e.stiffness(point) }
   noexcept->std::same_as<const RowMat<E::num_strains, E::num_strains>&>;
+};
+
+/// An element whose stress over a step does just what changes its stored energy, as long as the
+/// strain of its law is the mean of both ends.
+template <class E>
+concept StressConserves = HasStiffness<E> || requires {
+  requires E::stress_conserves;
 };
 
 /// An element that multiplies by its gradient faster than by the matrix that gradient() writes.

@@ -483,6 +483,7 @@ class ElementBatch final : public Batch,
     Verdict verdict = Verdict::ok;
     Strain y;
     Response<M> response;
+    response.wants_tangent = c.with_tangent;
     Gradient<S, M> B;
     RowMat<W, M> R;
     for (int p = 0; p < E::num_points; ++p) {

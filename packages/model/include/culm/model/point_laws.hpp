@@ -135,8 +135,7 @@ class PointLaws {
   };
   /// Whether a step takes anything. @param stencil  damped
   bool takes(const Stencil& stencil) const {
-    // the mean stress of a linear law does just what changes the stored energy
-    return !HasStiffness<E> || stencil.theta_strain != 0.5 || roots_ || branches_.acts();
+    return !StressConserves<E> || stencil.theta_strain != 0.5 || roots_ || branches_.acts();
   }
   /// Of what the change of the strains would store by itself, so much is taken by a linear law.
   static double share_taken(const Stencil& stencil) { return 2.0 * stencil.theta_strain - 1.0; }
@@ -159,6 +158,7 @@ class PointLaws {
         after = internals_.next(point);
       }
       Response<M> response;
+      response.wants_tangent = false;
       respond_with(after, element, p, point, y, stencil, response);
       taken.by_law += response.stress.dot(y - prev) -
                       (energy_of(element, p, y, after) - energy_of(element, p, prev, before));
