@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 namespace culm::load {
 namespace {
@@ -140,14 +142,19 @@ void LinkLoad::add_tangent(std::size_t i, const Motion& motion, const Response& 
   const LinkGradient B_next = gradient_of(item.link, motion.next);
   const Vec<2>& stress = use_predicted_ ? item.predicted_stress : response.stress;
   const LinkScalars A = theta * curvature_of(item.link, stress);
-  const auto reduced = [](const LinkGradient& B, const Motion::NodeArms& arms, int a) {
-    Eigen::Matrix<double, W, 2> R;
-    Space::reduce_rows(B.middleRows<12>(12 * a), arms[static_cast<std::size_t>(a)], R);
+  const auto reduced = [&item](const LinkGradient& B, const Motion::NodeArms& arms) {
+    std::array<Eigen::Matrix<double, W, 2>, std::tuple_size_v<Motion::NodeArms>> R;
+    for (std::size_t a = 0; a < item.link.nodes.size(); ++a) {
+      Space::reduce_rows(B.middleRows<12>(12 * static_cast<int>(a)), arms[a], R[a]);
+    }
     return R;
   };
+  const auto R_mid = reduced(B_mid, motion.arms_mid);
+  const auto R_next = reduced(B_next, motion.arms_next);
   const auto add_block = [&](int a, int b, auto& block) {
-    const Eigen::Matrix<double, W, 2> RD = reduced(B_mid, motion.arms_mid, a) * response.tangent;
-    block = RD * reduced(B_next, motion.arms_next, b).transpose();
+    const Eigen::Matrix<double, W, 2> RD =
+        R_mid[static_cast<std::size_t>(a)].lazyProduct(response.tangent);
+    block = RD.lazyProduct(R_next[static_cast<std::size_t>(b)].transpose());
     Space::add_pairs(A.template block<4, 4>(4 * a, 4 * b),
                      motion.arms_mid[static_cast<std::size_t>(a)],
                      motion.arms_next[static_cast<std::size_t>(b)], block);

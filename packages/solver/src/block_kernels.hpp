@@ -2,9 +2,8 @@
 /// with which the compiler unrolls the loops.
 #pragma once
 
+#include <culm/math/row.hpp>
 #include <culm/mechanics/pack.hpp>
-
-#include "row.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace culm::solver {
+namespace culm {
 
 /// Calls f(i) with each i below `size` as a constant, without a loop.
 template <int size, class F>
@@ -58,6 +58,9 @@ class Row : RowParts<double __attribute__((vector_size(64))), size / 8>,
     if constexpr (size % 2 > 0) to[size - 1] = One::part[0];
   }
 
+  /// this += factor other
+  [[gnu::always_inline]] void add(double factor, const Row& other) { subtract(-factor, other); }
+
   /// this -= factor other
   [[gnu::always_inline]] void subtract(double factor, const Row& other) {
     if constexpr (size / 8 > 0) {
@@ -91,4 +94,4 @@ class Row : RowParts<double __attribute__((vector_size(64))), size / 8>,
   }
 };
 
-}  // namespace culm::solver
+}  // namespace culm
