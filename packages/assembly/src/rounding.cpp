@@ -103,11 +103,22 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
       largest_row = row;
     }
   };
-  for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
-    const model::Block& block = system.model().unknowns().block(local.block);
-    if (!local.owned || block.kind != model::BlockKind::node) continue;
-    for (int i = 0; i < block.shape.active; ++i) judge(local.first_column + i);
-  }
+  const auto each_row = [&](auto action) {
+    for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
+      const model::Block& block = system.model().unknowns().block(local.block);
+      if (!local.owned || block.kind != model::BlockKind::node) continue;
+      for (int i = 0; i < block.shape.active; ++i) action(local.first_column + i);
+    }
+  };
+  // where the largest one is hopeless, as before the last iterations, no other need be judged
+  int worst_row = -1;
+  each_row([&](int row) {
+    if (worst_row < 0 || std::abs(residual[index(row)]) > std::abs(residual[index(worst_row)])) {
+      worst_row = row;
+    }
+  });
+  if (worst_row >= 0) judge(worst_row);
+  if (share <= hopeless) each_row(judge);
   const parallel::Comm& comm = system.comm();
   double worst[2] = {share, largest};
   comm.max(worst);

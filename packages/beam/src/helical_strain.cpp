@@ -1,5 +1,6 @@
 #include <culm/beam/helical_strain.hpp>
 #include <culm/math/quadrature.hpp>
+#include <culm/math/vector_units.hpp>
 
 #include <Eigen/Geometry>
 
@@ -170,7 +171,8 @@ Vec6 helical_strain(const Vec<7>& z, double h) noexcept {
   return e;
 }
 
-Mat<6, 7> helical_strain_gradient(const Vec<7>& z, double h) noexcept {
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] Mat<6, 7> helical_strain_gradient(const Vec<7>& z,
+                                                                             double h) noexcept {
   const HelicalInvariants m(z);
   const Jet f = angle_by_sine(m.c);
   const Vec3 psi = f.value * m.a;
@@ -193,7 +195,8 @@ Mat<6, 7> helical_strain_gradient(const Vec<7>& z, double h) noexcept {
 }
 
 // psi = f(c) a:  ∂psi/∂c = f' a ,  ∂psi/∂a = f 1 ,  ∂2psi/∂c2 = f'' a ,  ∂2psi/∂c∂a = f' 1
-WeightedHelicalStrain weigh_helical_strain(const Vec<7>& z, const Vec6& w, double h) noexcept {
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] WeightedHelicalStrain weigh_helical_strain(
+    const Vec<7>& z, const Vec6& w, double h) noexcept {
   const HelicalInvariants m(z);
   const Jet f = angle_by_sine(m.c);
   const RotationDerivatives phi = weigh_by_rotation(f.value * m.a, m.r, w, h);
@@ -212,7 +215,9 @@ WeightedHelicalStrain weigh_helical_strain(const Vec<7>& z, const Vec6& w, doubl
   return result;
 }
 
-Vec6 helical_strain_increment(const Vec<7>& z0, const Vec<7>& z1, double h) noexcept {
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] Vec6 helical_strain_increment(const Vec<7>& z0,
+                                                                         const Vec<7>& z1,
+                                                                         double h) noexcept {
   const HelicalInvariants mean(0.5 * (z0 + z1));
   const HelicalInvariants delta(z1 - z0);
   const OverStep<Vec3> a{mean.a, delta.a};

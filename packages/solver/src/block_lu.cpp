@@ -34,6 +34,9 @@ constexpr double rest_of_rounding = 512.0 * std::numeric_limits<double>::epsilon
 // held at one end have smaller ones, whatever the choice.
 constexpr double good_pivot = 1e-6;
 
+// Factors with more numbers come from memory, and not from a cache.
+constexpr std::size_t cached_values = std::size_t{1} << 20;
+
 // What takes a fixed size where it can: the unknowns of a node, and those of a body with the forces
 // of a ball joint.
 constexpr Fixed<6> node{};
@@ -156,6 +159,19 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
   return number == 0 ? BlockPlan::Panel() : plan_.panels[index(number - 1)];
 }
 
+// Asks the memory for what panels behind this one bring from the matrix.
+[[gnu::always_inline]] inline void BlockLu::fetch_before(const BlockPlan::Panel& panel) {
+  constexpr std::ptrdiff_t ahead = 4;
+  const BlockPlan::Panel* last = plan_.panels.data() + plan_.panels.size() - 1;
+  if (last - &panel < ahead) return;
+  const BlockPlan::Panel* then = &panel + ahead;
+  for (std::size_t k = (then - 1)->copies; k < then->copies; ++k) {
+    const BlockPlan::Copy& c = plan_.copies[k];
+    const double* source = rows_.values(c.source);
+    for (int i = 0; i < c.rows; ++i, source += c.source_stride) __builtin_prefetch(source);
+  }
+}
+
 // Brings from the matrix what the elimination of a panel is the first to need.
 [[gnu::always_inline]] inline void BlockLu::fill_before(const BlockPlan::Panel& panel) {
   const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns) {
@@ -263,6 +279,7 @@ double BlockLu::largest_behind_joints(int row) const {
 
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
                                                                    double least) {
+  if (plan_.num_values > cached_values) fetch_before(panel);
   fill_before(panel);
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {

@@ -57,6 +57,7 @@ class BlockLu {
   void plan();
   std::span<const BlockPlan::Panel> eliminated() const;
   BlockPlan::Panel before(const BlockPlan::Panel& panel) const;
+  void fetch_before(const BlockPlan::Panel& panel);
   void fill_before(const BlockPlan::Panel& panel);
   double start_at(std::size_t place) const;
   bool eliminate(const BlockPlan::Panel& panel, double least);
