@@ -263,37 +263,11 @@ template <int rows, int inner, int columns>
   }
 }
 
-/// The same for so many columns, and any number of rows.
-template <int columns>
-[[gnu::always_inline]] inline void subtract_columns(const double* A, const double* B, int stride_B,
-                                                    double* C, int stride_C, int rows, int inner) {
-  for (int i = 0; i < rows; ++i) {
-    Row<columns> c, b;
-    c.load(C + i * stride_C);
-    for (int j = 0; j < inner; ++j) {
-      b.load(B + j * stride_B);
-      c.subtract(A[i * inner + j], b);
-    }
-    c.store(C + i * stride_C);
-  }
-}
-
-/// The same for any number of columns.
+/// The same for any number of rows and columns.
 [[gnu::always_inline]] inline void subtract_product(const double* A, const double* B, int stride_B,
                                                     double* C, int stride_C, int rows, int inner,
                                                     int columns) {
-  int done = 0;
-  const auto subtract = [&](auto some) __attribute__((always_inline)) {
-    for (; columns - done >= some; done += some) {
-      subtract_columns<some>(A, B + done, stride_B, C + done, stride_C, rows, inner);
-    }
-  };
-  subtract(Fixed<12>());
-  subtract(Fixed<8>());
-  subtract(Fixed<6>());
-  subtract(Fixed<4>());
-  subtract(Fixed<2>());
-  subtract(Fixed<1>());
+  add_all_columns(-1.0, A, B, stride_B, C, stride_C, rows, inner, columns);
 }
 
 /// y -= A x. @param stride of A

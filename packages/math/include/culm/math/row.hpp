@@ -94,4 +94,40 @@ class Row : RowParts<double __attribute__((vector_size(64))), size / 8>,
   }
 };
 
+/// C += sign A B for so many columns, whose sums stay in registers, and any number of rows.
+/// @param inner  columns of A, rows of B
+template <int columns>
+[[gnu::always_inline]] inline void add_columns(double sign, const double* A, const double* B,
+                                               int stride_B, double* C, int stride_C, int rows,
+                                               int inner) {
+  for (int i = 0; i < rows; ++i) {
+    Row<columns> sum, row;
+    sum.load(C + i * stride_C);
+    for (int j = 0; j < inner; ++j) {
+      row.load(B + j * stride_B);
+      sum.add(sign * A[i * inner + j], row);
+    }
+    sum.store(C + i * stride_C);
+  }
+}
+
+/// The same for any number of columns.
+[[gnu::always_inline]] inline void add_all_columns(double sign, const double* A, const double* B,
+                                                   int stride_B, double* C, int stride_C, int rows,
+                                                   int inner, int columns) {
+  int done = 0;
+  const auto add = [&](auto some) __attribute__((always_inline)) {
+    for (; columns - done >= some; done += some) {
+      add_columns<some>(sign, A, B + done, stride_B, C + done, stride_C, rows, inner);
+    }
+  };
+  add(std::integral_constant<int, 24>());
+  add(std::integral_constant<int, 12>());
+  add(std::integral_constant<int, 8>());
+  add(std::integral_constant<int, 6>());
+  add(std::integral_constant<int, 4>());
+  add(std::integral_constant<int, 2>());
+  add(std::integral_constant<int, 1>());
+}
+
 }  // namespace culm
