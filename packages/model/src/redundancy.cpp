@@ -209,6 +209,17 @@ class Factors {
     return x;
   }
 
+  // The smallest u with G^T u = b in the independent columns.
+  Eigen::VectorXd smallest_solution(const Eigen::VectorXd& b) const {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(qr_.rows());
+    if (rank_ == 0) return y;
+    for (int place = 0; place < rank_; ++place) y[place] = b[column(place)];
+    Eigen::VectorXd head = y.head(rank_);
+    independent_.transpose().triangularView<Eigen::Lower>().solveInPlace(head);
+    y.head(rank_) = head;
+    return qr_.matrixQ() * y;
+  }
+
   // How far a gradient is from what the independent ones span.
   double distance(const Sparse& gradients, int column) const {
     if (rank_ == 0) return gradients.col(column).norm();
@@ -305,13 +316,30 @@ class Unraveller {
   std::vector<bool> is_left_;                 // by column
 };
 
-// A configuration near q where all rows hold; nothing if none is found. By the method of Levenberg
-// and Marquardt with a weight that falls with the square of the error: rows may depend on each
-// other. It converges quadratically to where they always do; where it is slower, a motion that is
-// held to second order alone has been left at the root of what is small.
+// The motion that closes all rows to first order, by the method of Levenberg and Marquardt with a
+// weight that falls with the square of the error: rows may depend on each other. It converges
+// quadratically to where they always do.
 // @source N. Yamashita, M. Fukushima, Computing Suppl. 15, 239 (2001)
-std::optional<Coordinates> admissible(RowTable& table, Coordinates q) {
+Eigen::VectorXd damped_step(const Sparse& gradients, const Eigen::VectorXd& h) {
   constexpr double least_weight = 1e-12;
+  Sparse products = gradients.transpose() * gradients;
+  const double weight = std::max(h.squaredNorm(), least_weight);
+  for (int k = 0; k < products.cols(); ++k) products.coeffRef(k, k) += weight;
+  const Eigen::SimplicialLDLT<Sparse> factors(products);
+  return -(gradients * factors.solve(h));
+}
+
+// The smallest motion that closes the rows that are independent.
+Eigen::VectorXd smallest_step(const Sparse& gradients, const Eigen::VectorXd& h) {
+  std::vector<int> columns(static_cast<std::size_t>(gradients.cols()));
+  std::iota(columns.begin(), columns.end(), 0);
+  return Factors(gradients, columns).smallest_solution(-h);
+}
+
+// A configuration near q where all rows hold; nothing if none is found. Where the iteration is
+// slow, a motion that is held to second order alone has been left at the root of what is small.
+template <class Step>
+std::optional<Coordinates> admissible(RowTable& table, Coordinates q, Step step) {
   constexpr double slow = 1e-2;
   double before = HUGE_VAL;
   for (int iteration = 0; iteration < 50; ++iteration) {
@@ -321,15 +349,17 @@ std::optional<Coordinates> admissible(RowTable& table, Coordinates q) {
     if (error < 1e-12 && error > slow * before) return {};
     if (error < 1e-12) return q;
     before = error;
-    Sparse products = gradients.transpose() * gradients;
-    const double weight = std::max(h.squaredNorm(), least_weight);
-    for (int k = 0; k < products.cols(); ++k) products.coeffRef(k, k) += weight;
-    const Eigen::SimplicialLDLT<Sparse> factors(products);
-    const Eigen::VectorXd u = -(gradients * factors.solve(h));
+    const Eigen::VectorXd u = step(gradients, h);
     if (!u.allFinite()) return {};
     table.move(u, q);
   }
   return {};
+}
+
+// Small steps are cheap; near positions that are singular the undamped ones may get further.
+std::optional<Coordinates> admissible(RowTable& table, const Coordinates& q) {
+  auto found = admissible(table, q, damped_step);
+  return found ? found : admissible(table, q, smallest_step);
 }
 
 // Whether the dependent row at a place and the combination x that implies it are driven alike.
@@ -425,7 +455,7 @@ void find_sets_of_position(RowTable& table, const Factors& reference, const Coor
   for (double size : {1.0, -0.5, 0.25}) {
     Coordinates moved = start;
     table.move(size * table.perturbation(), moved);
-    const auto nearby = admissible(table, std::move(moved));
+    const auto nearby = admissible(table, moved);
     if (!nearby) continue;
     const Sparse gradients = table.gradients(*nearby);
     const Factors independent(gradients, columns);
