@@ -356,7 +356,7 @@ std::optional<Coordinates> admissible(RowTable& table, Coordinates q, Step step)
   return {};
 }
 
-// Small steps are cheap; near positions that are singular the undamped ones may get further.
+// Damped steps are cheap; near positions that are singular the others may get further.
 std::optional<Coordinates> admissible(RowTable& table, const Coordinates& q) {
   auto found = admissible(table, q, damped_step);
   return found ? found : admissible(table, q, smallest_step);
