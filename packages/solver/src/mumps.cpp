@@ -31,12 +31,16 @@ enum Info {
   null_pivot_count = 28,
   determinant_exponent = 34,  // of two
 };
+enum LocalInfo {
+  workspace_foreseen = 8,  // entries; less than zero: millions
+};
 constexpr int determinant_mantissa = 12;  // in RINFOG
 
 constexpr int largest_workspace_increase = 10000;
 
 MUMPS_INT& control(DMUMPS_STRUC_C& mumps, Control which) { return mumps.icntl[which - 1]; }
 MUMPS_INT info(const DMUMPS_STRUC_C& mumps, Info which) { return mumps.infog[which - 1]; }
+MUMPS_INT local_info(const DMUMPS_STRUC_C& mumps, LocalInfo which) { return mumps.info[which - 1]; }
 
 }  // namespace
 
@@ -103,17 +107,32 @@ bool Mumps::factor(const assembly::CrsMatrix& matrix) {
   if (!analysed_) run(1);
   if (info(mumps_, status) < 0) throw_error();
   analysed_ = true;
-  run(2);
+  factor_in_workspace();
   // pivoting may need more than the analysis foresaw
   while (has_run_out_of_workspace() &&
          control(mumps_, workspace_increase) < largest_workspace_increase) {
     control(mumps_, workspace_increase) *= 2;
-    run(2);
+    factor_in_workspace();
   }
   constexpr int singular = -10;
   if (info(mumps_, status) == singular) return false;
   if (info(mumps_, status) < 0) throw_error();
   return info(mumps_, null_pivot_count) == 0;
+}
+
+void Mumps::factor_in_workspace() {
+  const auto foreseen = static_cast<double>(local_info(mumps_, workspace_foreseen));
+  const double entries = (foreseen < 0.0 ? -1e6 * foreseen : foreseen) *
+                         (1.0 + 0.01 * static_cast<double>(control(mumps_, workspace_increase)));
+  const auto millions = static_cast<MUMPS_INT>(std::ceil(1e-6 * entries));
+  if (mumps_.lwk_user != -millions) {
+    workspace_.reset();
+    workspace_ =
+        std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(millions) * 1000000);
+    mumps_.wk_user = workspace_.get();
+    mumps_.lwk_user = -millions;
+  }
+  run(2);
 }
 
 Determinant Mumps::determinant() const {
@@ -140,7 +159,7 @@ void Mumps::run(int job) {
 
 bool Mumps::has_run_out_of_workspace() const {
   const int error = info(mumps_, status);
-  return error == -8 || error == -9;  // integer workspace, real workspace
+  return error == -8 || error == -9 || error == -11;  // of integers, of reals, what we hand over
 }
 
 void Mumps::throw_error() const {

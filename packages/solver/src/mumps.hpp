@@ -7,6 +7,7 @@
 
 #include <dmumps_c.h>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Mumps {
  private:
   void pass_values(const assembly::CrsMatrix& matrix);
   void run(int job);
+  /// In memory of ours, which MUMPS would take from the system and give back for each matrix.
+  void factor_in_workspace();
   bool has_run_out_of_workspace() const;
   void throw_error() const;
 
@@ -50,6 +53,7 @@ class Mumps {
   std::vector<MUMPS_INT> rows_;     ///< of the entries of this rank, from 1
   std::vector<MUMPS_INT> columns_;  ///< likewise
   std::vector<MUMPS_INT> pivots_;   ///< place of each row, from 1; on the root
+  std::unique_ptr<double[]> workspace_;  ///< where MUMPS factors; factors stay there
   bool analysed_ = false;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <culm/base/cycle_clock.hpp>
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -17,7 +19,7 @@ class Ledger {
   /// What tells the time: a plain function, because scopes ask in hot loops.
   using Now = Clock::time_point (*)();
 
-  Ledger() : Ledger(&Clock::now) {}
+  Ledger() : Ledger(&cycle_time) {}
   explicit Ledger(Now now) : now_(now) {}
 
   /// Handed out at registration.
