@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 #include <utility>
 
 namespace culm::solver {
@@ -127,10 +128,10 @@ void Mumps::factor_in_workspace() {
   const auto millions = static_cast<MUMPS_INT>(std::ceil(1e-6 * entries));
   if (mumps_.lwk_user != -millions) {
     workspace_.reset();
-    workspace_ =
-        std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(millions) * 1000000);
+    workspace_.reset(new (std::nothrow) double[static_cast<std::size_t>(millions) * 1000000]);
     mumps_.wk_user = workspace_.get();
-    mumps_.lwk_user = -millions;
+    // Without memory here, MUMPS asks for its own: what it then lacks it tells all ranks.
+    mumps_.lwk_user = workspace_ ? -millions : 0;
   }
   run(2);
 }
