@@ -50,6 +50,8 @@ double read_memory(const std::string& text) {
   return number * unit->second;
 }
 
+double least_memory(double bytes, const parallel::Comm& comm) { return -comm.max(-bytes); }
+
 void limit_memory(double bytes) {
 #ifndef __SANITIZE_ADDRESS__     // which reserves far more than it uses
   constexpr double least = 1e9;  // for the program and its libraries

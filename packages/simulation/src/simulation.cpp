@@ -79,8 +79,8 @@ std::unique_ptr<CoupledRun> Simulation::Parts::make_coupling(const CoupledFiles&
 
 Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
                        DeckSource source, const Log& log, double memory)
-    : Simulation(std::unique_ptr<Parts>(
-          new Parts{comm, nullptr, catalogue, deck, std::move(source), log, memory})) {}
+    : Simulation(std::unique_ptr<Parts>(new Parts{comm, nullptr, catalogue, deck, std::move(source),
+                                                  log, least_memory(memory, comm)})) {}
 
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
   parts_->phases.enter(0, parts_->comm, parts_->ledger);
@@ -102,8 +102,9 @@ Simulation Simulation::make(std::vector<std::string> assignments, const Log& log
 Simulation Simulation::of(DeckSource source, const Log& log, const parallel::Comm& comm) {
   const auto catalogue = std::make_shared<const Catalogue>();
   const Options deck = read_deck(*catalogue, source);
-  return Simulation(std::unique_ptr<Parts>(
-      new Parts{comm, catalogue, *catalogue, deck, std::move(source), log, machine_memory()}));
+  return Simulation(
+      std::unique_ptr<Parts>(new Parts{comm, catalogue, *catalogue, deck, std::move(source), log,
+                                       least_memory(machine_memory(), comm)}));
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -40,7 +40,7 @@ struct Simulation::Parts {
   Options deck;
   DeckSource source;
   Log log;
-  double memory;
+  double memory;  ///< the same on all ranks [B]
   Findings findings = Findings(log);
   Imperfections imperfections = Imperfections(deck, catalogue.analyses.gives_shapes);
   Phases phases = Phases(catalogue, deck, imperfections, log, memory);

@@ -1,6 +1,8 @@
 /// How much memory a run may take.
 #pragma once
 
+#include <culm/parallel/comm.hpp>
+
 #include <string>
 
 namespace culm::simulation {
@@ -11,6 +13,10 @@ double machine_memory();
 /// Reads --max-memory: a number with kB, MB, GB or TB; machine_memory() if the text is empty.
 /// Throws UsageError.
 double read_memory(const std::string& text);
+
+/// The least that any rank may take, on all of them: what is decided by memory is decided alike
+/// where machines or limits differ; collective. @param bytes  of this rank [B]
+double least_memory(double bytes, const parallel::Comm& comm);
 
 /// Lets what would take more memory fail in this process with std::bad_alloc, before the system
 /// begins to end processes; the limit is 1 GB at least. @param bytes  [B]
