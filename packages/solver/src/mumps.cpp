@@ -2,11 +2,13 @@
 
 #include <culm/base/error.hpp>
 
+#include <Teuchos_BLAS.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace culm::solver {
 namespace {
@@ -43,11 +45,24 @@ MUMPS_INT& control(DMUMPS_STRUC_C& mumps, Control which) { return mumps.icntl[wh
 MUMPS_INT info(const DMUMPS_STRUC_C& mumps, Info which) { return mumps.infog[which - 1]; }
 MUMPS_INT local_info(const DMUMPS_STRUC_C& mumps, LocalInfo which) { return mumps.info[which - 1]; }
 
+// OpenBLAS keeps 128 MB of addresses for its products, and asks for them again and again, for ever,
+// where the system refuses: they are had before other memory is taken, or none is.
+void hold_buffer_of_blas() {
+  constexpr std::size_t buffer = (std::size_t{1} << 27) + (std::size_t{1} << 20);
+  ::operator delete(::operator new(buffer));
+  constexpr int n = 128;  // smaller ones may do without the buffer
+  const std::vector<double> zeros(std::size_t{n} * n, 0.0);
+  std::vector<double> product = zeros;
+  Teuchos::BLAS<int, double>().GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, n, n, n, 1.0,
+                                    zeros.data(), n, zeros.data(), n, 0.0, product.data(), n);
+}
+
 }  // namespace
 
 Mumps::Mumps(const assembly::CrsMatrix& pattern, Symmetry symmetry, std::vector<int> place,
              const parallel::Comm& comm)
     : symmetry_(symmetry), pivots_(std::move(place)) {
+  [[maybe_unused]] static const bool is_held = (hold_buffer_of_blas(), true);
   constexpr int unsymmetric = 0;
   constexpr int symmetric_indefinite = 2;
   mumps_.sym = symmetry == Symmetry::symmetric ? symmetric_indefinite : unsymmetric;
