@@ -84,8 +84,12 @@ NodeMotions System::node_motions() const {
     const model::Block& block = model_.unknowns().block(local.block);
     if (block.shape.active == 0) continue;
     motions.widths.push_back(block.shape.active);
+    motions.places.push_back(Vec3::Zero());
+    motions.normals.push_back(Vec3::Zero());
     if (block.kind != model::BlockKind::node) continue;
     const model::NodeSlots slots = model::NodeTable::slots(q, block.owner);
+    motions.places.back() = slots.col(0);
+    if (slots.rightCols<2>().isZero(0.0)) motions.normals.back() = slots.col(1);
     for (int k = 0; k < 6; ++k) {
       const Vec3 axis = Vec3::Unit(k % 3);
       model::NodeSlots rate = model::NodeSlots::Zero();

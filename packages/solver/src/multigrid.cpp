@@ -17,6 +17,9 @@ using assembly::Vector;
 
 // The coarsest grid is factored; below this size that costs less than cycles over more grids.
 constexpr long long largest_coarsest = 150000;
+// Bending of aggregates helps where elements are much longer than thick, and makes the coarse grid
+// larger: only one that is still factored has it.
+constexpr double motions_with_bending = 9.0;
 // A grid that is not much coarser than the one before is not worth its cost.
 constexpr double least_coarsening = 0.7;
 
@@ -79,6 +82,7 @@ struct Multigrid::Level {
 Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
                      assembly::NodeMotions nodes, const parallel::Comm& comm) {
   coarsest_matrix_ = matrix;
+  Surface surface{std::move(nodes.places), std::move(nodes.normals)};
   while (levels_.empty() ||
          static_cast<long long>(coarsest_matrix_->getGlobalNumRows()) > largest_coarsest) {
     auto level = std::make_unique<Level>(coarsest_matrix_, nodes.widths, nodes.rigid, comm);
@@ -86,7 +90,9 @@ Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
     const bool all_move = std::ranges::find(special, true) == special.end();
     may_be_definite_ = may_be_definite_ && comm.max(all_move ? 0 : 1) == 0;
     const std::vector<bool> carried = with_neighbours(special, level->grid);
-    Prolongation coarse = join_rigidly(level->grid, aggregate(level->grid, carried), carried, comm);
+    const Aggregates aggregates = aggregate(level->grid, carried);
+    if (motions_with_bending * comm.sum(aggregates.count) > largest_coarsest) surface = {};
+    Prolongation coarse = join(level->grid, aggregates, carried, surface, comm);
     const auto rows = static_cast<double>(coarsest_matrix_->getGlobalNumRows());
     const bool pays = static_cast<double>(coarse.begin.back()) < least_coarsening * rows;
     if (!levels_.empty() && !pays) break;
@@ -98,7 +104,8 @@ Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
     level->coarse_solution.emplace(level->coarse_rhs->rows());
     level->coarse_columns.emplace(assembly::rows_of(coarsest_matrix_->getColMap()));
     levels_.push_back(std::move(level));
-    nodes = {std::move(coarse.widths), std::move(coarse.rigid)};
+    nodes = {std::move(coarse.widths), std::move(coarse.rigid), {}, {}};
+    surface = {};
   }
   coarsest_ = choose_linear_solver("Automatic", assembly::matrix_of(coarsest_matrix_), comm).solver;
   is_regular_ = coarsest_->factor();

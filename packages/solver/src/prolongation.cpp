@@ -13,12 +13,14 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Orthonormal Q and R with B = Q R; without columns that are combinations of others.
-std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthonormalise(const Eigen::MatrixXd& B) {
+// Orthonormal Q and R with B = Q R; without columns that are combinations of others. Q spans
+// further motions as well.
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthonormalise(const Eigen::MatrixXd& B,
+                                                           const Eigen::MatrixXd& further) {
   constexpr double dependent = 1e-10;  // share of a column that others leave
   Eigen::MatrixXd Q(B.rows(), 0);
-  for (Eigen::Index column = 0; column < B.cols(); ++column) {
-    Eigen::VectorXd rest = B.col(column);
+  for (Eigen::Index column = 0; column < B.cols() + further.cols(); ++column) {
+    Eigen::VectorXd rest = column < B.cols() ? B.col(column) : further.col(column - B.cols());
     const double size = rest.norm();
     for (int pass = 0; pass < 2; ++pass) rest -= Q * (Q.transpose() * rest);
     const double left = rest.norm();
@@ -29,14 +31,56 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthonormalise(const Eigen::MatrixXd
   return {Q, Q.transpose() * B};
 }
 
+std::vector<std::vector<int>> members_of(const Aggregates& aggregates) {
+  std::vector<std::vector<int>> members(index(aggregates.count));
+  for (std::size_t node = 0; node < aggregates.of_node.size(); ++node) {
+    members[index(aggregates.of_node[node])].push_back(static_cast<int>(node));
+  }
+  return members;
+}
+
+// How nodes of a shell move where it bends without shear, with one of three constant curvatures:
+// each node as a body that stays with its mean plane. No columns where that has no meaning.
+Eigen::MatrixXd bend(const std::vector<int>& members, const GridLevel& grid,
+                     const Surface& surface) {
+  if (surface.places.empty()) return {};
+  Vec3 centre = Vec3::Zero(), normal = Vec3::Zero();
+  Eigen::Index rows = 0;
+  for (const int node : members) {
+    if (surface.normals[index(node)].isZero(0.0)) return {};
+    centre += surface.places[index(node)] / static_cast<double>(members.size());
+    normal += surface.normals[index(node)];
+    rows += grid.width(node);
+  }
+  if (normal.isZero(0.0)) return {};
+  normal.normalize();
+  const Vec3 e1 = normal.unitOrthogonal();
+  const Vec3 e2 = normal.cross(e1);
+  Eigen::MatrixXd bent(rows, 3);
+  Eigen::Index at = 0;
+  for (const int node : members) {
+    const Vec3& place = surface.places[index(node)];
+    const double x = e1.dot(place - centre), y = e2.dot(place - centre);
+    Eigen::Matrix<double, 6, 3> motion;  // translation of what is in the origin, and rotation
+    motion.bottomRows<3>() << -x * normal.cross(e1), -y * normal.cross(e2),
+        -normal.cross(y * e1 + x * e2);
+    motion.topRows<3>() << 0.5 * x * x * normal, 0.5 * y * y * normal, x * y * normal;
+    for (int k = 0; k < 3; ++k) {
+      motion.col(k).head<3>() -= motion.col(k).tail<3>().cross(place);
+    }
+    const int width = grid.width(node);
+    bent.middleRows(at, width) = grid.rigid().middleRows(grid.first_column(node), width) * motion;
+    at += width;
+  }
+  return bent;
+}
+
 }  // namespace
 
-Prolongation join_rigidly(const GridLevel& grid, const Aggregates& aggregates,
-                          const std::vector<bool>& carried, const parallel::Comm& comm) {
-  std::vector<std::vector<int>> members(index(aggregates.count));
-  for (int node = 0; node < grid.nodes(); ++node) {
-    members[index(aggregates.of_node[index(node)])].push_back(node);
-  }
+Prolongation join(const GridLevel& grid, const Aggregates& aggregates,
+                  const std::vector<bool>& carried, const Surface& surface,
+                  const parallel::Comm& comm) {
+  const std::vector<std::vector<int>> members = members_of(aggregates);
   struct Basis {
     Eigen::MatrixXd Q, R;
   };
@@ -57,7 +101,7 @@ Prolongation join_rigidly(const GridLevel& grid, const Aggregates& aggregates,
     if (carried[index(members[a].front())]) {
       bases[a] = {Eigen::MatrixXd::Identity(rows, rows), B};
     } else {
-      std::tie(bases[a].Q, bases[a].R) = orthonormalise(B);
+      std::tie(bases[a].Q, bases[a].R) = orthonormalise(B, bend(members[a], grid, surface));
     }
     first_unknown.push_back(unknowns);
     result.widths.push_back(static_cast<int>(bases[a].Q.cols()));

@@ -15,10 +15,17 @@ struct Prolongation {
   NearNullSpace rigid;           ///< of the coarse unknowns
 };
 
-/// Each aggregate moves as a rigid body, in an orthonormal basis of its rigid motions; a node that
-/// is carried keeps its unknowns. Collective.
-Prolongation join_rigidly(const GridLevel& grid, const Aggregates& aggregates,
-                          const std::vector<bool>& carried, const parallel::Comm& comm);
+/// Where the nodes of this rank are, and the normals of those of shells; zero elsewhere.
+struct Surface {
+  std::vector<Vec3> places, normals;
+};
+
+/// Each aggregate moves as a rigid body, and one of shell nodes bends with constant curvature too,
+/// in an orthonormal basis of these motions; a node that is carried keeps its unknowns. Collective.
+/// @param surface  empty where none is known, or wanted
+Prolongation join(const GridLevel& grid, const Aggregates& aggregates,
+                  const std::vector<bool>& carried, const Surface& surface,
+                  const parallel::Comm& comm);
 
 /// One step of damped Jacobi's method with the blocks of nodes, which takes most energy out of the
 /// bases: (1 - 4/(3 lambda) D^-1 A) P. Collective. @source as aggregate
