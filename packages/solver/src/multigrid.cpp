@@ -16,7 +16,7 @@ using assembly::tpetra;
 using assembly::Vector;
 
 // The coarsest grid is factored; below this size that costs less than cycles over more grids.
-constexpr long long largest_coarsest = 150000;
+constexpr long long largest_coarsest = 200000;
 // Bending of aggregates helps where elements are much longer than thick, and makes the coarse grid
 // larger: only one that is still factored has it.
 constexpr double motions_with_bending = 9.0;
