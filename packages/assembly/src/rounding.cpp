@@ -13,6 +13,8 @@ namespace {
 // their products.
 constexpr double roundings = 4.0;
 
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
 // A residual so far above its bound needs no exact number.
 constexpr double hopeless = 1e3;
 
@@ -88,20 +90,22 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   const auto judge = [&](int row) {
     const double found = std::abs(residual[index(row)]);
     if (found <= limit || share > hopeless) return;
-    double sum = 0.0;
-    const std::size_t first = row_begin[index(row)];
-    const std::size_t last = row_begin[index(row) + 1];
-    for (auto k = first; k < last; ++k) {
-      sum += std::abs(values[k]) * sizes[index(column_of[k])];
-    }
-    // as many forces meet in a row as it has entries, or fewer
-    const double terms = static_cast<double>(last - first) * force_scale;
-    const double bound = std::numeric_limits<double>::epsilon() * (roundings * sum + terms);
-    share = std::max(share, found / bound);
     if (found > largest) {
       largest = found;
       largest_row = row;
     }
+    const std::size_t first = row_begin[index(row)];
+    const std::size_t last = row_begin[index(row) + 1];
+    // as many forces meet in a row as it has entries, or fewer
+    const double terms = static_cast<double>(last - first) * force_scale;
+    // from here on the share cannot exceed the largest one so far
+    const double enough = (found / (epsilon * share) - terms) / roundings;
+    double sum = 0.0;
+    for (auto k = first; k < last; ++k) {
+      sum += std::abs(values[k]) * sizes[index(column_of[k])];
+      if (sum >= enough) return;
+    }
+    share = std::max(share, found / (epsilon * (roundings * sum + terms)));
   };
   const auto each_row = [&](auto action) {
     for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
@@ -152,8 +156,7 @@ double rounding_energy(const System& system, const EvaluatedPoint& point) {
       }
     }
   });
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  return roundings * eps * eps * system.comm().sum(sum);
+  return roundings * epsilon * epsilon * system.comm().sum(sum);
 }
 
 }  // namespace culm::assembly

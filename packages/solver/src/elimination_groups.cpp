@@ -104,15 +104,18 @@ constexpr int neighbours_of_kept = 64;
 
 // Place of each group: approximate minimum degree. What is kept would be taken for the end of a
 // chain, and elimination would begin there and drag it along; so it looks like a part of something
-// large.
+// large. Of several ends AMD takes the last: it is given all in reverse, so that chains are
+// eliminated in the order in which they stand in memory.
 std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& group_of, int count,
                                  bool last_is_kept) {
+  const int turned = last_is_kept ? count - 1 : count;
+  const auto backward = [&](int group) { return group < turned ? turned - 1 - group : group; };
   std::vector<Eigen::Triplet<char, int>> entries;
   for (int block = 0; block < graph.size(); ++block) {
-    const int group = group_of[index(block)];
+    const int group = backward(group_of[index(block)]);
     entries.emplace_back(group, group, '\1');
     for (int other : neighbours_of(graph, block)) {
-      entries.emplace_back(group, group_of[index(other)], '\1');
+      entries.emplace_back(group, backward(group_of[index(other)]), '\1');
     }
   }
   const int imagined = last_is_kept ? neighbours_of_kept : 0;
@@ -124,7 +127,7 @@ std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& gro
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(pattern, order);
   std::vector<int> place(index(count + imagined));
-  for (int k = 0; k < count + imagined; ++k) place[index(order.indices()[k])] = k;
+  for (int k = 0; k < count + imagined; ++k) place[index(backward(order.indices()[k]))] = k;
   return place;
 }
 
