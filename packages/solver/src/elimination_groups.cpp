@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -104,11 +105,12 @@ constexpr int neighbours_of_kept = 64;
 
 // Place of each group: approximate minimum degree. What is kept would be taken for the end of a
 // chain, and elimination would begin there and drag it along; so it looks like a part of something
-// large. Of several ends AMD takes the last: it is given all in reverse, so that chains are
-// eliminated in the order in which they stand in memory.
+// large.
+// @param in_reverse  how AMD is given the groups. Of several ends it takes the last, so that chains
+// are then eliminated in the order in which they stand in memory.
 std::vector<int> order_by_degree(const Graph& graph, const std::vector<int>& group_of, int count,
-                                 bool last_is_kept) {
-  const int turned = last_is_kept ? count - 1 : count;
+                                 bool last_is_kept, bool in_reverse) {
+  const int turned = in_reverse ? (last_is_kept ? count - 1 : count) : 0;
   const auto backward = [&](int group) { return group < turned ? turned - 1 - group : group; };
   std::vector<Eigen::Triplet<char, int>> entries;
   for (int block = 0; block < graph.size(); ++block) {
@@ -160,8 +162,10 @@ std::vector<std::vector<int>> order_groups(const Graph& graph, const std::vector
     group_of[index(block)] = static_cast<int>(groups.size()) - 1;
     groups.back().push_back(block);
   }
+  // groups of bodies and joints come out larger in reverse
+  const bool has_joints = std::ranges::any_of(std::views::iota(0, first_kept), is_guest);
   const std::vector<int> place =
-      order_by_degree(graph, group_of, static_cast<int>(groups.size()), keeps_some);
+      order_by_degree(graph, group_of, static_cast<int>(groups.size()), keeps_some, !has_joints);
   std::vector<std::pair<int, int>> order;
   for (int group = 0; group < static_cast<int>(groups.size()); ++group) {
     int last = 2 * place[index(group)];
