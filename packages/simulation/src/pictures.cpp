@@ -18,6 +18,8 @@ using model::NodeTable;
 void read_nodes(const model::Structure& structure, const model::Coordinates& q,
                 std::vector<Vec3>& positions, std::vector<Mat3>& triads) {
   const bool is_shell = !structure.faces.empty();
+  positions.reserve(structure.nodes.size());
+  triads.reserve(structure.nodes.size());
   for (int node : structure.nodes) {
     const auto slots = NodeTable::slots(q, node);
     positions.emplace_back(slots.col(0));
