@@ -10,12 +10,8 @@ namespace {
 template <int Order>
 double add_elements(const std::string& effect, const Place& to) {
   using Beam = DirectorBeam<Order>;
-  auto& batch = model::elements<Beam>(to.model, effect, to.damping);
-  return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
-    const int item = batch.add(element, stretch.nodes);
-    set_expansion(batch, item, stretch, to.sections);
-    add_yielding(batch, item, element, stretch, to);
-    return Source{&batch, item};
+  return add_full<Beam>(effect, to, [&](auto& batch, int item, const Stretch<Beam>& stretch) {
+    add_yielding(batch, item, stretch, to);
   });
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -25,12 +26,13 @@ struct Stretch {
   Vec<Beam::num_nodes> spans;
   std::array<int, Beam::num_nodes> nodes;
 
-  Stretch(const Chain& chain, const std::vector<int>& numbers, std::size_t first) {
+  /// @param spans  of the nodes, see AxisNode
+  Stretch(const model::NodeTable& table, const std::array<int, Beam::num_nodes>& numbers,
+          const double* spans_of_nodes)
+      : spans(Eigen::Map<const Vec<Beam::num_nodes>>(spans_of_nodes)), nodes(numbers) {
     for (int a = 0; a < Beam::num_nodes; ++a) {
-      const std::size_t at = first + static_cast<std::size_t>(a);
-      slots.template middleCols<4>(4 * a) << chain[at].position, chain[at].triad;
-      spans[a] = chain[at].span;
-      nodes[static_cast<std::size_t>(a)] = numbers[at];
+      slots.template middleCols<4>(4 * a) =
+          model::NodeTable::slots(table.reference(), nodes[index(a)]);
     }
   }
 
@@ -70,6 +72,41 @@ struct Stretch {
   }
 };
 
+// The elements of a chain, for as long as somebody may make them.
+template <class Beam>
+class Stretches {
+ public:
+  explicit Stretches(const Place& of) : table_(of.model.nodes()), sections_(of.sections) {
+    for (const AxisNode& node : of.chain) spans_.push_back(node.span);
+  }
+
+  const SectionTable& sections() const { return sections_; }
+  Stretch<Beam> of(const std::array<int, Beam::num_nodes>& nodes, int k) const {
+    return {table_, nodes, spans_.data() + Stretch<Beam>::order * k};
+  }
+  Beam element(const std::array<int, Beam::num_nodes>& nodes, int k) const {
+    return make_element(of(nodes, k), sections_);
+  }
+
+ private:
+  const model::NodeTable& table_;
+  SectionTable sections_;
+  std::vector<double> spans_;  // of the nodes
+};
+
+// The nodes of each element of a chain.
+template <class Beam>
+std::vector<std::array<int, Beam::num_nodes>> nodes_of_elements(const Place& to) {
+  constexpr std::size_t order = Beam::num_nodes - 1;
+  std::vector<std::array<int, Beam::num_nodes>> all;
+  all.reserve((to.nodes.size() - 1) / order);
+  for (std::size_t first = 0; first + order < to.nodes.size(); first += order) {
+    std::copy_n(to.nodes.begin() + static_cast<std::ptrdiff_t>(first), order + 1,
+                all.emplace_back().begin());
+  }
+  return all;
+}
+
 // Tells the batch how much an element grows per kelvin, if it does.
 template <class Element, class Beam>
 void set_expansion(model::ElementBatch<Element>& batch, int item, const Stretch<Beam>& stretch,
@@ -83,48 +120,52 @@ void set_expansion(model::ElementBatch<Element>& batch, int item, const Stretch<
 }
 
 template <class Beam>
-void add_line_points(const Beam& element, const Stretch<Beam>& stretch,
+void add_line_points(const Stretch<Beam>& stretch, const SectionTable& sections,
                      model::Structure& structure) {
   for (const auto& [xi, weight] : gauss_legendre(Beam::num_nodes)) {
     const auto N = Lagrange<Beam::num_nodes - 1>::values(xi);
     model::LinePoint point;
     point.marker.nodes.assign(stretch.nodes.begin(), stretch.nodes.end());
     point.marker.weights.assign(N.begin(), N.end());
-    point.length = weight * jacobian(element, stretch, xi);
+    point.length = weight * jacobian(stretch, sections, xi);
     structure.line_points.push_back(std::move(point));
   }
 }
 
-using Source = std::pair<const model::ResultantSource*, int>;
-
-// Calls add(element, stretch) for all elements of a chain; what it returns becomes their cell. An
-// element has make_element(stretch, sections) and jacobian(element, stretch, xi) beside it, the
-// length that one unit of xi stands for: its own measure, so that loads per length and mass agree.
-template <class Beam, class Add>
-double add_all(const Place& to, Add&& add) {
+// Adds elements, made of those of the chain, to their batch, and what belongs to each one to the
+// structure; more(item, stretch) adds what else there is. A chain's element has
+// make_element(stretch, sections) and jacobian(stretch, sections, xi) beside it, the length that
+// one unit of xi stands for: its own measure, so that loads per length and mass agree.
+// @return largest turn of an element in the reference [rad]
+template <class Beam, class Element, class More>
+double add_series(const Place& to, const Stretches<Beam>& stretches,
+                  model::ElementSeries<Element> series, model::ElementBatch<Element>& batch,
+                  More more) {
+  const int first = batch.add(std::move(series));
   double largest_turn = 0.0;
-  constexpr std::size_t order = Beam::num_nodes - 1;
-  for (std::size_t first = 0; first + order < to.chain.size(); first += order) {
-    const Stretch<Beam> stretch(to.chain, to.nodes, first);
-    const Beam element = make_element(stretch, to.sections);
+  int k = 0;
+  for (const auto& nodes : nodes_of_elements<Beam>(to)) {
+    const Stretch<Beam> stretch = stretches.of(nodes, k);
+    const int item = first + k++;
     largest_turn = std::max(largest_turn, stretch.turn());
-    add_line_points(element, stretch, to.structure);
-    const auto [source, item] = add(element, stretch);
-    to.structure.cells.push_back({{stretch.nodes.begin(), stretch.nodes.end()}, source, item});
+    add_line_points(stretch, to.sections, to.structure);
+    set_expansion(batch, item, stretch, to.sections);
+    more(item, stretch);
+    to.structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, item});
   }
   return largest_turn;
 }
 
 // All strains of the element are free.
-template <class Beam>
-double add_full(const std::string& effect, const Place& to) {
+template <class Beam, class More>
+double add_full(const std::string& effect, const Place& to, More more) {
   auto& batch = model::elements<Beam>(to.model, effect, to.damping);
-  batch.expect(static_cast<int>((to.chain.size() - 1) / (Beam::num_nodes - 1)));
-  return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
-    const int item = batch.add(element, stretch.nodes);
-    set_expansion(batch, item, stretch, to.sections);
-    return Source{&batch, item};
-  });
+  const auto stretches = std::make_shared<const Stretches<Beam>>(to);
+  return add_series<Beam, Beam>(
+      to, *stretches,
+      {nodes_of_elements<Beam>(to),
+       [stretches](const auto& nodes, int k) { return stretches->element(nodes, k); }},
+      batch, [&](int item, const Stretch<Beam>& stretch) { more(batch, item, stretch); });
 }
 
 // The slots of a node that follows another one, q_s = sum_k t_sk Q_k.
@@ -141,17 +182,21 @@ inline Mat<4, 4> follow(const model::NodeSlots& master, const Slots<4>& slave) {
 template <class Beam>
 double add_rigid(const Place& to) {
   const model::NodeSlots master = to.first_node();
+  const Stretches<Beam> stretches(to);
   SlotMatrix<4> mass = SlotMatrix<4>::Zero();
-  const double largest_turn =
-      add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
-        Mat<Beam::num_slots, 4> t;
-        for (int a = 0; a < Beam::num_nodes; ++a) {
-          t.template middleRows<4>(4 * a) =
-              follow(master, stretch.slots.template middleCols<4>(4 * a));
-        }
-        mass += t.transpose() * element.mass() * t;
-        return Source{nullptr, 0};
-      });
+  double largest_turn = 0.0;
+  int k = 0;
+  for (const auto& nodes : nodes_of_elements<Beam>(to)) {
+    const Stretch<Beam> stretch = stretches.of(nodes, k++);
+    largest_turn = std::max(largest_turn, stretch.turn());
+    add_line_points(stretch, to.sections, to.structure);
+    Mat<Beam::num_slots, 4> t;
+    for (int a = 0; a < Beam::num_nodes; ++a) {
+      t.template middleRows<4>(4 * a) = follow(master, stretch.slots.template middleCols<4>(4 * a));
+    }
+    mass += t.transpose() * make_element(stretch, to.sections).mass() * t;
+    to.structure.cells.push_back({{nodes.begin(), nodes.end()}, nullptr, 0});
+  }
   if (mass(0, 0) > 0.0) to.model.masses("Rigid beams").add(to.structure.nodes.front(), mass);
   return largest_turn;
 }

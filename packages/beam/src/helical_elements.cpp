@@ -9,15 +9,17 @@ HelicalBeam make_element(const Stretch<HelicalBeam>& stretch, const SectionTable
   return {stretch.slots, stretch.section_at(sections, 0.0).stiffness, stretch.masses<2>(sections)};
 }
 
-double jacobian(const HelicalBeam& element, const Stretch<HelicalBeam>&, double) {
-  return 0.5 * element.length();
+double jacobian(const Stretch<HelicalBeam>& stretch, const SectionTable& sections, double) {
+  return 0.5 * make_element(stretch, sections).length();
 }
 
 void register_helical_elements(ElementFamilies& families) {
   ElementFamily family{.element = "Helical", .order = 1, .fidelity = "Full"};
   family.damps_strains = false;
   family.most_turn = HelicalBeam::max_rotation;
-  family.add = [](const Place& to) { return add_full<HelicalBeam>("Beam, helical", to); };
+  family.add = [](const Place& to) {
+    return add_full<HelicalBeam>("Beam, helical", to, [](auto&&...) {});
+  };
   families.add(family);
   family.fidelity = "Rigid";
   family.most_turn = std::numeric_limits<double>::infinity();

@@ -10,16 +10,25 @@ template <int Order>
 double add_linear(const std::string& effect, const Place& to) {
   using Beam = DirectorBeam<Order>;
   auto& batch = model::elements<LinearBeam<Order>>(to.model, effect, to.damping);
-  return add_all<Beam>(to, [&](const Beam& element, const Stretch<Beam>& stretch) {
+  const auto stretches = std::make_shared<const Stretches<Beam>>(to);
+  const model::NodeSlots frame = to.first_node();
+  model::ElementSeries<LinearBeam<Order>> series;
+  for (const auto& nodes : nodes_of_elements<Beam>(to)) {
+    auto& all = series.nodes.emplace_back();
+    all[0] = to.structure.nodes.front();
+    std::ranges::copy(nodes, all.begin() + 1);
+  }
+  series.make = [stretches, frame](const auto& all, int k) {
+    std::array<int, Order + 1> nodes;
+    std::copy(all.begin() + 1, all.end(), nodes.begin());
+    const Stretch<Beam> stretch = stretches->of(nodes, k);
     typename LinearBeam<Order>::Nodes reference;
-    reference << to.first_node(), stretch.slots;
-    std::array<int, Order + 2> nodes{to.structure.nodes.front()};
-    std::copy(stretch.nodes.begin(), stretch.nodes.end(), nodes.begin() + 1);
-    const int item = batch.add(LinearBeam<Order>(element, reference), nodes);
-    set_expansion(batch, item, stretch, to.sections);
-    add_yielding(batch, item, element, stretch, to);
-    return Source{&batch, item};
-  });
+    reference << frame, stretch.slots;
+    return LinearBeam<Order>(make_element(stretch, stretches->sections()), reference);
+  };
+  return add_series<Beam>(
+      to, *stretches, std::move(series), batch,
+      [&](int item, const Stretch<Beam>& stretch) { add_yielding(batch, item, stretch, to); });
 }
 
 }  // namespace

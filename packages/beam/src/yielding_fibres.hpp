@@ -32,9 +32,10 @@ structure::YieldingElement<Element, material::UniaxialPlasticity> yielding_eleme
 
 /// Lets an element that was added to its batch yield, if its sections do.
 template <class Element, class Beam>
-void add_yielding(model::ElementBatch<Element>& batch, int item, const Beam& beam,
-                  const Stretch<Beam>& stretch, const Place& to) {
+void add_yielding(model::ElementBatch<Element>& batch, int item, const Stretch<Beam>& stretch,
+                  const Place& to) {
   if (!to.sections.yields()) return;
+  const Beam beam = make_element(stretch, to.sections);
   structure::plastic_flow<material::UniaxialPlasticity>(to.model, to.structure.name, batch)
       .add(yielding_element<Element>(item, beam, stretch, to.sections));
 }

@@ -21,7 +21,7 @@ Vec6 free_strain(const Temperature& temperature) {
 template <class Beam>
 HeatedElement<Beam> heat_element(const model::ElementBatch<Beam>& batch, const model::Cell& cell,
                                  const TemperatureAt& temperature_at, const model::Model& model) {
-  const Beam& beam = batch.element(cell.item);
+  const Beam beam = batch.make_element(cell.item);
   const Vec<Beam::num_points> expansion = batch.expansion(cell.item);
   const auto rule = gauss_legendre(Beam::num_points);
   HeatedElement<Beam> heated;

@@ -70,9 +70,11 @@ bool heat_shell(const HeatRequest& request) {
   auto* batch = batch_of<Shell>(first, request.context.model);
   if (batch == nullptr) return false;
   if (!has_gradients(1, "shell", request)) return true;
+  const Shell any = batch->make_element(first.item);
+  const material::Layup& layup = any.layup();
   const Where where = request.options.where("Structure");
   const std::string shell = "shell '" + request.structure.name + "' ";
-  if (!expands(batch->element(first.item).layup())) {
+  if (!expands(layup)) {
     request.context.issues.add(
         where, shell + "does not expand: its materials need an 'Expansion' or 'Expansions'");
   } else if (!batch->relaxation_times().empty()) {
@@ -80,12 +82,12 @@ bool heat_shell(const HeatRequest& request) {
   } else if (structure::yields(*batch, first.item)) {
     request.context.issues.add(where, shell + "yields; heat acts on shells without 'Plasticity'");
   } else {
-    const auto& layup = batch->element(first.item).layup();
     const Eigen::Vector4d centre = Eigen::Vector4d::Constant(0.25);
     add_heat(request, *batch, [&](const model::Cell& cell, const TemperatureAt& temperature_at) {
       const Temperature temperature =
           temperature_at(place_of(cell.nodes, centre, request.context.model));
-      return heat_element(batch->element(cell.item), cell.item, free_strain(temperature, layup));
+      return heat_element(batch->make_element(cell.item), cell.item,
+                          free_strain(temperature, layup));
     });
   }
   return true;

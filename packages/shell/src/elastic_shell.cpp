@@ -32,37 +32,38 @@ ElasticShell::ElasticShell(const Nodes& reference, std::shared_ptr<const materia
           if (ratio > 0.0) branches[k].add(point, ratio * C);
         }
       });
-  stiffness_ = lasting.forms;
+  Stiffness stiffness = lasting.forms;
   Eigen::MatrixXd parameters = Eigen::MatrixXd::Zero(enhanced, num_strains);
   if (enhanced > 0) {
     // Cholesky does not mind that thickness modes are far stiffer than others.
     const Eigen::LLT<Eigen::MatrixXd> factor(lasting.enhanced);
     parameters = -factor.solve(lasting.coupling);
-    stiffness_.noalias() += lasting.coupling.transpose() * parameters;
+    stiffness.noalias() += lasting.coupling.transpose() * parameters;
     if (options.enhancement.thickness > 0) {
       wall_.thickness_parameter = parameters.row(options.enhancement.membrane);
     }
   }
-  stiffness_ = 0.5 * (stiffness_ + stiffness_.transpose()).eval();
-  for (const ShellIntegrals& branch : branches) branches_.push_back(branch.condensed(parameters));
+  stiffness_ = Symmetric<num_strains>(0.5 * (stiffness + stiffness.transpose()));
+  for (const ShellIntegrals& branch : branches) {
+    branches_.emplace_back(branch.condensed(parameters));
+  }
 }
 
 Verdict ElasticShell::respond(int, const Strain& prev, const Strain& next, const Stencil& stencil,
                               Response<num_strains>& response) const noexcept {
   const double weight = stencil.theta_strain;
   const Strain y = (1.0 - weight) * prev + weight * next;
-  response.stress.noalias() = stiffness_ * y;
-  response.tangent = weight * stiffness_;
+  const Stiffness C = stiffness_.full();
+  response.stress.noalias() = C * y;
+  response.tangent = weight * C;
   return Verdict::ok;
 }
 
 double ElasticShell::energy(int, const Strain& y) const noexcept {
   Strain stress;
-  stress.noalias() = stiffness_ * y;
+  stress.noalias() = stiffness_.full() * y;
   return 0.5 * y.dot(stress);
 }
-
-const ShellForms::Stiffness& ElasticShell::stiffness(int) const noexcept { return stiffness_; }
 
 EnhancedParameters ElasticWall::enhanced_at_centre(const ShellForms::Strain& y) const noexcept {
   const Enhancement& enhancement = geometry.options().enhancement;

@@ -53,12 +53,13 @@ void apply_gradient(const Mat3& d, const Modes& p,
 LinearShell::LinearShell(const ElasticShell& full, const Nodes& reference)
     : reference_(frame(reference).transpose() * modes(reference)),
       wall_(full.wall()),
+      stiffness_(Stiffness::Zero()),
       mass_(full.mass()) {
   RowMat<ShellForms::num_strains, num_strains> T;
   for (int n = 0; n < num_strains; ++n) T.col(n) = products(Strain::Unit(n));
   const auto seen_from_frame = [&T](const ShellForms::Stiffness& C) {
     const Stiffness product = T.transpose() * C * T;
-    return Stiffness(0.5 * (product + product.transpose()));
+    return Symmetric<num_strains>(0.5 * (product + product.transpose()));
   };
   stiffness_ = seen_from_frame(full.stiffness(0));
   const std::size_t branches = wall_.layup->relaxation_times().size();
@@ -141,12 +142,12 @@ void LinearShell::add_stiffness(const Nodes& mid, const Nodes& next, const Stiff
 
 Verdict LinearShell::respond(int, const Strain& prev, const Strain& next, const Stencil& stencil,
                              Response<num_strains>& response) const noexcept {
-  LinearLaw<num_strains>{stiffness_}.respond(prev, next, stencil, response);
+  LinearLaw<num_strains>{stiffness_.full()}.respond(prev, next, stencil, response);
   return Verdict::ok;
 }
 
 double LinearShell::energy(int, const Strain& y) const noexcept {
-  return LinearLaw<num_strains>{stiffness_}.energy(y);
+  return LinearLaw<num_strains>{stiffness_.full()}.energy(y);
 }
 
 SlotMatrix<LinearShell::num_slots> LinearShell::mass() const noexcept {

@@ -4,6 +4,7 @@
 #include <culm/shell/hyperelastic_shell.hpp>
 #include <culm/shell/linear_shell.hpp>
 #include <culm/shell/mesh_types.hpp>
+#include <culm/shell/shell_mass.hpp>
 #include <culm/shell/shell_structure.hpp>
 #include <culm/shell/subdivision.hpp>
 
@@ -173,20 +174,17 @@ bool is_crossed(const ShellMesh& mesh, const std::array<int, 4>& quad) {
                      [&](const Vec3& n) { return n.dot(normals[0]) <= 0.0; });
 }
 
-// An element of the mesh, if it is sound.
-template <class E>
-E make_element(const ShellMesh& mesh, std::size_t number,
-               const std::shared_ptr<const material::Layup>& layup, const ShellOptions& choice,
-               const Options& options) {
-  const ShellForms::Nodes reference = mesh.slots(static_cast<int>(number));
-  auto mistakes = shell_mistakes(reference, layup->thickness(), choice);
-  if (is_crossed(mesh, mesh.quads[number])) {
-    mistakes.emplace_back("its corners are out of order, or it is bent double");
+// Names the first element that cannot be.
+void check_elements(const ShellMesh& mesh, const material::Layup& layup, const ShellOptions& choice,
+                    const Options& options) {
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    auto mistakes = shell_mistakes(mesh.slots(static_cast<int>(e)), layup.thickness(), choice);
+    if (is_crossed(mesh, mesh.quads[e])) {
+      mistakes.emplace_back("its corners are out of order, or it is bent double");
+    }
+    if (mistakes.empty()) continue;
+    throw InputError(options.where(), fmt::format("element {}: {}", e, mistakes.front()));
   }
-  if (!mistakes.empty()) {
-    throw InputError(options.where(), fmt::format("element {}: {}", number, mistakes.front()));
-  }
-  return E(reference, layup, choice);
 }
 
 std::array<int, 4> nodes_of(const ShellMesh& mesh, std::size_t number,
@@ -200,13 +198,10 @@ std::array<int, 4> nodes_of(const ShellMesh& mesh, std::size_t number,
 
 // The mass of all elements, on the slots (x, d1, d2, d3) of a node at `centre` that all nodes
 // follow, with directors along the axes of space: x = x0 + sum_k X_k d_k, d = sum_k D_k d_k.
-template <class E>
-SlotMatrix<4> rigid_mass(const ShellMesh& mesh, const std::shared_ptr<const material::Layup>& layup,
-                         const Options& options, const Vec3& centre) {
-  const ShellOptions choice = read_options(options);
+SlotMatrix<4> rigid_mass(const ShellMesh& mesh, const material::Layup& layup,
+                         const ShellOptions& choice, const Vec3& centre) {
   SlotMatrix<4> mass = SlotMatrix<4>::Zero();
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-    const E element = make_element<E>(mesh, e, layup, choice, options);
     const ShellForms::Nodes q = mesh.slots(static_cast<int>(e));
     Mat<8, 4> follow = Mat<8, 4>::Zero();
     for (int a = 0; a < 4; ++a) {
@@ -214,7 +209,7 @@ SlotMatrix<4> rigid_mass(const ShellMesh& mesh, const std::shared_ptr<const mate
       follow.row(2 * a).tail<3>() = (q.col(2 * a) - centre).transpose();
       follow.row(2 * a + 1).tail<3>() = q.col(2 * a + 1).transpose();
     }
-    mass += follow.transpose() * element.mass() * follow;
+    mass += follow.transpose() * shell_mass(ShellGeometry(q, layup, choice), layup) * follow;
   }
   return mass;
 }
@@ -272,27 +267,51 @@ Vec<2> left_out(const material::Layup& layup, const Options& options) {
   return material::shear_factors(layup).cwiseInverse() - Vec<2>::Ones();
 }
 
+ShellForms::Nodes reference_of(const std::array<int, 4>& nodes, const model::NodeTable& table) {
+  ShellForms::Nodes slots;
+  for (int a = 0; a < 4; ++a) {
+    slots.middleCols<2>(2 * a) =
+        model::NodeTable::slots(table.reference(), nodes[index(a)]).leftCols<2>();
+  }
+  return slots;
+}
+
+// Adds the elements of a mesh to a batch, and to the structure what shows them. @return the items
+template <class E>
+std::vector<int> add_series(model::ElementSeries<E> series, const ShellMesh& mesh, double thickness,
+                            model::ElementBatch<E>& batch, model::Structure& structure) {
+  const int first = batch.add(std::move(series));
+  std::vector<int> items;
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
+    items.push_back(first + static_cast<int>(e));
+    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
+    structure.faces.push_back({nodes, thickness});
+  }
+  return items;
+}
+
 template <class E>
 void add_elements(const std::string& effect, const ShellMesh& mesh,
                   const std::shared_ptr<const material::Layup>& layup, const Options& options,
                   model::Structure& structure, model::Model& model) {
-  if (options.text("Fidelity") == "Rigid") {
-    const Vec3 centre = centre_of(mesh);
-    add_rigid(mesh, rigid_mass<E>(mesh, layup, options, centre), centre, layup->thickness(),
-              structure, model);
-    return;
-  }
   const ShellOptions choice = read_options(options);
   auto& batch = model::elements<E>(model, effect, damping_of<E>(*layup, options));
-  std::vector<int> items;
+  model::ElementSeries<E> series;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-    const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
-    items.push_back(batch.add(make_element<E>(mesh, e, layup, choice, options), nodes));
-    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
-    structure.faces.push_back({nodes, layup->thickness()});
+    series.nodes.push_back(nodes_of(mesh, e, structure));
   }
+  const model::NodeTable& table = model.nodes();
+  series.make = [&table, layup, choice](const std::array<int, 4>& nodes, int) {
+    return E(reference_of(nodes, table), layup, choice);
+  };
+  series.mass = [&table, layup, choice](const std::array<int, 4>& nodes, int) {
+    return shell_mass(ShellGeometry(reference_of(nodes, table), *layup, choice), *layup);
+  };
+  std::vector<int> items =
+      add_series(std::move(series), mesh, layup->thickness(), batch, structure);
   if constexpr (std::is_same_v<E, ElasticShell>) {
-    add_yielding_layers(batch, items, structure.name, model);
+    if (yields(*layup)) add_yielding_layers(batch, items, structure.name, model);
   }
   structure.layers =
       std::make_shared<ShellLayers<E>>(batch, std::move(items), layup, left_out(*layup, options));
@@ -305,20 +324,22 @@ void add_linear(const ShellMesh& mesh, const std::shared_ptr<const material::Lay
   auto& batch = model::elements<LinearShell>(model, "Shell, linear",
                                              damping_of<LinearShell>(*layup, options));
   const int frame = add_frame(structure.name, structure.nodes, model);
-  std::vector<int> items;
+  model::ElementSeries<LinearShell> series;
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const std::array<int, 4> nodes = nodes_of(mesh, e, structure);
-    const std::array<int, 5> all{frame, nodes[0], nodes[1], nodes[2], nodes[3]};
-    LinearShell::Nodes reference;
-    for (std::size_t a = 0; a < all.size(); ++a) {
-      reference.middleCols<4>(4 * static_cast<int>(a)) =
-          model::NodeTable::slots(model.nodes().reference(), all[a]);
-    }
-    const auto full = make_element<ElasticShell>(mesh, e, layup, choice, options);
-    items.push_back(batch.add(LinearShell(full, reference), all));
-    structure.cells.push_back({{nodes.begin(), nodes.end()}, &batch, items.back()});
-    structure.faces.push_back({nodes, layup->thickness()});
+    series.nodes.push_back({frame, nodes[0], nodes[1], nodes[2], nodes[3]});
   }
+  const model::NodeTable& table = model.nodes();
+  series.make = [&table, layup, choice](const std::array<int, 5>& nodes, int) {
+    LinearShell::Nodes reference;
+    for (int a = 0; a < 5; ++a) {
+      reference.middleCols<4>(4 * a) = model::NodeTable::slots(table.reference(), nodes[index(a)]);
+    }
+    const ShellForms::Nodes of_wall = reference_of({nodes[1], nodes[2], nodes[3], nodes[4]}, table);
+    return LinearShell(ElasticShell(of_wall, layup, choice), reference);
+  };
+  std::vector<int> items =
+      add_series(std::move(series), mesh, layup->thickness(), batch, structure);
   structure.layers = std::make_shared<ShellLayers<LinearShell>>(batch, std::move(items), layup,
                                                                 left_out(*layup, options));
 }
@@ -462,7 +483,12 @@ void add_shell(const Options& options, structure::StructureContext& context) {
     structure.deck = number_as_in_deck(coarse, mesh, facets.parents, structure.nodes);
   }
   const std::string& fidelity = options.text("Fidelity");
-  if (layup->is_linear() && fidelity == "Linear") {
+  check_elements(mesh, *layup, read_options(options), options);
+  if (fidelity == "Rigid") {
+    const Vec3 centre = centre_of(mesh);
+    add_rigid(mesh, rigid_mass(mesh, *layup, read_options(options), centre), centre,
+              layup->thickness(), structure, context.model);
+  } else if (fidelity == "Linear") {
     add_linear(mesh, layup, options, structure, context.model);
   } else if (layup->is_linear()) {
     add_elements<ElasticShell>("Shell", mesh, layup, options, structure, context.model);

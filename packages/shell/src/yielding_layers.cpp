@@ -109,9 +109,8 @@ YieldingShell yielding_shell(int item, const ElasticWall& wall) {
 
 void add_yielding_layers(model::ElementBatch<ElasticShell>& batch, const std::vector<int>& items,
                          const std::string& structure, model::Model& model) {
-  if (items.empty() || !yields(batch.element(items.front()).layup())) return;
   auto& flow = structure::plastic_flow<material::PlaneStressPlasticity>(model, structure, batch);
-  for (int item : items) flow.add(yielding_shell(item, batch.element(item).wall()));
+  for (int item : items) flow.add(yielding_shell(item, batch.make_element(item).wall()));
 }
 
 }  // namespace culm::shell

@@ -63,7 +63,7 @@ concept Element = requires(const E& e, int point, const Slots<E::num_slots>& q,
 template <class E>
 concept HasStiffness = requires(const E& e, int point) {
   { e.stiffness(point) }
-  noexcept->std::same_as<const RowMat<E::num_strains, E::num_strains>&>;
+  noexcept->std::convertible_to<const RowMat<E::num_strains, E::num_strains>&>;
 };
 
 /// An element whose stress over a step does just what changes its stored energy, as long as the

@@ -24,13 +24,13 @@ inline double branch_weight(const MaxwellStep& step, double theta) {
 template <class E>
 concept HasBranchStiffness = requires(const E& e, int point, std::size_t branch) {
   { e.branch_stiffness(point, branch) }
-  noexcept->std::same_as<const RowMat<E::num_strains, E::num_strains>&>;
+  noexcept->std::convertible_to<const RowMat<E::num_strains, E::num_strains>&>;
 };
 
 /// Stiffnesses of the branches at a point: sqrt(g_I) C_IJ sqrt(g_J).
 template <int M>
 struct ScaledBranches {
-  const RowMat<M, M>& C;
+  RowMat<M, M> C;
   const std::vector<Vec<M>>& roots;  ///< of the ratios g, by branch
 
   Vec<M> stress(std::size_t k, const Vec<M>& d) const {
@@ -55,7 +55,7 @@ struct OwnBranches {
   int point;
 
   Vec<M> stress(std::size_t k, const Vec<M>& d) const { return stiffness(k) * d; }
-  const RowMat<M, M>& stiffness(std::size_t k) const { return element.branch_stiffness(point, k); }
+  RowMat<M, M> stiffness(std::size_t k) const { return element.branch_stiffness(point, k); }
   double product(std::size_t k, const Vec<M>& a, const Vec<M>& b) const {
     return a.dot(stiffness(k) * b);
   }

@@ -6,9 +6,9 @@
 #include <culm/model/element_contribution.hpp>
 #include <culm/model/element_motion.hpp>
 #include <culm/model/element_packs.hpp>
+#include <culm/model/element_store.hpp>
 #include <culm/model/inertia.hpp>
 #include <culm/model/layer_source.hpp>
-#include <culm/model/local_items.hpp>
 #include <culm/model/model.hpp>
 #include <culm/model/point_laws.hpp>
 #include <culm/model/projection.hpp>
@@ -50,17 +50,18 @@ class ElementBatch final : public Batch,
   ElementBatch(Effect effect, const NodeTable& nodes, const StrainDamping& damping = {})
       : effect_(std::move(effect)), nodes_(nodes), laws_(damping) {}
 
-  /// Adds an element. @return item number
+  /// Adds elements that follow each other. @return item number of the first
+  int add(ElementSeries<E> series) { return items_.add(std::move(series)); }
+  /// Adds one element that is there. @return item number
   int add(E element, const std::array<int, N>& nodes) {
-    items_.add({std::move(element), nodes});
-    return size() - 1;
+    return add({{nodes}, [one = std::move(element)](const auto&, int) { return one; }});
   }
 
-  /// So many elements will be added.
-  void expect(int more) { items_.expect(more); }
-
-  const E& element(int item) const { return items_[item].element; }
-  const std::array<int, N>& nodes(int item) const { return items_[item].nodes; }
+  /// What was made where it is evaluated, or else what is made when it is asked for.
+  const E& element(int item) const { return items_[item]; }
+  /// Made for the one who asks: before anybody knows where it is evaluated.
+  E make_element(int item) const { return items_.make(item); }
+  const std::array<int, N>& nodes(int item) const { return items_.nodes(item); }
 
   /// Notes how much an element grows per kelvin, for those who heat it: by point [1/K].
   void set_expansion(int item, const Vec<E::num_points>& expansion) {
@@ -90,6 +91,7 @@ class ElementBatch final : public Batch,
   void place(Placement placement, Form form) override {
     placement_ = std::move(placement);
     form_ = form;
+    items_.place(placement_.items);
     const std::size_t points = placement_.items.size() * E::num_points;
     laws_.resize(points);
     predicted_stress_.clear();
@@ -100,7 +102,7 @@ class ElementBatch final : public Batch,
           [&](std::size_t i) -> const auto& { return local(i); });
     }
   }
-  void forget_others() override { items_.keep(placement_.items); }
+  void forget_others() override { items_.forget_others(); }
   bool owns(int item) const override {
     const auto found = std::ranges::lower_bound(placement_.items, item);
     return found != placement_.items.end() && *found == item &&
@@ -240,26 +242,25 @@ class ElementBatch final : public Batch,
   }
 
   void add_mass_times(const Coordinates& acceleration, Coordinates& force) const override {
-    for (const auto& [element, nodes] : items_.here()) {
-      const ItemSlots f = gather_slots<K>(nodes, acceleration) * element.mass();  // is symmetric
+    items_.for_masses([&](const auto& nodes, const SlotMatrix<S>& mass) {
+      const ItemSlots f = gather_slots<K>(nodes, acceleration) * mass;  // is symmetric
       for (int a = 0; a < N; ++a) {
         NodeTable::slots(force, nodes[static_cast<std::size_t>(a)]).template leftCols<K>() +=
             f.template middleCols<K>(K * a);
       }
-    }
+    });
   }
 
   void visit_masses(const MassVisitor& visit) const override {
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(4 * N, 4 * N);
-    for (const auto& [element, nodes] : items_.here()) {
-      const SlotMatrix<S> scalars = element.mass();
+    items_.for_masses([&](const auto& nodes, const SlotMatrix<S>& scalars) {
       for (int a = 0; a < N; ++a) {
         for (int b = 0; b < N; ++b) {
           mass.block<K, K>(4 * a, 4 * b) = scalars.template block<K, K>(K * a, K * b);
         }
       }
       visit(nodes, mass);
-    }
+    });
   }
 
   void add_momentum(const Coordinates& q, const Coordinates& velocity,
@@ -297,8 +298,8 @@ class ElementBatch final : public Batch,
   }
 
   void resultants(int item, const Coordinates& q, std::vector<double>& out) const override {
-    const auto& [element, nodes] = items_[item];
-    const ItemSlots slots = gather_slots<K>(nodes, q);
+    const E& element = items_[item];
+    const ItemSlots slots = gather_slots<K>(nodes(item), q);
     Vec<E::num_resultants> mean = Vec<E::num_resultants>::Zero();
     Strain y;
     for (int p = 0; p < E::num_points; ++p) {
@@ -327,7 +328,7 @@ class ElementBatch final : public Batch,
     double least = 1.0;
     if constexpr (HasTurn<E>) {
       for (std::size_t i = 0; i < placement_.items.size(); ++i) {
-        if (placement_.owned[i]) least = std::min(least, least_cosine(local(i), q));
+        if (placement_.owned[i]) least = std::min(least, least_cosine(i, q));
       }
     }
     return turn_from(least);
@@ -338,7 +339,7 @@ class ElementBatch final : public Batch,
     if constexpr (HasTurn<E>) {
       for (std::size_t i = 0; i < placement_.items.size(); ++i) {
         if (!placement_.owned[i]) continue;
-        if (turn_from(least_cosine(local(i), q)) >= turn) return placement_.items[i];
+        if (turn_from(least_cosine(i, q)) >= turn) return placement_.items[i];
       }
     }
     return -1;
@@ -346,17 +347,15 @@ class ElementBatch final : public Batch,
 
   double turn_of([[maybe_unused]] int item, [[maybe_unused]] const Coordinates& q) const override {
     double least = 1.0;
-    if constexpr (HasTurn<E>) least = least_cosine(items_[item], q);
+    if constexpr (HasTurn<E>) {
+      least = items_[item].least_cosine(gather_slots<K>(nodes(item), q));
+    }
     return turn_from(least);
   }
 
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
   using Motion = ElementMotion<E>;
-  struct Item {
-    E element;
-    std::array<int, N> nodes;
-  };
   template <class Space>
   using Contribution = ElementContribution<Space, E>;
 
@@ -375,12 +374,12 @@ class ElementBatch final : public Batch,
   }
 
   // The i-th of those that this rank evaluates.
-  const Item& local(std::size_t i) const { return items_.local(placement_.items, i); }
+  const typename ElementStore<E>::Item& local(std::size_t i) const { return items_.local(i); }
   ItemSlots gather(std::size_t i, const Coordinates& q) const {
     return gather_slots<K>(local(i).nodes, q);
   }
-  static double least_cosine(const Item& item, const Coordinates& q) requires HasTurn<E> {
-    return item.element.least_cosine(gather_slots<K>(item.nodes, q));
+  double least_cosine(std::size_t i, const Coordinates& q) const requires HasTurn<E> {
+    return local(i).element.least_cosine(gather(i, q));
   }
   static double turn_from(double cosine) {
     if constexpr (HasTurn<E>) return E::turn_kind.order * std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -606,7 +605,7 @@ class ElementBatch final : public Batch,
   Effect effect_;
   const NodeTable& nodes_;
   PointLaws<E> laws_;
-  LocalItems<Item> items_;
+  ElementStore<E> items_;
   std::vector<Vec<E::num_points>> expansions_;  // by item; empty where nothing expands
   std::vector<const AddedStresses*> added_;
   Placement placement_;

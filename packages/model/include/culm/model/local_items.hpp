@@ -20,14 +20,6 @@ class LocalItems {
     items_.push_back(std::move(item));
     ++size_;
   }
-  /// So many items will be added.
-  void expect(int more) {
-    const std::size_t total = items_.size() + static_cast<std::size_t>(more);
-    if (total <= items_.capacity()) return;
-    // batches grow by many short pieces, too
-    items_.reserve(std::max(total, items_.capacity() + items_.capacity() / 4));
-  }
-
   /// How many the model has.
   int size() const { return size_; }
   /// Those that are here, rising by number.

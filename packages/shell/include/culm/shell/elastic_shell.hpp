@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/material/layup.hpp>
+#include <culm/math/symmetric.hpp>
 #include <culm/shell/shell_geometry.hpp>
 #include <culm/shell/shell_results.hpp>
 
@@ -47,12 +48,12 @@ class ElasticShell : public ShellForms {
   double energy(int point, const Strain& y) const noexcept;
   const SlotMatrix<num_slots>& mass() const noexcept { return mass_; }
   /// The constant C of the law: symmetric, stress = C y at rest.
-  const Stiffness& stiffness(int point) const noexcept;
+  Stiffness stiffness(int) const noexcept { return stiffness_.full(); }
   /// What the layers' branches of one relaxation time add to it if their springs follow at once, in
   /// the order of Layup::relaxation_times. Enhanced parameters follow the forms as at rest, so
   /// where all layers relax alike it is C times their ratio, and else an upper bound.
-  const Stiffness& branch_stiffness(int, std::size_t branch) const noexcept {
-    return branches_[branch];
+  Stiffness branch_stiffness(int, std::size_t branch) const noexcept {
+    return branches_[branch].full();
   }
 
   ShellResultants resultants(int, const Strain& y) const noexcept { return wall_.resultants(y); }
@@ -66,8 +67,8 @@ class ElasticShell : public ShellForms {
 
  private:
   ElasticWall wall_;
-  Stiffness stiffness_;
-  std::vector<Stiffness> branches_;
+  Symmetric<num_strains> stiffness_;
+  std::vector<Symmetric<num_strains>> branches_;
   SlotMatrix<num_slots> mass_;
 };
 

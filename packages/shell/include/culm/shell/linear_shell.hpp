@@ -46,10 +46,10 @@ class LinearShell {
   Verdict respond(int point, const Strain& prev, const Strain& next, const Stencil& stencil,
                   Response<num_strains>& response) const noexcept;
   /// The constant C of the law: symmetric, stress = C y at rest.
-  const Stiffness& stiffness(int) const noexcept { return stiffness_; }
+  Stiffness stiffness(int) const noexcept { return stiffness_.full(); }
   /// As of the full shell.
-  const Stiffness& branch_stiffness(int, std::size_t branch) const noexcept {
-    return branches_[branch];
+  Stiffness branch_stiffness(int, std::size_t branch) const noexcept {
+    return branches_[branch].full();
   }
   double energy(int point, const Strain& y) const noexcept;
   SlotMatrix<num_slots> mass() const noexcept;
@@ -73,8 +73,8 @@ class LinearShell {
 
   ShellForms::Modes reference_;  // P, seen from the frame
   ElasticWall wall_;
-  Stiffness stiffness_;
-  std::vector<Stiffness> branches_;
+  Symmetric<num_strains> stiffness_;
+  std::vector<Symmetric<num_strains>> branches_;
   SlotMatrix<ShellForms::num_slots> mass_;
 };
 
