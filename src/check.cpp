@@ -48,7 +48,7 @@ std::filesystem::path make_model_folder(const parallel::Comm& comm,
 }  // namespace
 
 void check(const parallel::Comm& comm, CheckArguments& arguments) {
-  const double memory = simulation::read_memory(arguments.memory);
+  const double memory = simulation::read_memory(arguments.memory, comm.most_on_a_machine());
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const simulation::Catalogue catalogue;

@@ -10,7 +10,7 @@ namespace culm::app {
 
 void resume(const parallel::Comm& comm, ResumeArguments& arguments) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
-  const double memory = simulation::read_memory(arguments.memory);
+  const double memory = simulation::read_memory(arguments.memory, comm.most_on_a_machine());
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const auto found = simulation::find_checkpoint(comm, arguments.run, log);

@@ -12,7 +12,7 @@ namespace culm::app {
 void run(const parallel::Comm& comm, RunArguments& arguments, const std::filesystem::path& replay,
          const simulation::ServeSettings& serve) {
   const simulation::StopRequest request(simulation::find_walltime(arguments.walltime));
-  const double memory = simulation::read_memory(arguments.memory);
+  const double memory = simulation::read_memory(arguments.memory, comm.most_on_a_machine());
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const std::filesystem::path by_name =

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Models that are large enough for all ranks to factor them together: results agree with those of one rank, and a
 run of a slender one, where each rank factors its own part, goes on after a stop, bit by bit on as many ranks, within
-rounding on others.
+rounding on others. The memory of the machine decides how, and whether.
 
 usage: parts.py --culm PROGRAM --mpiexec PROGRAM
 """
@@ -92,6 +92,20 @@ def check_shell(runs):
         yield f"a shell on two ranks differs from one by {found:.2e}, allowed {CLOSE}"
 
 
+def check_memory(runs):
+    """Factors that do not fit make way for an iteration; what fits in no way is refused, once."""
+    def look(ranks, memory, expect=0):
+        return runs(ranks, "check", str(INPUTS / "shell/hypar.xml"), "--set", "N=100", "--max-memory", memory, expect=expect)
+
+    for ranks in (1, 2):
+        text = look(ranks, "300 MB")
+        if "linear solver: Iterative, automatic: factors of" not in text:
+            yield f"factors that do not fit on {ranks} ranks are taken all the same:\n{text}"
+        if (" on a machine with 2 of 2 processes, up to 0.1" in text) != (ranks == 2):
+            yield f"what one of {ranks} processes needs is not said:\n{text}"
+        look(ranks, "150 MB", expect=3)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--culm", required=True)
@@ -99,7 +113,7 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         runs = Runs(options, pathlib.Path(folder))
-        complaints = [*check(runs), *check_shell(runs)]
+        complaints = [*check(runs), *check_shell(runs), *check_memory(runs)]
     for complaint in complaints:
         print(complaint)
     return 1 if complaints else 0

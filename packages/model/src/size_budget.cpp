@@ -11,10 +11,14 @@ namespace culm::model {
 namespace {
 
 // Measured on runs of squares and strips of 1000 to 40 000 elements, and of beams [B].
-constexpr double shell_element = 16e3;
+constexpr double shell_element = 13e3;
 constexpr double beam_node = 6.5e3;
+// of that, what every process has: places, numbers, meshes and what belongs to files
+constexpr double shell_element_whole = 3.5e3;
+constexpr double beam_node_whole = 1.5e3;
 constexpr double beam_node_factors = 1.5e3;
-constexpr double layer_array = 1040.0;  // of one layer in one element
+constexpr double shell_element_grids = 7.1e3;  // of the iterative solver
+constexpr double layer_array = 1040.0;         // of one layer in one element
 constexpr double shell_eigenproblem = 7.5e3;
 constexpr double beam_eigenproblem = 1.5e3;
 constexpr double mode_of_node = 290.0;
@@ -56,14 +60,23 @@ std::string MemoryNeed::text() const {
   return fmt::format("{} ({})", bytes_text(total()), parts.empty() ? "nothing" : parts);
 }
 
+// On a machine, of what each process has whole and what all have in parts.
+double SizeBudget::on_machine(double whole, double parts) const {
+  return demands_.processes.here * (whole + parts / demands_.processes.all);
+}
+
 void SizeBudget::take_beam(double elements, double nodes, const Where& where) {
-  MemoryNeed need{nodes * beam_node, nodes * beam_node_factors};
+  MemoryNeed need{nodes * on_machine(beam_node_whole, beam_node - beam_node_whole),
+                  nodes * on_machine(0.0, beam_node_factors)};
   if (demands_.modes > 0) need.modes = nodes * (beam_eigenproblem + mode_of_node * demands_.modes);
   take(elements, need, where);
 }
 
 void SizeBudget::take_shell(double elements, double layers, double narrow, const Where& where) {
-  MemoryNeed need{elements * shell_element, surface_factors(elements, narrow)};
+  double factors = surface_factors(elements, narrow);
+  if (demands_.may_iterate) factors = std::min(factors, elements * shell_element_grids);
+  MemoryNeed need{elements * on_machine(shell_element_whole, shell_element - shell_element_whole),
+                  on_machine(0.0, factors)};
   const double shown = std::min(layers, demands_.shown_layers);
   need.layers = elements * shown * demands_.layer_arrays * layer_array;
   if (demands_.modes > 0) {

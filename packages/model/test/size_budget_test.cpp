@@ -66,6 +66,31 @@ TEST(SizeBudget, CountsLayersAndModesThatTheDeckWants) {
   EXPECT_NEAR(need({.modes = 200}, 1.0).modes, 261e6, 20e6);
 }
 
+// Runs of 192 x 192 elements took 1.25 GB on one process, 0.76 on each of two, 0.46 on the largest
+// of four; with factors of 0.8 GB altogether, and 58 MB for each program.
+TEST(SizeBudget, IsThatOfTheMachineWithTheMostProcesses) {
+  const auto need = [](Processes processes) {
+    SizeBudget budget(1e12, {.processes = processes});
+    budget.take_shell(192.0 * 192.0, 1.0, 192.0, where);
+    return budget.taken();
+  };
+  EXPECT_NEAR(need({1, 1}).total(), 1.25e9 - 58e6, 0.15e9);
+  EXPECT_NEAR(need({2, 2}).total(), 2.0 * (0.76e9 - 58e6), 0.1e9);
+  EXPECT_NEAR(need({4, 4}).total(), 4.0 * (0.46e9 - 58e6), 0.2e9);
+  // machines of one each
+  EXPECT_DOUBLE_EQ(4.0 * need({4, 1}).total(), need({4, 4}).total());
+}
+
+TEST(SizeBudget, CountsFactorsOnlyWhereTheyMustBe) {
+  const auto factors = [](bool may_iterate, double side) {
+    SizeBudget budget(1e12, {.may_iterate = may_iterate});
+    budget.take_shell(side * side, 1.0, side, where);
+    return budget.taken().factors;
+  };
+  EXPECT_LT(factors(true, 400.0), 0.3 * factors(false, 400.0));
+  EXPECT_EQ(factors(true, 8.0), factors(false, 8.0));
+}
+
 TEST(SizeBudget, NeedsNameTheirParts) {
   const MemoryNeed need{262e6, 330e6, 0.0, 1e9};
   EXPECT_EQ(need.text(), "1.59 GB (elements 262 MB, factors 330 MB, modes 1 GB)");

@@ -29,6 +29,16 @@ Comm::Comm(MPI_Comm comm) : comm_(comm) {
   MPI_Comm_size(comm_, &size_);
 }
 
+int Comm::most_on_a_machine() const {
+  if (size_ == 1) return 1;
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+  int here = 1;
+  MPI_Comm_size(machine, &here);
+  MPI_Comm_free(&machine);
+  return max(here);
+}
+
 double Comm::max(double value) const {
   max(std::span(&value, 1));
   return value;

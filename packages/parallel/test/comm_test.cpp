@@ -7,6 +7,13 @@
 namespace culm::parallel {
 namespace {
 
+// Tests run on one.
+TEST(Comm, KnowsHowManyShareAMachine) {
+  const Comm world;
+  EXPECT_EQ(world.most_on_a_machine(), world.size());
+  EXPECT_EQ(Comm(MPI_COMM_SELF).most_on_a_machine(), 1);
+}
+
 TEST(Comm, MaximumIsTheSameOnAllRanks) {
   const Comm comm;
   EXPECT_EQ(comm.max(comm.rank()), comm.size() - 1);

@@ -31,14 +31,15 @@ double group_limit() {
 
 }  // namespace
 
-double machine_memory() {
+double machine_memory(int processes) {
   const double physical =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  return std::min({physical, soft_limit(RLIMIT_AS), soft_limit(RLIMIT_DATA), group_limit()});
+  const double of_each = std::min(soft_limit(RLIMIT_AS), soft_limit(RLIMIT_DATA));
+  return std::min({physical, processes * of_each, group_limit()});
 }
 
-double read_memory(const std::string& text) {
-  if (text.empty()) return machine_memory();
+double read_memory(const std::string& text, int processes) {
+  if (text.empty()) return machine_memory(processes);
   static const std::map<std::string, double, std::less<>> units = {
       {"kb", 1e3}, {"mb", 1e6}, {"gb", 1e9}, {"tb", 1e12}};
   double number = 0.0;

@@ -243,6 +243,9 @@ model::SizeDemands demands_of(const Options& deck) {
       demands.modes = std::max(demands.modes, analysis.integer(parameter.name));
     }
   }
+  // eigenproblems are solved with factors
+  const std::string& solver = deck.list("Solver").text("Linear Solver");
+  demands.may_iterate = demands.modes == 0 && (solver == "Automatic" || solver == "Iterative");
   const Options& layers = deck.list("Output").list("Shell");
   demands.layer_arrays = (layers.flag("Stresses") ? 1 : 0) + (layers.flag("Strains") ? 1 : 0);
   if (layers.has("Layers")) {
@@ -255,9 +258,11 @@ model::SizeDemands demands_of(const Options& deck) {
 
 BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
                       const Imperfections& imperfections, const Setting& setting, const Log& log,
-                      double memory, model::Model& model) {
+                      double memory, model::Processes processes, model::Model& model) {
   InputIssues issues;
-  model::SizeBudget budget(memory, demands_of(deck));
+  model::SizeDemands demands = demands_of(deck);
+  demands.processes = processes;
+  model::SizeBudget budget(memory, demands);
   const auto sections = make_all(catalogue.sections, deck.list("Sections"), issues);
   const auto materials = make_all(catalogue.materials, deck.list("Materials"), issues);
   auto functions = make_all(catalogue.functions, deck.list("Functions"), issues);
@@ -278,7 +283,7 @@ BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
   build_signals(catalogue.signals, deck.list("Signals"), model, functions, issues);
   build_all(catalogue.constraints, deck.list("Constraints"), context, setting.inactive);
   flow::FluidContext fluids(context, make_flows(catalogue.flows, deck.list("Flows"), context),
-                            memory);
+                            memory / processes.here);  // each has what fluids need
   strip::StripContext strips(fluids, make_all(catalogue.airfoils, deck.list("Airfoils"), issues));
   // an airfoil whose file is wrong is no unknown one
   issues.throw_if_any();

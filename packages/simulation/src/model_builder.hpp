@@ -24,9 +24,10 @@ struct BuiltWith {
 
 /// Fills the model with all that the deck lists but what does not act, and freezes it. Throws
 /// InputError with all mistakes.
-/// @param memory  what the model may need [B]
+/// @param memory  what the model may need on a machine [B]
+/// @param processes  that share it
 BuiltWith build_model(const Catalogue& catalogue, const Options& deck,
                       const Imperfections& imperfections, const Setting& setting, const Log& log,
-                      double memory, model::Model& model);
+                      double memory, model::Processes processes, model::Model& model);
 
 }  // namespace culm::simulation

@@ -151,18 +151,23 @@ void refuse_equal_columns(const std::vector<Options>& entries,
 
 }  // namespace
 
-double factors_by_graph(const Phase& phase, const parallel::Comm& comm) {
-  if (phase.linear.is_iterative) return phase.linear.bytes;
-  return sizeof(double) * solver::predict_fill(*phase.system->matrix(), comm).entries;
+double factors_by_graph(const Phase& phase, const parallel::Comm& comm,
+                        model::Processes processes) {
+  const double all =
+      phase.linear.is_iterative
+          ? phase.linear.bytes
+          : sizeof(double) * solver::predict_fill(*phase.system->matrix(), comm).entries;
+  return phase.linear.is_shared ? all * processes.here / processes.all : all;
 }
 
 Phases::Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
-               const Log& log, double memory)
+               const Log& log, double memory, model::Processes processes)
     : catalogue_(catalogue),
       deck_(deck),
       imperfections_(imperfections),
       log_(log),
-      memory_(memory) {
+      memory_(memory),
+      processes_(processes) {
   const std::vector<Options>& analyses = deck.list("Analyses").entries();
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     const std::string& type = analyses[i].text("Type");
@@ -199,8 +204,8 @@ void Phases::build(Phase& phase) const {
   phase.watched.clear();
   phase.ports.clear();
   phase.model = std::make_unique<model::Model>();
-  BuiltWith built =
-      build_model(catalogue_, deck_, imperfections_, phase.setting, log_, memory_, *phase.model);
+  BuiltWith built = build_model(catalogue_, deck_, imperfections_, phase.setting, log_, memory_,
+                                processes_, *phase.model);
   phase.watched = std::move(built.watched);
   phase.ports = std::move(built.ports);
   phase.need = built.need;
@@ -306,13 +311,14 @@ Phase& Phases::enter(std::size_t analysis, const parallel::Comm& comm, Ledger& l
     });
   }
   assembly::System& system = *phase.system;
-  phase.linear = solver::choose_linear_solver(
-      deck_.list("Solver").text("Linear Solver"), system.matrix(), comm,
-      {[&system] { return system.node_motions(); }, memory_ - phase.need.elements});
+  phase.linear = solver::choose_linear_solver(deck_.list("Solver").text("Linear Solver"),
+                                              system.matrix(), comm,
+                                              {[&system] { return system.node_motions(); },
+                                               (memory_ - phase.need.elements) / processes_.here});
   if (phase.linear.is_iterative) system.watch_tangents();
   // the order in which a solver eliminates is found a second time, so only where it may matter
   if (phase.need.total() > noticeable_share * memory_) {
-    phase.need.factors = factors_by_graph(phase, comm);
+    phase.need.factors = factors_by_graph(phase, comm, processes_);
     model::refuse_above(memory_, phase.need, "the model", deck_.list("Structures").where());
   }
   if (phases_.size() > 1 || EarlierStates::wants_reference(deck_.list("Analyses"))) {

@@ -45,9 +45,9 @@ struct Phase {
   Snapshot reference;      ///< its state at the beginning, if anything starts from there
 };
 
-/// What the factors need of memory by the graph, not by the sides of meshes [B]. Collective.
+/// What the factors need on a machine by the graph, not by the sides of meshes [B]. Collective.
 /// @pre the system is made
-double factors_by_graph(const Phase& phase, const parallel::Comm& comm);
+double factors_by_graph(const Phase& phase, const parallel::Comm& comm, model::Processes processes);
 
 /// The phases of a deck. Nodes are the same in all of them; unknowns, equations and batches are
 /// not, nor is the stress-free geometry once an analysis has found an imperfection of it.
@@ -56,9 +56,10 @@ class Phases {
   /// Builds all models. Throws InputError with all mistakes of the first one that has any, and
   /// where an analysis would go on with another stress-free geometry.
   /// @param imperfections  those of the deck; both are referred to
-  /// @param memory  that each model may need [B]
+  /// @param memory  that each model may need on a machine [B]
+  /// @param processes  that share it
   Phases(const Catalogue& catalogue, const Options& deck, const Imperfections& imperfections,
-         const Log& log, double memory);
+         const Log& log, double memory, model::Processes processes);
 
   /// The phase of an analysis, ready to work on; collective. What bends its geometry has been
   /// found.
@@ -85,7 +86,8 @@ class Phases {
   const Options& deck_;
   const Imperfections& imperfections_;
   const Log& log_;
-  double memory_;                                            ///< that each model may need [B]
+  double memory_;               ///< that each model may need on a machine [B]
+  model::Processes processes_;  ///< that share it
   std::vector<std::pair<std::string, port::Cloud>> clouds_;  ///< of ports that a program added
   std::deque<Phase> phases_;
   std::vector<Phase*> by_analysis_;

@@ -102,9 +102,9 @@ Simulation Simulation::make(std::vector<std::string> assignments, const Log& log
 Simulation Simulation::of(DeckSource source, const Log& log, const parallel::Comm& comm) {
   const auto catalogue = std::make_shared<const Catalogue>();
   const Options deck = read_deck(*catalogue, source);
-  return Simulation(
-      std::unique_ptr<Parts>(new Parts{comm, catalogue, *catalogue, deck, std::move(source), log,
-                                       least_memory(machine_memory(), comm)}));
+  return Simulation(std::unique_ptr<Parts>(
+      new Parts{comm, catalogue, *catalogue, deck, std::move(source), log,
+                least_memory(machine_memory(comm.most_on_a_machine()), comm)}));
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -22,6 +22,16 @@ std::string named_solver(const Options& deck, const Phase& phase) {
   return fmt::format("; factors are those that 'Automatic' would take, '{}' may take more", name);
 }
 
+// Layers and modes, and factors that nobody shares, are on rank 0.
+std::string of_each(const model::MemoryNeed& need, bool shares_factors,
+                    const model::Processes& processes) {
+  if (processes.all == 1) return {};
+  const double shared = need.elements + (shares_factors ? need.factors : 0.0);
+  const double most = need.total() - shared + shared / processes.here;
+  return fmt::format(" on a machine with {} of {} processes, up to {:.3g} GB in one",
+                     processes.here, processes.all, 1e-9 * most);
+}
+
 }  // namespace
 
 void Simulation::examine() {
@@ -60,7 +70,7 @@ void Simulation::examine() {
 std::string Simulation::summary() const {
   const Phase& phase = parts_->phases.of(0);
   model::MemoryNeed need = phase.need;
-  need.factors = factors_by_graph(phase, parts_->comm);
+  need.factors = factors_by_graph(phase, parts_->comm, parts_->processes);
   const model::Model& model = *phase.model;
   const auto entries = phase.system->matrix()->total_entries();
   std::string text = report_masses(model) + '\n';
@@ -69,8 +79,9 @@ std::string Simulation::summary() const {
   }
   text += report_unknowns(model) + fmt::format("matrix entries: {}\n", entries);
   text += fmt::format("linear solver: {}\n", phase.linear.reason);
-  text +=
-      fmt::format("memory, predicted: {}{}\n\n", need.text(), named_solver(parts_->deck, phase));
+  text += fmt::format("memory, predicted: {}{}{}\n\n", need.text(),
+                      of_each(need, phase.linear.is_shared, parts_->processes),
+                      named_solver(parts_->deck, phase));
   text +=
       fmt::format("{:<40} {:>10} {:>10} {:>14}\n", "effect", "items", "unknowns", "entries/iter");
   const auto count = [](const std::optional<long long>& n) {

@@ -40,10 +40,11 @@ struct Simulation::Parts {
   Options deck;
   DeckSource source;
   Log log;
-  double memory;  ///< the same on all ranks [B]
+  double memory;  ///< of a machine, the same on all ranks [B]
+  model::Processes processes = {comm.size(), comm.most_on_a_machine()};
   Findings findings = Findings(log);
   Imperfections imperfections = Imperfections(deck, catalogue.analyses.gives_shapes);
-  Phases phases = Phases(catalogue, deck, imperfections, log, memory);
+  Phases phases = Phases(catalogue, deck, imperfections, log, memory, processes);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
   Ledger ledger = {};
   std::size_t present = 0;                  ///< the analysis whose phase the state belongs to

@@ -16,6 +16,7 @@ TEST(Memory, IsASizeWithItsUnit) {
   EXPECT_EQ(read_memory("20kB"), 20e3);
   EXPECT_EQ(read_memory(""), machine_memory());
   EXPECT_GT(machine_memory(), 1e6);
+  EXPECT_GE(machine_memory(4), machine_memory());
   for (const char* text : {"16", "GB", "-1 GB", "0 MB", "nan GB", "1 GB or so", "1e400 GB"}) {
     EXPECT_THROW(read_memory(text), UsageError) << text;
   }

@@ -27,15 +27,15 @@ class NothingToSolve final : public LinearSolver {
 };
 
 // An estimate [B per entry of the matrix] of the grids, the factors of the coarsest and the vectors
-// of conjugate gradients; plates of 100 x 100 and 400 x 400 elements took 19 and 8.
-constexpr double iterative_need = 12.0;
+// of conjugate gradients; plates of 200 x 200 and 400 x 400 elements took 24 and 23.
+constexpr double iterative_need = 22.0;
 
 ChosenSolver choose_iterative(const std::string& why,
                               const std::shared_ptr<const assembly::Matrix>& matrix,
                               const parallel::Comm& comm, const ModelBehind& model) {
   return {make_iterative(matrix, model, comm),
           "Iterative, " + why + "; it knows no determinants, so bifurcations are not looked for",
-          true, iterative_need * static_cast<double>(matrix->total_entries())};
+          true, iterative_need * static_cast<double>(matrix->total_entries()), true};
 }
 
 // From here on ranks gain by factoring together. Below, one rank factors all, which hardly takes
@@ -111,7 +111,9 @@ const std::vector<std::string>& linear_solver_names() {
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const std::shared_ptr<const assembly::Matrix>& matrix,
                                   const parallel::Comm& comm, const ModelBehind& model) {
-  return choose(name, matrix, comm, model, make_block_lu);
+  ChosenSolver chosen = choose(name, matrix, comm, model, make_block_lu);
+  chosen.is_shared |= name != "KLU2" && is_shared(*matrix, comm);
+  return chosen;
 }
 
 ChosenSolver choose_for_one_factorisation(const std::string& name,

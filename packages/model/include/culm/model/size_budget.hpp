@@ -8,10 +8,16 @@
 
 namespace culm::model {
 
-/// Memory by what takes it [B].
+/// Who shares the work, and the memory of the machine with the most of them.
+struct Processes {
+  int all = 1;
+  int here = 1;  ///< on the machine
+};
+
+/// Memory of a machine by what takes it [B].
 struct MemoryNeed {
   double elements = 0.0;  ///< with nodes and their share of results and matrix
-  double factors = 0.0;   ///< of the linear solver
+  double factors = 0.0;   ///< of the linear solver, or what it has instead of them
   double layers = 0.0;    ///< of shells, where results show them
   double modes = 0.0;     ///< matrix, vectors and shapes of eigenproblems
 
@@ -26,13 +32,16 @@ struct SizeDemands {
   int modes = 0;         ///< the most that an eigenproblem looks for; 0 without any
   int layer_arrays = 0;  ///< stresses and strains of layers: 0 to 2
   double shown_layers = std::numeric_limits<double>::infinity();  ///< at most so many of each wall
+  /// Whether a solver may iterate where factors are too large, so that they need not fit.
+  bool may_iterate = false;
+  Processes processes = {};
 };
 
 /// Whoever adds nodes and elements asks first, so that a number with some digits too many is a
 /// mistake of the deck and not the end of the memory.
 class SizeBudget {
  public:
-  /// @param bytes  the most that all together may need
+  /// @param bytes  the most that all together may need on a machine
   explicit SizeBudget(double bytes, SizeDemands demands = {})
       : allowed_(bytes), demands_(demands) {}
 
@@ -46,6 +55,7 @@ class SizeBudget {
   const MemoryNeed& taken() const { return taken_; }
 
  private:
+  double on_machine(double whole, double parts) const;
   void take(double elements, const MemoryNeed& need, const Where& where);
 
   double allowed_;

@@ -20,6 +20,8 @@ class Comm {
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
   MPI_Comm handle() const { return comm_; }
+  /// How many share the memory of one machine: of all machines the most. Collective.
+  int most_on_a_machine() const;
 
   /// Largest value over all ranks; exact, hence independent of their number.
   double max(double value) const;

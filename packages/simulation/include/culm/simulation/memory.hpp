@@ -7,12 +7,13 @@
 
 namespace culm::simulation {
 
-/// The memory of this machine, or what the operating system leaves this process of it [B].
-double machine_memory();
+/// The memory of this machine, or what the operating system leaves of it to so many processes that
+/// have the same limits [B].
+double machine_memory(int processes = 1);
 
-/// Reads --max-memory: a number with kB, MB, GB or TB; machine_memory() if the text is empty.
-/// Throws UsageError.
-double read_memory(const std::string& text);
+/// Reads --max-memory: a number with kB, MB, GB or TB; machine_memory(processes) if the text is
+/// empty. Throws UsageError.
+double read_memory(const std::string& text, int processes = 1);
 
 /// The least that any rank may take, on all of them: what is decided by memory is decided alike
 /// where machines or limits differ; collective. @param bytes  of this rank [B]

@@ -52,7 +52,7 @@ class Simulation {
   /// Builds the model. Throws InputError with all mistakes.
   /// @param deck validated with Catalogue::deck_schema
   /// @param source what it was read from, for checkpoints
-  /// @param memory what the model may need [B]
+  /// @param memory what the model may need on a machine [B]
   Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
              DeckSource source, const Log& log, double memory = machine_memory());
   /// The same from a file, with all types that culm has. Collective; throws FileError, UsageError

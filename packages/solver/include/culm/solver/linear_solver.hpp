@@ -97,7 +97,7 @@ std::unique_ptr<LinearSolver> make_mumps(const std::shared_ptr<const assembly::M
 struct ModelBehind {
   /// At the point where the matrix was taken; none: there is no iterative solver. Collective.
   std::function<assembly::NodeMotions()> motions = {};
-  /// What factors may need at most on this machine [B].
+  /// What factors may need at most in each process [B].
   double memory = std::numeric_limits<double>::infinity();
 };
 
@@ -115,6 +115,7 @@ struct ChosenSolver {
   std::string reason;
   bool is_iterative = false;  ///< it asks for the motions of the model behind
   double bytes = 0.0;         ///< predicted need of an iterative solver, on all ranks together [B]
+  bool is_shared = false;     ///< whether all ranks hold parts of what it needs, or rank 0 all
 };
 
 /// What decks may write, the default first.
