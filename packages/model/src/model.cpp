@@ -331,6 +331,7 @@ std::vector<std::string> Model::freeze(Form form) {
   for (const Constraint& c : equations_) multipliers.push_back(static_cast<int>(c.rows.size()));
   unknowns_ = UnknownTable(nodes_, multipliers, own_blocks_, form);
   mass_ = mass();
+  length_ = length();
   for (const auto& batch : constraint_batches_) batch->number(unknowns_);
   return notes;
 }
@@ -465,6 +466,7 @@ double Model::mass() const {
 }
 
 double Model::length() const {
+  if (length_) return *length_;
   Eigen::Array3d low = Eigen::Array3d::Constant(1e300);
   Eigen::Array3d high = -low;
   for (int node = 0; node < nodes_.size(); ++node) {

@@ -5,6 +5,7 @@
 #include "history_table.hpp"
 #include "replace_file.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -41,13 +42,16 @@ std::string header(const std::vector<HistoryColumn>& columns) {
 }
 
 void add_line(const HistoryRow& row, std::string& text) {
+  fmt::memory_buffer line;
+  const fmt::appender end(line);
   // as few digits as give the same number back
-  fmt::format_to(std::back_inserter(text), "{}", row.time);
+  fmt::format_to(end, FMT_COMPILE("{}"), row.time);
   for (const double value : row.values) {
-    text.push_back(',');
-    if (value != absent) fmt::format_to(std::back_inserter(text), "{}", value);
+    line.push_back(',');
+    if (value != absent) fmt::format_to(end, FMT_COMPILE("{}"), value);
   }
-  fmt::format_to(std::back_inserter(text), ",{},{}\n", row.analysis, row.step);
+  fmt::format_to(end, FMT_COMPILE(",{},{}\n"), row.analysis, row.step);
+  text.append(line.data(), line.size());
 }
 
 }  // namespace

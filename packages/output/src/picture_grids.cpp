@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <numeric>
+#include <utility>
 
 namespace culm::output {
 
@@ -34,42 +37,48 @@ std::vector<double> pick(const StructureMesh& mesh, const StructureState& state,
   return values;
 }
 
+// Numbers of cells of a structure, one per cell of a grid.
+using CellNumbers = std::shared_ptr<const std::vector<int>>;
+
 std::vector<VtuArray> resultant_arrays(const StructureMesh& mesh, const StructureState& state,
-                                       const std::vector<int>& cells) {
+                                       const CellNumbers& cells) {
   std::vector<VtuArray> arrays;
   const std::vector<std::string>& names = mesh.resultant_names;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    arrays.push_back({names[i], 1, pick(mesh, state, cells, i, 1)});
+    const auto from = [&mesh, &state, cells, i](std::size_t columns) {
+      return [=, &mesh, &state] { return pick(mesh, state, *cells, i, columns); };
+    };
+    arrays.push_back({names[i], 1, from(1)});
     const std::string vector = vector_name(names, i);
     if (vector.empty()) continue;
-    arrays.push_back(
-        {vector, 3, pick(mesh, state, cells, i, 3), {names[i], names[i + 1], names[i + 2]}});
+    arrays.push_back({vector, 3, from(3), {names[i], names[i + 1], names[i + 2]}});
   }
   return arrays;
 }
 
 // All cells in their order.
 std::vector<VtuArray> cell_data(const StructureMesh& mesh, const StructureState& state,
-                                const std::vector<int>& cells) {
+                                const CellNumbers& cells) {
   std::vector<VtuArray> arrays = resultant_arrays(mesh, state, cells);
   for (std::size_t a = 0; a < mesh.cell_arrays.size(); ++a) {
     const CellArray& array = mesh.cell_arrays[a];
-    arrays.push_back(
-        {array.name, static_cast<int>(array.columns.size()), state.cell_values[a], array.columns});
+    arrays.push_back({array.name, static_cast<int>(array.columns.size()),
+                      [&state, a] { return state.cell_values[a]; }, array.columns});
   }
   return arrays;
 }
 
 std::vector<VtuArray> node_data(const StructureMesh& mesh, const StructureState& state) {
   std::vector<VtuArray> arrays{
-      {"displacement", 3, flatten_difference(state.positions, reference_of(mesh, state))}};
+      {"displacement", 3,
+       [&mesh, &state] { return flatten_difference(state.positions, reference_of(mesh, state)); }}};
   for (const int number : director_numbers(mesh.directors)) {
-    arrays.push_back(
-        {"director" + std::to_string(number), 3, flatten_director(state.triads, number)});
+    arrays.push_back({"director" + std::to_string(number), 3,
+                      [&state, number] { return flatten_director(state.triads, number); }});
   }
   for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
     const NodeArray& array = mesh.node_arrays[a];
-    arrays.push_back({array.name, array.columns, state.node_values[a]});
+    arrays.push_back({array.name, array.columns, [&state, a] { return state.node_values[a]; }});
   }
   return arrays;
 }
@@ -93,21 +102,22 @@ CellTable curve_table(const std::vector<Cell>& cells) {
 
 VtuGrid centre_grid(const StructureMesh& mesh, const StructureState& state, int number) {
   const CellTable table = curve_table(mesh.cells);
-  std::vector<int> cells;
-  for (int c = 0; c < mesh.cell_count(); ++c) cells.push_back(c);
+  std::vector<int> cells(table.types.size());
+  std::iota(cells.begin(), cells.end(), 0);
+  const auto all = std::make_shared<const std::vector<int>>(std::move(cells));
   return {.points = flatten(state.positions),
           .connectivity = table.connectivity,
           .offsets = table.offsets,
           .types = table.types,
-          .structures = std::vector<int>(cells.size(), number),
+          .structures = std::vector<int>(all->size(), number),
           .point_data = node_data(mesh, state),
-          .cell_data = cell_data(mesh, state, cells)};
+          .cell_data = cell_data(mesh, state, all)};
 }
 
 VtuGrid skin_grid(const StructureMesh& mesh, const StructureState& state, int number,
-                  const Skin& skin, const std::vector<Vec3>& reference) {
+                  const Skin& skin, std::vector<Vec3> reference) {
   constexpr int quad = 9, polygon = 7;
-  const std::vector<Vec3> points = skin.points(state.positions, state.triads);
+  std::vector<Vec3> points = skin.points(state.positions, state.triads);
   VtuGrid grid;
   grid.points = flatten(points);
   std::vector<int> cells;
@@ -118,8 +128,12 @@ VtuGrid skin_grid(const StructureMesh& mesh, const StructureState& state, int nu
     cells.push_back(face.cell);
   }
   grid.structures.assign(cells.size(), number);
-  grid.point_data = {{"displacement", 3, flatten_difference(points, reference)}};
-  grid.cell_data = resultant_arrays(mesh, state, cells);
+  grid.point_data.push_back(
+      {"displacement", 3, [points = std::move(points), reference = std::move(reference)] {
+         return flatten_difference(points, reference);
+       }});
+  grid.cell_data =
+      resultant_arrays(mesh, state, std::make_shared<const std::vector<int>>(std::move(cells)));
   return grid;
 }
 

@@ -8,6 +8,8 @@
 
 namespace culm::output {
 
+// Arrays are made from mesh and state when they are written, so both must live until then.
+
 /// Nodes and cells with displacement, directors, node arrays and resultants.
 /// @param number  of the structure in the model
 VtuGrid centre_grid(const StructureMesh& mesh, const StructureState& state, int number);
@@ -15,6 +17,6 @@ VtuGrid centre_grid(const StructureMesh& mesh, const StructureState& state, int 
 /// The skin with displacement and resultants.
 /// @param reference  points of the skin in the reference configuration
 VtuGrid skin_grid(const StructureMesh& mesh, const StructureState& state, int number,
-                  const Skin& skin, const std::vector<Vec3>& reference);
+                  const Skin& skin, std::vector<Vec3> reference);
 
 }  // namespace culm::output

@@ -17,7 +17,7 @@ void write_points(const std::filesystem::path& path, const std::vector<Vec3>& po
   grid.types.assign(points.size(), vertex);
   grid.structures = structures;
   for (const NamedArray& array : arrays) {
-    grid.point_data.push_back({array.name, array.columns, array.values});
+    grid.point_data.push_back({array.name, array.columns, [&array] { return array.values; }});
   }
   write_vtu(path, grid, 0.0, names);
 }

@@ -200,10 +200,14 @@ void Pictures::write_files(const Picture& picture, Step& step) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     std::vector<VtuGrid> centres;
-    std::vector<VtuGrid> skins;
     for (const std::size_t s : group.structures) {
       centres.push_back(centre_grid(meshes_[s], picture.structures[s], static_cast<int>(s)));
     }
+    const std::string file = stem(group, picture.index);
+    write_picture(file + ".vtu", merge(std::move(centres)), picture.time);
+    step.centres.emplace_back(g, file + ".vtu");
+    if (group.skinned.empty()) continue;
+    std::vector<VtuGrid> skins;
     for (const std::size_t s : group.skinned) {
       const StructureState& state = picture.structures[s];
       skins.push_back(
@@ -212,10 +216,6 @@ void Pictures::write_files(const Picture& picture, Step& step) {
                         ? reference_skins_[s]
                         : skins_[s].points(state.reference_positions, state.reference_triads)));
     }
-    const std::string file = stem(group, picture.index);
-    write_picture(file + ".vtu", merge(std::move(centres)), picture.time);
-    step.centres.emplace_back(g, file + ".vtu");
-    if (skins.empty()) continue;
     write_picture(file + "_skin.vtu", merge(std::move(skins)), picture.time);
     step.skins.emplace_back(g, file + "_skin.vtu");
   }

@@ -2,16 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace culm::output {
 
-/// One number or vector per point or cell.
+/// One number or vector per point or cell, made when it is written: a grid has one array at a time
+/// in memory.
 struct VtuArray {
   std::string name;
   int columns = 1;
-  std::vector<double> values;  ///< row after row
+  std::function<std::vector<double>()> values;  ///< row after row
   std::vector<std::string> column_names = {};
 };
 

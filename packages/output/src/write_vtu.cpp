@@ -49,7 +49,7 @@ void write_array(const Sink& sink, const VtuArray& array) {
   for (std::size_t c = 0; c < array.column_names.size(); ++c) {
     attributes += fmt::format(R"( ComponentName{}="{}")", c, xml_escape(array.column_names[c]));
   }
-  write_array(sink, "Float64", attributes, array.values);
+  write_array(sink, "Float64", attributes, array.values());
 }
 
 // Numbers of structures under their names: of texts in a grid, other readers than those of VTK

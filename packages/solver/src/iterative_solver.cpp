@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -56,9 +58,10 @@ class IterativeSolver final : public LinearSolver {
     if (direct_) return direct_->factor();
     const double sum = sum_of_diagonal();
     const bool is_other = std::abs(sum - built_sum_) > other_matrix * std::abs(built_sum_);
-    if (!multigrid_ || is_stale_ || is_other) return build(sum);
+    if (!multigrid_ || is_stale_ || is_other) return renew();
     multigrid_->refresh();
     is_new_ = false;
+    built_for_ = {};
     return true;
   }
 
@@ -68,14 +71,14 @@ class IterativeSolver final : public LinearSolver {
 
   LinearResidual solve_roughly(const Vector& b, Vector& x, double reduction) override {
     x.fill(0.0);
-    if (!direct_ && is_stale_ && !build(sum_of_diagonal())) return useless;
+    if (!direct_ && is_stale_ && !renew()) return useless;
     if (direct_) return direct_->solve(b, x);
     const double size = b.norm();
     if (!std::isfinite(size)) return {size};
     if (size == 0.0) return {};
     std::optional<LinearResidual> reached = iterate(b, x, reduction);
     if (!reached && !is_new_) {
-      if (!build(sum_of_diagonal())) return useless;
+      if (!build()) return useless;
       reached = iterate(b, x, reduction);
     }
     return reached ? *reached : solve_directly(b, x);
@@ -87,7 +90,7 @@ class IterativeSolver final : public LinearSolver {
     v.fill(0.0);
     const double size = comm_.max(largest_entry(*matrix_));
     if (!std::isfinite(size) || size == 0.0) return 0.0;
-    build(sum_of_diagonal());
+    build();
     multigrid_->weakest_direction(v);
     const double largest = v.largest();
     if (!(largest > 0.0)) return 0.0;
@@ -134,11 +137,34 @@ class IterativeSolver final : public LinearSolver {
     return comm_.sum(sum);
   }
 
-  bool build(double sum) {
+  // All bits of the values on this rank.
+  std::uint64_t fingerprint() const {
+    const auto local = matrix_->getLocalMatrixHost();
+    std::uint64_t print = 0;
+    for (std::size_t i = 0; i < local.values.extent(0); ++i) {
+      print = (print ^ std::bit_cast<std::uint64_t>(local.values(i))) * 0x100000001b3ULL;
+      print ^= print >> 32;
+    }
+    return print;
+  }
+
+  // Grids of the present values: those that are there, if they were made of the same, else new
+  // ones.
+  bool renew() {
+    const bool differs = !multigrid_ || !built_for_ || *built_for_ != fingerprint();
+    if (comm_.max(differs ? 1 : 0) == 1) return build();
+    is_stale_ = false;
+    is_new_ = true;
+    usual_ = 0.0;
+    return multigrid_->is_regular();
+  }
+
+  bool build() {
     multigrid_.reset();  // before new ones take memory
     multigrid_ = std::make_unique<Multigrid>(matrix_, model_.motions(), comm_);
     sizes_ = multigrid_->sizes();
-    built_sum_ = sum;
+    built_sum_ = sum_of_diagonal();
+    built_for_ = fingerprint();
     is_stale_ = false;
     is_new_ = true;
     usual_ = 0.0;
@@ -232,7 +258,8 @@ class IterativeSolver final : public LinearSolver {
   bool is_stale_ = true;  // the grids are to be made anew
   bool is_new_ = false;   // they belong to the present values
   double built_sum_ = 0.0;
-  double usual_ = 0.0;  // iterations per digit with new grids
+  std::optional<std::uint64_t> built_for_;  // what the grids were made of, unless refreshed since
+  double usual_ = 0.0;                      // iterations per digit with new grids
   long iterations_ = 0;
   int solutions_ = 0, most_ = 0, built_ = 0, failed_ = 0;
 };

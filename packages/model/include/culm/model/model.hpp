@@ -164,7 +164,7 @@ class Model {
   std::vector<InitialVelocity> initial_velocities_;
   std::vector<InitialDisplacement> initial_displacements_;
   bool keeps_redundant_rows_ = false;
-  std::optional<double> mass_;  ///< once frozen
+  std::optional<double> mass_, length_;  ///< once frozen
   UnknownTable unknowns_;
 };
 
